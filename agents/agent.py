@@ -1,0 +1,72 @@
+"""The interface of every agent, human or robot, and the layout of what each may see.
+
+Heights are displacements [m] from the table's rest height, z up.
+"""
+
+from enum import IntEnum
+from typing import Final, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+FRAME: Final = 0.01
+"""Motion-capture frame [s]: 100 Hz, as in the paper (section II.A)."""
+
+HISTORY: Final = 10
+"""Frames of the past that a human's observation holds."""
+
+Observation = NDArray[np.float64]
+Action = NDArray[np.float64]
+
+
+@runtime_checkable
+class Agent(Protocol):
+    """Anything that can hold an end of the table."""
+
+    def reset(self, seed: int) -> None:
+        """Begin an episode. All randomness of the episode comes from ``seed``."""
+
+    def act(self, observation: Observation) -> Action:
+        """Return the action for the next control period."""
+
+
+class RobotObservation(IntEnum):
+    """Index table of the robot's observation: all that a robot policy may see.
+
+    The two table ends come from motion capture: one sample a step, ``latency`` old, noisy.
+    The hand's height comes from its own encoders and is fresh.
+    """
+
+    HUMAN_END = 0
+    """Height of the human's table end [m], motion capture."""
+    ROBOT_END = 1
+    """Height of the robot's table end [m], motion capture."""
+    HAND_HEIGHT = 2
+    """Height of the own hand [m], encoders, age 0."""
+    HAND_COMMAND = 3
+    """Own hand command [m] at the start of this step, age 0."""
+    TIME = 4
+    """Time since the episode began [s]."""
+
+
+class HumanObservation:
+    """Index table of the human's observation, for ``n`` frames a step (10 by default).
+
+    Histories hold the last ten frames, oldest first. ``[0:10]`` own end height [m],
+    ``[10:20]`` own end velocity [m/s], ``[20:30]`` the other end's height [m], as old as the
+    visual delay, ``[30:40]`` force at the hand [N], as old as the haptic delay (upwards on the
+    hand is positive), ``[40:40 + n]`` the private target: the intended height [m] in each of the
+    next ``n`` frames, ``[40 + n]`` time since the episode began [s].
+    """
+
+    OWN_HEIGHT: Final = slice(0, HISTORY)
+    OWN_VELOCITY: Final = slice(HISTORY, 2 * HISTORY)
+    OTHER_END: Final = slice(2 * HISTORY, 3 * HISTORY)
+    HAND_FORCE: Final = slice(3 * HISTORY, 4 * HISTORY)
+    TARGET: Final = slice(4 * HISTORY, -1)
+    TIME: Final = -1
+
+    @staticmethod
+    def size(frames: int) -> int:
+        """Return the length of the observation for ``frames`` frames a step."""
+        return 4 * HISTORY + frames + 1
