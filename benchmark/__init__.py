@@ -1,1 +1,1 @@
-"""TODO."""
+"""The benchmark: world, environment, episodes, suites, metrics and results."""

@@ -1,1 +1,7 @@
-"""TODO."""
+"""The physical world: NAO or human, table and human, coupled both ways, in PyBullet."""
+
+from .human_body import BodyParameters
+from .physics import PHYSICS, Physics
+from .world import Partner, World
+
+__all__ = ["PHYSICS", "BodyParameters", "Partner", "Physics", "World"]

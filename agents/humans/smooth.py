@@ -1,0 +1,28 @@
+"""The ordinary lift: up, hold, down."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .lift import Lift, natural_stroke
+from .plan import Plan, assemble, move, still
+from .subject import Subject
+
+
+@dataclass(frozen=True, kw_only=True)
+class Smooth:
+    """Lifts to a random height and puts down again, smoothly."""
+
+    def plan(self, subject: Subject, seed: int) -> Plan:
+        """Return the plan of one episode; pure in ``(subject, seed)``."""
+        rng = np.random.default_rng(seed)
+        lift = Lift.draw(subject, rng)
+        up = natural_stroke(subject, lift.height, lift.up, rng)[0]
+        down = natural_stroke(subject, -lift.height, lift.down, rng)[0]
+        return assemble(
+            still("ready", 0.0, lift.before),
+            move("rise", up),
+            still("hold", lift.height, lift.hold),
+            move("lower", lift.height + down),
+            still("rest", 0.0, lift.after),
+        )

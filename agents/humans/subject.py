@@ -1,0 +1,228 @@
+"""People: the five subjects of the study and the population they come from."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Final, Self
+
+import numpy as np
+
+from ..errors import InputError
+
+GOAL_RANGE: Final = (0.08, 0.285)
+"""Lowest and highest goal of a lift [m]: what fits the robot arm's stroke, overshoots included."""
+
+BOUNDS: Final[Mapping[str, tuple[float, float]]] = MappingProxyType(
+    {
+        "amplitude": (0.15, 0.27),
+        "amplitude_spread": (0.0, 0.5),
+        "duration": (1.0, 4.0),
+        "duration_spread": (0.0, 0.3),
+        "lowering_ratio": (0.8, 1.4),
+        "skew_up": (0.3, 0.7),
+        "skew_down": (0.3, 0.7),
+        "motor_noise": (0.0, 0.1),
+        "tremor_amplitude": (0.0, 2e-3),
+        "tremor_frequency": (6.0, 12.0),
+        "visual_delay": (0.10, 0.25),
+        "haptic_delay": (0.045, 0.12),
+        "stiffness": (100.0, 800.0),
+        "damping": (5.0, 30.0),
+        "mass": (0.5, 2.0),
+        "pull": (0.0, 0.5),
+    }
+)
+"""Physiological limits of each parameter, in the parameter's unit.
+
+Hand tremor lies between 6 and 12 Hz (Wade et al. 1982; Lakie et al. 2015); 2 mm is already an
+enhanced tremor. Arm endpoint impedance: Mussa-Ivaldi et al. 1985, Tsuji et al. 1995, Gomi and
+Kawato 1997. Delays: long-latency reflex to voluntary (Pruszynski and Scott 2012), visual correction
+to simple reaction (Saunders and Knill 2003; Franklin and Wolpert 2008).
+"""
+
+MOST_SUBMOVEMENTS: Final = 5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Subject:
+    """One person: how they move, and the arm they move with.
+
+    Raises
+    ------
+    InputError
+        When a parameter lies outside ``BOUNDS``.
+    """
+
+    name: str
+    amplitude: float
+    """Mean height of a lift [m]."""
+    amplitude_spread: float = 0.20
+    """Half the range of the lift heights, relative to their mean."""
+    duration: float
+    """Mean duration of the upward stroke [s]."""
+    duration_spread: float = 0.10
+    """Half the range of the durations, relative to their mean."""
+    lowering_ratio: float
+    """Duration of the lowering relative to the upward stroke."""
+    skew_up: float = 0.45
+    """Relative time of the highest speed on the way up: people accelerate faster upwards."""
+    skew_down: float = 0.54
+    """Relative time of the highest speed on the way down."""
+    submovements: tuple[int, int]
+    """Lowest and highest number of extra submovements in a stroke."""
+    motor_noise: float
+    """Signal-dependent noise k: standard deviation of the velocity, relative to the velocity."""
+    tremor_amplitude: float
+    """Amplitude of the hand's physiological tremor [m]."""
+    tremor_frequency: float
+    """[Hz]"""
+    visual_delay: float
+    """Time from seeing to acting [s]."""
+    haptic_delay: float
+    """Time from feeling to acting [s]."""
+    stiffness: float
+    """Stiffness K of the arm's endpoint [N/m]."""
+    damping: float
+    """Damping B of the arm's endpoint [N s/m]."""
+    mass: float
+    """Mass M of the arm's endpoint [kg]."""
+    pull: float
+    """Share of the height difference that the person gives in to; 0 ignores it."""
+
+    def __post_init__(self) -> None:
+        for name, (low, high) in BOUNDS.items():
+            value = getattr(self, name)
+            if not low <= value <= high:
+                raise InputError(
+                    f"subject {self.name!r}: {name} is {value}, must be between {low} and {high}"
+                )
+        fewest, most = self.submovements
+        if not 0 <= fewest <= most <= MOST_SUBMOVEMENTS:
+            raise InputError(
+                f"subject {self.name!r}: submovements is {self.submovements}, must be (lowest, "
+                f"highest) with 0 <= lowest <= highest <= {MOST_SUBMOVEMENTS}"
+            )
+
+    @classmethod
+    def draw(cls, seed: int) -> Self:
+        """Return a new person of the population that S1 to S5 are a sample of.
+
+        The parameters ``x = mean + sum_i g_i (x_i - mean) / sqrt(4)``, with ``x_i`` those of the
+        five and ``g_i`` standard normal, have the mean and the covariance of the five: a stiff arm
+        is also a heavy and well damped one. Drawn again until inside the bounds.
+
+        Parameters
+        ----------
+        seed : which person; also in the name, ``draw-<seed>``.
+        """
+        rng = np.random.default_rng(seed)
+        table = np.array([_numbers(subject) for subject in SUBJECTS.values()])
+        mean = table.mean(axis=0)
+        mix = (table - mean) / np.sqrt(len(table) - 1)
+        while True:
+            *values, lowest, highest = (mean + rng.standard_normal(len(table)) @ mix).tolist()
+            fewest, most = round(lowest), round(highest)
+            try:
+                return cls(
+                    name=f"draw-{seed}",
+                    submovements=(fewest, most),
+                    **dict(zip(BOUNDS, values, strict=True)),
+                )
+            except InputError:
+                continue
+
+
+def _numbers(subject: Subject) -> list[float]:
+    return [*(getattr(subject, name) for name in BOUNDS), *subject.submovements]
+
+
+SUBJECTS: Final[dict[str, Subject]] = {
+    subject.name: subject
+    for subject in (
+        Subject(
+            name="S1",
+            amplitude=0.200,
+            duration=2.15,
+            lowering_ratio=1.05,
+            submovements=(0, 1),
+            motor_noise=0.02,
+            tremor_amplitude=0.05e-3,
+            tremor_frequency=8.0,
+            visual_delay=0.140,
+            haptic_delay=0.060,
+            stiffness=200.0,
+            damping=12.0,
+            mass=1.0,
+            pull=0.2,
+        ),
+        Subject(
+            name="S2",
+            amplitude=0.243,
+            duration=2.10,
+            lowering_ratio=1.05,
+            submovements=(1, 1),
+            motor_noise=0.03,
+            tremor_amplitude=0.08e-3,
+            tremor_frequency=9.0,
+            visual_delay=0.160,
+            haptic_delay=0.075,
+            stiffness=300.0,
+            damping=16.0,
+            mass=1.2,
+            pull=0.1,
+        ),
+        Subject(
+            name="S3",
+            amplitude=0.247,
+            duration=2.05,
+            lowering_ratio=1.00,
+            submovements=(2, 3),
+            motor_noise=0.05,
+            tremor_amplitude=0.15e-3,
+            tremor_frequency=7.0,
+            visual_delay=0.180,
+            haptic_delay=0.090,
+            stiffness=450.0,
+            damping=20.0,
+            mass=1.5,
+            pull=0.1,
+        ),
+        Subject(
+            name="S4",
+            amplitude=0.206,
+            duration=2.05,
+            lowering_ratio=1.10,
+            submovements=(1, 1),
+            motor_noise=0.03,
+            tremor_amplitude=0.05e-3,
+            tremor_frequency=10.0,
+            visual_delay=0.150,
+            haptic_delay=0.070,
+            stiffness=150.0,
+            damping=9.0,
+            mass=0.8,
+            pull=0.3,
+        ),
+        Subject(
+            name="S5",
+            amplitude=0.240,
+            duration=2.10,
+            lowering_ratio=1.10,
+            submovements=(1, 2),
+            motor_noise=0.04,
+            tremor_amplitude=0.10e-3,
+            tremor_frequency=8.0,
+            visual_delay=0.170,
+            haptic_delay=0.080,
+            stiffness=250.0,
+            damping=14.0,
+            mass=1.1,
+            pull=0.15,
+        ),
+    )
+}
+"""The five subjects by name; S1 is the practised one, S3 the fast and irregular one.
+
+Amplitude and duration are fitted to the error level of the paper's Table I, which gives neither;
+the other rows are choices inside the ranges of the literature, spread on purpose.
+"""

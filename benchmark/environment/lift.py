@@ -1,0 +1,237 @@
+"""One lift: the task on top of the world, without any library's dress."""
+
+import math
+from typing import Final
+
+import numpy as np
+
+from ...agents.agent import FRAME, HISTORY, Action, HumanObservation, Observation
+from ...agents.humans import Plan, ScriptedHuman
+from ...robots.arm_kinematics import STROKE
+from ..scenario import Scenario
+from ..seeding import derive_seed
+from ..world import PHYSICS, BodyParameters, Physics, World
+from ..world.human_body import HISTORY_FRAMES
+from ..world.table import TABLE_LENGTH
+
+HAND_SPEED: Final = 0.4
+"""Fastest hand command [m/s]: the paper's largest action, 4 cm in 100 ms."""
+
+MOCAP_NOISE: Final = 0.00023
+"""Standard deviation of a motion-capture height [m]; the system of the paper is precise within
+0.7 mm (section II.A), read as three standard deviations."""
+
+DROP_TILT: Final = math.radians(40)
+"""A table inclined by more than this [rad] slides out of the hands."""
+
+GRIP_FORCE: Final = 20.0
+"""Mean force over a control period [N] above which the partner's two hands lose the table."""
+
+GRIP_GAP: Final = 0.03
+"""Distance between the NAO's hands and the table's end [m] at which the hold is lost."""
+
+REFERENCE_RANGE: Final = (-0.2, 0.5)
+"""Heights a human's hand reference is held to [m]."""
+
+
+class Lift:
+    """One human, one partner, one table, from rest to rest.
+
+    A step is one control period of the robot: ``frames_per_step`` frames. The robot's action
+    changes its hand command, which moves at constant speed over the period; the human's action
+    is a hand reference for each frame.
+
+    Parameters
+    ----------
+    scenario
+        Who lifts how.
+    physics
+        Time step and solver of the world.
+    """
+
+    def __init__(self, scenario: Scenario, *, physics: Physics = PHYSICS) -> None:
+        self.scenario = scenario
+        self.frames_per_step = scenario.frames_per_step
+        self.step_limit = HAND_SPEED * scenario.control_period
+        self._latency = scenario.latency_frames
+        subject = scenario.subject
+        self._seen = round(subject.visual_delay / FRAME)
+        self._felt = round(subject.haptic_delay / FRAME)
+        body = BodyParameters(
+            stiffness=subject.stiffness,
+            damping=subject.damping,
+            mass=subject.mass,
+            pull=subject.pull,
+            visual_delay=subject.visual_delay,
+            haptic_delay=subject.haptic_delay,
+        )
+        second = body if scenario.partner == "human" else None
+        self.world = World(scenario.partner, body, second, physics=physics)
+
+    def reset(self, seed: int) -> None:
+        """Begin the episode ``seed``: draw the human's plan and the sensors' noise."""
+        scenario = self.scenario
+        self.world.reset()
+        self.seed = seed
+        self.plan: Plan = scenario.human.plan(scenario.subject, derive_seed(seed, "plan"))
+        size = self.frames_per_step
+        steps = -(-len(self.plan.target) // size)
+        self.horizon = steps * size
+        target = np.full(self.horizon, self.plan.target[-1])
+        target[: len(self.plan.target)] = self.plan.target
+        self.target = target
+        rng = np.random.default_rng(derive_seed(seed, "sensor"))
+        noise = rng.normal(0.0, MOCAP_NOISE, (2, HISTORY_FRAMES + self.horizon))
+        self._human_noise, self._robot_noise = noise.tolist()
+        self.frame = 0
+        self.command = 0.0
+        self.dropped: str | None = None
+
+    @property
+    def truncated(self) -> bool:
+        """Whether the horizon has been reached."""
+        return self.frame >= self.horizon
+
+    @property
+    def done(self) -> bool:
+        """Whether the episode is over, by the horizon or by a drop."""
+        return self.dropped is not None or self.frame >= self.horizon
+
+    def scripted_human(self) -> ScriptedHuman:
+        """Return the agent that carries the human's plan out, ready for the current episode."""
+        human = ScriptedHuman(subject=self.scenario.subject)
+        human.reset(derive_seed(self.seed, "human"))
+        return human
+
+    def step(self, human: Action, partner: Action) -> None:
+        """Advance by one control period.
+
+        Parameters
+        ----------
+        human
+            Hand reference for each frame [m], shape ``(frames_per_step,)``.
+        partner
+            The robot's change of its hand command [m], shape ``(1,)``, held to the hand's speed
+            and stroke; or the second human's hand references, as ``human``.
+
+        Raises
+        ------
+        ValueError
+            If an action has the wrong shape or is not finite.
+        """
+        size = self.frames_per_step
+        reference = self._references("human", human)
+        if self.scenario.partner == "nao":
+            commands = self._ramp(partner)
+        else:
+            commands = self._references("robot", partner)
+        world = self.world
+        world.advance(reference, commands)
+        self.command = commands[-1]
+        self.frame += size
+        tilt = world.human_end[-1] - world.robot_end[-1]
+        if abs(tilt) > TABLE_LENGTH * math.sin(DROP_TILT):
+            self.dropped = f"the table is inclined by more than {math.degrees(DROP_TILT):.0f} deg"
+        elif abs(sum(world.robot_force[-size:])) > GRIP_FORCE * size:
+            self.dropped = f"more than {GRIP_FORCE:.0f} N pull at the partner's hands"
+        elif abs(world.hand_height - world.robot_end[-1]) > GRIP_GAP:
+            self.dropped = "the table's end is out of the partner's reach"
+
+    def _references(self, agent: str, action: Action) -> list[float]:
+        """Return a human's action as a list, checked and held to the range of heights."""
+        size = self.frames_per_step
+        values = _checked(agent, action, size)
+        low, high = REFERENCE_RANGE
+        return [min(max(value, low), high) for value in values]
+
+    def _ramp(self, action: Action) -> list[float]:
+        """Return the hand command at the end of each frame of the step [m]."""
+        (change,) = _checked("robot", action, 1)
+        limit, (low, high) = self.step_limit, STROKE
+        start = self.command
+        change = min(max(change, -limit), limit)
+        change = min(max(start + change, low), high) - start
+        size = self.frames_per_step
+        return [start + change * (i + 1) / size for i in range(size)]
+
+    def partner_observation(self) -> Observation:
+        """Return what the holder of the robot's end sees now.
+
+        A robot: laid out as :class:`.RobotObservation`. A second human: as the first, but without
+        a plan of its own; its target is to be level, the height at which it sees the other end.
+        """
+        if self.scenario.partner == "nao":
+            return self._robot_view()
+        world = self.world
+        target = np.full(self.frames_per_step, world.human_end[-1 - self._seen])
+        return self._human_view(
+            world.robot_end, world.robot_velocity, world.human_end, world.robot_force, target
+        )
+
+    def _robot_view(self) -> Observation:
+        world, age = self.world, self._latency
+        sample = -1 - age
+        noise = self.frame + HISTORY_FRAMES - 1 - age
+        return np.array(
+            (
+                world.human_end[sample] + self._human_noise[noise],
+                world.robot_end[sample] + self._robot_noise[noise],
+                world.hand_height,
+                self.command,
+                self.frame * FRAME,
+            )
+        )
+
+    def human_observation(self) -> Observation:
+        """Return what the human sees and feels now, laid out as :class:`.HumanObservation`."""
+        world, frame = self.world, self.frame
+        return self._human_view(
+            world.human_end,
+            world.human_velocity,
+            world.robot_end,
+            world.human_force,
+            self.target[frame : frame + self.frames_per_step],
+        )
+
+    def _human_view(
+        self,
+        own: list[float],
+        velocity: list[float],
+        other: list[float],
+        force: list[float],
+        target: Observation,
+    ) -> Observation:
+        seen, felt = len(other) - self._seen, len(force) - self._felt
+        view = np.empty(HumanObservation.size(self.frames_per_step))
+        view[HumanObservation.OWN_HEIGHT] = own[-HISTORY:]
+        view[HumanObservation.OWN_VELOCITY] = velocity[-HISTORY:]
+        view[HumanObservation.OTHER_END] = other[seen - HISTORY : seen]
+        view[HumanObservation.HAND_FORCE] = force[felt - HISTORY : felt]
+        # Past a truncated horizon there is nothing more to intend than to stay.
+        view[HumanObservation.TARGET] = target if len(target) else self.target[-1]
+        view[HumanObservation.TIME] = self.frame * FRAME
+        return view
+
+    def close(self) -> None:
+        """Release the world."""
+        self.world.close()
+
+
+def _checked(agent: str, action: Action, size: int) -> list[float]:
+    """Return the action as a list of ``size`` finite floats.
+
+    Raises
+    ------
+    ValueError
+        If it is anything else.
+    """
+    try:
+        values = np.asarray(action, dtype=np.float64)
+    except (TypeError, ValueError):
+        values = np.empty(0)
+    if values.shape != (size,):
+        raise ValueError(f"{agent}'s action must be {size} number(s), got {action!r:.80}")
+    listed: list[float] = values.tolist()
+    if not all(map(math.isfinite, listed)):
+        raise ValueError(f"{agent}'s action must be finite, got {listed}")
+    return listed

@@ -1,0 +1,230 @@
+"""The PettingZoo parallel environment ``colift_v0``."""
+
+from typing import Any, ClassVar
+
+import numpy as np
+from gymnasium.spaces import Box
+from numpy.typing import NDArray
+from pettingzoo import ParallelEnv
+
+from ...agents.agent import Action, Observation
+from ...agents.humans import ScriptedHuman
+from ..catalogue import make_scenario
+from ..rendering.scene import Scene, check_render_mode
+from ..scenario import CONTROL_PERIOD, LATENCY, Scenario
+from ..world import Partner
+from .lift import Lift
+from .spaces import (
+    human_action_space,
+    human_observation_space,
+    robot_action_space,
+    robot_observation_space,
+)
+
+HUMAN, ROBOT = "human", "robot"
+
+
+class ParallelLift(ParallelEnv[str, Observation, Action]):
+    """A human and a robot lift a table together; both are agents.
+
+    Robot's observation, float64, indices of :class:`~colift.agents.agent.RobotObservation`:
+
+    === ======================================================================
+    0   height of the human's table end [m]: motion capture, ``latency`` old
+    1   height of the robot's table end [m]: the same sample
+    2   height of the own hand [m]: encoders, age 0
+    3   own hand command [m], age 0
+    4   time [s]
+    === ======================================================================
+
+    Robot's action, shape ``(1,)``: change of the hand command in this step [m], within
+    +-0.04 for a period of 100 ms (0.4 m/s).
+
+    Human's observation for ``n`` frames a step (10 for a period of 100 ms), slices of
+    :class:`~colift.agents.agent.HumanObservation`, histories oldest first:
+
+    ============ =============================================================
+    0 to 9       height of the own end [m] in the last ten frames
+    10 to 19     its velocity [m/s]
+    20 to 29     height of the other end [m], as old as the visual delay
+    30 to 39     force of the hands on the table [N], as old as the haptic delay
+    40 to 39+n   private target: the intended height [m] in the next n frames
+    40+n         time [s]
+    ============ =============================================================
+
+    Human's action, shape ``(n,)``: hand reference height [m] for each frame of the step.
+
+    With ``partner="human"`` the agent "robot" is a second human: it has the human's spaces, and
+    its target is to be level (the height at which it sees the other end).
+
+    Rewards at the end of a step, with the heights Z1 of the human's and Z2 of the robot's end:
+    robot -\|Z1 - Z2\| (the integrand of the paper's eq. 10), human -\|Z1 - target\| - \|Z1 - Z2\| [m].
+    The episode is terminated when the table is dropped (``infos[agent]["dropped"]`` says why)
+    and truncated at its horizon.
+
+    Parameters
+    ----------
+    scenario
+        The lift, see :class:`~colift.benchmark.scenario.Scenario`.
+    render_mode
+        ``None``, ``"rgb_array"`` (headless) or ``"human"`` (a window).
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {
+        "name": "colift_v0",
+        "render_modes": ["human", "rgb_array"],
+        "render_fps": 10,
+        "is_parallelizable": True,
+    }
+
+    def __init__(self, scenario: Scenario, render_mode: str | None = None) -> None:
+        check_render_mode(render_mode)
+        self.render_mode = render_mode
+        self.metadata = {**type(self).metadata, "render_fps": 1 / scenario.control_period}
+        self.lift = Lift(scenario)
+        self.possible_agents = [HUMAN, ROBOT]
+        self.agents: list[str] = []
+        frames = scenario.frames_per_step
+        self.observation_spaces = {HUMAN: human_observation_space(frames)}
+        self.action_spaces = {HUMAN: human_action_space(frames)}
+        if scenario.partner == "human":
+            self.observation_spaces[ROBOT] = human_observation_space(frames)
+            self.action_spaces[ROBOT] = human_action_space(frames)
+        else:
+            self.observation_spaces[ROBOT] = robot_observation_space()
+            self.action_spaces[ROBOT] = robot_action_space(scenario.control_period)
+        self._rng = np.random.default_rng()
+        self._scene: Scene | None = None
+
+    def observation_space(self, agent: str) -> Box:
+        """Return the observation space of ``agent``."""
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent: str) -> Box:
+        """Return the action space of ``agent``."""
+        return self.action_spaces[agent]
+
+    def reset(
+        self, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dict[str, Observation], dict[str, dict[str, Any]]]:
+        """Begin an episode; the same ``seed`` gives the same plan and noise, bit for bit.
+
+        Without a seed the episode follows from the last seed given, or from the system's
+        entropy if there was none.
+        """
+        if seed is not None:
+            self._rng = np.random.default_rng(seed)
+        else:
+            seed = int(self._rng.integers(2**62))
+        self.lift.reset(seed)
+        self.agents = list(self.possible_agents)
+        self._render_in_window()
+        return self._observations(), {agent: {} for agent in self.agents}
+
+    def step(
+        self, actions: dict[str, Action]
+    ) -> tuple[
+        dict[str, Observation],
+        dict[str, float],
+        dict[str, bool],
+        dict[str, bool],
+        dict[str, dict[str, Any]],
+    ]:
+        """Advance by one control period.
+
+        Raises
+        ------
+        ValueError
+            If an action is missing, of the wrong shape or not finite.
+        RuntimeError
+            If the episode is over, or none has begun.
+        """
+        if not self.agents:
+            raise RuntimeError("the episode is over or has not begun: call reset() first")
+        missing = [agent for agent in self.agents if agent not in actions]
+        if missing:
+            raise ValueError(f"actions must name every agent, missing: {', '.join(missing)}")
+        lift = self.lift
+        lift.step(actions[HUMAN], actions[ROBOT])
+        level = abs(lift.world.human_end[-1] - lift.world.robot_end[-1])
+        miss = abs(lift.world.human_end[-1] - lift.target[lift.frame - 1])
+        dropped, truncated = lift.dropped is not None, lift.truncated
+        agents = self.agents
+        info = {"dropped": lift.dropped} if dropped else {}
+        result = (
+            self._observations(),
+            {HUMAN: -float(miss) - level, ROBOT: -level},
+            dict.fromkeys(agents, dropped),
+            dict.fromkeys(agents, truncated),
+            {agent: dict(info) for agent in agents},
+        )
+        if dropped or truncated:
+            self.agents = []
+        self._render_in_window()
+        return result
+
+    def scripted_human(self) -> ScriptedHuman:
+        """Return the agent that carries out the current episode's private plan."""
+        return self.lift.scripted_human()
+
+    def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
+        """Return a picture of the lift (``"rgb_array"``), or draw it in the window."""
+        if self.render_mode is None:
+            return None
+        if self._scene is None:
+            window = self.render_mode == "human"
+            self._scene = Scene(self.lift.scenario.partner, window=window)
+        world = self.lift.world
+        self._scene.pose(world.human_end[-1], world.robot_end[-1])
+        return self._scene.picture() if self.render_mode == "rgb_array" else None
+
+    def _render_in_window(self) -> None:
+        if self.render_mode == "human":
+            self.render()
+
+    def close(self) -> None:
+        """Release the world and the scene."""
+        self.lift.close()
+        if self._scene is not None:
+            self._scene.close()
+            self._scene = None
+
+    def _observations(self) -> dict[str, Observation]:
+        return {
+            HUMAN: self.lift.human_observation(),
+            ROBOT: self.lift.partner_observation(),
+        }
+
+
+def parallel_env(
+    scenario: str = "smooth",
+    subject: str = "S1",
+    partner: Partner = "nao",
+    control_period: float = CONTROL_PERIOD,
+    latency: float = LATENCY,
+    render_mode: str | None = None,
+) -> ParallelLift:
+    """Return the parallel environment of a scenario.
+
+    Parameters
+    ----------
+    scenario
+        Name of the human's behaviour, such as ``"smooth"`` or ``"pause"``.
+    subject
+        Name of the human: ``"S1"`` to ``"S5"``.
+    partner
+        Who holds the robot's end: ``"nao"`` or ``"human"``.
+    control_period
+        Time between two decisions [s], a multiple of 10 ms.
+    latency
+        Age of the robot's motion-capture sample [s], a multiple of 10 ms.
+    render_mode
+        ``None``, ``"rgb_array"`` or ``"human"``.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown (the message lists the known ones) or a time is out of range.
+    """
+    made = make_scenario(scenario, subject, partner, control_period, latency)
+    return ParallelLift(made, render_mode)

@@ -1,0 +1,12 @@
+"""Registration with Gymnasium, called through its ``gymnasium.envs`` entry points."""
+
+import gymnasium
+
+
+def register() -> None:
+    """Register ``colift/Lift-v0``, once."""
+    if "colift/Lift-v0" not in gymnasium.registry:
+        gymnasium.register(
+            id="colift/Lift-v0",
+            entry_point="colift.benchmark.environment.single:RobotEnv",
+        )

@@ -1,0 +1,62 @@
+"""The Gymnasium view: the robot is the agent, the scripted human is part of the world."""
+
+from typing import Any, ClassVar
+
+import gymnasium
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.agent import Action, Observation
+from .parallel import HUMAN, ROBOT, parallel_env
+
+
+class RobotEnv(gymnasium.Env[Observation, Action]):
+    """The lift for one agent, the robot: ``gymnasium.make("colift/Lift-v0")``.
+
+    Spaces and rewards are the robot's of :class:`.ParallelLift`. Only a NAO can be the partner
+    here, and ``settings`` are otherwise those of :func:`.parallel_env`.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {
+        "render_modes": ["human", "rgb_array"],
+        "render_fps": 10,
+    }
+
+    def __init__(self, render_mode: str | None = None, **settings: Any) -> None:
+        self._env = parallel_env(render_mode=render_mode, **settings)
+        self.render_mode = render_mode
+        self.observation_space = self._env.observation_space(ROBOT)
+        self.action_space = self._env.action_space(ROBOT)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """Begin an episode, see :meth:`.ParallelLift.reset`."""
+        super().reset(seed=seed)
+        observations, infos = self._env.reset(seed=seed)
+        self._human = self._env.scripted_human()
+        self._human_observation = observations[HUMAN]
+        return observations[ROBOT], infos[ROBOT]
+
+    def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+        """Advance by one control period, see :meth:`.ParallelLift.step`."""
+        human = self._human.act(self._human_observation)
+        observations, rewards, terminated, truncated, infos = self._env.step(
+            {HUMAN: human, ROBOT: action}
+        )
+        self._human_observation = observations[HUMAN]
+        return (
+            observations[ROBOT],
+            rewards[ROBOT],
+            terminated[ROBOT],
+            truncated[ROBOT],
+            infos[ROBOT],
+        )
+
+    def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
+        """Return a picture of the lift, or draw it in the window."""
+        return self._env.render()
+
+    def close(self) -> None:
+        """Release the world and the scene."""
+        self._env.close()

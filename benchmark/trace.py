@@ -1,0 +1,41 @@
+"""The trace of an episode: what happened, frame by frame."""
+
+import hashlib
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+Series = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Trace:
+    """Everything that an episode's scores are computed from; n frames at 100 Hz, m steps.
+
+    A failed episode ends early: n is then shorter than the horizon.
+    """
+
+    human_end: Series
+    """(n,) height of the human's table end [m]."""
+    robot_end: Series
+    """(n,) height of the robot's table end [m]."""
+    human_velocity: Series
+    """(n,) vertical velocity of the human's table end [m/s]."""
+    human_force: Series
+    """(n,) force of the human's hands on the table [N], upwards positive."""
+    robot_force: Series
+    """(n,) the same of the robot's hands [N]."""
+    target: Series
+    """(n,) the human's intended height [m]."""
+    action: Series
+    """(m, k) the actions of the robot's end as given: of a NAO, changes of the command [m]."""
+
+    def digest(self) -> str:
+        """Return the SHA-256 of all numbers: equal if and only if every bit is."""
+        sha = hashlib.sha256()
+        for field in fields(self):
+            values = np.ascontiguousarray(getattr(self, field.name), dtype="<f8")
+            sha.update(f"{field.name}{values.shape}".encode())
+            sha.update(values.tobytes())
+        return sha.hexdigest()

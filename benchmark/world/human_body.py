@@ -1,0 +1,132 @@
+"""The human's body: arm impedance towards a reference, and delayed reflexes."""
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+from ...agents.agent import FRAME
+from .table import GRIP_STIFFNESS, TABLE_LENGTH, WEIGHT_SHARE
+
+REFLEX_LIMIT: Final = 0.02
+"""A reflex shifts the reference by at most this [m]: it evens out small differences, and does
+not overrule the intended height."""
+
+MUSCLE_TIME: Final = 0.05
+"""Time constant of muscle activation [s], a first-order low-pass on the reflex."""
+
+HISTORY_FRAMES: Final = 50
+"""Frames of rest before the episode, so that every delay up to 0.5 s has something to look at."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BodyParameters:
+    """What the world needs to know of a person.
+
+    Raises
+    ------
+    ValueError
+        If a delay is negative or longer than the kept history, or mass or stiffness not positive.
+    """
+
+    stiffness: float
+    """K of the arm's endpoint [N/m]."""
+    damping: float
+    """B of the arm's endpoint [N s/m]."""
+    mass: float
+    """M, the arm's apparent mass at the hand [kg]."""
+    pull: float
+    """Share of a height difference that the reflexes try to take away, 0 = ignores it."""
+    visual_delay: float
+    """Delay of what is seen [s]."""
+    haptic_delay: float
+    """Delay of what is felt [s]."""
+
+    def __post_init__(self) -> None:
+        """Check the ranges."""
+        longest = HISTORY_FRAMES * FRAME
+        for name in ("visual_delay", "haptic_delay"):
+            delay = getattr(self, name)
+            if not 0 <= delay <= longest:
+                raise ValueError(f"{name} must be in [0, {longest}] s, got {delay}")
+        if self.mass <= 0 or self.stiffness <= 0 or self.damping < 0:
+            raise ValueError(f"mass and stiffness must be positive, got {self}")
+
+
+class HumanBody:
+    """One person's arms on one end of the table.
+
+    The arms pull their end towards a reference ``r`` (an equilibrium trajectory) as an impedance,
+
+        F = K (r + reflex - z) + B (r' - z') + W,
+
+    with the person's share ``W`` of the table's weight fed forward; the weight of the arms
+    themselves is held by the person. The reflex follows, low-passed, from the felt force
+    ``haptic_delay`` ago and from the seen height difference ``visual_delay`` ago, half from each:
+    a steady height difference d shifts the reference by ``pull`` d.
+    """
+
+    __slots__ = (
+        "_gain_height",
+        "_gain_rate",
+        "_gain_velocity",
+        "_haptic_gain",
+        "_reflex",
+        "_seen",
+        "_smoothing",
+        "_felt",
+        "_visual_gain",
+    )
+
+    def __init__(self, parameters: BodyParameters, step: float) -> None:
+        """Prepare the gains for a physics step of ``step`` [s].
+
+        The spring and the damper are taken at the end of the step (linearly implicit Euler), so
+        that a stiff, light arm is stable at any step.
+        """
+        stiffness, damping = parameters.stiffness, parameters.damping
+        implicit = 1 + step * damping / parameters.mass + step**2 * stiffness / parameters.mass
+        self._gain_height = stiffness / implicit
+        self._gain_rate = damping / implicit
+        self._gain_velocity = (damping + step * stiffness) / implicit
+        self._seen = -1 - round(parameters.visual_delay / FRAME)
+        self._felt = -1 - round(parameters.haptic_delay / FRAME)
+        self._visual_gain = parameters.pull / 2
+        self._haptic_gain = parameters.pull / 2 * TABLE_LENGTH**2 / GRIP_STIFFNESS
+        self._smoothing = -math.expm1(-FRAME / MUSCLE_TIME)
+        self._reflex = 0.0
+
+    def reset(self) -> None:
+        """Relax: no reflex is active."""
+        self._reflex = 0.0
+
+    def reflex(self, own: list[float], other: list[float], force: list[float]) -> float:
+        """Advance the reflex by one frame and return its shift of the reference [m].
+
+        Parameters
+        ----------
+        own, other, force
+            Histories, newest last: heights of the own and of the other end [m], and the force of
+            the hands on the table [N].
+        """
+        wanted = self._visual_gain * (other[self._seen] - own[self._seen])
+        wanted -= self._haptic_gain * (force[self._felt] - WEIGHT_SHARE)
+        wanted = max(-REFLEX_LIMIT, min(REFLEX_LIMIT, wanted))
+        self._reflex += self._smoothing * (wanted - self._reflex)
+        return self._reflex
+
+    def arm_force(self, reference: float, rate: float, height: float, velocity: float) -> float:
+        """Return the upward force of the arms [N] over the next physics step.
+
+        Parameters
+        ----------
+        reference, rate
+            Reference at the end of the step [m] and its rate [m/s], reflex included.
+        height, velocity
+            Of the hands, at the beginning of the step [m, m/s].
+        """
+        return (
+            self._gain_height * (reference - height)
+            + self._gain_rate * rate
+            - self._gain_velocity * velocity
+            + WEIGHT_SHARE
+        )

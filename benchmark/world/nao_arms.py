@@ -1,0 +1,156 @@
+"""The NAO's two arms at the far end of the table."""
+
+import math
+from typing import ClassVar, Final
+
+import numpy as np
+import pybullet
+from numpy.typing import NDArray
+
+from ...agents.agent import FRAME
+from ...robots.arm_kinematics import (
+    ARM_JOINTS,
+    GRIP_X,
+    GRIP_Y,
+    REST_Z,
+    arm_path,
+)
+from ...robots.nao_facts import HAND_OFFSET_X, HAND_OFFSET_Z, JOINTS
+from ...robots.urdf import arms_only_urdf
+from .engine import Vector, load_urdf_text
+from .physics import Physics
+from .table import PITCH, WEIGHT_SHARE
+
+SERVO_TIME: Final = 0.02
+"""Time constant of a joint's position servo [s]: one cycle of the NAO's motion thread (20 ms)."""
+
+SERVO_STIFFNESS: Final = 18.0
+"""Stiffness of a joint's position servo [Nm/rad], an assumption: the arm motors' nominal torque
+(0.55 Nm at the shoulder) displaces a joint by 1.75 degrees, about what a NAO's arm sags."""
+
+LOAD_TIME: Final = 0.03
+"""Time constant with which a joint gives way to a changing load [s]."""
+
+_HAND: Final = (HAND_OFFSET_X, 0.0, -HAND_OFFSET_Z)
+"""The hand point in the frame of the last arm joint [m]."""
+
+
+def _rows(terms: NDArray[np.float64]) -> list[float]:
+    """Return the servos' displacement of the hands, row by row of the path: the sum over joints."""
+    displacement: list[float] = (terms.sum(axis=1) / SERVO_STIFFNESS).tolist()
+    return displacement
+
+
+class NaoArms:
+    """Both arms of the NAO, their servos, and the hands' hold of the table.
+
+    The engine's joint motors are rigid up to the motors' torque limits. What a proportional
+    servo of stiffness k adds is sag: a torque t displaces its joint by t / k. It enters through
+    the set-point: with J = dz/dq of the hands, an arm weighing g(h) on its joints and carrying
+    half the vertical load F on the hands gives way by
+
+        sag(h, F) = sum_i J_i (g_i(h) + J_i F / 2) / k.
+
+    A constant ``offset`` makes up for the sag at rest under the table's weight, as the paper's
+    authors had to (section II.B); elsewhere along the stroke a part of it remains.
+    """
+
+    REST_GRIP: ClassVar[Vector] = (GRIP_X, 0.0, REST_Z)
+    """Middle between the hands at rest, in the torso frame [m]."""
+
+    def __init__(self, client: int, tree: int, physics: Physics) -> None:
+        self._client = client
+        self._path = path = arm_path()
+        self._weight_sag = _rows(path.levers * path.gravity_torques)
+        self._compliance = _rows(path.levers**2 / 2)
+        self._body = load_urdf_text(
+            client, arms_only_urdf(shapes=False), (0, 0, 0), flags=pybullet.URDF_MERGE_FIXED_LINKS
+        )
+        self._joints = self._joint_indices()
+        self._wrists = (self._joints[4], self._joints[9])
+        self._efforts = [JOINTS[name].effort for name in ARM_JOINTS]
+        self._gains = [-math.expm1(-physics.step / SERVO_TIME)] * len(ARM_JOINTS)
+        # A set-point that ramps is followed with the servo's time constant at any step size.
+        gain = self._gains[0]
+        self._lead = (SERVO_TIME - physics.step * (1 - gain) / gain) / FRAME
+        self._yielding = -math.expm1(-FRAME / LOAD_TIME)
+        for joint, angle in zip(self._joints, self._path.joint_angles(0.0), strict=True):
+            pybullet.resetJointState(self._body, joint, angle, physicsClientId=client)
+        for wrist, side in zip(self._wrists, (1, -1), strict=True):
+            self._grip(wrist, (GRIP_X, side * GRIP_Y, REST_Z), tree)
+        self._offset = self._sag(0.0, WEIGHT_SHARE)
+        self.reset()
+
+    def _joint_indices(self) -> list[int]:
+        """Return the engine's indices of the arm joints, in the order of ``ARM_JOINTS``."""
+        count = pybullet.getNumJoints(self._body, physicsClientId=self._client)
+        names = [
+            pybullet.getJointInfo(self._body, i, physicsClientId=self._client)[1].decode()
+            for i in range(count)
+        ]
+        return [names.index(name) for name in ARM_JOINTS]
+
+    def _grip(self, wrist: int, point: Vector, tree: int) -> None:
+        """Pin a hand to the table at ``point`` (world frame)."""
+        anchors = []
+        for body, link in ((self._body, wrist), (tree, PITCH)):
+            state = pybullet.getLinkState(
+                body, link, computeForwardKinematics=1, physicsClientId=self._client
+            )
+            inverse = pybullet.invertTransform(state[0], state[1])
+            anchors.append(pybullet.multiplyTransforms(*inverse, point, (0, 0, 0, 1))[0])
+        pybullet.createConstraint(
+            self._body,
+            wrist,
+            tree,
+            PITCH,
+            pybullet.JOINT_POINT2POINT,
+            (0, 0, 0),
+            *anchors,
+            physicsClientId=self._client,
+        )
+
+    def reset(self) -> None:
+        """Hold rest height; the engine's state itself is restored by the world."""
+        self._load = WEIGHT_SHARE
+        self._previous = self._target = 0.0
+        self.drive(1.0, 0.0, 0.0)
+
+    def prepare(
+        self, command: float, own: list[float], other: list[float], force: list[float]
+    ) -> None:
+        """Take the commanded height for the end of the next frame [m].
+
+        ``force`` is the history of the hands' force on the table, newest last [N].
+        """
+        self._load += self._yielding * (force[-1] - self._load)
+        self._previous = self._target
+        self._target = command + self._offset - self._sag(command, self._load)
+
+    def _sag(self, height: float, load: float) -> float:
+        """Return how far the hands give way [m] at a height under a vertical load [N]."""
+        row = self._path.row(height)
+        return self._weight_sag[row] + self._compliance[row] * load
+
+    def drive(self, fraction: float, height: float, velocity: float) -> float:
+        """Set the motors for the step that ends at ``fraction`` of the frame; exert no force."""
+        set_point = self._previous + (self._target - self._previous) * (fraction - self._lead)
+        pybullet.setJointMotorControlArray(
+            self._body,
+            self._joints,
+            pybullet.POSITION_CONTROL,
+            targetPositions=self._path.joint_angles(set_point),
+            forces=self._efforts,
+            positionGains=self._gains,
+            physicsClientId=self._client,
+        )
+        return 0.0
+
+    def hand_height(self) -> float:
+        """Return the mean height of the two hands by forward kinematics of the joints [m]."""
+        height = 0.0
+        for wrist in self._wrists:
+            state = pybullet.getLinkState(self._body, wrist, physicsClientId=self._client)
+            point, _ = pybullet.multiplyTransforms(state[4], state[5], _HAND, (0, 0, 0, 1))
+            height += point[2] / 2
+        return height - REST_Z

@@ -1,0 +1,38 @@
+"""How finely the world is simulated."""
+
+from dataclasses import dataclass
+from typing import Final
+
+from ...agents.agent import FRAME
+
+
+@dataclass(frozen=True, kw_only=True)
+class Physics:
+    """Time step and solver of the physics engine.
+
+    Raises
+    ------
+    ValueError
+        If a frame is not a whole number of steps, or there is no solver iteration.
+    """
+
+    step: float = 0.01
+    """Physics step [s]. The convergence study (``colift bench --convergence``) is its reason."""
+
+    iterations: int = 20
+    """Iterations of the sequential-impulse solver a step."""
+
+    def __post_init__(self) -> None:
+        """Check that the step divides the frame."""
+        if self.step <= 0 or abs(FRAME / self.step - round(FRAME / self.step)) > 1e-9:
+            raise ValueError(f"step must divide the frame of {FRAME} s, got {self.step} s")
+        if self.iterations < 1:
+            raise ValueError(f"iterations must be at least 1, got {self.iterations}")
+
+    @property
+    def steps_per_frame(self) -> int:
+        """Physics steps in one motion-capture frame."""
+        return round(FRAME / self.step)
+
+
+PHYSICS: Final = Physics()

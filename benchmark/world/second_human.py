@@ -1,0 +1,41 @@
+"""A second human at the robot's end of the table."""
+
+from ...agents.agent import FRAME
+from .human_body import BodyParameters, HumanBody
+from .table import GRAVITY
+
+
+class SecondHuman:
+    """The far end held by a person: the same body as the first, seen from the other side.
+
+    The hands grip the table rigidly, so their mass is part of the table's link (see
+    :func:`.table.table_urdf`) and the arms appear as a vertical force on its far end.
+    """
+
+    def __init__(self, parameters: BodyParameters, step: float) -> None:
+        self._body = HumanBody(parameters, step)
+        self._weight = parameters.mass * GRAVITY
+        self.reset()
+
+    def reset(self) -> None:
+        """Relax at rest height."""
+        self._body.reset()
+        self._previous = self._reference = 0.0
+
+    def prepare(
+        self, command: float, own: list[float], other: list[float], force: list[float]
+    ) -> None:
+        """Take the reference for the end of the next frame [m] and advance the reflexes.
+
+        ``own``, ``other`` and ``force`` are the histories of :meth:`.HumanBody.reflex`.
+        """
+        self._previous = self._reference
+        self._reference = command + self._body.reflex(own, other, force)
+
+    def drive(self, fraction: float, height: float, velocity: float) -> float:
+        """Return the arms' force on the far end [N] for the step that ends at ``fraction``."""
+        change = self._reference - self._previous
+        reference = self._previous + change * fraction
+        arms = self._body.arm_force(reference, change / FRAME, height, velocity)
+        return arms + self._weight
+

@@ -1,0 +1,75 @@
+"""The table, and the human's hands on it, as a spanning tree of joints.
+
+Ground - slide (x) - hands (z) - pitch hinge - table. The tree carries the human's end; whatever
+holds the other end closes the loop. The tree's three joints:
+
+* x slides freely: a tilting table needs a few millimetres of it, and a human's arms give that.
+* z is the height of the human's hands; its mass is the arm's apparent mass.
+* pitch is the table's inclination in the human's grip.
+
+A table on a free pin would transmit nothing. A two-handed grip on its edge resists pitching, so
+that a height difference is felt: 60 mm over 0.8 m are 75 mrad, 0.75 Nm, about 1 N at the hands.
+"""
+
+from typing import Final
+
+TABLE_LENGTH: Final = 0.8
+"""Distance between the two grips [m]."""
+
+TABLE_MASS: Final = 0.35
+"""Mass of the table [kg]: a dummy table "without significant weight" (paper, section II), within
+the 0.33 kg that each of the NAO's two arms can hold at full reach."""
+
+GRIP_STIFFNESS: Final = 10.0
+"""Pitch stiffness of a two-handed human grip [Nm/rad]. An assumption: two wrists of some
+5 Nm/rad each, the order found for relaxed to lightly tensed wrists."""
+
+GRIP_DAMPING: Final = 0.3
+"""Pitch damping of that grip [Nm s/rad]: about half critical for the table about the grip."""
+
+GRAVITY: Final = 9.81
+"""Acceleration of gravity [m/s2]."""
+
+TABLE_INERTIA: Final = TABLE_MASS * TABLE_LENGTH**2 / 3
+"""Moment of inertia of the table about a grip [kg m2], a thin uniform board."""
+
+WEIGHT_SHARE: Final = TABLE_MASS * GRAVITY / 2
+"""The weight that each end carries when the table is level and still [N]."""
+
+SLIDE, HANDS, PITCH = 0, 1, 2
+"""Joint indices of the tree; ``PITCH`` is also the index of the table's link."""
+
+
+def table_urdf(hand_mass: float, far_mass: float = 0.0) -> str:
+    """Return the URDF of the tree; the origin is the human's grip at rest, the table towards -x.
+
+    Parameters
+    ----------
+    hand_mass
+        Apparent mass of the human's arms in z [kg].
+    far_mass
+        Point mass at the far end [kg]: the arms of a second human, who grips it rigidly.
+    """
+    half = TABLE_LENGTH / 2
+    mass = TABLE_MASS + far_mass
+    centre = (TABLE_MASS * half + far_mass * TABLE_LENGTH) / mass
+    about_grip = TABLE_INERTIA + far_mass * TABLE_LENGTH**2
+    pitch_inertia = about_grip - mass * centre**2
+    small = 1e-3
+    return f"""<robot name="human_and_table">
+  <link name="ground"><inertial><mass value="1"/>
+    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="slide"><inertial><mass value="{hand_mass!r}"/>
+    <inertia ixx="{small}" ixy="0" ixz="0" iyy="{small}" iyz="0" izz="{small}"/></inertial></link>
+  <link name="hands"><inertial><mass value="{hand_mass!r}"/>
+    <inertia ixx="{small}" ixy="0" ixz="0" iyy="{small}" iyz="0" izz="{small}"/></inertial></link>
+  <link name="table"><inertial><origin xyz="{-centre!r} 0 0"/><mass value="{mass!r}"/>
+    <inertia ixx="{small}" ixy="0" ixz="0" iyy="{pitch_inertia!r}" iyz="0"
+      izz="{pitch_inertia!r}"/></inertial></link>
+  <joint name="x" type="prismatic"><parent link="ground"/><child link="slide"/>
+    <axis xyz="1 0 0"/><limit lower="-1" upper="1" effort="1000" velocity="10"/></joint>
+  <joint name="z" type="prismatic"><parent link="slide"/><child link="hands"/>
+    <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1000" velocity="10"/></joint>
+  <joint name="pitch" type="revolute"><parent link="hands"/><child link="table"/>
+    <axis xyz="0 1 0"/><limit lower="-1.5" upper="1.5" effort="1000" velocity="10"/></joint>
+</robot>"""

@@ -1,0 +1,196 @@
+"""The world: two holders and a table, stepped one motion-capture frame at a time."""
+
+import math
+from collections.abc import Sequence
+from typing import Final, Literal
+
+import numpy as np
+import pybullet
+from numpy.typing import NDArray
+
+from ...agents.agent import FRAME
+from .engine import disconnect, load_urdf_text, new_client
+from .human_body import HISTORY_FRAMES, BodyParameters, HumanBody
+from .nao_arms import NaoArms
+from .physics import PHYSICS, Physics
+from .second_human import SecondHuman
+from .table import (
+    GRAVITY,
+    GRIP_DAMPING,
+    GRIP_STIFFNESS,
+    HANDS,
+    PITCH,
+    SLIDE,
+    TABLE_INERTIA,
+    TABLE_LENGTH,
+    TABLE_MASS,
+    WEIGHT_SHARE,
+    table_urdf,
+)
+
+Partner = Literal["nao", "human"]
+"""Who holds the robot's end of the table."""
+
+_JOINTS: Final = [HANDS, PITCH]
+_TORQUE: Final = pybullet.TORQUE_CONTROL
+
+
+class World:
+    """A human, a table and a partner at its other end: a NAO, or a second human.
+
+    Read-outs are histories with one entry a frame since the last reset, newest last, preceded by
+    ``HISTORY_FRAMES`` entries of rest. Heights are displacements from rest [m], velocities [m/s],
+    forces [N] of the hands on the table, upwards positive.
+
+    ============== =====================================================
+    human_end      height of the human's table end
+    human_velocity its vertical velocity
+    robot_end      height of the robot's table end
+    robot_velocity vertical velocity of the robot's table end
+    human_force    force of the human's hands on the table
+    robot_force    force of the robot's (or partner's) hands on the table
+    ============== =====================================================
+
+    Parameters
+    ----------
+    partner
+        ``"nao"`` or ``"human"``.
+    human
+        The person at the human's end.
+    second_human
+        The person at the robot's end; needed for, and only for, ``partner="human"``.
+    physics
+        Time step and solver.
+
+    Raises
+    ------
+    ValueError
+        If the second human is missing, or given without need.
+    """
+
+    def __init__(
+        self,
+        partner: Partner,
+        human: BodyParameters,
+        second_human: BodyParameters | None = None,
+        *,
+        physics: Physics = PHYSICS,
+    ) -> None:
+        if (partner == "human") != (second_human is not None):
+            raise ValueError(f"second_human is for partner='human', got partner={partner!r}")
+        self.client = new_client(physics)
+        self._step = physics.step
+        self._fractions = [
+            (i + 1) / physics.steps_per_frame for i in range(physics.steps_per_frame)
+        ]
+        self._body = HumanBody(human, physics.step)
+        self._mass = human.mass
+        far_mass = 0.0 if second_human is None else second_human.mass
+        grip = NaoArms.REST_GRIP
+        self._tree = load_urdf_text(
+            self.client,
+            table_urdf(human.mass, far_mass),
+            (grip[0] + TABLE_LENGTH, 0.0, grip[2]),
+        )
+        for joint in (SLIDE, HANDS, PITCH):
+            pybullet.setJointMotorControl2(
+                self._tree, joint, pybullet.VELOCITY_CONTROL, force=0, physicsClientId=self.client
+            )
+        self._far: NaoArms | SecondHuman
+        if second_human is None:
+            self._far = NaoArms(self.client, self._tree, physics)
+            grips = 1
+        else:
+            self._far = SecondHuman(second_human, physics.step)
+            grips = 2
+        stiffness, damping = grips * GRIP_STIFFNESS, grips * GRIP_DAMPING
+        inertia = TABLE_INERTIA + far_mass * TABLE_LENGTH**2
+        implicit = 1 + self._step * damping / inertia + self._step**2 * stiffness / inertia
+        self._pitch_gain = stiffness / implicit
+        self._pitch_rate_gain = (damping + self._step * stiffness) / implicit
+        self._rest = pybullet.saveState(physicsClientId=self.client)
+        self.reset()
+
+    def reset(self) -> None:
+        """Put everything back to rest, bit for bit the same each time."""
+        pybullet.restoreState(self._rest, physicsClientId=self.client)
+        self._body.reset()
+        self._far.reset()
+        self._reference = 0.0
+        self._height = self._velocity = self._pitch = self._pitch_rate = 0.0
+        self.human_end = [0.0] * HISTORY_FRAMES
+        self.human_velocity = [0.0] * HISTORY_FRAMES
+        self.robot_end = [0.0] * HISTORY_FRAMES
+        self.robot_velocity = [0.0] * HISTORY_FRAMES
+        self.human_force = [WEIGHT_SHARE] * HISTORY_FRAMES
+        self.robot_force = [WEIGHT_SHARE] * HISTORY_FRAMES
+
+    def advance(self, human_reference: Sequence[float], robot_reference: Sequence[float]) -> None:
+        """Advance by as many frames as the references have entries.
+
+        Parameters
+        ----------
+        human_reference
+            The height that the human's arms pull towards at the end of each frame [m].
+        robot_reference
+            The same of the partner [m]; of the NAO it is the commanded hand height.
+        """
+        client, tree, mass, step = self.client, self._tree, self._mass, self._step
+        body, far, fractions = self._body, self._far, self._fractions
+        control, advance = pybullet.setJointMotorControlArray, pybullet.stepSimulation
+        states = pybullet.getJointStates
+        human_end, robot_end = self.human_end, self.robot_end
+        human_force, robot_force = self.human_force, self.robot_force
+        height, velocity = self._height, self._velocity
+        pitch, pitch_rate = self._pitch, self._pitch_rate
+        previous = self._reference
+        for wanted, command in zip(human_reference, robot_reference, strict=True):
+            reference = wanted + body.reflex(human_end, robot_end, human_force)
+            change = reference - previous
+            rate = change / FRAME
+            far.prepare(command, robot_end, human_end, robot_force)
+            first_velocity, first_pitch_rate, impulse = velocity, pitch_rate, 0.0
+            for fraction in fractions:
+                arms = body.arm_force(previous + change * fraction, rate, height, velocity)
+                lever = TABLE_LENGTH * math.cos(pitch)
+                far_arms = far.drive(
+                    fraction,
+                    height + TABLE_LENGTH * math.sin(pitch),
+                    velocity + lever * pitch_rate,
+                )
+                torque = -self._pitch_gain * pitch - self._pitch_rate_gain * pitch_rate
+                forces = [arms + mass * GRAVITY + far_arms, torque + lever * far_arms]
+                control(tree, _JOINTS, _TORQUE, forces=forces, physicsClientId=client)
+                advance(physicsClientId=client)
+                hands, hinge = states(tree, _JOINTS, physicsClientId=client)
+                height, velocity = hands[0], hands[1]
+                pitch, pitch_rate = hinge[0], hinge[1]
+                impulse += arms
+            acceleration = (velocity - first_velocity) / FRAME
+            centre = acceleration + TABLE_LENGTH / 2 * (pitch_rate - first_pitch_rate) / FRAME
+            force = impulse * step / FRAME - mass * acceleration
+            human_end.append(height)
+            robot_end.append(height + TABLE_LENGTH * math.sin(pitch))
+            human_force.append(force)
+            self.human_velocity.append(velocity)
+            self.robot_velocity.append(velocity + TABLE_LENGTH * math.cos(pitch) * pitch_rate)
+            robot_force.append(TABLE_MASS * (GRAVITY + centre) - force)
+            previous = reference
+        self._reference = previous
+        self._height, self._velocity = height, velocity
+        self._pitch, self._pitch_rate = pitch, pitch_rate
+
+    @property
+    def hand_height(self) -> float:
+        """Height of the partner's hands [m]: of a NAO from its joint encoders."""
+        if isinstance(self._far, NaoArms):
+            return self._far.hand_height()
+        return self.robot_end[-1]
+
+    def since_reset(self, history: list[float]) -> NDArray[np.float64]:
+        """Return one of the world's histories without the frames of rest before the reset."""
+        return np.array(history[HISTORY_FRAMES:])
+
+    def close(self) -> None:
+        """Disconnect from the engine; the world cannot be used afterwards."""
+        disconnect(self.client)

@@ -1,0 +1,214 @@
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from colift.agents.errors import InputError
+from colift.benchmark.statistics import (
+    interquartile_mean,
+    mean_with_missing,
+    paired_difference,
+    ratio_of_means_ci,
+    stratified_bootstrap,
+)
+from numpy.typing import NDArray
+
+Sample = NDArray[np.float64]
+Draw = Callable[[np.random.Generator, tuple[int, int]], Sample]
+
+
+def labels(cells: int, episodes: int) -> list[tuple[str, int]]:
+    return [("cell", cell) for cell in range(cells) for _ in range(episodes)]
+
+
+def normal(rng: np.random.Generator, shape: tuple[int, int]) -> Sample:
+    return rng.normal(0.0, 1.0, shape)
+
+
+def lognormal(rng: np.random.Generator, shape: tuple[int, int]) -> Sample:
+    return rng.lognormal(0.0, 0.5, shape) - np.exp(0.125)
+
+
+def cells_of_known_mean(
+    rng: np.random.Generator, cells: int, episodes: int, draw: Draw
+) -> tuple[Sample, float]:
+    """Return pooled values of cells with different means, and the mean they are drawn from."""
+    means = 10.0 + np.linspace(0.0, 5.0, cells)
+    return (means[:, None] + draw(rng, (cells, episodes))).ravel(), float(means.mean())
+
+
+class TestInterquartileMean:
+    def test_is_the_mean_of_the_middle_half(self) -> None:
+        assert interquartile_mean([100.0, 3.0, 1.0, 2.0, 4.0, -50.0, 5.0, 6.0]) == 3.5
+
+    def test_leaves_out_whole_values_only(self) -> None:
+        assert interquartile_mean([1.0, 2.0, 6.0, 7.0, 90.0]) == 5.0
+        assert interquartile_mean([1.0, 2.0, 6.0]) == 3.0
+        assert interquartile_mean([4.0]) == 4.0
+
+    def test_ignores_a_quarter_of_failures(self) -> None:
+        good = [8.0, 9.0, 10.0, 11.0, 12.0, 9.0]
+        assert interquartile_mean([*good, 250.0, 250.0]) < 12.0
+
+    def test_works_along_an_axis_or_over_everything(self) -> None:
+        table = np.arange(24.0).reshape(3, 8)
+        assert interquartile_mean(table, axis=-1).tolist() == [3.5, 11.5, 19.5]
+        assert interquartile_mean(table, axis=0).tolist() == list(np.arange(8.0, 16.0))
+        assert interquartile_mean(table) == 11.5
+
+    @pytest.mark.parametrize("values", [[], [1.0, math.nan, 2.0]])
+    def test_rejects_nothing_and_nan(self, values: list[float]) -> None:
+        with pytest.raises(InputError, match="at least one value and no NaN"):
+            interquartile_mean(values)
+
+
+class TestMeanWithMissing:
+    def test_averages_what_is_there_and_counts_what_is_not(self) -> None:
+        summary = mean_with_missing([-2.0, math.nan, -4.0, None])
+        assert (summary.mean, summary.missing) == (-3.0, 2)
+
+    def test_has_no_mean_when_everything_is_missing(self) -> None:
+        summary = mean_with_missing([math.nan, math.nan])
+        assert math.isnan(summary.mean)
+        assert summary.missing == 2
+
+
+class TestCoverage:
+    """A 95 % interval contains the true value in 95 % of the data sets, cell means being fixed."""
+
+    def coverage(self, cells: int, episodes: int, draw: Draw) -> float:
+        rng = np.random.default_rng(0)
+        strata = labels(cells, episodes)
+        hits = 0
+        for seed in range(1000):
+            values, truth = cells_of_known_mean(rng, cells, episodes, draw)
+            low, high = stratified_bootstrap(values, strata, np.mean, resamples=600, seed=seed)
+            hits += low <= truth <= high
+        return hits / 1000
+
+    @pytest.mark.parametrize("draw", [normal, lognormal])
+    def test_of_four_cells_of_fifteen(self, draw: Draw) -> None:
+        assert 0.925 <= self.coverage(4, 15, draw) <= 0.97
+
+    def test_of_small_cells_in_which_plain_percentiles_would_cover_88_percent(self) -> None:
+        assert 0.925 <= self.coverage(20, 3, normal) <= 0.97
+
+
+class TestStratifiedBootstrap:
+    values, _ = cells_of_known_mean(np.random.default_rng(1), 4, 15, normal)
+    strata = labels(4, 15)
+
+    def test_of_the_mean_agrees_with_the_t_interval_within_cells(self) -> None:
+        cells = self.values.reshape(4, 15)
+        standard_error = math.sqrt(cells.var(axis=1, ddof=1).mean() / 60)
+        low, high = stratified_bootstrap(self.values, self.strata, np.mean, resamples=20000)
+        t_56 = 2.0032
+        assert (high - low) / 2 == pytest.approx(t_56 * standard_error, rel=0.03)
+        assert (high + low) / 2 == pytest.approx(cells.mean(), abs=0.1 * standard_error)
+
+    def test_differences_between_cells_add_no_width(self) -> None:
+        stratified = stratified_bootstrap(self.values, self.strata, np.mean)
+        pooled = stratified_bootstrap(self.values, ["all"] * 60, np.mean)
+        assert np.ptp(stratified) < 0.7 * np.ptp(pooled)
+
+    def test_never_draws_across_cells(self) -> None:
+        assert stratified_bootstrap([1.0, 1.0, 5.0, 5.0], ["a", "a", "b", "b"], np.mean) == (3, 3)
+
+    def test_the_order_of_episodes_does_not_tie_them_to_cells(self) -> None:
+        interleaved = stratified_bootstrap([1.0, 5.0, 1.0, 5.0], ["a", "b", "a", "b"], np.mean)
+        assert interleaved == (3.0, 3.0)
+
+    def test_the_seed_decides(self) -> None:
+        first = stratified_bootstrap(self.values, self.strata, np.mean, seed=3)
+        assert stratified_bootstrap(self.values, self.strata, np.mean, seed=3) == first
+        assert stratified_bootstrap(self.values, self.strata, np.mean, seed=4) != first
+
+    def test_takes_any_statistic(self) -> None:
+        low, high = stratified_bootstrap(self.values, self.strata, interquartile_mean)
+        assert low < interquartile_mean(self.values) < high
+
+    def test_more_confidence_is_wider(self) -> None:
+        widths = [
+            np.ptp(stratified_bootstrap(self.values, self.strata, np.mean, confidence=level))
+            for level in (0.5, 0.8, 0.95, 0.99)
+        ]
+        assert widths == sorted(widths)
+        assert widths[0] > 0
+
+    def test_a_cell_of_one_episode_stays_as_it_is(self) -> None:
+        assert stratified_bootstrap([7.0], ["a"], np.mean) == (7.0, 7.0)
+        assert stratified_bootstrap([2.0, 4.0], ["a", "b"], np.mean) == (3.0, 3.0)
+        many = stratified_bootstrap(self.values, self.strata, np.sum)
+        and_one = stratified_bootstrap([*self.values, 9.0], [*self.strata, "one"], np.sum)
+        assert np.subtract(and_one, many) == pytest.approx([9.0, 9.0])
+
+    def test_rejects_what_it_cannot_resample(self) -> None:
+        with pytest.raises(InputError, match="values of episode 1 is missing"):
+            stratified_bootstrap([1.0, math.nan], ["a", "a"], np.mean)
+        with pytest.raises(InputError, match="strata has 3 labels"):
+            stratified_bootstrap([1.0, 2.0], ["a", "a", "b"], np.mean)
+        with pytest.raises(InputError, match="values has shape"):
+            stratified_bootstrap([], [], np.mean)
+        with pytest.raises(InputError, match="confidence is 95"):
+            stratified_bootstrap([1.0, 2.0], ["a", "a"], np.mean, confidence=95)
+
+
+class TestRatioOfMeans:
+    rng = np.random.default_rng(2)
+    difficulty = rng.lognormal(2.0, 0.4, 60)
+    robot = 1.5 * difficulty + rng.normal(0.0, 0.3, 60)
+    strata = labels(4, 15)
+
+    def test_contains_the_ratio_of_means_not_the_mean_of_ratios(self) -> None:
+        low, high = ratio_of_means_ci([1.0, 9.0] * 40, [1.0, 3.0] * 40, ["a"] * 80)
+        mean_of_ratios, ratio_of_means = (1 + 3) / 2, 10 / 4
+        assert mean_of_ratios < low < ratio_of_means < high
+
+    def test_pairing_removes_what_both_have_in_common(self) -> None:
+        within = np.arange(60).reshape(4, 15)
+        shuffled = np.random.default_rng(3).permuted(within, axis=1).ravel()
+        paired = ratio_of_means_ci(self.robot, self.difficulty, self.strata)
+        unpaired = ratio_of_means_ci(self.robot, self.difficulty[shuffled], self.strata)
+        assert paired[0] < self.robot.mean() / self.difficulty.mean() < paired[1]
+        assert np.ptp(paired) < 0.3 * np.ptp(unpaired)
+
+    def test_of_proportional_values_is_exact(self) -> None:
+        interval = ratio_of_means_ci(0.5 * self.difficulty, self.difficulty, self.strata)
+        assert interval == pytest.approx((0.5, 0.5))
+
+    def test_the_seed_decides(self) -> None:
+        first = ratio_of_means_ci(self.robot, self.difficulty, self.strata, seed=1)
+        assert ratio_of_means_ci(self.robot, self.difficulty, self.strata, seed=1) == first
+        assert ratio_of_means_ci(self.robot, self.difficulty, self.strata, seed=2) != first
+
+    def test_rejects_a_denominator_that_is_not_positive_and_unequal_lengths(self) -> None:
+        with pytest.raises(InputError, match=r"denominator 0\.0 of episode 1"):
+            ratio_of_means_ci([1.0, 1.0], [1.0, 0.0], ["a", "a"])
+        with pytest.raises(InputError, match="numerator has 2 episodes, denominator 1"):
+            ratio_of_means_ci([1.0, 1.0], [1.0], ["a", "a"])
+
+
+class TestPairedDifference:
+    rng = np.random.default_rng(4)
+    a = rng.normal(20.0, 5.0, 60)
+    b = a - 1.0 + rng.normal(0.0, 0.5, 60)
+    strata = labels(4, 15)
+
+    def test_finds_a_small_difference_under_a_large_common_spread(self) -> None:
+        difference = paired_difference(self.a, self.b, self.strata)
+        low, high = difference.ci95
+        assert difference.mean == pytest.approx(np.mean(self.a) - np.mean(self.b))
+        assert 0.0 < low < difference.mean < high
+        assert low < 1.0 < high
+
+    def test_changes_sign_with_the_order(self) -> None:
+        forth, back = (
+            paired_difference(x, y, self.strata, resamples=20000)
+            for x, y in ((self.a, self.b), (self.b, self.a))
+        )
+        assert back.mean == -forth.mean
+        assert back.ci95 == pytest.approx((-forth.ci95[1], -forth.ci95[0]))
+
+    def test_of_equal_policies_is_zero(self) -> None:
+        difference = paired_difference(self.a, self.a, self.strata)
+        assert (difference.mean, difference.ci95) == (0.0, (0.0, 0.0))
