@@ -159,7 +159,7 @@ class ArmPath:
     """The arms along the stroke, looked up by the hands' height; made by ``arm_path()``.
 
     Rows are 0.05 mm of height apart; a height in between takes the nearer row, one outside
-    ``STROKE`` the last. All arrays are read-only.
+    ``STROKE`` the last. The arrays are read-only.
     """
 
     heights: Array
@@ -173,8 +173,9 @@ class ArmPath:
 
     def row(self, height: float) -> int:
         """Return the row of a height [m]."""
-        low, high = STROKE
-        return round((min(max(height, low), high) - low) / _ROW)
+        index = int((height - STROKE[0]) / _ROW + 0.5)
+        last = len(self.joints) - 1
+        return 0 if index < 0 else last if index > last else index
 
     def joint_angles(self, height: float) -> list[float]:
         """Return the angles of ``ARM_JOINTS`` [rad] that put both hands at a height [m]."""

@@ -152,10 +152,6 @@ def _fingers(side: str) -> Iterator[Joint]:
                 origin=origin if first else (PHALANX_LENGTH, 0.0, 0.0),
                 rpy=rpy if first else (0.0, 0.0, -_FINGER_RATIO),
                 axis=_Z,
-                lower=0.0,
-                upper=_FINGER_RATIO,
-                speed=8.33,
-                effort=0.292,
                 mimic=f"{side}Hand",
                 mimic_ratio=_FINGER_RATIO,
             )

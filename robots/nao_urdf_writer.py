@@ -1,6 +1,7 @@
 """Write the NAO's URDF from its facts and shapes: ``python -m colift.robots.nao_urdf_writer``."""
 
 from collections.abc import Iterable
+from math import isfinite
 from pathlib import Path
 from typing import Final
 from xml.etree import ElementTree as ET
@@ -51,19 +52,22 @@ def _add_link(robot: ET.Element, link: Link) -> None:
 
 
 def _add_joint(robot: ET.Element, joint: Joint) -> None:
-    element = ET.SubElement(robot, "joint", name=joint.name, type="revolute")
+    limited = isfinite(joint.upper)
+    kind = "revolute" if limited else "continuous"
+    element = ET.SubElement(robot, "joint", name=joint.name, type=kind)
     ET.SubElement(element, "parent", link=joint.parent)
     ET.SubElement(element, "child", link=joint.child)
     ET.SubElement(element, "origin", xyz=_numbers(*joint.origin), rpy=_numbers(*joint.rpy))
     ET.SubElement(element, "axis", xyz=_numbers(*joint.axis))
-    ET.SubElement(
-        element,
-        "limit",
-        lower=_numbers(joint.lower),
-        upper=_numbers(joint.upper),
-        velocity=_numbers(joint.speed),
-        effort=_numbers(joint.effort),
-    )
+    if limited:
+        ET.SubElement(
+            element,
+            "limit",
+            lower=_numbers(joint.lower),
+            upper=_numbers(joint.upper),
+            velocity=_numbers(joint.speed),
+            effort=_numbers(joint.effort),
+        )
     if joint.mimic:
         ratio = _numbers(joint.mimic_ratio)
         ET.SubElement(element, "mimic", joint=joint.mimic, multiplier=ratio, offset="0")

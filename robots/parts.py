@@ -4,6 +4,7 @@ Frames: x forward, y left, z up. Units: m, kg, kg m^2, rad, rad/s, N m.
 """
 
 from dataclasses import dataclass, replace
+from math import inf
 from typing import Final
 
 Vector = tuple[float, float, float]
@@ -37,7 +38,10 @@ class Shape:
 
 @dataclass(frozen=True, kw_only=True)
 class Joint:
-    """A revolute joint: the child's frame is the parent's, moved by ``origin`` and ``rpy``."""
+    """A revolute joint: the child's frame is the parent's, moved by ``origin`` and ``rpy``.
+
+    Limits are infinite where none is published.
+    """
 
     name: str
     parent: str
@@ -46,13 +50,13 @@ class Joint:
     """Position of the joint in the parent's frame [m]."""
     axis: Vector
     """Axis of rotation in the joint's frame."""
-    lower: float
+    lower: float = -inf
     """Lower limit [rad]."""
-    upper: float
+    upper: float = inf
     """Upper limit [rad]."""
-    speed: float
+    speed: float = inf
     """Largest speed [rad/s]."""
-    effort: float
+    effort: float = inf
     """Largest torque [N m]."""
     rpy: Vector = (0.0, 0.0, 0.0)
     """Roll, pitch and yaw of the joint's frame in the parent's [rad]."""

@@ -25,7 +25,7 @@ def arms_only_urdf(posture: Mapping[str, float] = STANDING, *, shapes: bool = Tr
 
     It has a base and ten links. Welding is done here, because PyBullet's
     ``URDF_MERGE_FIXED_LINKS`` forgets where the centres of mass of the merged links are, which
-    takes a seventh off the torque that an arm's weight puts on the shoulder.
+    takes a tenth off the torque that an arm's weight puts on the shoulder.
 
     Parameters
     ----------

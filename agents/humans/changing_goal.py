@@ -32,8 +32,7 @@ class ChangingGoal:
     """Smallest and largest change of the goal, relative to the first goal. Turning back goes this
     far down from where the hand is."""
     reaction: tuple[float, float] = (0.1, 0.2)
-    """Shortest and longest time from the change to the new movement [s] (Saunders and Knill
-    2003)."""
+    """Shortest and longest time from the change to the new movement [s]."""
 
     def plan(self, subject: Subject, seed: int) -> Plan:
         """Return the plan of one episode; pure in ``(self, subject, seed)``.

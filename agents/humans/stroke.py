@@ -55,8 +55,9 @@ def superpose(pieces: Sequence[Submovement], frames: int) -> Motion:
 
     Notes
     -----
-    Rohrer and Hogan, "Avoiding spurious submovement decompositions", Biol. Cybern. 89 (2003):
-    a movement is a sum of overlapping minimum-jerk pieces.
+    Movements contain overlapping submovements with bell-shaped speeds: Novak, Miller and Houk, "The
+    use of overlapping submovements in the control of rapid hand movements", Exp. Brain Res. 144
+    (2002).
     """
     table = np.array([(p.start, p.duration, p.rise, p.skew) for p in pieces])
     start, duration, rise, skew = table.T[:, :, np.newaxis]
@@ -94,8 +95,8 @@ def replan(state: Sequence[float] | NDArray[np.float64], goal: float, duration: 
     """Return the movement from a state in full swing to rest at ``goal``.
 
     The quintic that matches position, velocity and acceleration at both ends is the
-    minimum-jerk movement between them (Flash and Hogan 1985; Hoff and Arbib 1993 for targets
-    that jump). Here the displacement is absolute: it starts at ``state[0]`` and ends at ``goal``.
+    minimum-jerk movement between them. Here the displacement is absolute: it starts at
+    ``state[0]`` and ends at ``goal``.
 
     Parameters
     ----------

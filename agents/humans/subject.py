@@ -32,12 +32,11 @@ BOUNDS: Final[Mapping[str, tuple[float, float]]] = MappingProxyType(
         "pull": (0.0, 0.5),
     }
 )
-"""Physiological limits of each parameter, in the parameter's unit.
+"""Limits of each parameter, in the parameter's unit: what a healthy person can be.
 
-Hand tremor lies between 6 and 12 Hz (Wade et al. 1982; Lakie et al. 2015); 2 mm is already an
-enhanced tremor. Arm endpoint impedance: Mussa-Ivaldi et al. 1985, Tsuji et al. 1995, Gomi and
-Kawato 1997. Delays: long-latency reflex to voluntary (Pruszynski and Scott 2012), visual correction
-to simple reaction (Saunders and Knill 2003; Franklin and Wolpert 2008).
+Hand tremor lies between 6 and 12 Hz (Wade et al. 1982; Lakie et al. 2015), and 2 mm is already an
+enhanced one. The delays span long-latency reflexes to voluntary answers, and visual corrections to
+simple reactions. These and the arm's impedance are wide limits that we chose, not measurements.
 """
 
 MOST_SUBMOVEMENTS: Final = 5

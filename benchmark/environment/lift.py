@@ -142,7 +142,9 @@ class Lift:
         size = self.frames_per_step
         values = _checked(agent, action, size)
         low, high = REFERENCE_RANGE
-        return [min(max(value, low), high) for value in values]
+        if min(values) < low or max(values) > high:
+            values = [min(max(value, low), high) for value in values]
+        return values
 
     def _ramp(self, action: Action) -> list[float]:
         """Return the hand command at the end of each frame of the step [m]."""

@@ -110,7 +110,10 @@ class HumanBody:
         """
         wanted = self._visual_gain * (other[self._seen] - own[self._seen])
         wanted -= self._haptic_gain * (force[self._felt] - WEIGHT_SHARE)
-        wanted = max(-REFLEX_LIMIT, min(REFLEX_LIMIT, wanted))
+        if wanted > REFLEX_LIMIT:
+            wanted = REFLEX_LIMIT
+        elif wanted < -REFLEX_LIMIT:
+            wanted = -REFLEX_LIMIT
         self._reflex += self._smoothing * (wanted - self._reflex)
         return self._reflex
 

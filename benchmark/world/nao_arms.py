@@ -32,7 +32,10 @@ LOAD_TIME: Final = 0.03
 """Time constant with which a joint gives way to a changing load [s]."""
 
 _HAND: Final = (HAND_OFFSET_X, 0.0, -HAND_OFFSET_Z)
-"""The hand point in the frame of the last arm joint [m]."""
+"""The hand point in the frame of the last arm joint [m]; none of it is sideways."""
+
+_ZEROS: Final = [0.0] * len(ARM_JOINTS)
+_ONES: Final = [1.0] * len(ARM_JOINTS)
 
 
 def _rows(terms: NDArray[np.float64]) -> list[float]:
@@ -135,22 +138,28 @@ class NaoArms:
     def drive(self, fraction: float, height: float, velocity: float) -> float:
         """Set the motors for the step that ends at ``fraction`` of the frame; exert no force."""
         set_point = self._previous + (self._target - self._previous) * (fraction - self._lead)
+        path = self._path
         pybullet.setJointMotorControlArray(
             self._body,
             self._joints,
             pybullet.POSITION_CONTROL,
-            targetPositions=self._path.joint_angles(set_point),
-            forces=self._efforts,
-            positionGains=self._gains,
-            physicsClientId=self._client,
+            path.joints[path.row(set_point)],
+            _ZEROS,
+            self._efforts,
+            self._gains,
+            _ONES,
+            self._client,
         )
         return 0.0
 
-    def hand_height(self) -> float:
-        """Return the mean height of the two hands by forward kinematics of the joints [m]."""
+    def hand_height(self, end: float) -> float:
+        """Return the mean height of the two hands [m] by forward kinematics of the joints.
+
+        It differs from the table's ``end`` as far as the hands slip.
+        """
         height = 0.0
-        for wrist in self._wrists:
-            state = pybullet.getLinkState(self._body, wrist, physicsClientId=self._client)
-            point, _ = pybullet.multiplyTransforms(state[4], state[5], _HAND, (0, 0, 0, 1))
-            height += point[2] / 2
-        return height - REST_Z
+        for state in pybullet.getLinkStates(self._body, self._wrists, physicsClientId=self._client):
+            x, y, z, w = state[5]
+            height += state[4][2] + 2 * (x * z - y * w) * _HAND[0]
+            height += (1 - 2 * (x * x + y * y)) * _HAND[2]
+        return height / 2 - REST_Z

@@ -19,7 +19,7 @@ class Physics:
     step: float = 0.01
     """Physics step [s]. The convergence study (``colift bench --convergence``) is its reason."""
 
-    iterations: int = 20
+    iterations: int = 35
     """Iterations of the sequential-impulse solver a step."""
 
     def __post_init__(self) -> None:

@@ -39,3 +39,7 @@ class SecondHuman:
         arms = self._body.arm_force(reference, change / FRAME, height, velocity)
         return arms + self._weight
 
+    def hand_height(self, end: float) -> float:
+        """Return the height of the hands [m]: they grip the end, at the height ``end``."""
+        return end
+

@@ -42,6 +42,8 @@ class World:
     ``HISTORY_FRAMES`` entries of rest. Heights are displacements from rest [m], velocities [m/s],
     forces [N] of the hands on the table, upwards positive.
 
+    ``hand_height`` is the present height of the partner's hands, of a NAO from its encoders.
+
     ============== =====================================================
     human_end      height of the human's table end
     human_velocity its vertical velocity
@@ -124,6 +126,7 @@ class World:
         self.robot_velocity = [0.0] * HISTORY_FRAMES
         self.human_force = [WEIGHT_SHARE] * HISTORY_FRAMES
         self.robot_force = [WEIGHT_SHARE] * HISTORY_FRAMES
+        self.hand_height = self._far.hand_height(0.0)
 
     def advance(self, human_reference: Sequence[float], robot_reference: Sequence[float]) -> None:
         """Advance by as many frames as the references have entries.
@@ -144,6 +147,8 @@ class World:
         height, velocity = self._height, self._velocity
         pitch, pitch_rate = self._pitch, self._pitch_rate
         previous = self._reference
+        lever = TABLE_LENGTH * math.cos(pitch)
+        far_height, far_velocity = robot_end[-1], self.robot_velocity[-1]
         for wanted, command in zip(human_reference, robot_reference, strict=True):
             reference = wanted + body.reflex(human_end, robot_end, human_force)
             change = reference - previous
@@ -152,40 +157,30 @@ class World:
             first_velocity, first_pitch_rate, impulse = velocity, pitch_rate, 0.0
             for fraction in fractions:
                 arms = body.arm_force(previous + change * fraction, rate, height, velocity)
-                lever = TABLE_LENGTH * math.cos(pitch)
-                far_arms = far.drive(
-                    fraction,
-                    height + TABLE_LENGTH * math.sin(pitch),
-                    velocity + lever * pitch_rate,
-                )
+                far_arms = far.drive(fraction, far_height, far_velocity)
                 torque = -self._pitch_gain * pitch - self._pitch_rate_gain * pitch_rate
                 forces = [arms + mass * GRAVITY + far_arms, torque + lever * far_arms]
                 control(tree, _JOINTS, _TORQUE, forces=forces, physicsClientId=client)
-                advance(physicsClientId=client)
-                hands, hinge = states(tree, _JOINTS, physicsClientId=client)
-                height, velocity = hands[0], hands[1]
-                pitch, pitch_rate = hinge[0], hinge[1]
+                advance(client)
+                (height, velocity, _, _), (pitch, pitch_rate, _, _) = states(tree, _JOINTS, client)
+                lever = TABLE_LENGTH * math.cos(pitch)
+                far_height = height + TABLE_LENGTH * math.sin(pitch)
+                far_velocity = velocity + lever * pitch_rate
                 impulse += arms
             acceleration = (velocity - first_velocity) / FRAME
             centre = acceleration + TABLE_LENGTH / 2 * (pitch_rate - first_pitch_rate) / FRAME
             force = impulse * step / FRAME - mass * acceleration
             human_end.append(height)
-            robot_end.append(height + TABLE_LENGTH * math.sin(pitch))
+            robot_end.append(far_height)
             human_force.append(force)
             self.human_velocity.append(velocity)
-            self.robot_velocity.append(velocity + TABLE_LENGTH * math.cos(pitch) * pitch_rate)
+            self.robot_velocity.append(far_velocity)
             robot_force.append(TABLE_MASS * (GRAVITY + centre) - force)
             previous = reference
         self._reference = previous
         self._height, self._velocity = height, velocity
         self._pitch, self._pitch_rate = pitch, pitch_rate
-
-    @property
-    def hand_height(self) -> float:
-        """Height of the partner's hands [m]: of a NAO from its joint encoders."""
-        if isinstance(self._far, NaoArms):
-            return self._far.hand_height()
-        return self.robot_end[-1]
+        self.hand_height = self._far.hand_height(self.robot_end[-1])
 
     def since_reset(self, history: list[float]) -> NDArray[np.float64]:
         """Return one of the world's histories without the frames of rest before the reset."""
