@@ -1,5 +1,6 @@
 """One episode: an agent at the robot's end, a scripted human at the other, and what came of it."""
 
+import functools
 import math
 import time
 from dataclasses import asdict, dataclass
@@ -159,16 +160,14 @@ def score(lift: Lift, trace: Trace, *, failed: bool) -> Scores:
     """
     human, robot, horizon = trace.human_end, trace.robot_end, lift.horizon
     felt = trace.human_force - WEIGHT_SHARE
-    strokes = lift.plan.strokes
+    smoothness = functools.partial(metrics.stroke_smoothness, robot, human, lift.plan.strokes)
     empty = len(human) == 0
     return Scores(
         rmse_mm=metrics.rmse_mm(human, robot, horizon=horizon),
         abs_error_mm=metrics.abs_error_mm(human, robot, horizon=horizon),
-        max_tilt_deg=math.nan
-        if empty
-        else metrics.max_tilt_deg(human, robot, length=TABLE_LENGTH),
-        sparc=math.nan if failed else metrics.stroke_smoothness(robot, strokes, metric=sparc),
-        ldlj=math.nan if failed else metrics.stroke_smoothness(robot, strokes, metric=ldlj),
+        max_tilt_deg=math.nan if empty else metrics.max_tilt_deg(human, robot, length=TABLE_LENGTH),
+        sparc=math.nan if failed else smoothness(metric=sparc),
+        ldlj=math.nan if failed else smoothness(metric=ldlj),
         human_force_n=math.nan if empty else metrics.human_force_n(felt),
         human_work_j=math.nan if empty else metrics.human_work_j(felt, trace.human_velocity),
         robot_lag_ms=math.nan if failed else metrics.robot_lag_ms(human, robot),

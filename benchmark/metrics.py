@@ -21,6 +21,9 @@ costs less."""
 MIN_MOTION: Final = 0.005
 """Peak-to-peak height [m] below which an end counts as held still."""
 
+MIN_SHARE: Final = 0.25
+"""Share of the human's movement in a stroke below which the robot has not moved along."""
+
 STROKE_TAIL: Final = 0.3
 """Time [s] after a stroke of the human in which the robot may still be completing it."""
 
@@ -58,7 +61,7 @@ def rmse_mm(human_end: ArrayLike, robot_end: ArrayLike, *, horizon: int | None =
     ------
     InputError
         If the traces are not finite vectors of one length, are longer than ``horizon``, or if
-        there is no frame at all.
+        there is no frame and no horizon.
     """
     error, missing = _error_mm(human_end, robot_end, horizon)
     squares = float(error @ error) + missing * FAILED_FRAME_MM**2
@@ -127,6 +130,7 @@ def max_tilt_deg(human_end: ArrayLike, robot_end: ArrayLike, *, length: float) -
 
 def stroke_smoothness(
     height: ArrayLike,
+    human_end: ArrayLike,
     strokes: Sequence[Stroke],
     *,
     metric: Callable[[NDArray[np.float64]], float],
@@ -142,6 +146,8 @@ def stroke_smoothness(
     ----------
     height
         Height of the end [m] at 100 Hz, shape (T,), up to the failure if there was one.
+    human_end
+        Height of the human's end [m], shape (T,).
     strokes
         Frames (start, stop) of the human's movements, ``stop`` exclusive, in order and without
         overlap, each well above ``MIN_MOTION``.
@@ -153,15 +159,17 @@ def stroke_smoothness(
     -------
     float
         Mean over the strokes; NaN for the whole episode if there is no stroke, if the trace ends
-        before a stroke does (the lift failed), or if this end moves less than ``MIN_MOTION`` in
-        any of them. Holding still never earns smoothness, not even in one stroke out of many.
+        before a stroke does (the lift failed), or if this end moves less than ``MIN_MOTION``, or
+        than ``MIN_SHARE`` of what the human moves, in any of them. Holding still never earns
+        smoothness, nor does creeping, not even in one stroke out of many.
 
     Raises
     ------
     InputError
-        If ``height`` is not a finite vector or the strokes are empty, unordered or overlapping.
+        If the heights are not finite vectors of one length, or the strokes are empty, unordered
+        or overlapping.
     """
-    z = _trace("height", height)
+    z, human = _pair("height", height, "human_end", human_end)
     for (start, stop), previous_stop in zip(strokes, [0, *(s[1] for s in strokes)], strict=False):
         if not previous_stop <= start < stop:
             raise InputError(
@@ -176,7 +184,7 @@ def stroke_smoothness(
     scores: list[float] = []
     for (start, stop), next_start in zip(strokes, next_starts, strict=True):
         window = slice(start, min(stop + tail, next_start))
-        if np.ptp(z[window]) < MIN_MOTION:
+        if np.ptp(z[window]) < max(MIN_MOTION, MIN_SHARE * float(np.ptp(human[window]))):
             return math.nan
         scores.append(metric(speed[window]))
     return math.fsum(scores) / len(scores)
@@ -277,6 +285,8 @@ def _error_mm(
     human_end: ArrayLike, robot_end: ArrayLike, horizon: int | None
 ) -> tuple[NDArray[np.float64], int]:
     """Return Z1 - Z2 [mm] frame by frame, and how many frames are missing up to the horizon."""
+    if horizon and np.size(human_end) == np.size(robot_end) == 0:
+        return np.empty(0), horizon
     human, robot = _pair("human_end", human_end, "robot_end", robot_end)
     missing = 0 if horizon is None else horizon - human.size
     if missing < 0:

@@ -63,8 +63,8 @@ class Scenario:
 
     @property
     def name(self) -> str:
-        """Behaviour and subject, such as ``pause/S3``."""
-        return f"{self.behaviour}/{self.subject.name}"
+        """Behaviour, subject and trial, such as ``pause/S3``."""
+        return f"{self.behaviour}/{self.subject.name}" + (f"/{self.trial}" if self.trial else "")
 
 
 def _check_time(name: str, value: float, lowest: float, highest: float) -> None:

@@ -2,18 +2,17 @@
 
 Sources, by quantity:
 
-- *link lengths, joint limits*: Aldebaran documentation 2.1, pages "H25 - Links" and "H25 - Joints";
-- *masses, centres of mass, inertias, speeds, efforts, fingers*: the ROS package ``nao_description``
-  (github.com/ros-naoqi/nao_robot, commit 67476469), the URDF it generates for V5.0, which repeats
-  the documentation's pages "H25 - Masses" and "H25 - Motors".
+- *link lengths*: Aldebaran documentation, page "H25 - Links";
+- *all else* (joint limits, speeds and efforts, masses, centres of mass, inertias, fingers): the ROS
+  package ``nao_description`` (github.com/ros-naoqi/nao_robot, commit 67476469), the URDF that it
+  generates for V5.0 from the maker's tables.
 
 Frames: x forward, y left, z up, all parallel to the torso's in the zero posture (legs straight,
 arms stretched forward). Units: m, kg, kg m^2, rad, rad/s, N m.
 
 The left half is written down and the right half is its mirror image, because a robot that is
 stronger or heavier on one side would tilt the table. The published right half differs from the
-mirror image in the ankle's pitch limits (a real difference, kept) and in rounding: see
-``nao_urdf/README.md``.
+mirror image in the ankle's pitch limits (kept) and in details that ``nao_urdf/README.md`` lists.
 """
 
 from collections.abc import Iterator

@@ -104,5 +104,7 @@ def _checked(policy: object, text: str) -> type[Agent]:
         and parameter.kind not in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD)
     ]
     if required:
-        raise InputError(f"policy {text} needs arguments: {', '.join(required)}; give them defaults")
+        raise InputError(
+            f"policy {text} needs arguments: {', '.join(required)}; give them defaults"
+        )
     return policy

@@ -73,19 +73,23 @@ class Lift:
         scenario = self.scenario
         self.world.reset()
         self.seed = seed
-        self.plan: Plan = scenario.human.plan(scenario.subject, derive_seed(seed, "plan"))
+        self.plan: Plan = scenario.human.plan(scenario.subject, self._role_seed("plan"))
         size = self.frames_per_step
         steps = -(-len(self.plan.target) // size)
         self.horizon = steps * size
         target = np.full(self.horizon, self.plan.target[-1])
         target[: len(self.plan.target)] = self.plan.target
         self.target = target
-        rng = np.random.default_rng(derive_seed(seed, "sensor"))
+        rng = np.random.default_rng(self._role_seed("sensor"))
         noise = rng.normal(0.0, MOCAP_NOISE, (2, HISTORY_FRAMES + self.horizon))
         self._human_noise, self._robot_noise = noise.tolist()
         self.frame = 0
         self.command = 0.0
         self.dropped: str | None = None
+
+    def _role_seed(self, role: str) -> int:
+        """Return the seed of a role; other scenarios have others, so that they are independent."""
+        return derive_seed(self.seed, f"{role}/{self.scenario.name}")
 
     @property
     def truncated(self) -> bool:
@@ -100,7 +104,7 @@ class Lift:
     def scripted_human(self) -> ScriptedHuman:
         """Return the agent that carries the human's plan out, ready for the current episode."""
         human = ScriptedHuman(subject=self.scenario.subject)
-        human.reset(derive_seed(self.seed, "human"))
+        human.reset(self._role_seed("human"))
         return human
 
     def step(self, human: Action, partner: Action) -> None:

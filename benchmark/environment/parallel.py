@@ -25,7 +25,7 @@ HUMAN, ROBOT = "human", "robot"
 
 
 class ParallelLift(ParallelEnv[str, Observation, Action]):
-    """A human and a robot lift a table together; both are agents.
+    r"""A human and a robot lift a table together; both are agents.
 
     Robot's observation, float64, indices of :class:`~colift.agents.agent.RobotObservation`:
 
@@ -57,8 +57,9 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
     With ``partner="human"`` the agent "robot" is a second human: it has the human's spaces, and
     its target is to be level (the height at which it sees the other end).
 
-    Rewards at the end of a step, with the heights Z1 of the human's and Z2 of the robot's end:
-    robot -\|Z1 - Z2\| (the integrand of the paper's eq. 10), human -\|Z1 - target\| - \|Z1 - Z2\| [m].
+    Rewards [m] at the end of a step, with the heights Z1 of the human's and Z2 of the robot's end:
+    the robot's is ``-|Z1 - Z2|`` (the integrand of the paper's eq. 10), the human's
+    ``-|Z1 - target| - |Z1 - Z2|``.
     The episode is terminated when the table is dropped (``infos[agent]["dropped"]`` says why)
     and truncated at its horizon.
 

@@ -1,4 +1,4 @@
-"""Registration with Gymnasium, called through its ``gymnasium.envs`` entry points."""
+"""Registration with Gymnasium."""
 
 import gymnasium
 

@@ -4,26 +4,25 @@ import math
 from typing import Final
 
 import numpy as np
-import pybullet
-from numpy.typing import NDArray
 
-Point = NDArray[np.float64]
-Colour = tuple[float, float, float, float]
+from .solids import Colour, Point, lay, limb
 
-SHIRT: Final = (0.20, 0.42, 0.62, 1.0)
-TROUSERS: Final = (0.22, 0.24, 0.30, 1.0)
-SKIN: Final = (0.87, 0.68, 0.55, 1.0)
-HAIR: Final = (0.25, 0.18, 0.13, 1.0)
+Place = tuple[float, float, float]
 
-UPPER_ARM: Final = 0.30
-FOREARM: Final = 0.30
-HALF_SHOULDERS: Final = 0.19
-HALF_GRIP: Final = 0.16
-"""Lengths [m] of a person of about 1.7 m."""
+TROUSERS: Final = (0.29, 0.33, 0.41, 1.0)
+SHOES: Final = (0.17, 0.17, 0.20, 1.0)
+SKIN: Final = (0.93, 0.74, 0.61, 1.0)
+HAIR: Final = (0.32, 0.22, 0.15, 1.0)
+
+UPPER_ARM: Final = 0.29
+FOREARM: Final = 0.28
+HALF_SHOULDERS: Final = 0.185
+HALF_GRIP: Final = 0.15
+"""Lengths [m] of a person of about 1.65 m."""
 
 
 class Mannequin:
-    """A standing person whose hands follow the table's end.
+    """A standing person, bent slightly forward, whose hands follow the table's end.
 
     Parameters
     ----------
@@ -35,93 +34,82 @@ class Mannequin:
         -1 if the person looks towards -x, 1 towards +x.
     floor
         Height of the floor [m].
+    shirt
+        Colour of the shirt.
     """
 
-    def __init__(self, client: int, hands: Point, facing: int, floor: float) -> None:
+    def __init__(self, client: int, hands: Point, facing: int, floor: float, shirt: Colour) -> None:
         self._client = client
         self._hands = hands
-        hip, shoulder = floor + 0.88, floor + 1.36
-        middle = hands[0] - facing * 0.27
-        self._shoulders = [
-            np.array([middle, side * HALF_SHOULDERS, shoulder - 0.05]) for side in (-1, 1)
-        ]
-        centre = np.array([middle, 0.0, 0.0])
-        for side in (-0.09, 0.09):
-            foot = centre + [0, side, floor + 0.08]
-            self._limb(foot, centre + [0, side, hip], 0.075, TROUSERS)
-            self._ball(foot + [facing * 0.06, 0, -0.04], 0.06, HAIR)
-        self._box(centre + [0, 0, (hip + shoulder) / 2], (0.10, 0.17, 0.27), SHIRT)
-        self._ball(centre + [0, 0, shoulder + 0.20], 0.115, SKIN)
-        self._ball(centre + [-facing * 0.02, 0, shoulder + 0.235], 0.115, HAIR)
-        self._limb(centre + [0, 0, shoulder], centre + [0, 0, shoulder + 0.1], 0.05, SKIN)
+        self._below = np.array([hands[0], 0.0, floor])
+        self._facing = facing
+        for side in (-1, 1):
+            self._leg(side)
+        self._limb((-0.375, 0, 0.87), (-0.370, 0, 0.93), (0.145, 0.145), TROUSERS, 0.75)
+        self._limb((-0.365, 0, 0.97), (-0.265, 0, 1.23), (0.135, 0.165), shirt, 0.66)
+        self._limb((-0.255, 0, 1.30), (-0.225, 0, 1.44), (0.055, 0.050), SKIN)
+        self._limb((-0.205, 0, 1.47), (-0.225, 0, 1.545), (0.070, 0.092), SKIN)
+        self._limb((-0.130, 0, 1.50), (-0.122, 0, 1.49), (0.014, 0.016), SKIN)
+        for side in (-1, 1):
+            eye = (-0.140, side * 0.036, 1.515)
+            self._limb(eye, eye, (0.011, 0.011), HAIR)
+        self._limb((-0.250, 0, 1.555), (-0.230, 0, 1.575), (0.096, 0.088), HAIR)
+        self._limb((-0.275, 0, 1.490), (-0.265, 0, 1.535), (0.062, 0.085), HAIR)
+        self._shoulders = [self._point((-0.260, side * HALF_SHOULDERS, 1.28)) for side in (-1, 1)]
         self._arms = [
             (
-                self._capsule(UPPER_ARM, 0.045, SHIRT),
-                self._capsule(FOREARM, 0.036, SKIN),
-                self._ball(np.zeros(3), 0.045, SKIN),
+                limb(client, UPPER_ARM, (0.066, 0.046), shirt),
+                limb(client, FOREARM, (0.042, 0.030), SKIN),
+                limb(client, 0.05, (0.037, 0.033), SKIN),
             )
             for _ in range(2)
         ]
+        self.pose(0.0, 0.0)
 
-    def pose(self, height: float) -> None:
-        """Bring the hands to a height above rest [m]; the elbows point down and out."""
+    def _leg(self, side: int) -> None:
+        """Draw a leg; one foot is a little ahead of the other."""
+        ahead = 0.05 * side * self._facing
+        knee = (-0.35 + ahead, side * 0.10, 0.49)
+        ankle = (-0.41 + 2 * ahead, side * 0.11, 0.09)
+        self._limb((-0.375, side * 0.08, 0.86), knee, (0.092, 0.066), TROUSERS)
+        self._limb(knee, ankle, (0.066, 0.048), TROUSERS)
+        heel, toe = (ankle[0] - 0.02, ankle[1], 0.045), (ankle[0] + 0.14, side * 0.12, 0.035)
+        self._limb(heel, toe, (0.046, 0.036), SHOES)
+
+    def pose(self, height: float, tilt: float) -> None:
+        """Bring the hands to a height above rest [m], turned with the table's tilt [rad].
+
+        The elbows point down, back and out.
+        """
+        forwards = self._facing * np.array([math.cos(tilt), 0.0, -math.sin(tilt)])
         for side, shoulder, (upper, fore, fist) in zip(
             (-1, 1), self._shoulders, self._arms, strict=True
         ):
-            hand = self._hands + [0.0, side * HALF_GRIP, height]
-            elbow = _elbow(shoulder, hand, np.array([0.0, side * 0.5, -1.0]))
-            self._place(upper, shoulder, elbow)
-            self._place(fore, elbow, hand)
-            self._move(fist, hand, (0.0, 0.0, 0.0, 1.0))
+            hand = self._hands + [0.0, self._facing * side * HALF_GRIP, height]
+            wrist = hand - 0.04 * forwards
+            bend = np.array([-self._facing * 0.3, self._facing * side * 0.4, -1.0])
+            elbow = _elbow(shoulder, wrist, bend)
+            lay(self._client, upper, shoulder, elbow)
+            lay(self._client, fore, elbow, wrist)
+            lay(self._client, fist, wrist, hand)
 
-    def _body(self, shape: int, position: Point, orientation: tuple[float, ...]) -> int:
-        body: int = pybullet.createMultiBody(
-            baseVisualShapeIndex=shape,
-            basePosition=position.tolist(),
-            baseOrientation=orientation,
-            physicsClientId=self._client,
-        )
-        return body
+    def _point(self, place: Place) -> Point:
+        """Return in the world what is ahead of the hands, left of the middle, above the floor."""
+        ahead, left, up = place
+        point: Point = self._below + [self._facing * ahead, self._facing * left, up]
+        return point
 
-    def _ball(self, position: Point, radius: float, colour: Colour) -> int:
-        shape = pybullet.createVisualShape(
-            pybullet.GEOM_SPHERE, radius=radius, rgbaColor=colour, physicsClientId=self._client
-        )
-        return self._body(shape, position, (0, 0, 0, 1))
-
-    def _box(self, position: Point, half: tuple[float, float, float], colour: Colour) -> int:
-        shape = pybullet.createVisualShape(
-            pybullet.GEOM_BOX, halfExtents=half, rgbaColor=colour, physicsClientId=self._client
-        )
-        return self._body(shape, position, (0, 0, 0, 1))
-
-    def _capsule(self, length: float, radius: float, colour: Colour) -> int:
-        shape = pybullet.createVisualShape(
-            pybullet.GEOM_CAPSULE,
-            radius=radius,
-            length=length,
-            rgbaColor=colour,
-            physicsClientId=self._client,
-        )
-        return self._body(shape, np.zeros(3), (0, 0, 0, 1))
-
-    def _limb(self, start: Point, stop: Point, radius: float, colour: Colour) -> None:
-        capsule = self._capsule(float(np.linalg.norm(stop - start)), radius, colour)
-        self._place(capsule, start, stop)
-
-    def _place(self, capsule: int, start: Point, stop: Point) -> None:
-        """Lay a capsule (its axis is z) from ``start`` to ``stop``."""
-        x, y, z = (stop - start) / np.linalg.norm(stop - start)
-        # Half-angle quaternion of the shortest turn from z to the limb's direction.
-        turn = np.array([-y, x, 0.0, 1.0 + z])
-        norm = np.linalg.norm(turn)
-        quaternion = turn / norm if norm > 1e-9 else np.array([1.0, 0.0, 0.0, 0.0])
-        self._move(capsule, (start + stop) / 2, tuple(quaternion.tolist()))
-
-    def _move(self, body: int, position: Point, orientation: tuple[float, ...]) -> None:
-        pybullet.resetBasePositionAndOrientation(
-            body, position.tolist(), orientation, physicsClientId=self._client
-        )
+    def _limb(
+        self,
+        start: Place,
+        stop: Place,
+        radii: tuple[float, float],
+        colour: Colour,
+        depth: float = 1.0,
+    ) -> None:
+        first, last = self._point(start), self._point(stop)
+        body = limb(self._client, float(np.linalg.norm(last - first)), radii, colour, depth)
+        lay(self._client, body, first, last)
 
 
 def _elbow(shoulder: Point, hand: Point, outwards: Point) -> Point:

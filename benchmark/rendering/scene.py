@@ -1,5 +1,6 @@
 """The scene: NAO on its pedestal (or a second person), table, person; posed from two heights."""
 
+import logging
 import math
 import os
 from typing import Final
@@ -7,6 +8,7 @@ from typing import Final
 import numpy as np
 import pybullet
 from numpy.typing import NDArray
+from PIL import Image, ImageColor
 
 from ...agents.errors import InputError
 from ...robots.arm_kinematics import ARM_JOINTS, GRIP_X, REST_Z, STROKE, arm_path
@@ -15,6 +17,8 @@ from ...robots.urdf import nao_urdf_path
 from ..world import Partner
 from ..world.table import TABLE_LENGTH
 from .mannequin import Mannequin
+from .palette import HUMAN, ROBOT, SKY, rgba
+from .solids import box, disc
 
 Picture = NDArray[np.uint8]
 
@@ -24,19 +28,41 @@ PEDESTAL: Final = 0.50
 FLOOR: Final = -TORSO_HEIGHT - PEDESTAL
 RENDER_MODES: Final = (None, "human", "rgb_array")
 
+WOOD: Final = (0.80, 0.62, 0.42, 1.0)
+STAGE: Final = (0.90, 0.91, 0.93, 1.0)
+SHADE: Final = (0.80, 0.82, 0.85, 1.0)
+STONE: Final = (0.66, 0.70, 0.75, 1.0)
+EDGE: Final = 0.04
+"""Half length of the coloured piece at each end of the table [m]."""
+
+EYE: Final = (0.18, -2.55, 0.42)
+"""Where the camera is [m]: to the right of the middle of the picture, before it, above it."""
+
+HALF_HEIGHT: Final = 0.93
+"""What the camera has to show above and below the middle [m]: the person from head to foot."""
+
+SMOOTHING: Final = 2
+"""Pixels drawn for one pixel seen, in each direction: the renderer leaves edges jagged."""
+
 
 def check_render_mode(mode: str | None) -> None:
-    """Refuse a render mode that cannot be had.
+    """Refuse an unknown render mode.
 
     Raises
     ------
     InputError
-        If the mode is unknown, or a window is wanted where there is no display.
+        If the mode is not one of ``RENDER_MODES``.
     """
     if mode not in RENDER_MODES:
         raise InputError(f"render_mode must be None, 'human' or 'rgb_array', got {mode!r}")
-    if mode == "human" and not os.environ.get("DISPLAY"):
-        raise InputError("render_mode='human' needs a display (DISPLAY is not set)")
+
+
+def _display_there() -> bool:
+    """Return whether a window can be opened; if not, say so in the log."""
+    if os.environ.get("DISPLAY"):
+        return True
+    logging.getLogger("colift").warning("no display (DISPLAY is not set): no window is shown")
+    return False
 
 
 class Scene:
@@ -47,30 +73,42 @@ class Scene:
     partner
         Who holds the robot's end.
     window
-        Whether to open a window; otherwise everything is drawn headless.
+        Whether to open a window, if there is a display; otherwise all is drawn headless.
     """
 
     def __init__(self, partner: Partner, *, window: bool = False) -> None:
+        window = window and _display_there()
         self._client: int = pybullet.connect(pybullet.GUI if window else pybullet.DIRECT)
-        self._window = window
         far_hands = np.array([GRIP_X, 0.0, REST_Z])
         hands = far_hands + [TABLE_LENGTH, 0.0, 0.0]
         self._hands = hands
-        self._box((0.4, 0.0, FLOOR - 0.01), (1.6, 1.1, 0.01), (0.86, 0.87, 0.88, 1.0))
-        self._table = self._box(
-            (0.0, 0.0, 0.0), (TABLE_LENGTH / 2 + 0.03, 0.2, 0.009), (0.72, 0.51, 0.30, 1.0)
-        )
-        self._person = Mannequin(self._client, hands, -1, FLOOR)
+        client = self._client
+        middle = far_hands[0] + TABLE_LENGTH / 2
+        disc(client, np.array([middle, 0.0, FLOOR]), 1.0, STAGE)
+        edge = TABLE_LENGTH / 2 - 0.01
+        self._table = [
+            (offset, box(client, hands, (half, 0.2, 0.010), colour))
+            for offset, half, colour in (
+                (0.0, edge - EDGE, WOOD),
+                (edge, EDGE, rgba(HUMAN)),
+                (-edge, EDGE, rgba(ROBOT)),
+            )
+        ]
+        stands = [hands[0] + 0.37]
+        # The middle of the picture [m], and what has to be seen to its left and right.
+        self._middle, self._half_width = (middle, 1.08) if partner == "human" else (0.65, 0.92)
+        self._person = Mannequin(client, hands, -1, FLOOR, rgba(HUMAN))
         self._second: Mannequin | None = None
         if partner == "human":
-            self._second = Mannequin(self._client, far_hands, 1, FLOOR)
+            self._second = Mannequin(client, far_hands, 1, FLOOR, rgba(ROBOT))
+            stands.append(far_hands[0] - 0.37)
         else:
-            self._box(
-                (-0.02, 0.0, FLOOR + PEDESTAL / 2),
-                (0.16, 0.18, PEDESTAL / 2),
-                (0.55, 0.58, 0.62, 1.0),
-            )
+            block = np.array([-0.01, 0.0, FLOOR + PEDESTAL / 2])
+            box(client, block, (0.14, 0.15, PEDESTAL / 2), STONE)
             self._load_nao()
+            stands.append(block[0])
+        for x in stands:
+            disc(client, np.array([x, 0.0, FLOOR + 0.004]), 0.30, SHADE)
         self.pose(0.0, 0.0)
         if window:
             pybullet.configureDebugVisualizer(
@@ -91,59 +129,55 @@ class Scene:
         ]
         self._arm_joints = [names.index(name) for name in ARM_JOINTS]
 
-    def _box(
-        self,
-        position: tuple[float, float, float],
-        half: tuple[float, float, float],
-        colour: tuple[float, float, float, float],
-    ) -> int:
-        shape = pybullet.createVisualShape(
-            pybullet.GEOM_BOX, halfExtents=half, rgbaColor=colour, physicsClientId=self._client
-        )
-        body: int = pybullet.createMultiBody(
-            baseVisualShapeIndex=shape, basePosition=position, physicsClientId=self._client
-        )
-        return body
-
     def pose(self, human_end: float, robot_end: float) -> None:
         """Show the lift with the table's ends at these heights [m]."""
-        self._person.pose(human_end)
+        tilt = math.asin(min(max((robot_end - human_end) / TABLE_LENGTH, -1.0), 1.0))
+        self._person.pose(human_end, tilt)
         if self._second is not None:
-            self._second.pose(robot_end)
+            self._second.pose(robot_end, tilt)
         else:
             angles = arm_path().joint_angles(min(max(robot_end, STROKE[0]), STROKE[1]))
             for joint, angle in zip(self._arm_joints, angles, strict=True):
                 pybullet.resetJointState(self._nao, joint, angle, physicsClientId=self._client)
-        tilt = math.asin(min(max((robot_end - human_end) / TABLE_LENGTH, -1.0), 1.0))
-        half = TABLE_LENGTH / 2
-        centre = self._hands + [
-            -half * math.cos(tilt),
-            0.0,
-            human_end + half * math.sin(tilt),
-        ]
-        pybullet.resetBasePositionAndOrientation(
-            self._table,
-            centre.tolist(),
-            pybullet.getQuaternionFromEuler((0.0, tilt, 0.0)),
-            physicsClientId=self._client,
-        )
+        along = np.array([math.cos(tilt), 0.0, -math.sin(tilt)])
+        grip = self._hands + [0.0, 0.0, human_end]
+        for offset, part in self._table:
+            centre = grip + (offset - TABLE_LENGTH / 2) * along
+            pybullet.resetBasePositionAndOrientation(
+                part,
+                centre.tolist(),
+                pybullet.getQuaternionFromEuler((0.0, tilt, 0.0)),
+                physicsClientId=self._client,
+            )
 
     def picture(self, width: int = 640, height: int = 400) -> Picture:
-        """Return what is seen from the side, shape ``(height, width, 3)``."""
-        view = pybullet.computeViewMatrix((0.75, -2.05, 0.22), (0.53, 0.0, -0.10), (0, 0, 1))
-        projection = pybullet.computeProjectionMatrixFOV(42, width / height, 0.1, 6.0)
-        _, _, pixels, _, _ = pybullet.getCameraImage(
-            width,
-            height,
+        """Return what is seen from the side, shape ``(height, width, 3)``.
+
+        Everybody is seen whole, whatever the shape of the picture.
+        """
+        wide, high = SMOOTHING * width, SMOOTHING * height
+        eye = (self._middle + EYE[0], EYE[1], EYE[2])
+        view = pybullet.computeViewMatrix(eye, (self._middle, 0.0, 0.0), (0, 0, 1))
+        half = max(HALF_HEIGHT, self._half_width * height / width) / math.hypot(*EYE)
+        projection = pybullet.computeProjectionMatrixFOV(
+            2 * math.degrees(math.atan(half)), width / height, 0.1, 6.0
+        )
+        _, _, pixels, _, bodies = pybullet.getCameraImage(
+            wide,
+            high,
             view,
             projection,
-            lightDirection=(0.6, -1.5, 2.2),
-            shadow=1,
+            lightDirection=(0.5, -1.6, 2.4),
+            lightAmbientCoeff=0.62,
+            lightDiffuseCoeff=0.42,
+            lightSpecularCoeff=0.05,
+            shadow=0,
             renderer=pybullet.ER_TINY_RENDERER,
             physicsClientId=self._client,
         )
-        rgba = np.asarray(pixels, dtype=np.uint8).reshape(height, width, 4)
-        return np.ascontiguousarray(rgba[..., :3])
+        seen = np.asarray(pixels, dtype=np.uint8).reshape(high, wide, 4)[..., :3].copy()
+        seen[np.asarray(bodies).reshape(high, wide) < 0] = ImageColor.getrgb(SKY)
+        return np.array(Image.fromarray(seen).reduce(SMOOTHING))
 
     def close(self) -> None:
         """Close the engine, and the window with it."""

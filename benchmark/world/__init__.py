@@ -2,6 +2,7 @@
 
 from .human_body import BodyParameters
 from .physics import PHYSICS, Physics
+from .servo import SERVO, Servo
 from .world import Partner, World
 
-__all__ = ["PHYSICS", "BodyParameters", "Partner", "Physics", "World"]
+__all__ = ["PHYSICS", "SERVO", "BodyParameters", "Partner", "Physics", "Servo", "World"]

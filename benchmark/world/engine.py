@@ -2,8 +2,7 @@
 
 import tempfile
 
-import pybullet
-
+from .bullet import pybullet
 from .physics import Physics
 from .table import GRAVITY
 
@@ -22,7 +21,7 @@ def new_client(physics: Physics) -> int:
     return client
 
 
-def load_urdf_text(client: int, text: str, position: Vector, flags: int = 0) -> int:
+def load_urdf_text(client: int, text: str, position: Vector) -> int:
     """Load a robot with a fixed base and the inertias of its URDF text, and return its body.
 
     The engine's own damping of velocities is switched off: what damps is stated in the models.
@@ -34,7 +33,7 @@ def load_urdf_text(client: int, text: str, position: Vector, flags: int = 0) -> 
             file.name,
             position,
             useFixedBase=True,
-            flags=flags | pybullet.URDF_USE_INERTIA_FROM_FILE,
+            flags=pybullet.URDF_USE_INERTIA_FROM_FILE,
             physicsClientId=client,
         )
     for link in range(-1, pybullet.getNumJoints(body, physicsClientId=client)):

@@ -66,28 +66,25 @@ class HumanBody:
     """
 
     __slots__ = (
+        "_felt",
         "_gain_height",
-        "_gain_rate",
         "_gain_velocity",
         "_haptic_gain",
         "_reflex",
         "_seen",
         "_smoothing",
-        "_felt",
         "_visual_gain",
     )
 
     def __init__(self, parameters: BodyParameters, step: float) -> None:
         """Prepare the gains for a physics step of ``step`` [s].
 
-        The spring and the damper are taken at the end of the step (linearly implicit Euler), so
-        that a stiff, light arm is stable at any step.
+        The engine's velocities are those of mid-step; taking the damper there too (half of the
+        velocity before the step, half of the one after) makes the step second-order accurate.
         """
-        stiffness, damping = parameters.stiffness, parameters.damping
-        implicit = 1 + step * damping / parameters.mass + step**2 * stiffness / parameters.mass
-        self._gain_height = stiffness / implicit
-        self._gain_rate = damping / implicit
-        self._gain_velocity = (damping + step * stiffness) / implicit
+        implicit = 1 + step * parameters.damping / parameters.mass / 2
+        self._gain_height = parameters.stiffness / implicit
+        self._gain_velocity = parameters.damping / implicit
         self._seen = -1 - round(parameters.visual_delay / FRAME)
         self._felt = -1 - round(parameters.haptic_delay / FRAME)
         self._visual_gain = parameters.pull / 2
@@ -123,13 +120,12 @@ class HumanBody:
         Parameters
         ----------
         reference, rate
-            Reference at the end of the step [m] and its rate [m/s], reflex included.
+            Reference at the beginning of the step [m] and its rate [m/s], reflex included.
         height, velocity
             Of the hands, at the beginning of the step [m, m/s].
         """
         return (
             self._gain_height * (reference - height)
-            + self._gain_rate * rate
-            - self._gain_velocity * velocity
+            + self._gain_velocity * (rate - velocity)
             + WEIGHT_SHARE
         )

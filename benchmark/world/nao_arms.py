@@ -3,10 +3,6 @@
 import math
 from typing import ClassVar, Final
 
-import numpy as np
-import pybullet
-from numpy.typing import NDArray
-
 from ...agents.agent import FRAME
 from ...robots.arm_kinematics import (
     ARM_JOINTS,
@@ -17,19 +13,11 @@ from ...robots.arm_kinematics import (
 )
 from ...robots.nao_facts import HAND_OFFSET_X, HAND_OFFSET_Z, JOINTS
 from ...robots.urdf import arms_only_urdf
+from .bullet import pybullet
 from .engine import Vector, load_urdf_text
 from .physics import Physics
+from .servo import Servo
 from .table import PITCH, WEIGHT_SHARE
-
-SERVO_TIME: Final = 0.02
-"""Time constant of a joint's position servo [s]: one cycle of the NAO's motion thread (20 ms)."""
-
-SERVO_STIFFNESS: Final = 18.0
-"""Stiffness of a joint's position servo [Nm/rad], an assumption: the arm motors' nominal torque
-(0.55 Nm at the shoulder) displaces a joint by 1.75 degrees, about what a NAO's arm sags."""
-
-LOAD_TIME: Final = 0.03
-"""Time constant with which a joint gives way to a changing load [s]."""
 
 _HAND: Final = (HAND_OFFSET_X, 0.0, -HAND_OFFSET_Z)
 """The hand point in the frame of the last arm joint [m]; none of it is sideways."""
@@ -38,50 +26,44 @@ _ZEROS: Final = [0.0] * len(ARM_JOINTS)
 _ONES: Final = [1.0] * len(ARM_JOINTS)
 
 
-def _rows(terms: NDArray[np.float64]) -> list[float]:
-    """Return the servos' displacement of the hands, row by row of the path: the sum over joints."""
-    displacement: list[float] = (terms.sum(axis=1) / SERVO_STIFFNESS).tolist()
-    return displacement
-
-
 class NaoArms:
     """Both arms of the NAO, their servos, and the hands' hold of the table.
 
     The engine's joint motors are rigid up to the motors' torque limits. What a proportional
     servo of stiffness k adds is sag: a torque t displaces its joint by t / k. It enters through
-    the set-point: with J = dz/dq of the hands, an arm weighing g(h) on its joints and carrying
-    half the vertical load F on the hands gives way by
+    the set-point: with J = dz/dq of the hands, an arm whose weight turns its joints with the
+    torques g(h), and which carries half of the load F that the hands bear, gives way by
 
-        sag(h, F) = sum_i J_i (g_i(h) + J_i F / 2) / k.
+        sag(h, F) = sum_i J_i (J_i F / 2 - g_i(h)) / k.
 
-    A constant ``offset`` makes up for the sag at rest under the table's weight, as the paper's
-    authors had to (section II.B); elsewhere along the stroke a part of it remains.
+    A constant offset makes up for the sag at rest under the table's weight (see :class:`.Servo`);
+    elsewhere along the stroke a little of it remains.
     """
 
     REST_GRIP: ClassVar[Vector] = (GRIP_X, 0.0, REST_Z)
     """Middle between the hands at rest, in the torso frame [m]."""
 
-    def __init__(self, client: int, tree: int, physics: Physics) -> None:
+    def __init__(self, client: int, tree: int, physics: Physics, servo: Servo) -> None:
         self._client = client
         self._path = path = arm_path()
-        self._weight_sag = _rows(path.levers * path.gravity_torques)
-        self._compliance = _rows(path.levers**2 / 2)
-        self._body = load_urdf_text(
-            client, arms_only_urdf(shapes=False), (0, 0, 0), flags=pybullet.URDF_MERGE_FIXED_LINKS
-        )
+        weight_sag = -path.levers * path.gravity_torques / servo.stiffness
+        compliance = path.levers**2 / 2 / servo.stiffness
+        self._weight_sag: list[float] = weight_sag.sum(axis=1).tolist()
+        self._compliance: list[float] = compliance.sum(axis=1).tolist()
+        self._body = load_urdf_text(client, arms_only_urdf(shapes=False), (0, 0, 0))
         self._joints = self._joint_indices()
         self._wrists = (self._joints[4], self._joints[9])
         self._efforts = [JOINTS[name].effort for name in ARM_JOINTS]
-        self._gains = [-math.expm1(-physics.step / SERVO_TIME)] * len(ARM_JOINTS)
+        self._gains = [-math.expm1(-physics.step / servo.time)] * len(ARM_JOINTS)
         # A set-point that ramps is followed with the servo's time constant at any step size.
         gain = self._gains[0]
-        self._lead = (SERVO_TIME - physics.step * (1 - gain) / gain) / FRAME
-        self._yielding = -math.expm1(-FRAME / LOAD_TIME)
+        self._ahead = (physics.step / gain - servo.time) / FRAME
+        self._yielding = -math.expm1(-FRAME / servo.load_time)
         for joint, angle in zip(self._joints, self._path.joint_angles(0.0), strict=True):
             pybullet.resetJointState(self._body, joint, angle, physicsClientId=client)
         for wrist, side in zip(self._wrists, (1, -1), strict=True):
             self._grip(wrist, (GRIP_X, side * GRIP_Y, REST_Z), tree)
-        self._offset = self._sag(0.0, WEIGHT_SHARE)
+        self._offset = self._sag(0.0, WEIGHT_SHARE) if servo.weight_offset else 0.0
         self.reset()
 
     def _joint_indices(self) -> list[int]:
@@ -116,8 +98,7 @@ class NaoArms:
     def reset(self) -> None:
         """Hold rest height; the engine's state itself is restored by the world."""
         self._load = WEIGHT_SHARE
-        self._previous = self._target = 0.0
-        self.drive(1.0, 0.0, 0.0)
+        self._previous = self._target = self._offset - self._sag(0.0, WEIGHT_SHARE)
 
     def prepare(
         self, command: float, own: list[float], other: list[float], force: list[float]
@@ -135,9 +116,15 @@ class NaoArms:
         row = self._path.row(height)
         return self._weight_sag[row] + self._compliance[row] * load
 
-    def drive(self, fraction: float, height: float, velocity: float) -> float:
-        """Set the motors for the step that ends at ``fraction`` of the frame; exert no force."""
-        set_point = self._previous + (self._target - self._previous) * (fraction - self._lead)
+    def drive(self, begin: float, height: float, velocity: float) -> float:
+        """Set the motors for the physics step that begins at ``begin`` of the frame.
+
+        Returns
+        -------
+        float
+            No force: the motors' is the engine's to find.
+        """
+        set_point = self._previous + (self._target - self._previous) * (begin + self._ahead)
         path = self._path
         pybullet.setJointMotorControlArray(
             self._body,
@@ -158,7 +145,9 @@ class NaoArms:
         It differs from the table's ``end`` as far as the hands slip.
         """
         height = 0.0
-        for state in pybullet.getLinkStates(self._body, self._wrists, physicsClientId=self._client):
+        for state in pybullet.getLinkStates(
+            self._body, self._wrists, computeForwardKinematics=1, physicsClientId=self._client
+        ):
             x, y, z, w = state[5]
             height += state[4][2] + 2 * (x * z - y * w) * _HAND[0]
             height += (1 - 2 * (x * x + y * y)) * _HAND[2]

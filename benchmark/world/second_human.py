@@ -32,14 +32,21 @@ class SecondHuman:
         self._previous = self._reference
         self._reference = command + self._body.reflex(own, other, force)
 
-    def drive(self, fraction: float, height: float, velocity: float) -> float:
-        """Return the arms' force on the far end [N] for the step that ends at ``fraction``."""
+    def drive(self, begin: float, height: float, velocity: float) -> float:
+        """Return the arms' force on the far end [N].
+
+        Parameters
+        ----------
+        begin
+            When the physics step begins, as a fraction of the frame.
+        height, velocity
+            Of the far end at that time [m, m/s].
+        """
         change = self._reference - self._previous
-        reference = self._previous + change * fraction
+        reference = self._previous + change * begin
         arms = self._body.arm_force(reference, change / FRAME, height, velocity)
         return arms + self._weight
 
     def hand_height(self, end: float) -> float:
         """Return the height of the hands [m]: they grip the end, at the height ``end``."""
         return end
-

@@ -1,19 +1,20 @@
 """The world: two holders and a table, stepped one motion-capture frame at a time."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Final, Literal
 
 import numpy as np
-import pybullet
 from numpy.typing import NDArray
 
 from ...agents.agent import FRAME
+from .bullet import pybullet
 from .engine import disconnect, load_urdf_text, new_client
 from .human_body import HISTORY_FRAMES, BodyParameters, HumanBody
 from .nao_arms import NaoArms
 from .physics import PHYSICS, Physics
 from .second_human import SecondHuman
+from .servo import SERVO, Servo
 from .table import (
     GRAVITY,
     GRIP_DAMPING,
@@ -44,6 +45,8 @@ class World:
 
     ``hand_height`` is the present height of the partner's hands, of a NAO from its encoders.
 
+    ``step_engine`` is called with the client for each physics step; a clock can be put there.
+
     ============== =====================================================
     human_end      height of the human's table end
     human_velocity its vertical velocity
@@ -63,6 +66,8 @@ class World:
         The person at the robot's end; needed for, and only for, ``partner="human"``.
     physics
         Time step and solver.
+    servo
+        The NAO's joint servos.
 
     Raises
     ------
@@ -77,14 +82,14 @@ class World:
         second_human: BodyParameters | None = None,
         *,
         physics: Physics = PHYSICS,
+        servo: Servo = SERVO,
     ) -> None:
         if (partner == "human") != (second_human is not None):
             raise ValueError(f"second_human is for partner='human', got partner={partner!r}")
         self.client = new_client(physics)
+        self.step_engine: Callable[[int], None] = pybullet.stepSimulation
         self._step = physics.step
-        self._fractions = [
-            (i + 1) / physics.steps_per_frame for i in range(physics.steps_per_frame)
-        ]
+        self._begins = [i / physics.steps_per_frame for i in range(physics.steps_per_frame)]
         self._body = HumanBody(human, physics.step)
         self._mass = human.mass
         far_mass = 0.0 if second_human is None else second_human.mass
@@ -100,16 +105,16 @@ class World:
             )
         self._far: NaoArms | SecondHuman
         if second_human is None:
-            self._far = NaoArms(self.client, self._tree, physics)
+            self._far = NaoArms(self.client, self._tree, physics, servo)
             grips = 1
         else:
             self._far = SecondHuman(second_human, physics.step)
             grips = 2
         stiffness, damping = grips * GRIP_STIFFNESS, grips * GRIP_DAMPING
         inertia = TABLE_INERTIA + far_mass * TABLE_LENGTH**2
-        implicit = 1 + self._step * damping / inertia + self._step**2 * stiffness / inertia
+        implicit = 1 + self._step * damping / inertia / 2
         self._pitch_gain = stiffness / implicit
-        self._pitch_rate_gain = (damping + self._step * stiffness) / implicit
+        self._pitch_rate_gain = damping / implicit
         self._rest = pybullet.saveState(physicsClientId=self.client)
         self.reset()
 
@@ -139,8 +144,8 @@ class World:
             The same of the partner [m]; of the NAO it is the commanded hand height.
         """
         client, tree, mass, step = self.client, self._tree, self._mass, self._step
-        body, far, fractions = self._body, self._far, self._fractions
-        control, advance = pybullet.setJointMotorControlArray, pybullet.stepSimulation
+        body, far, begins = self._body, self._far, self._begins
+        control, advance = pybullet.setJointMotorControlArray, self.step_engine
         states = pybullet.getJointStates
         human_end, robot_end = self.human_end, self.robot_end
         human_force, robot_force = self.human_force, self.robot_force
@@ -155,9 +160,9 @@ class World:
             rate = change / FRAME
             far.prepare(command, robot_end, human_end, robot_force)
             first_velocity, first_pitch_rate, impulse = velocity, pitch_rate, 0.0
-            for fraction in fractions:
-                arms = body.arm_force(previous + change * fraction, rate, height, velocity)
-                far_arms = far.drive(fraction, far_height, far_velocity)
+            for begin in begins:
+                arms = body.arm_force(previous + change * begin, rate, height, velocity)
+                far_arms = far.drive(begin, far_height, far_velocity)
                 torque = -self._pitch_gain * pitch - self._pitch_rate_gain * pitch_rate
                 forces = [arms + mass * GRAVITY + far_arms, torque + lever * far_arms]
                 control(tree, _JOINTS, _TORQUE, forces=forces, physicsClientId=client)

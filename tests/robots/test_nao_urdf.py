@@ -90,9 +90,8 @@ def test_joints_are_the_documented_lengths_apart(
 
 
 def test_it_stands_on_the_floor_head_up(robot: int, client: int) -> None:
-    pybullet.performCollisionDetection(client)
-    (crown,) = pybullet.rayTest((0.0, 0.0, 1.0), (0.0, 0.0, 0.0), client)
-    (sole,) = pybullet.rayTest((0.02, 0.05, -1.0), (0.02, 0.05, 1.0), client)
+    (crown,) = pybullet.rayTest((0.0, 0.0, 1.0), (0.0, 0.0, 0.0), physicsClientId=client)
+    (sole,) = pybullet.rayTest((0.02, 0.05, -1.0), (0.02, 0.05, 1.0), physicsClientId=client)
     assert (crown[0], sole[0]) == (robot, robot)
     assert crown[3][2] == pytest.approx(0.574, abs=0.003)
     assert sole[3][2] == pytest.approx(0.0, abs=0.001)

@@ -1,0 +1,80 @@
+"""The words of a picture: what lift it is, and how high the ends are now."""
+
+import textwrap
+from typing import Final
+
+from PIL import Image, ImageDraw, ImageFont
+
+from ...agents.agent import FRAME
+from ..episode import Episode
+from ..world import Partner
+from .palette import FAINT, HUMAN, INK, PAPER, ROBOT, letters
+
+PARTNERS: Final[dict[Partner, str]] = {"nao": "robot", "human": "partner"}
+"""What the holder of the far end is called."""
+
+LONGEST_REASON: Final = 90
+"""Letters that are shown of why an episode failed."""
+
+
+def title(episode: Episode, policy: str, width: int, height: int) -> Image.Image:
+    """Return a strip that says which lift it is, and its RMSE in mm (and whether it failed)."""
+    picture = Image.new("RGB", (width, height), PAPER)
+    pen = ImageDraw.Draw(picture)
+    size, middle = round(0.40 * height), height / 2
+    bold, plain = letters(size, bold=True), letters(size)
+    score = f"RMSE {episode.scores.rmse_mm:.1f} mm"
+    if episode.failure is not None:
+        score = f"failed, {score}"
+    right = width - size
+    pen.text((right, middle), score, fill=INK, font=bold, anchor="rm")
+    right -= round(pen.textlength(score, font=bold)) + size
+    name = _fitted(policy, bold, right / 2)
+    pen.text((size, middle), name, fill=INK, font=bold, anchor="lm")
+    left = size + bold.getlength(name)
+    trial = [episode.trial] if episode.trial else []
+    parts = ["", episode.behaviour, episode.subject, *trial, f"seed {episode.seed}"]
+    words = _fitted("  ·  ".join(parts), plain, right - left)
+    pen.text((left, middle), words, fill=FAINT, font=plain, anchor="lm")
+    return picture
+
+
+def _fitted(text: str, font: ImageFont.FreeTypeFont, room: float) -> str:
+    """Return the text, cut to what fits into ``room`` [pixels]."""
+    if font.getlength(text) <= room:
+        return text
+    while text and font.getlength(f"{text}…") > room:
+        text = text[:-1]
+    return f"{text}…"
+
+
+def readout(picture: Image.Image, episode: Episode, frame: int, partner: Partner) -> None:
+    """Write a frame's time, the heights of both ends and their difference [mm] into a scene.
+
+    They stand in the upper left over a NAO, and in the middle between two people.
+    """
+    trace = episode.trace
+    human, robot = 1000 * float(trace.human_end[frame]), 1000 * float(trace.robot_end[frame])
+    rows = [
+        ("time", f"{(frame + 1) * FRAME:.2f} s", FAINT, False),
+        ("human's end", _millimetres(human), HUMAN, False),
+        (f"{PARTNERS[partner]}'s end", _millimetres(robot), ROBOT, False),
+        ("difference", _millimetres(abs(human - robot)), INK, True),
+    ]
+    pen = ImageDraw.Draw(picture)
+    size, line, wide = 16, 24, 192
+    top = 18
+    left = top if partner == "nao" else (picture.width - wide) // 2
+    for row, (label, value, colour, bold) in enumerate(rows):
+        y, font = top + row * line, letters(size, bold=bold)
+        pen.text((left, y), label, fill=colour, font=font)
+        pen.text((left + wide, y), value, fill=colour, font=font, anchor="ra")
+    if episode.failure is not None and frame == len(trace.human_end) - 1:
+        reason = textwrap.shorten(episode.failure, LONGEST_REASON, placeholder="…")
+        y, font = top + len(rows) * line, letters(13)
+        pen.text((left, y), textwrap.fill(reason, 32), fill=INK, font=font)
+
+
+def _millimetres(height: float) -> str:
+    """Return a height in whole millimetres, without a minus before nought."""
+    return f"{round(height)} mm".replace("-", "\N{MINUS SIGN}")

@@ -1,0 +1,138 @@
+"""The heights of both ends over time, with a cursor. Drawn once; the cursor costs little."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.transforms import Bbox
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw
+
+from ...agents.agent import FRAME
+from ..trace import Trace
+from .palette import FAINT, HUMAN, INK, LINE, PAPER, ROBOT
+
+DPI: Final = 100
+LETTERS: Final = 8.5
+"""Size of letters at scale 1 [points]."""
+
+PALE: Final = 0.25
+"""Opacity of what is still to come."""
+
+GAP: Final = 0.28
+"""Opacity of the area between the ends."""
+
+
+class Curves:
+    """Height over time of the human's end, the robot's end and the intention.
+
+    Parameters
+    ----------
+    trace
+        The lift; at least one frame.
+    width, height
+        Size of the picture [pixels].
+    partner
+        Name of what holds the far end, for the legend.
+    scale
+        Size of letters and lines; 1 suits a picture 640 pixels wide.
+    """
+
+    def __init__(
+        self, trace: Trace, width: int, height: int, *, partner: str, scale: float = 1.0
+    ) -> None:
+        self._scale = scale
+        self._times = np.arange(1, len(trace.human_end) + 1) * FRAME
+        self._ends = 1000 * np.stack([trace.human_end, trace.robot_end])
+        self._target = 1000 * trace.target
+        self._partner = partner
+        self._past = self._drawn(width, height, 1.0)
+        self._future = self._drawn(width, height, PALE)
+
+    def _drawn(self, width: int, height: int, opacity: float) -> Image.Image:
+        scale, times, (human, robot) = self._scale, self._times, self._ends
+        figure = Figure(figsize=(width / DPI, height / DPI), dpi=DPI, facecolor=PAPER)
+        canvas = FigureCanvasAgg(figure)
+        figure.subplots_adjust(
+            left=58 * scale / width,
+            right=1 - 18 * scale / width,
+            bottom=42 * scale / height,
+            top=1 - 30 * scale / height,
+        )
+        axes = figure.add_subplot()
+        axes.fill_between(times, human, robot, color=FAINT, alpha=GAP * opacity, linewidth=0)
+        dashes = (0, (4, 3))
+        axes.plot(times, self._target, color=INK, alpha=opacity, lw=0.9 * scale, ls=dashes)
+        for end, colour in ((human, HUMAN), (robot, ROBOT)):
+            axes.plot(times, end, color=colour, alpha=opacity, lw=2.2 * scale)
+        axes.legend(
+            handles=[
+                Line2D([], [], color=HUMAN, lw=2.2 * scale, label="human's end"),
+                Line2D([], [], color=ROBOT, lw=2.2 * scale, label=f"{self._partner}'s end"),
+                Patch(color=FAINT, alpha=GAP, lw=0, label="difference"),
+                Line2D([], [], color=INK, lw=0.9 * scale, ls=dashes, label="human's intention"),
+            ],
+            loc="lower left",
+            bbox_to_anchor=(0, 1.0),
+            borderaxespad=0.3,
+            ncols=4,
+            frameon=False,
+            fontsize=LETTERS * scale,
+            handlelength=1.8,
+            columnspacing=1.8,
+            labelcolor=INK,
+        )
+        low, high = min(self._ends.min(), self._target.min()), self._ends.max()
+        high = max(high, self._target.max(), low + 20)
+        axes.set_ylim(low - 0.08 * (high - low), high + 0.08 * (high - low))
+        axes.set_xlim(0, float(times[-1]))
+        axes.set_xlabel("time [s]", fontsize=LETTERS * scale, color=INK, labelpad=2 * scale)
+        axes.set_ylabel("height [mm]", fontsize=LETTERS * scale, color=INK, labelpad=3 * scale)
+        axes.tick_params(labelsize=LETTERS * scale, colors=FAINT, length=0, pad=4 * scale)
+        axes.grid(color=LINE, linewidth=0.7 * scale)
+        axes.set_axisbelow(True)
+        for side in ("top", "left", "right"):
+            axes.spines[side].set_visible(False)
+        axes.spines["bottom"].set_color(LINE)
+        canvas.draw()
+        box: Bbox = axes.get_window_extent()
+        self._top, self._bottom = height - box.y1, height - box.y0
+        self._places = [
+            axes.transData.transform(np.stack([times, end], axis=1)) * [1, -1] + [0, height]
+            for end in self._ends
+        ]
+        return Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3].copy())
+
+    def at(self, frame: int) -> Image.Image:
+        """Return the curves with the cursor at a frame; what comes later is pale."""
+        picture = self._future.copy()
+        reached = round(float(self._places[0][frame, 0]))
+        picture.paste(self._past.crop((0, 0, reached, picture.height)))
+        self._cursor(ImageDraw.Draw(picture), frame)
+        return picture
+
+    def marked(self, frames: Sequence[int]) -> Image.Image:
+        """Return the whole curves with a cursor at each of the frames."""
+        picture = self._past.copy()
+        pen = ImageDraw.Draw(picture)
+        for frame in frames:
+            self._cursor(pen, frame)
+        return picture
+
+    def _cursor(self, pen: ImageDraw.ImageDraw, frame: int) -> None:
+        points: list[NDArray[np.float64]] = [place[frame] for place in self._places]
+        x = float(points[0][0])
+        width = max(round(self._scale), 1)
+        pen.line([(x, self._top), (x, self._bottom)], fill=INK, width=width)
+        radius = 4.5 * self._scale
+        for (_, y), colour in zip(points, (HUMAN, ROBOT), strict=True):
+            pen.ellipse(
+                (x - radius, y - radius, x + radius, y + radius),
+                fill=colour,
+                outline=PAPER,
+                width=width,
+            )

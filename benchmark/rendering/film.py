@@ -1,0 +1,158 @@
+"""A finished lift as a film, or as one picture."""
+
+from collections.abc import Callable, Iterator
+from contextlib import closing
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from PIL import Image
+
+from ...agents.agent import FRAME
+from ...agents.errors import InputError
+from ..episode import Episode
+from ..scenario import Scenario
+from .caption import PARTNERS, readout, title
+from .curves import Curves
+from .palette import PAPER
+from .scene import Picture, Scene
+from .writing import check_target, write
+
+FPS: Final = 12.5
+"""Pictures a second: 80 ms each, which a GIF can say exactly."""
+
+WIDTH: Final = 640
+TITLE, SCENE, CURVES = 36, 360, 204
+"""Heights of a film's three strips [pixels]; 600 together."""
+
+STILL_WIDTH: Final = 1290
+STILL_TITLE, STILL_SCENE, STILL_CURVES = 64, 426, 400
+GUTTER: Final = 6
+"""Between two scenes of a still [pixels]."""
+
+
+def shown_frames(episode: Episode, fps: float = FPS) -> list[int]:
+    """Return the frames of the trace that a film of the episode shows: evenly, and the last.
+
+    Raises
+    ------
+    InputError
+        If the episode ended before its first frame, or ``fps`` is not within 1 to 100.
+    """
+    count = len(episode.trace.human_end)
+    if count == 0:
+        raise InputError(f"nothing to show: the lift ended at once ({episode.failure})")
+    if not 1 <= fps <= 1 / FRAME:
+        raise InputError(f"fps must be within 1 to {1 / FRAME:.0f}, got {fps}")
+    frames = np.arange(0, count - 1, 1 / (fps * FRAME)).round().astype(int)
+    return [*frames.tolist(), count - 1]
+
+
+def frames(
+    episode: Episode, scenario: Scenario, policy: str, *, fps: float = FPS
+) -> Iterator[Picture]:
+    """Yield the pictures of a film: title, scene from the side, curves with a moving cursor.
+
+    Parameters
+    ----------
+    episode
+        A finished episode.
+    scenario
+        Its scenario.
+    policy
+        Name of the policy, for the title.
+    fps
+        Pictures for each second of the lift.
+
+    Raises
+    ------
+    InputError
+        As :func:`shown_frames`.
+    """
+    partner = scenario.partner
+    shown = shown_frames(episode, fps)
+    page = Image.new("RGB", (WIDTH, TITLE + SCENE + CURVES), PAPER)
+    page.paste(title(episode, policy, WIDTH, TITLE))
+    curves = Curves(episode.trace, WIDTH, CURVES, partner=PARTNERS[partner])
+    with closing(Scene(partner)) as scene:
+        for frame in shown:
+            view = _view(scene, episode, frame, WIDTH, SCENE)
+            readout(view, episode, frame, partner)
+            page.paste(view, (0, TITLE))
+            page.paste(curves.at(frame), (0, TITLE + SCENE))
+            yield np.asarray(page).copy()
+
+
+def still(episode: Episode, scenario: Scenario, policy: str) -> Picture:
+    """Return one picture of a lift: three moments side by side, and the curves under them.
+
+    The moments are the start, the human's highest and that of the largest difference.
+
+    Raises
+    ------
+    InputError
+        If the episode ended before its first frame.
+    """
+    partner = scenario.partner
+    first = shown_frames(episode)[0]
+    human, robot = episode.trace.human_end, episode.trace.robot_end
+    moments = sorted((first, int(np.argmax(human)), int(np.argmax(np.abs(human - robot)))))
+    size = (STILL_WIDTH, STILL_TITLE + STILL_SCENE + STILL_CURVES)
+    page = Image.new("RGB", size, PAPER)
+    page.paste(title(episode, policy, STILL_WIDTH, STILL_TITLE))
+    step = (STILL_WIDTH + GUTTER) // len(moments)
+    with closing(Scene(partner)) as scene:
+        for column, frame in enumerate(moments):
+            view = _view(scene, episode, frame, step - GUTTER, STILL_SCENE)
+            readout(view, episode, frame, partner)
+            page.paste(view, (column * step, STILL_TITLE))
+    curves = Curves(episode.trace, STILL_WIDTH, STILL_CURVES, partner=PARTNERS[partner], scale=1.8)
+    page.paste(curves.marked(moments), (0, STILL_TITLE + STILL_SCENE))
+    return np.asarray(page).copy()
+
+
+def film_episode(
+    path: Path,
+    episode: Episode,
+    scenario: Scenario,
+    policy: str,
+    *,
+    fps: float = FPS,
+    drawn: Callable[[int], None] | None = None,
+) -> None:
+    """Write a lift as a film (``.gif``, ``.mp4``) or as one picture (``.png``).
+
+    Parameters
+    ----------
+    path
+        Where to; its suffix is the format.
+    episode, scenario, policy, fps
+        As in :func:`frames`.
+    drawn
+        Called with 1 after each picture, for a progress bar; there are
+        ``len(shown_frames(episode, fps))`` in a film and one in a ``.png``.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written, or there is nothing to show.
+    """
+    check_target(path)
+    shown_frames(episode, fps)
+    if path.suffix == ".png":
+        pictures = iter((still(episode, scenario, policy),))
+    else:
+        pictures = frames(episode, scenario, policy, fps=fps)
+    write(path, _told(pictures, drawn), fps)
+
+
+def _told(pictures: Iterator[Picture], drawn: Callable[[int], None] | None) -> Iterator[Picture]:
+    for picture in pictures:
+        yield picture
+        if drawn is not None:
+            drawn(1)
+
+
+def _view(scene: Scene, episode: Episode, frame: int, width: int, height: int) -> Image.Image:
+    scene.pose(float(episode.trace.human_end[frame]), float(episode.trace.robot_end[frame]))
+    return Image.fromarray(scene.picture(width, height))

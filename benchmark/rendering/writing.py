@@ -1,0 +1,133 @@
+"""Pictures to files: GIF, MP4 and PNG."""
+
+import importlib
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from types import ModuleType
+from typing import Final
+
+import numpy as np
+from PIL import Image
+
+from ...agents.errors import InputError
+from .scene import Picture
+
+COLOURS: Final = 256
+"""Colours of a GIF, shared by its pictures, so that none flickers."""
+
+SAMPLES: Final = 5
+"""Pictures of a film that its colours are chosen from."""
+
+
+def check_target(path: Path) -> None:
+    """Refuse a file that cannot be written, before any work is done.
+
+    Raises
+    ------
+    InputError
+        If the suffix is unknown, its extra is not installed, or the folder cannot be written to.
+    """
+    _writer(path)
+    if path.suffix == ".mp4":
+        _ffmpeg()
+    if not path.parent.is_dir():
+        raise InputError(f"cannot write {path}: there is no folder {path.parent}")
+    if path.is_dir():
+        raise InputError(f"cannot write {path}: it is a folder")
+    partial = _partial(path)
+    try:
+        partial.touch()
+        partial.unlink()
+    except OSError as error:
+        raise InputError(f"cannot write to {path.parent}: {error.strerror}") from error
+
+
+def write(path: Path, pictures: Iterable[Picture], fps: float) -> None:
+    """Write pictures in the format that the suffix names: the whole file, or none.
+
+    Parameters
+    ----------
+    path
+        ``.gif`` or ``.mp4``, a film; ``.png``, exactly one picture.
+    pictures
+        At least one, all of one shape ``(height, width, 3)``; height and width even for ``.mp4``.
+    fps
+        Pictures a second; a GIF rounds their duration to 10 ms.
+
+    Raises
+    ------
+    InputError
+        As :func:`check_target`, or if writing fails.
+    ValueError
+        If there is no picture, or more than one for a ``.png``.
+    """
+    check_target(path)
+    partial = _partial(path)
+    try:
+        _writer(path)(partial, pictures, fps)
+        partial.replace(path)
+    except OSError as error:
+        raise InputError(f"cannot write {path}: {error.strerror or error}") from error
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def _partial(path: Path) -> Path:
+    return path.with_name(f".{path.stem}.partial{path.suffix}")
+
+
+def _write_gif(path: Path, pictures: Iterable[Picture], fps: float) -> None:
+    images = [Image.fromarray(picture) for picture in pictures]
+    if not images:
+        raise ValueError("a film needs at least one picture")
+    chosen = np.linspace(0, len(images) - 1, SAMPLES).round().astype(int)
+    sample = Image.fromarray(np.concatenate([np.asarray(images[i]) for i in chosen]))
+    palette = sample.quantize(COLOURS, method=Image.Quantize.MEDIANCUT)
+    first, *rest = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
+    first.save(path, save_all=True, append_images=rest, duration=10 * round(100 / fps), loop=0)
+
+
+def _write_mp4(path: Path, pictures: Iterable[Picture], fps: float) -> None:
+    frames = iter(pictures)
+    first = next(frames, None)
+    if first is None:
+        raise ValueError("a film needs at least one picture")
+    height, width, _ = first.shape
+    film = _ffmpeg().write_frames(
+        str(path),
+        (width, height),
+        fps=fps,
+        macro_block_size=2,
+        quality=None,
+        output_params=["-crf", "20", "-movflags", "+faststart"],
+        ffmpeg_log_level="error",
+    )
+    film.send(None)
+    try:
+        film.send(first)
+        for frame in frames:
+            film.send(frame)
+    finally:
+        film.close()
+
+
+def _write_png(path: Path, pictures: Iterable[Picture], fps: float) -> None:
+    (picture,) = pictures
+    Image.fromarray(picture).save(path, optimize=True)
+
+
+_WRITERS: Final = {".gif": _write_gif, ".mp4": _write_mp4, ".png": _write_png}
+
+
+def _writer(path: Path) -> Callable[[Path, Iterable[Picture], float], None]:
+    if path.suffix not in _WRITERS:
+        known = ", ".join(_WRITERS)
+        raise InputError(f"cannot write {path}: its suffix must be one of {known}")
+    return _WRITERS[path.suffix]
+
+
+def _ffmpeg() -> ModuleType:
+    try:
+        return importlib.import_module("imageio_ffmpeg")
+    except ImportError as error:
+        raise InputError("mp4 needs the extra: install colift[video]") from error

@@ -1,0 +1,79 @@
+"""From episodes to the numbers of a results table."""
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from typing import Any, Final
+
+import numpy as np
+
+from .episode import Episode, Scores
+from .statistics import interquartile_mean, mean_with_missing, stratified_bootstrap
+
+METRICS: Final = tuple(field.name for field in dataclasses.fields(Scores))
+
+Cell = tuple[str, str]
+
+
+def cell(episode: Episode) -> Cell:
+    """Return the behaviour and the subject of an episode: its stratum."""
+    return episode.behaviour, episode.subject
+
+
+def summarise(episodes: Sequence[Episode]) -> dict[str, Any]:
+    """Return the summary of a policy's episodes.
+
+    ``rmse_mm`` has mean, interquartile mean and the mean's 95 % confidence interval, by bootstrap
+    over the episodes within each behaviour and subject. The other metrics have the mean over the
+    episodes that have one and the number of those that do not (``missing``): a policy that does
+    not move has no smoothness, and ranks last by it. Step times are percentiles over all calls
+    of the policy [ms].
+    """
+    rmse = [episode.scores.rmse_mm for episode in episodes]
+    cells = [cell(episode) for episode in episodes]
+    summary: dict[str, Any] = {
+        "episodes": len(episodes),
+        "failed": sum(episode.failure is not None for episode in episodes),
+        "goal_missed": sum(not episode.reached for episode in episodes),
+        "rmse_mm": {
+            "mean": float(np.mean(rmse)),
+            "iqm": float(interquartile_mean(rmse)),
+            "ci95": list(stratified_bootstrap(rmse, cells)),
+        },
+        "vs_human": None,
+    }
+    for name in METRICS:
+        if name != "rmse_mm":
+            summary[name] = _mean([getattr(episode.scores, name) for episode in episodes])
+    times = np.array([t for episode in episodes for t in episode.step_times] or [math.nan])
+    p50, p99 = 1000 * np.percentile(times, [50, 99])
+    summary["step_ms"] = {"p50": _number(p50), "p99": _number(p99)}
+    return summary
+
+
+def group(episodes: Sequence[Episode]) -> list[dict[str, Any]]:
+    """Return one entry for each behaviour and subject, in order of appearance."""
+    members: dict[Cell, list[Episode]] = {}
+    for episode in episodes:
+        members.setdefault(cell(episode), []).append(episode)
+    return [
+        {
+            "behaviour": behaviour,
+            "subject": subject,
+            "episodes": len(some),
+            "failed": sum(episode.failure is not None for episode in some),
+            **{name: _mean([getattr(e.scores, name) for e in some]) for name in METRICS},
+            "human_human_rmse_mm": None,
+        }
+        for (behaviour, subject), some in members.items()
+    ]
+
+
+def _mean(values: Sequence[float]) -> dict[str, Any]:
+    mean = mean_with_missing(values)
+    return {"mean": _number(mean.mean), "missing": mean.missing}
+
+
+def _number(value: float) -> float | None:
+    """Return a number that JSON knows: None for NaN."""
+    return None if math.isnan(value) else float(value)

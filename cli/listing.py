@@ -1,0 +1,34 @@
+"""``colift list``: what there is."""
+
+from rich.console import Console
+from rich.table import Table
+
+from ..agents.humans import SUBJECTS, Subject
+from ..agents.registry import HUMANS, POLICIES, entries, lookup, summary
+from ..benchmark.suite import SUITES
+
+
+def list_all() -> None:
+    """List policies, human behaviours, subjects and suites, one line each."""
+    table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
+    table.add_column(style="bold", no_wrap=True)
+    table.add_column()
+    for title, group in (("Robot policies", POLICIES), ("Human behaviours", HUMANS)):
+        table.add_row(f"[underline]{title}[/]")
+        for name in entries(group):
+            table.add_row(f"  {name}", summary(lookup(group, name)))
+    table.add_row("[underline]Subjects[/]")
+    for name, subject in SUBJECTS.items():
+        table.add_row(f"  {name}", _about(subject))
+    table.add_row("  draw-N", "a new person of the same population, drawn with seed N")
+    table.add_row("[underline]Suites[/]")
+    for name, (line, _) in SUITES.items():
+        table.add_row(f"  {name}", line)
+    Console().print(table, highlight=False)
+
+
+def _about(subject: Subject) -> str:
+    return (
+        f"lifts {1000 * subject.amplitude:.0f} mm in {subject.duration:.2f} s, "
+        f"arm {subject.stiffness:.0f} N/m, sees after {1000 * subject.visual_delay:.0f} ms"
+    )

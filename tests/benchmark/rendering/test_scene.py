@@ -1,0 +1,117 @@
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from PIL import ImageColor
+
+from colift.agents.errors import InputError
+from colift.benchmark.environment.parallel import ParallelLift, parallel_env
+from colift.benchmark.rendering.palette import HUMAN, ROBOT, SKY
+from colift.benchmark.rendering.scene import Picture, Scene, check_render_mode
+from colift.benchmark.trace import Trace
+
+PLACES = ((0.0, 0.0), (0.29, 0.29), (-0.03, 0.10))
+
+
+@pytest.fixture(params=["nao", "human"])
+def scene(request: pytest.FixtureRequest) -> Iterator[Scene]:
+    made = Scene(request.param)
+    yield made
+    made.close()
+
+
+def amount(picture: Picture, colour: str) -> int:
+    """Return how many pixels have roughly the hue of a colour."""
+    reference = np.array(ImageColor.getrgb(colour), dtype=float)
+    pixels = picture.reshape(-1, 3).astype(float) + 1e-9
+    cosine = pixels @ reference / np.linalg.norm(pixels, axis=1) / np.linalg.norm(reference)
+    return int((cosine > 0.99).sum())
+
+
+def test_picture_has_the_size_asked_for(scene: Scene) -> None:
+    picture = scene.picture(96, 60)
+    assert picture.shape == (60, 96, 3)
+    assert picture.dtype == np.uint8
+
+
+def test_same_pose_gives_the_same_picture(scene: Scene) -> None:
+    scene.pose(0.1, 0.08)
+    before = scene.picture(96, 60)
+    scene.pose(0.2, 0.2)
+    scene.pose(0.1, 0.08)
+    assert np.array_equal(before, scene.picture(96, 60))
+
+
+@pytest.mark.parametrize("heights", [(0.05, 0.0), (0.0, 0.05)])
+def test_either_end_is_seen_to_move(scene: Scene, heights: tuple[float, float]) -> None:
+    before = scene.picture(160, 100)
+    scene.pose(*heights)
+    assert (before != scene.picture(160, 100)).any(axis=-1).sum() > 20
+
+
+@pytest.mark.parametrize("size", [(160, 90), (100, 100), (80, 120)])
+def test_everybody_is_seen_whole(scene: Scene, size: tuple[int, int]) -> None:
+    for place in PLACES:
+        scene.pose(*place)
+        picture = scene.picture(*size)
+        edges = np.concatenate([picture[0], picture[-1], picture[:, 0], picture[:, -1]])
+        # Only the sky and the pale floor reach the edges.
+        assert edges.min() > 190
+        assert np.array_equal(picture[0], np.broadcast_to(ImageColor.getrgb(SKY), (size[0], 3)))
+
+
+def test_who_holds_an_end_wears_its_colour() -> None:
+    robot, person = Scene("nao"), Scene("human")
+    with_robot, with_person = robot.picture(160, 100), person.picture(160, 100)
+    robot.close()
+    person.close()
+    assert amount(with_robot, HUMAN) > 100
+    assert amount(with_person, ROBOT) > amount(with_robot, ROBOT) + 100
+
+
+def test_a_height_beyond_the_arms_is_drawn_at_their_end() -> None:
+    scene = Scene("nao")
+    scene.pose(0.0, 0.5)
+    assert scene.picture(32, 20).shape == (20, 32, 3)
+    scene.close()
+
+
+def play(env: ParallelLift, *, rendered: bool) -> str:
+    observations, _ = env.reset(seed=5)
+    human = env.scripted_human()
+    while env.agents:
+        change = observations["robot"][:1] - observations["robot"][3:4]
+        actions = {"human": human.act(observations["human"]), "robot": change}
+        observations, *_ = env.step(actions)
+        if rendered:
+            picture = env.render()
+            assert picture is not None
+    world = env.lift.world
+    trace = Trace(
+        human_end=world.since_reset(world.human_end),
+        robot_end=world.since_reset(world.robot_end),
+        human_velocity=world.since_reset(world.human_velocity),
+        human_force=world.since_reset(world.human_force),
+        robot_force=world.since_reset(world.robot_force),
+        target=env.lift.target,
+        action=np.zeros((0, 1)),
+    )
+    env.close()
+    return trace.digest()
+
+
+def test_looking_does_not_change_the_lift() -> None:
+    unseen = play(parallel_env(control_period=0.5), rendered=False)
+    seen = play(parallel_env(control_period=0.5, render_mode="rgb_array"), rendered=True)
+    assert seen == unseen
+
+
+def test_unknown_render_mode_is_refused() -> None:
+    with pytest.raises(InputError, match="'ascii'"):
+        check_render_mode("ascii")
+
+
+def test_a_window_needs_a_display(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("DISPLAY", raising=False)
+    with pytest.raises(InputError, match="DISPLAY"):
+        check_render_mode("human")
