@@ -4,6 +4,7 @@ import json
 from typing import Annotated, Final
 
 import typer
+from rich import box
 from rich.console import Console
 from rich.table import Table
 
@@ -42,7 +43,7 @@ def bench(
     if as_json:
         print(json.dumps(figures, indent=2))
         return
-    table = Table(title="colift bench", title_justify="left")
+    table = Table(title="colift bench", title_justify="left", box=box.SIMPLE_HEAD)
     table.add_column("figure")
     table.add_column("value", justify="right")
     table.add_column("meaning")

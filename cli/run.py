@@ -35,10 +35,11 @@ def run(
         typer.Option(metavar="CSV", help="Recorded lifts (trial,t_s,z_m) instead of a suite."),
     ] = None,
     latency: Annotated[
-        float | None, typer.Option(metavar="S", help="Age of the robot's motion capture [s].")
+        float | None,
+        typer.Option(metavar="S", help="Age of the robot's data, in seconds."),
     ] = None,
     control_period: Annotated[
-        float | None, typer.Option(metavar="S", help="Time between two decisions [s].")
+        float | None, typer.Option(metavar="S", help="Time between two decisions, in seconds.")
     ] = None,
     jobs: Annotated[
         int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")

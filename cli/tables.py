@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from typing import Any, Final
 
+from rich import box
 from rich.table import Table
 
 PAPER_HUMAN_TEAM_MM: Final = 6.531
@@ -10,7 +11,7 @@ PAPER_HUMAN_TEAM_MM: Final = 6.531
 
 COLUMNS: Final = (
     ("rmse_mm", "RMSE mm", ".1f"),
-    ("max_tilt_deg", "tilt deg", ".1f"),
+    ("max_tilt_deg", "tilt °", ".1f"),
     ("sparc", "SPARC", ".2f"),
     ("ldlj", "LDLJ", ".1f"),
     ("human_force_n", "force N", ".2f"),
@@ -27,8 +28,9 @@ def results_table(content: dict[str, Any]) -> Table:
         f"suite digest {content['suite_digest']}",
         title_justify="left",
         caption_justify="left",
+        box=box.SIMPLE_HEAD,
     )
-    table.add_column("human")
+    table.add_column("human", no_wrap=True)
     for _, title, _ in COLUMNS:
         table.add_column(title, justify="right")
     table.add_column("lifts", justify="right")

@@ -7,6 +7,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
+from typing import cast
 
 from ..agent import Agent
 from ..errors import InputError
@@ -107,4 +108,4 @@ def _checked(policy: object, text: str) -> type[Agent]:
         raise InputError(
             f"policy {text} needs arguments: {', '.join(required)}; give them defaults"
         )
-    return policy
+    return cast(type[Agent], policy)

@@ -1,6 +1,6 @@
 """The PettingZoo parallel environment ``colift_v0``."""
 
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -71,7 +71,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         ``None``, ``"rgb_array"`` (headless) or ``"human"`` (a window).
     """
 
-    metadata: ClassVar[dict[str, Any]] = {
+    metadata: dict[str, Any] = {  # noqa: RUF012 - PettingZoo's convention
         "name": "colift_v0",
         "render_modes": ["human", "rgb_array"],
         "render_fps": 10,
@@ -168,7 +168,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         """Return the agent that carries out the current episode's private plan."""
         return self.lift.scripted_human()
 
-    def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
+    def render(self) -> NDArray[np.uint8] | None:
         """Return a picture of the lift (``"rgb_array"``), or draw it in the window."""
         if self.render_mode is None:
             return None

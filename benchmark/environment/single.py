@@ -1,9 +1,10 @@
 """The Gymnasium view: the robot is the agent, the scripted human is part of the world."""
 
-from typing import Any, ClassVar
+from typing import Any
 
 import gymnasium
 import numpy as np
+from gymnasium.spaces import Space
 from numpy.typing import NDArray
 
 from ...agents.agent import Action, Observation
@@ -17,7 +18,7 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
     here, and ``settings`` are otherwise those of :func:`.parallel_env`.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {
+    metadata: dict[str, Any] = {  # noqa: RUF012 - Gymnasium's convention
         "render_modes": ["human", "rgb_array"],
         "render_fps": 10,
     }
@@ -25,8 +26,8 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
     def __init__(self, render_mode: str | None = None, **settings: Any) -> None:
         self._env = parallel_env(render_mode=render_mode, **settings)
         self.render_mode = render_mode
-        self.observation_space = self._env.observation_space(ROBOT)
-        self.action_space = self._env.action_space(ROBOT)
+        self.observation_space: Space[Any] = self._env.observation_space(ROBOT)
+        self.action_space: Space[Any] = self._env.action_space(ROBOT)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -53,7 +54,7 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
             infos[ROBOT],
         )
 
-    def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
+    def render(self) -> NDArray[np.uint8] | None:
         """Return a picture of the lift, or draw it in the window."""
         return self._env.render()
 

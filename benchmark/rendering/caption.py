@@ -1,20 +1,26 @@
 """The words of a picture: what lift it is, and how high the ends are now."""
 
-import textwrap
+from functools import cache
+from pathlib import Path
 from typing import Final
 
+import matplotlib
 from PIL import Image, ImageDraw, ImageFont
 
 from ...agents.agent import FRAME
 from ..episode import Episode
 from ..world import Partner
-from .palette import FAINT, HUMAN, INK, PAPER, ROBOT, letters
+from .palette import FAINT, HUMAN, INK, PAPER, ROBOT
 
 PARTNERS: Final[dict[Partner, str]] = {"nao": "robot", "human": "partner"}
 """What the holder of the far end is called."""
 
-LONGEST_REASON: Final = 90
-"""Letters that are shown of why an episode failed."""
+
+@cache
+def letters(size: int, *, bold: bool = False) -> ImageFont.FreeTypeFont:
+    """Return DejaVu Sans, which comes with matplotlib, in a size [pixels]."""
+    name = "DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf"
+    return ImageFont.truetype(Path(matplotlib.get_data_path(), "fonts", "ttf", name), size)
 
 
 def title(episode: Episode, policy: str, width: int, height: int) -> Image.Image:
@@ -51,7 +57,8 @@ def _fitted(text: str, font: ImageFont.FreeTypeFont, room: float) -> str:
 def readout(picture: Image.Image, episode: Episode, frame: int, partner: Partner) -> None:
     """Write a frame's time, the heights of both ends and their difference [mm] into a scene.
 
-    They stand in the upper left over a NAO, and in the middle between two people.
+    They stand in the upper left over a NAO, and in the middle between two people. The last frame
+    of a failed episode says why it failed.
     """
     trace = episode.trace
     human, robot = 1000 * float(trace.human_end[frame]), 1000 * float(trace.robot_end[frame])
@@ -70,9 +77,11 @@ def readout(picture: Image.Image, episode: Episode, frame: int, partner: Partner
         pen.text((left, y), label, fill=colour, font=font)
         pen.text((left + wide, y), value, fill=colour, font=font, anchor="ra")
     if episode.failure is not None and frame == len(trace.human_end) - 1:
-        reason = textwrap.shorten(episode.failure, LONGEST_REASON, placeholder="…")
-        y, font = top + len(rows) * line, letters(13)
-        pen.text((left, y), textwrap.fill(reason, 32), fill=INK, font=font)
+        pen.rectangle((0, picture.height - line, picture.width, picture.height), fill=INK)
+        font = letters(13)
+        reason = _fitted(" ".join(episode.failure.split()), font, picture.width - 2 * top)
+        place = (picture.width / 2, picture.height - line / 2)
+        pen.text(place, reason, fill=PAPER, font=font, anchor="mm")
 
 
 def _millimetres(height: float) -> str:

@@ -98,14 +98,14 @@ class Curves:
         for side in ("top", "left", "right"):
             axes.spines[side].set_visible(False)
         axes.spines["bottom"].set_color(LINE)
-        canvas.draw()
+        buffer, size = canvas.print_to_buffer()  # type: ignore[no-untyped-call]
         box: Bbox = axes.get_window_extent()
         self._top, self._bottom = height - box.y1, height - box.y0
         self._places = [
             axes.transData.transform(np.stack([times, end], axis=1)) * [1, -1] + [0, height]
             for end in self._ends
         ]
-        return Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3].copy())
+        return Image.frombytes("RGBA", size, bytes(buffer)).convert("RGB")
 
     def at(self, frame: int) -> Image.Image:
         """Return the curves with the cursor at a frame; what comes later is pale."""

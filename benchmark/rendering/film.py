@@ -44,7 +44,7 @@ def shown_frames(episode: Episode, fps: float = FPS) -> list[int]:
         raise InputError(f"nothing to show: the lift ended at once ({episode.failure})")
     if not 1 <= fps <= 1 / FRAME:
         raise InputError(f"fps must be within 1 to {1 / FRAME:.0f}, got {fps}")
-    frames = np.arange(0, count - 1, 1 / (fps * FRAME)).round().astype(int)
+    frames = np.arange(0, count - 1, 1 / (fps * FRAME)).astype(int)
     return [*frames.tolist(), count - 1]
 
 
@@ -86,7 +86,8 @@ def frames(
 def still(episode: Episode, scenario: Scenario, policy: str) -> Picture:
     """Return one picture of a lift: three moments side by side, and the curves under them.
 
-    The moments are the start, the human's highest and that of the largest difference.
+    The moments are the start, the human's highest and that of the largest difference; of a failed
+    lift the start, the middle and the end.
 
     Raises
     ------
@@ -94,9 +95,13 @@ def still(episode: Episode, scenario: Scenario, policy: str) -> Picture:
         If the episode ended before its first frame.
     """
     partner = scenario.partner
-    first = shown_frames(episode)[0]
+    shown = shown_frames(episode)
     human, robot = episode.trace.human_end, episode.trace.robot_end
-    moments = sorted((first, int(np.argmax(human)), int(np.argmax(np.abs(human - robot)))))
+    if episode.failure is None:
+        highest, worst = int(np.argmax(human)), int(np.argmax(np.abs(human - robot)))
+        moments = sorted((shown[0], highest, worst))
+    else:
+        moments = [shown[0], shown[len(shown) // 2], shown[-1]]
     size = (STILL_WIDTH, STILL_TITLE + STILL_SCENE + STILL_CURVES)
     page = Image.new("RGB", size, PAPER)
     page.paste(title(episode, policy, STILL_WIDTH, STILL_TITLE))

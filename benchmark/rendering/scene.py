@@ -32,6 +32,7 @@ WOOD: Final = (0.80, 0.62, 0.42, 1.0)
 STAGE: Final = (0.90, 0.91, 0.93, 1.0)
 SHADE: Final = (0.80, 0.82, 0.85, 1.0)
 STONE: Final = (0.66, 0.70, 0.75, 1.0)
+
 EDGE: Final = 0.04
 """Half length of the coloured piece at each end of the table [m]."""
 
@@ -83,7 +84,7 @@ class Scene:
         hands = far_hands + [TABLE_LENGTH, 0.0, 0.0]
         self._hands = hands
         client = self._client
-        middle = far_hands[0] + TABLE_LENGTH / 2
+        middle = float(far_hands[0]) + TABLE_LENGTH / 2
         disc(client, np.array([middle, 0.0, FLOOR]), 1.0, STAGE)
         edge = TABLE_LENGTH / 2 - 0.01
         self._table = [

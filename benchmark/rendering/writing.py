@@ -112,8 +112,10 @@ def _write_mp4(path: Path, pictures: Iterable[Picture], fps: float) -> None:
 
 
 def _write_png(path: Path, pictures: Iterable[Picture], fps: float) -> None:
-    (picture,) = pictures
-    Image.fromarray(picture).save(path, optimize=True)
+    drawn = list(pictures)
+    if len(drawn) != 1:
+        raise ValueError(f"a .png is one picture, got {len(drawn)}")
+    Image.fromarray(drawn[0]).save(path, optimize=True)
 
 
 _WRITERS: Final = {".gif": _write_gif, ".mp4": _write_mp4, ".png": _write_png}

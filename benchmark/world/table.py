@@ -56,6 +56,8 @@ def table_urdf(hand_mass: float, far_mass: float = 0.0) -> str:
     about_grip = TABLE_INERTIA + far_mass * TABLE_LENGTH**2
     pitch_inertia = about_grip - mass * centre**2
     small = 1e-3
+    # PyBullet reads an empty range as no limit, which spares the solver its rows.
+    free = '<limit lower="1" upper="-1" effort="1000" velocity="10"/>'
     return f"""<robot name="human_and_table">
   <link name="ground"><inertial><mass value="1"/>
     <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
@@ -67,9 +69,9 @@ def table_urdf(hand_mass: float, far_mass: float = 0.0) -> str:
     <inertia ixx="{small}" ixy="0" ixz="0" iyy="{pitch_inertia!r}" iyz="0"
       izz="{pitch_inertia!r}"/></inertial></link>
   <joint name="x" type="prismatic"><parent link="ground"/><child link="slide"/>
-    <axis xyz="1 0 0"/><limit lower="-1" upper="1" effort="1000" velocity="10"/></joint>
+    <axis xyz="1 0 0"/>{free}</joint>
   <joint name="z" type="prismatic"><parent link="slide"/><child link="hands"/>
-    <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1000" velocity="10"/></joint>
+    <axis xyz="0 0 1"/>{free}</joint>
   <joint name="pitch" type="revolute"><parent link="hands"/><child link="table"/>
-    <axis xyz="0 1 0"/><limit lower="-1.5" upper="1.5" effort="1000" velocity="10"/></joint>
+    <axis xyz="0 1 0"/>{free}</joint>
 </robot>"""

@@ -1,6 +1,5 @@
 import numpy as np
 import pytest
-
 from colift.benchmark.catalogue import make_scenario
 from colift.benchmark.episode import Episode, Scores
 from colift.benchmark.scenario import Scenario

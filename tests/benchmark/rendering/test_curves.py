@@ -1,11 +1,10 @@
 import numpy as np
-from numpy.typing import NDArray
-from PIL import Image, ImageColor
-
 from colift.benchmark.episode import Episode
 from colift.benchmark.rendering.caption import title
 from colift.benchmark.rendering.curves import Curves
 from colift.benchmark.rendering.palette import HUMAN
+from numpy.typing import NDArray
+from PIL import Image, ImageColor
 
 WIDTH, HEIGHT = 640, 200
 

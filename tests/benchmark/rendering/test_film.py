@@ -2,13 +2,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image
-
 from colift.agents.errors import InputError
 from colift.benchmark.catalogue import make_scenario
 from colift.benchmark.episode import Episode
 from colift.benchmark.rendering.film import film_episode, frames, shown_frames, still
 from colift.benchmark.scenario import Scenario
+from PIL import Image
 
 
 def test_film_shows_every_eighth_frame_and_the_last(long_episode: Episode) -> None:
@@ -20,6 +19,13 @@ def test_film_shows_every_eighth_frame_and_the_last(long_episode: Episode) -> No
 
 def test_film_of_100_pictures_a_second_shows_every_frame(long_episode: Episode) -> None:
     assert shown_frames(long_episode, fps=100) == list(range(680))
+
+
+@pytest.mark.parametrize("fps", [1, 7, 12.5, 30, 60, 99])
+def test_no_frame_is_shown_twice(long_episode: Episode, fps: float) -> None:
+    shown = shown_frames(long_episode, fps)
+    assert sorted(set(shown)) == shown
+    assert len(shown) == pytest.approx(6.8 * fps, abs=2)
 
 
 @pytest.mark.parametrize("fps", [0.0, -5.0, 101.0, float("nan")])
@@ -67,3 +73,14 @@ def test_a_lift_that_never_began_cannot_be_shown(
     with pytest.raises(InputError, match="ZeroDivisionError"):
         film_episode(tmp_path / "lift.gif", empty_episode, scenario, "copy")
     assert not list(tmp_path.iterdir())
+
+
+def test_last_picture_of_a_failed_lift_says_why(
+    episode: Episode, dropped: Episode, scenario: Scenario
+) -> None:
+    *_, fine = frames(episode, scenario, "copy", fps=1)
+    before, last = frames(dropped, scenario, "copy", fps=1)
+    changed = np.flatnonzero((fine[36:] != last[36:]).any(axis=(1, 2)))
+    assert changed.min() > 320
+    assert changed.max() < 360
+    assert not np.array_equal(before[36:], last[36:])

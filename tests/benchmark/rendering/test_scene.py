@@ -2,13 +2,12 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from PIL import ImageColor
-
 from colift.agents.errors import InputError
 from colift.benchmark.environment.parallel import ParallelLift, parallel_env
 from colift.benchmark.rendering.palette import HUMAN, ROBOT, SKY
 from colift.benchmark.rendering.scene import Picture, Scene, check_render_mode
 from colift.benchmark.trace import Trace
+from PIL import ImageColor
 
 PLACES = ((0.0, 0.0), (0.29, 0.29), (-0.03, 0.10))
 
@@ -111,7 +110,11 @@ def test_unknown_render_mode_is_refused() -> None:
         check_render_mode("ascii")
 
 
-def test_a_window_needs_a_display(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_display_all_is_drawn_headless(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
     monkeypatch.delenv("DISPLAY", raising=False)
-    with pytest.raises(InputError, match="DISPLAY"):
-        check_render_mode("human")
+    scene = Scene("nao", window=True)
+    assert scene.picture(32, 20).shape == (20, 32, 3)
+    scene.close()
+    assert "DISPLAY" in caplog.text

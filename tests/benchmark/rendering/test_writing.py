@@ -4,11 +4,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image, ImageSequence
-
 from colift.agents.errors import InputError
 from colift.benchmark.rendering.scene import Picture
 from colift.benchmark.rendering.writing import check_target, write
+from PIL import Image, ImageSequence
 
 
 def pictures(count: int) -> list[Picture]:
