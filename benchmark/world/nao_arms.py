@@ -46,6 +46,7 @@ class NaoArms:
     def __init__(self, client: int, tree: int, physics: Physics, servo: Servo) -> None:
         self._client = client
         self._path = path = arm_path()
+        self._angles = path.joints
         weight_sag = -path.levers * path.gravity_torques / servo.stiffness
         compliance = path.levers**2 / 2 / servo.stiffness
         self._weight_sag: list[float] = weight_sag.sum(axis=1).tolist()
@@ -63,7 +64,9 @@ class NaoArms:
             pybullet.resetJointState(self._body, joint, angle, physicsClientId=client)
         for wrist, side in zip(self._wrists, (1, -1), strict=True):
             self._grip(wrist, (GRIP_X, side * GRIP_Y, REST_Z), tree)
-        self._offset = self._sag(0.0, WEIGHT_SHARE) if servo.weight_offset else 0.0
+        rest = path.row(0.0)
+        sag = self._weight_sag[rest] + self._compliance[rest] * WEIGHT_SHARE
+        self._offset = sag if servo.weight_offset else 0.0
         self.reset()
 
     def _joint_indices(self) -> list[int]:
@@ -98,7 +101,7 @@ class NaoArms:
     def reset(self) -> None:
         """Hold rest height; the engine's state itself is restored by the world."""
         self._load = WEIGHT_SHARE
-        self._previous = self._target = self._offset - self._sag(0.0, WEIGHT_SHARE)
+        self._previous = self._target = self._row(0.0)
 
     def prepare(
         self, command: float, own: list[float], other: list[float], force: list[float]
@@ -109,12 +112,13 @@ class NaoArms:
         """
         self._load += self._yielding * (force[-1] - self._load)
         self._previous = self._target
-        self._target = command + self._offset - self._sag(command, self._load)
+        self._target = self._row(command)
 
-    def _sag(self, height: float, load: float) -> float:
-        """Return how far the hands give way [m] at a height under a vertical load [N]."""
-        row = self._path.row(height)
-        return self._weight_sag[row] + self._compliance[row] * load
+    def _row(self, command: float) -> int:
+        """Return the row of the arms' path that is the set-point for a commanded height [m]."""
+        row = self._path.row
+        i = row(command)
+        return row(command + self._offset - self._weight_sag[i] - self._compliance[i] * self._load)
 
     def drive(self, begin: float, height: float, velocity: float) -> float:
         """Set the motors for the physics step that begins at ``begin`` of the frame.
@@ -124,13 +128,13 @@ class NaoArms:
         float
             No force: the motors' is the engine's to find.
         """
-        set_point = self._previous + (self._target - self._previous) * (begin + self._ahead)
-        path = self._path
+        previous = self._previous
+        row = int(previous + (self._target - previous) * (begin + self._ahead) + 0.5)
         pybullet.setJointMotorControlArray(
             self._body,
             self._joints,
             pybullet.POSITION_CONTROL,
-            path.joints[path.row(set_point)],
+            self._angles[row],
             _ZEROS,
             self._efforts,
             self._gains,

@@ -143,17 +143,21 @@ class World:
         robot_reference
             The same of the partner [m]; of the NAO it is the commanded hand height.
         """
-        client, tree, mass, step = self.client, self._tree, self._mass, self._step
+        client, tree, mass = self.client, self._tree, self._mass
+        share, weight, half = self._step / FRAME, mass * GRAVITY, TABLE_LENGTH / 2 / FRAME
+        stiffness, damping = self._pitch_gain, self._pitch_rate_gain
+        sin, cos = math.sin, math.cos
         body, far, begins = self._body, self._far, self._begins
         control, advance = pybullet.setJointMotorControlArray, self.step_engine
         states = pybullet.getJointStates
         human_end, robot_end = self.human_end, self.robot_end
         human_force, robot_force = self.human_force, self.robot_force
+        human_velocity, robot_velocity = self.human_velocity, self.robot_velocity
         height, velocity = self._height, self._velocity
         pitch, pitch_rate = self._pitch, self._pitch_rate
         previous = self._reference
-        lever = TABLE_LENGTH * math.cos(pitch)
-        far_height, far_velocity = robot_end[-1], self.robot_velocity[-1]
+        lever = TABLE_LENGTH * cos(pitch)
+        far_height, far_velocity = robot_end[-1], robot_velocity[-1]
         for wanted, command in zip(human_reference, robot_reference, strict=True):
             reference = wanted + body.reflex(human_end, robot_end, human_force)
             change = reference - previous
@@ -163,29 +167,29 @@ class World:
             for begin in begins:
                 arms = body.arm_force(previous + change * begin, rate, height, velocity)
                 far_arms = far.drive(begin, far_height, far_velocity)
-                torque = -self._pitch_gain * pitch - self._pitch_rate_gain * pitch_rate
-                forces = [arms + mass * GRAVITY + far_arms, torque + lever * far_arms]
+                torque = lever * far_arms - stiffness * pitch - damping * pitch_rate
+                forces = [arms + weight + far_arms, torque]
                 control(tree, _JOINTS, _TORQUE, forces=forces, physicsClientId=client)
                 advance(client)
                 (height, velocity, _, _), (pitch, pitch_rate, _, _) = states(tree, _JOINTS, client)
-                lever = TABLE_LENGTH * math.cos(pitch)
-                far_height = height + TABLE_LENGTH * math.sin(pitch)
+                lever = TABLE_LENGTH * cos(pitch)
+                far_height = height + TABLE_LENGTH * sin(pitch)
                 far_velocity = velocity + lever * pitch_rate
                 impulse += arms
             acceleration = (velocity - first_velocity) / FRAME
-            centre = acceleration + TABLE_LENGTH / 2 * (pitch_rate - first_pitch_rate) / FRAME
-            force = impulse * step / FRAME - mass * acceleration
+            centre = acceleration + half * (pitch_rate - first_pitch_rate)
+            force = share * impulse - mass * acceleration
             human_end.append(height)
             robot_end.append(far_height)
             human_force.append(force)
-            self.human_velocity.append(velocity)
-            self.robot_velocity.append(far_velocity)
+            human_velocity.append(velocity)
+            robot_velocity.append(far_velocity)
             robot_force.append(TABLE_MASS * (GRAVITY + centre) - force)
             previous = reference
         self._reference = previous
         self._height, self._velocity = height, velocity
         self._pitch, self._pitch_rate = pitch, pitch_rate
-        self.hand_height = self._far.hand_height(self.robot_end[-1])
+        self.hand_height = far.hand_height(far_height)
 
     def since_reset(self, history: list[float]) -> NDArray[np.float64]:
         """Return one of the world's histories without the frames of rest before the reset."""

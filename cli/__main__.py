@@ -1,0 +1,5 @@
+"""``python -m colift.cli``."""
+
+from .main import main
+
+main()

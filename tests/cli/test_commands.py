@@ -1,0 +1,225 @@
+"""The command line as a user meets it: real processes, real files."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+GOOD_CSV = "trial,t_s,z_m\n" + "".join(
+    f"a,{k / 50:.2f},{0.3 * min(k, 60 - k) / 30:.3f}\n" for k in range(61)
+)
+
+
+def colift(*arguments, **settings):
+    """Run the command and return the finished process."""
+    return subprocess.run(
+        [sys.executable, "-m", "colift.cli", *arguments],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        **settings,
+    )
+
+
+@pytest.fixture
+def policy(tmp_path):
+    """Write a policy file and return what to call it by."""
+
+    def write(act, name="Mine"):
+        path = tmp_path / "policy.py"
+        path.write_text(
+            f"class {name}:\n"
+            "    def reset(self, seed): pass\n"
+            f"    def act(self, observation): {act}\n"
+        )
+        return f"{path}:{name}"
+
+    return write
+
+
+def test_run_prints_a_table_and_where_the_policy_stands():
+    done = colift("run", "copy", "--suite", "quick-v1")
+    assert done.returncode == 0
+    assert done.stderr == ""
+    for told in ("smooth", "pause", "jerky", "changing_goal", "against hold", "6.531 mm"):
+        assert told in done.stdout
+
+
+def test_json_is_alone_on_stdout_and_the_bundle_holds_the_same(tmp_path):
+    out = tmp_path / "bundle"
+    done = colift("run", "copy", "--suite", "quick-v1", "--json", "--jobs", "2", "--out", str(out))
+    content = json.loads(done.stdout)
+    assert content == json.loads((out / "results.json").read_text())
+    assert content["references"]["hold"]["rmse_mm"]["mean"] > 60
+    assert done.returncode == 0
+
+
+def test_seeds_latency_and_control_period_make_other_episodes():
+    options = ("--seeds", "40:41", "--latency", "0.05", "--control-period", "0.05", "--json")
+    content = json.loads(colift("run", "copy", "--suite", "quick-v1", *options).stdout)
+    usual = json.loads(
+        colift("run", "copy", "--suite", "quick-v1", "--seeds", "40:41", "--json").stdout
+    )
+    assert content["summary"]["episodes"] == 4
+    assert content["suite_digest"] != usual["suite_digest"]
+    assert content["summary"]["rmse_mm"]["mean"] < usual["summary"]["rmse_mm"]["mean"]
+
+
+def test_recordings_are_evaluated(tmp_path):
+    path = tmp_path / "lifts.csv"
+    path.write_text(GOOD_CSV)
+    content = json.loads(colift("run", "copy", "--recordings", str(path), "--json").stdout)
+    assert content["summary"]["episodes"] == 1
+    assert content["groups"][0]["behaviour"] == "recorded"
+
+
+def test_list_names_everything():
+    done = colift("list")
+    assert done.returncode == 0
+    for name in ("copy", "hold", "random", "changing_goal", "S5", "draw-N", "standard-v1"):
+        assert name in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["run", "nonesuch"], "known: copy, hold, random"),
+        (["run", "copy", "--suite", "nonesuch"], "standard-v1, paper-v1, quick-v1"),
+        (["run", "copy", "--seeds", "5:5"], "5:5"),
+        (["run", "copy", "--seeds", "5"], "A:B"),
+        (["run", "copy", "--seeds=-1:3"], "A:B"),
+        (["run", "copy", "--jobs", "0"], "--jobs must be at least 1"),
+        (["run", "copy", "--jobs", "two"], "--jobs"),
+        (["run", "copy", "--latency", "0.123"], "multiple of 0.01"),
+        (["run", "copy", "--latency", "nan"], "latency"),
+        (["run", "copy", "--control-period", "0"], "control_period"),
+        (["run", "copy", "--out", "/proc/colift"], "cannot write"),
+        (["run", "copy", "--out", "/dev/null"], "is a file"),
+        (["run", "copy", "--recordings", "/nowhere.csv"], "/nowhere.csv"),
+        (["run", "no.such.module:Class"], "cannot import"),
+        (["run", "/nowhere.py:Class"], "no such file"),
+        (["run", "colift.agents.agent:FRAME"], "not a class"),
+        (["run", "colift.agents.humans:Subject"], "no method reset"),
+        (["render", "copy", "--out", "lift.bmp"], ".gif, .mp4, .png"),
+        (["render", "copy", "--scenario", "nonesuch", "--out", "lift.png"], "smooth"),
+        (["render", "copy", "--subject", "S9", "--out", "lift.png"], "S1, S2, S3, S4, S5"),
+        (["bench", "--episodes", "1"], "at least 200"),
+        ([], "Usage"),
+    ],
+)
+def test_wrong_usage_is_one_clear_line_and_exit_code_2(arguments, told, tmp_path):
+    done = colift(*arguments, cwd=tmp_path)
+    assert done.returncode == 2
+    assert told in done.stderr + done.stdout
+    assert "Traceback" not in done.stderr
+    if done.stderr.startswith("error:"):
+        assert done.stderr.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("", "empty"),
+        ("trial,t_s\na,0\n", "z_m"),
+        ("trial,t_s,z_m\n", "no"),
+        ("trial,t_s,z_m\na,0,0\n", "1 sample"),
+        ("trial,t_s,z_m\na,0,0\na,0.1,nan\n", "nan"),
+        ("trial,t_s,z_m\na,0.2,0\na,0.1,0.3\n", "must increase"),
+        ("trial,t_s,z_m\na,0,0\na,0.1,high\n", "high"),
+        ("trial,t_s,z_m\na,0,0\na,1,0.001\n", "m"),
+    ],
+)
+def test_bad_recordings_are_refused(tmp_path, text, told):
+    path = tmp_path / "lifts.csv"
+    path.write_text(text)
+    done = colift("run", "copy", "--recordings", str(path))
+    assert done.returncode == 2
+    assert done.stderr.startswith("error:")
+    assert done.stderr.count("\n") == 1
+    assert told in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("act", "told"),
+    [
+        ("raise KeyError('oops')", "KeyError: 'oops'"),
+        ("return float('nan')", "must be 1 number"),
+        ("return [float('inf')]", "must be finite"),
+        ("return None", "must be 1 number"),
+    ],
+)
+def test_a_failing_policy_is_reported_and_the_run_goes_on(policy, act, told):
+    done = colift("run", policy(act), "--suite", "quick-v1", "--json")
+    assert done.returncode == 1
+    content = json.loads(done.stdout)
+    assert content["summary"]["failed"] == content["summary"]["episodes"] == 12
+    assert content["summary"]["rmse_mm"]["mean"] == pytest.approx(250, rel=0.02)
+    assert "12 of 12 episodes failed" in done.stderr
+    assert told in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_policy_without_act_is_refused(tmp_path):
+    path = tmp_path / "half.py"
+    path.write_text("class Half:\n    def reset(self, seed): pass\n")
+    done = colift("run", f"{path}:Half")
+    assert done.returncode == 2
+    assert "no method act" in done.stderr
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_ctrl_c_keeps_what_is_finished_and_says_so(tmp_path, jobs):
+    started = tmp_path / "started"
+    slow_source = tmp_path / "policy.py"
+    slow_source.write_text(
+        "import time\n"
+        "class Mine:\n"
+        "    def reset(self, seed): open("
+        f"{str(started)!r}, 'a').write('.')\n"
+        "    def act(self, observation):\n"
+        "        time.sleep(0.003)\n"
+        "        return [0.0]\n"
+    )
+    out = tmp_path / "bundle"
+    process = subprocess.Popen(
+        [
+            *(sys.executable, "-m", "colift.cli", "run", f"{slow_source}:Mine"),
+            *("--jobs", jobs, "--out", str(out)),
+        ],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    deadline = time.monotonic() + 120
+    while not started.exists() or started.stat().st_size < 16:
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGINT)
+    stdout, stderr = process.communicate(timeout=120)
+    assert process.returncode == 1
+    assert "interrupted: partial results of" in stderr
+    assert "Traceback" not in stderr
+    content = json.loads((out / "results.json").read_text())
+    assert not content["complete"]
+    assert 0 < content["summary"]["episodes"] < 300
+    assert "RMSE" in stdout
+
+
+def test_render_draws_a_picture(tmp_path):
+    done = colift("render", "copy", "--scenario", "pause", "--out", "lift.png", cwd=tmp_path)
+    assert done.returncode == 0
+    assert (tmp_path / "lift.png").read_bytes().startswith(b"\x89PNG")
+    assert "pause/S1 seed 0" in done.stdout
+
+
+def test_every_command_explains_itself():
+    for command in ("run", "list", "render", "bench"):
+        done = colift(command, "--help")
+        assert done.returncode == 0
+        assert command in done.stdout
