@@ -8,8 +8,8 @@ from typing import Final
 import numpy as np
 
 from ..agents.policies.loading import PolicySpec
-from .environment import Lift
 from .episode import run_episode
+from .lift import Lift
 from .suite import make_suite
 from .world import Physics
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..agents.agent import Agent
 from . import metrics
-from .environment import Lift
+from .lift import Lift
 from .seeding import derive_seed
 from .smoothness import ldlj, sparc
 from .trace import Trace

@@ -6,8 +6,8 @@ from concurrent.futures import CancelledError, Executor, Future, as_completed
 from dataclasses import dataclass
 
 from ..agents.policies.loading import PolicySpec
-from .environment import Lift
 from .episode import Episode, run_episode
+from .lift import Lift
 from .scenario import Scenario
 from .suite import Suite
 

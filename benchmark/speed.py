@@ -12,8 +12,8 @@ from ..agents.policies.copy import Copy
 from ..agents.policies.loading import PolicySpec
 from ..robots.urdf import nao_urdf_path
 from .catalogue import make_scenario
-from .environment import Lift
 from .episode import run_episode
+from .lift import Lift
 from .runner import run_suite
 from .suite import make_suite
 from .world.bullet import pybullet

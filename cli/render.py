@@ -7,8 +7,6 @@ import typer
 
 from ..agents.policies.loading import PolicySpec
 from ..benchmark.catalogue import make_scenario
-from ..benchmark.rendering.film import film_episode, shown_frames
-from ..benchmark.rendering.writing import check_target
 from ..benchmark.runner import play
 from ..benchmark.scenario import CONTROL_PERIOD, LATENCY
 from .progress import progress_bar
@@ -32,13 +30,16 @@ def render(
     ] = CONTROL_PERIOD,
 ) -> None:
     """Draw a lift, seen from the side, with the heights of both ends under it."""
+    # Drawing needs matplotlib, which is slow to load: not for the other commands.
+    from ..benchmark.rendering.film import film_episode, shown_frames
+    from ..benchmark.rendering.writing import check_target
+
     check_target(out)
     spec = PolicySpec(text=policy)
     played = make_scenario(scenario, subject, control_period=control_period, latency=latency)
     (episode,) = play(spec, played, (seed,))
-    with progress_bar(
-        "drawing", 1 if out.suffix == ".png" else len(shown_frames(episode))
-    ) as progress:
+    pictures = 1 if out.suffix == ".png" else len(shown_frames(episode))
+    with progress_bar("drawing", pictures) as progress:
         film_episode(out, episode, played, spec.name, drawn=progress)
     print(f"{out}: {episode.behaviour}/{episode.subject} seed {seed}, ", end="")
     print(f"RMSE {episode.scores.rmse_mm:.1f} mm", end="")

@@ -4,11 +4,10 @@ Importing it registers ``colift/Lift-v0`` with Gymnasium, which reads no entry p
 """
 
 from .aec import env
-from .lift import Lift
 from .parallel import ParallelLift, parallel_env
 from .registration import register
 from .single import RobotEnv
 
-__all__ = ["Lift", "ParallelLift", "RobotEnv", "env", "parallel_env"]
+__all__ = ["ParallelLift", "RobotEnv", "env", "parallel_env"]
 
 register()

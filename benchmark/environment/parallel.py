@@ -10,10 +10,10 @@ from pettingzoo import ParallelEnv
 from ...agents.agent import Action, Observation
 from ...agents.humans import ScriptedHuman
 from ..catalogue import make_scenario
+from ..lift import Lift
 from ..rendering.scene import Scene, check_render_mode
 from ..scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..world import Partner
-from .lift import Lift
 from .spaces import (
     human_action_space,
     human_observation_space,

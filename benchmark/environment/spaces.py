@@ -6,8 +6,8 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ...agents.agent import FRAME, HumanObservation, RobotObservation
+from ..lift import HAND_SPEED, REFERENCE_RANGE
 from ..scenario import LONGEST_PERIOD
-from .lift import HAND_SPEED, REFERENCE_RANGE
 
 HEIGHT_BOUND: Final = 2.0
 """Bound of every height in an observation [m]; a lift stays far inside it."""

@@ -7,8 +7,8 @@ import pytest
 from colift.agents.policies.copy import Copy
 from colift.agents.policies.hold import Hold
 from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.environment import Lift
 from colift.benchmark.episode import run_episode
+from colift.benchmark.lift import Lift
 from colift.benchmark.metrics import FAILED_FRAME_MM
 
 

@@ -9,8 +9,8 @@ from colift.agents.policies.copy import Copy
 from colift.agents.policies.hold import Hold
 from colift.agents.policies.random import Random
 from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.environment import Lift
 from colift.benchmark.episode import policy_seed, run_episode
+from colift.benchmark.lift import Lift
 from colift.benchmark.seeding import derive_seed
 
 BEHAVIOURS = ["smooth", "pause", "jerky", "changing_goal"]

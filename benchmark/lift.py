@@ -5,14 +5,14 @@ from typing import Final
 
 import numpy as np
 
-from ...agents.agent import FRAME, HISTORY, Action, HumanObservation, Observation
-from ...agents.humans import Plan, ScriptedHuman
-from ...robots.arm_kinematics import STROKE
-from ..scenario import Scenario
-from ..seeding import derive_seed
-from ..world import PHYSICS, BodyParameters, Physics, World
-from ..world.human_body import HISTORY_FRAMES
-from ..world.table import TABLE_LENGTH
+from ..agents.agent import FRAME, HISTORY, Action, HumanObservation, Observation
+from ..agents.humans import Plan, ScriptedHuman
+from ..robots.arm_kinematics import STROKE
+from .scenario import Scenario
+from .seeding import derive_seed
+from .world import PHYSICS, BodyParameters, Physics, World
+from .world.human_body import HISTORY_FRAMES
+from .world.table import TABLE_LENGTH
 
 HAND_SPEED: Final = 0.4
 """Fastest hand command [m/s]: the paper's largest action, 4 cm in 100 ms."""

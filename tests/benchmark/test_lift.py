@@ -7,8 +7,8 @@ import pytest
 from colift.agents.agent import HumanObservation, RobotObservation
 from colift.agents.errors import InputError
 from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.environment import Lift, parallel_env
-from colift.benchmark.environment.lift import MOCAP_NOISE
+from colift.benchmark.environment import parallel_env
+from colift.benchmark.lift import MOCAP_NOISE, Lift
 
 NO_CHANGE = np.zeros(1)
 
