@@ -46,7 +46,7 @@ def results(run: Run, references: dict[str, Any]) -> dict[str, Any]:
         "suite": run.suite.name,
         "suite_digest": run.suite.digest,
         "complete": run.complete,
-        "policy": {"name": run.policy},
+        "policy": {"name": run.policy, "digest": run.policy_digest},
         "summary": summarise(run.episodes),
         "groups": group(run.episodes),
         "references": references,

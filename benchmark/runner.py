@@ -21,6 +21,9 @@ class Run:
     """A policy's episodes on a suite, in the suite's order: scenarios, then seeds."""
 
     policy: str
+    """The policy's name."""
+    policy_digest: str
+    """Hash of the policy's source."""
     suite: Suite
     episodes: tuple[Episode, ...]
 
@@ -96,7 +99,7 @@ def run_suite(
     except KeyboardInterrupt:
         pass
     episodes = tuple(episode for index in sorted(done) for episode in done[index])
-    return Run(policy=policy.name, suite=suite, episodes=episodes)
+    return Run(policy=policy.name, policy_digest=policy.digest(), suite=suite, episodes=episodes)
 
 
 def _gather(

@@ -6,19 +6,26 @@ import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from types import ModuleType
 from typing import Any, Final
 
 import numpy as np
 
+from ..agents import agent
 from ..agents.errors import InputError
-from ..agents.humans import SUBJECTS, Recorded, load_recordings
+from ..agents.humans import SUBJECTS, Recorded, load_recordings, scripted, stroke
+from ..agents.humans import lift as human_lift
+from . import lift, metrics
 from .catalogue import RECORDED, make_scenario
 from .scenario import Scenario
-from .world import PHYSICS
+from .world import PHYSICS, SERVO, human_body, table
 
 RULES: Final = 1
 """Number of the rules. It is raised by every change to the code that changes a score; parameters
 enter the digest by themselves."""
+
+PLAYED_BY: Final = (agent, lift, metrics, scripted, human_lift, stroke, table, human_body)
+"""Modules whose constants change a score."""
 
 BEHAVIOURS: Final = ("smooth", "pause", "jerky", "changing_goal")
 """The behaviours of the standard suites."""
@@ -41,12 +48,14 @@ class Suite:
     def digest(self) -> str:
         """SHA-256 (16 hexadecimal digits) over everything that changes a number.
 
-        Scenarios with all parameters of behaviour and subject, seeds, physics and :data:`RULES`.
+        Scenarios with all parameters of behaviour and subject, seeds, physics, the constants of
+        the modules that play and score an episode, and :data:`RULES`.
         Results of different digests never share a table.
         """
         content = {
             "rules": RULES,
-            "physics": _plain(PHYSICS),
+            "physics": [_plain(PHYSICS), _plain(SERVO)],
+            "constants": {module.__name__: _constants(module) for module in PLAYED_BY},
             "scenarios": [_plain(scenario) for scenario in self.scenarios],
             "seeds": self.seeds,
         }
@@ -87,6 +96,15 @@ class Suite:
             name=f"{self.name} ({told})",
             scenarios=tuple(dataclasses.replace(scene, **changes) for scene in self.scenarios),
         )
+
+
+def _constants(module: ModuleType) -> dict[str, Any]:
+    """Return the module's own numbers: the names in capitals."""
+    return {
+        name: _plain(value)
+        for name, value in vars(module).items()
+        if name.isupper() and isinstance(value, int | float | tuple)
+    }
 
 
 def _plain(value: Any) -> Any:

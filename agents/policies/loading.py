@@ -1,5 +1,6 @@
 """From what a user types to a policy."""
 
+import hashlib
 import importlib
 import importlib.util
 import inspect
@@ -43,6 +44,18 @@ class PolicySpec:
         if not hasattr(module, name):
             raise InputError(f"{source} has no class {name!r}{_listing(module)}")
         return _checked(getattr(module, name), self.text)
+
+    def digest(self) -> str:
+        """Return the SHA-256 (16 hexadecimal digits) of the source file of the policy's class.
+
+        Raises
+        ------
+        InputError
+            As :meth:`load`.
+        """
+        source = inspect.getsourcefile(self.load())
+        content = Path(source).read_bytes() if source else b""
+        return hashlib.sha256(content).hexdigest()[:16]
 
     def make(self) -> Agent:
         """Return a new policy object.

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.benchmark.suite import SUITES, make_suite, recorded_suite
+from colift.benchmark.world import table
 
 
 def test_the_suites_have_the_sizes_that_their_descriptions_say():
@@ -50,6 +51,12 @@ def test_a_digest_changes_with_the_seeds_but_not_with_the_name():
 def test_an_empty_range_of_seeds_is_refused(start, stop):
     with pytest.raises(InputError, match="0 <= A < B"):
         make_suite("quick-v1").with_seeds(start, stop)
+
+
+def test_a_digest_changes_with_the_constants_of_the_world(monkeypatch):
+    before = make_suite("quick-v1").digest
+    monkeypatch.setattr(table, "TABLE_MASS", 0.36)
+    assert make_suite("quick-v1").digest != before
 
 
 def test_an_unknown_suite_is_refused_with_the_names():
