@@ -30,6 +30,18 @@ class Agent(Protocol):
         """Return the action for the next control period."""
 
 
+@runtime_checkable
+class Explaining(Protocol):
+    """An agent that can say what its last action was based on."""
+
+    def internals(self) -> dict[str, float]:
+        """Return named numbers, the same names after every action.
+
+        By convention ``prediction`` is a predicted height of the human's end [m], ``confidence``
+        is in [0, 1], and ``role`` is 1 for a leader and 0 for a follower.
+        """
+
+
 class RobotObservation(IntEnum):
     """Index table of the robot's observation: all that a robot policy may see.
 

@@ -1,7 +1,6 @@
 """The result bundle: a folder with a policy's scores, and all that they follow from."""
 
 import csv
-import dataclasses
 import hashlib
 import io
 import json
@@ -140,19 +139,29 @@ def _missing(value: object) -> bool:
     return isinstance(value, float) and math.isnan(value)
 
 
+def _joined(parts: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    return np.concatenate(parts).astype("<f8") if parts else np.empty(0)
+
+
 def _npz(episodes: Sequence[Episode]) -> bytes:
     """Return the traces as one zip of arrays, the episodes of each joined end to end.
 
-    ``frames`` and ``steps`` (k,) say how many frames and steps each of the k episodes has.
+    ``frames`` and ``steps`` (k,) say how many frames and steps each of the k episodes has;
+    ``internals/NAME`` are what a policy reports of itself.
     """
     traces = [episode.trace for episode in episodes]
     arrays: dict[str, NDArray[Any]] = {
         "frames": np.array([len(trace.human_end) for trace in traces], dtype="<i8"),
         "steps": np.array([len(trace.action) for trace in traces], dtype="<i8"),
     }
-    for field in dataclasses.fields(Trace):
-        parts = [getattr(trace, field.name) for trace in traces]
-        arrays[field.name] = np.concatenate(parts).astype("<f8") if parts else np.empty(0)
+    for name in Trace.series():
+        arrays[name] = _joined([getattr(trace, name) for trace in traces])
+    for name in sorted({name for trace in traces for name in trace.internals}):
+        missing = [np.full(len(trace.action), math.nan) for trace in traces]
+        parts = [
+            trace.internals.get(name, none) for trace, none in zip(traces, missing, strict=True)
+        ]
+        arrays[f"internals/{name}"] = _joined(parts)
     data = io.BytesIO()
     with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, array in arrays.items():

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from ..agents.agent import Agent
+from ..agents.agent import Agent, Explaining
 from . import metrics
 from .lift import Lift
 from .seeding import derive_seed
@@ -98,6 +98,7 @@ def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
     lift.reset(seed)
     human = lift.scripted_human()
     actions: list[object] = []
+    internals: list[dict[str, float]] = []
     times: list[float] = []
     failure: str | None = None
     clock = time.perf_counter
@@ -120,8 +121,10 @@ def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
             failure = f"step {len(actions)}: {error}"
             break
         actions.append(action)
+        if isinstance(partner, Explaining):
+            internals.append(partner.internals())
     failure = failure or lift.dropped
-    trace = _trace(lift, actions)
+    trace = _trace(lift, actions, internals)
     scenario = lift.scenario
     return Episode(
         behaviour=scenario.behaviour,
@@ -139,7 +142,7 @@ def _told(error: Exception) -> str:
     return f"{type(error).__name__}: {error}".rstrip(": ")
 
 
-def _trace(lift: Lift, actions: list[object]) -> Trace:
+def _trace(lift: Lift, actions: list[object], internals: list[dict[str, float]]) -> Trace:
     world = lift.world
     width = 1 if lift.scenario.partner == "nao" else lift.frames_per_step
     return Trace(
@@ -150,6 +153,10 @@ def _trace(lift: Lift, actions: list[object]) -> Trace:
         robot_force=world.since_reset(world.robot_force),
         target=lift.target[: lift.frame],
         action=np.array(actions, dtype=np.float64).reshape(len(actions), width),
+        internals={
+            name: np.array([step.get(name, math.nan) for step in internals])
+            for name in (internals[0] if internals else {})
+        },
     )
 
 

@@ -1,6 +1,7 @@
 """The trace of an episode: what happened, frame by frame."""
 
 import hashlib
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -30,12 +31,22 @@ class Trace:
     """(n,) the human's intended height [m]."""
     action: Series
     """(m, k) the actions of the robot's end as given: of a NAO, changes of the command [m]."""
+    internals: Mapping[str, Series]
+    """(m,) each: what the policy says its actions were based on, where it says so; see
+    :class:`colift.agents.agent.Explaining`."""
+
+    @staticmethod
+    def series() -> tuple[str, ...]:
+        """Return the names of the fields that are arrays, in order."""
+        return tuple(field.name for field in fields(Trace) if field.name != "internals")
 
     def digest(self) -> str:
         """Return the SHA-256 of all numbers: equal if and only if every bit is."""
         sha = hashlib.sha256()
-        for field in fields(self):
-            values = np.ascontiguousarray(getattr(self, field.name), dtype="<f8")
-            sha.update(f"{field.name}{values.shape}".encode())
+        arrays = {name: getattr(self, name) for name in self.series()}
+        arrays |= {f"internals/{name}": self.internals[name] for name in sorted(self.internals)}
+        for name, array in arrays.items():
+            values = np.ascontiguousarray(array, dtype="<f8")
+            sha.update(f"{name}{values.shape}".encode())
             sha.update(values.tobytes())
         return sha.hexdigest()

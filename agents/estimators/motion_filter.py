@@ -1,0 +1,137 @@
+"""The paper's Kalman filter of the human's motion: nearly constant acceleration (eqs. 2 to 5)."""
+
+import math
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+import numpy as np
+from filterpy.kalman import ExtendedKalmanFilter
+from numpy.typing import NDArray
+
+Matrix = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MotionFilterParameters:
+    """Parameters of :class:`MotionFilter`, in millimetres and seconds as in the paper."""
+
+    measurement_noise: float = 0.7
+    """R, the variance of a measured height [mm2]: 0.7, "the uncertainty in measurement" of the
+    motion-capture system (section III.B). Read literally as a variance; as a standard deviation
+    of 0.7 mm it would be 0.49."""
+
+    process_noise: float = 1e5
+    """q, the intensity of the process noise [mm2/s6] as a variance of the jerk over a step. The
+    paper does not state Q; this value is calibrated (``colift calibrate``). Its root, 316 mm/s3,
+    is of the order of the rms jerk of a 0.2 m lift in 2 s."""
+
+    noise_enters: Literal["jerk", "acceleration"] = "jerk"
+    """How Q is built: q g g' with g = [t3/6, t2/2, t] (a jerk that is constant over a step), or
+    q t2 on the acceleration alone."""
+
+    initial_spread: tuple[float, float, float] = (0.7**0.5, 10.0, 100.0)
+    """Standard deviations of height [mm], velocity [mm/s] and acceleration [mm/s2] at the start:
+    the lift begins at rest."""
+
+    def __post_init__(self) -> None:
+        """Check the ranges.
+
+        Raises
+        ------
+        ValueError
+            If a noise is not positive or the spread does not have three positive entries.
+        """
+        if not (self.measurement_noise > 0 and self.process_noise > 0):
+            raise ValueError(f"noises must be positive, got {self}")
+        if len(self.initial_spread) != 3 or min(self.initial_spread) <= 0:
+            raise ValueError(f"initial_spread must be three positive numbers, got {self}")
+
+
+class Prediction(NamedTuple):
+    """What the filter expects of a sample, before it has seen it."""
+
+    height: float
+    """Predicted height [m], eq. 5."""
+    variance: float
+    """Variance of the predicted height [mm2], the marginal of the state's covariance."""
+    velocity: float
+    """Predicted velocity [m/s]."""
+    acceleration: float
+    """Predicted acceleration [m/s2]."""
+
+
+def transition(period: float) -> Matrix:
+    """Return F of eq. 4 for a step of ``period`` [s]: constant acceleration, shape (3, 3)."""
+    return np.array([[1.0, period, period**2 / 2], [0.0, 1.0, period], [0.0, 0.0, 1.0]])
+
+
+def process_covariance(parameters: MotionFilterParameters, period: float) -> Matrix:
+    """Return Q for a step of ``period`` [s], shape (3, 3), in powers of mm and s."""
+    q = parameters.process_noise
+    if parameters.noise_enters == "jerk":
+        gain = np.array([period**3 / 6, period**2 / 2, period])
+        return q * np.outer(gain, gain)
+    return np.diag([0.0, 0.0, q * period**2])
+
+
+class MotionFilter:
+    """Tracks height, velocity and acceleration of the human's end from its samples.
+
+    The state x = (s, v, a) follows eq. 4, the measurement is z = s + v with v ~ N(0, R) (eq. 3).
+    Both are linear, so that the paper's extended Kalman filter is a Kalman filter.
+    """
+
+    def __init__(self, parameters: MotionFilterParameters | None = None) -> None:
+        self._parameters = parameters or MotionFilterParameters()
+
+    def reset(self, height: float) -> None:
+        """Begin at rest at a measured height [m]."""
+        spread = np.array(self._parameters.initial_spread)
+        self._filter = ExtendedKalmanFilter(dim_x=3, dim_z=1)
+        self._filter.x = np.array([[1000 * height], [0.0], [0.0]])
+        self._filter.P = np.diag(spread**2)
+        self._filter.R = np.array([[self._parameters.measurement_noise]])
+        self._period = math.nan
+
+    def update(self, height: float) -> None:
+        """Correct the state by a measured height [m].
+
+        Raises
+        ------
+        ValueError
+            If the height is not a finite number.
+        """
+        if not math.isfinite(height):
+            raise ValueError(f"a measured height must be finite, got {height}")
+        measured = np.array([[1000 * height]])
+        self._filter.update(measured, HJacobian=_observe, Hx=_measure)
+
+    def predict(self, period: float) -> Prediction:
+        """Advance the state by ``period`` [s] and return what is expected then (eqs. 4, 5)."""
+        if period != self._period:
+            self._period = period
+            self._filter.F = transition(period)
+            self._filter.Q = process_covariance(self._parameters, period)
+        self._filter.predict()
+        height, velocity, acceleration = (self._filter.x[:, 0] / 1000).tolist()
+        return Prediction(height, float(self._filter.P[0, 0]), velocity, acceleration)
+
+    @property
+    def state(self) -> Matrix:
+        """The state (s, v, a) [m, m/s, m/s2], shape (3,)."""
+        state: Matrix = self._filter.x[:, 0] / 1000
+        return state
+
+
+_H = np.array([[1.0, 0.0, 0.0]])
+
+
+def _observe(state: Matrix) -> Matrix:
+    """Return the Jacobian of the measurement."""
+    return _H
+
+
+def _measure(state: Matrix) -> Matrix:
+    """Return the measurement that a state gives (eq. 3)."""
+    measured: Matrix = _H @ state
+    return measured

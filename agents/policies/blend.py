@@ -1,0 +1,45 @@
+"""The paper's framework: leader and follower mixed by confidence (section III.C)."""
+
+import numpy as np
+
+from ..agent import Action, Observation, RobotObservation
+from ..estimators.gain_control import gain_control
+from .predictor import Predictor, PredictorParameters
+from .reactive import Reactive
+
+
+class Blend:
+    """Leads as far as its prediction can be trusted, follows otherwise (Thobbi, Gu, Sheng 2011).
+
+    The action is A = C P + (1 - C) R (eq. 8), P of :class:`.Proactive`, R of :class:`.Reactive`
+    and C the confidence of eq. 7.
+    """
+
+    def __init__(self, *, parameters: PredictorParameters | None = None) -> None:
+        self._predictor = Predictor(parameters)
+        self._reactive = Reactive()
+
+    def reset(self, seed: int) -> None:
+        """Begin an episode."""
+        self._predictor.reset()
+
+    def act(self, observation: Observation) -> Action:
+        """Return the composite action [m]."""
+        prediction, confidence = self._predictor.step(observation)
+        proactive = prediction.height - float(observation[RobotObservation.HAND_HEIGHT])
+        reactive = self._reactive.step(observation)
+        self._internals = {
+            "prediction": prediction.height,
+            "predicted_velocity": prediction.velocity,
+            "predicted_acceleration": prediction.acceleration,
+            "confidence": confidence,
+            "role": confidence,
+        }
+        return np.array([gain_control(confidence, proactive, reactive)])
+
+    def internals(self) -> dict[str, float]:
+        """Return what the last action was based on: prediction [m] with its rates, confidence.
+
+        The role is 1 for a leader and 0 for a follower: here it is the confidence.
+        """
+        return self._internals

@@ -1,0 +1,64 @@
+"""One-step prediction of the human's end with its confidence: what proactive policies share."""
+
+from dataclasses import dataclass, field
+
+from ..agent import Observation, RobotObservation
+from ..estimators.confidence import LITERAL, Confidence, Reading, likelihood
+from ..estimators.motion_filter import MotionFilter, MotionFilterParameters, Prediction
+
+DEFAULT_PERIOD = 0.1
+"""Time between two samples before there have been two [s]: the paper's."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PredictorParameters:
+    """Parameters of :class:`Predictor`."""
+
+    motion: MotionFilterParameters = field(default_factory=MotionFilterParameters)
+    """The Kalman filter."""
+    forgetting: float = 0.45
+    """phi of eq. 7."""
+    reading: Reading = LITERAL
+    """How eq. 6 is read."""
+
+
+class Predictor:
+    """Predicts the human's height one step ahead of the sample, and says how sure it is.
+
+    Literally the paper's: the sample's age is not compensated.
+    """
+
+    def __init__(self, parameters: PredictorParameters | None = None) -> None:
+        self._parameters = parameters or PredictorParameters()
+
+    def reset(self) -> None:
+        """Forget the last episode."""
+        self._filter: MotionFilter | None = None
+        self._confidence = Confidence(self._parameters.forgetting)
+        self._expected: Prediction | None = None
+        self._time = 0.0
+
+    def step(self, observation: Observation) -> tuple[Prediction, float]:
+        """Take the newest sample in.
+
+        Returns
+        -------
+        tuple
+            The prediction of the next sample, and the confidence in it (eq. 7).
+        """
+        height = float(observation[RobotObservation.HUMAN_END])
+        time = float(observation[RobotObservation.TIME])
+        if self._filter is None or self._expected is None:
+            self._filter = MotionFilter(self._parameters.motion)
+            self._filter.reset(height)
+            confidence = self._confidence.update(1.0)
+            period = DEFAULT_PERIOD
+        else:
+            error = 1000 * (height - self._expected.height)
+            chance = likelihood(error, self._expected.variance, self._parameters.reading)
+            confidence = self._confidence.update(chance)
+            period = time - self._time
+            self._filter.update(height)
+        self._time = time
+        self._expected = self._filter.predict(period)
+        return self._expected, confidence

@@ -1,0 +1,30 @@
+"""The paper's proactive controller alone: a leader by prediction (section III.B)."""
+
+import numpy as np
+
+from ..agent import Action, Observation, RobotObservation
+from .predictor import Predictor, PredictorParameters
+
+
+class Proactive:
+    """Goes to where the human is predicted to be (Thobbi, Gu, Sheng 2011, section III.B).
+
+    P = predicted height of the human's end - height of the own hand.
+    """
+
+    def __init__(self, *, parameters: PredictorParameters | None = None) -> None:
+        self._predictor = Predictor(parameters)
+
+    def reset(self, seed: int) -> None:
+        """Begin an episode."""
+        self._predictor.reset()
+
+    def act(self, observation: Observation) -> Action:
+        """Return the movement to the predicted height [m]."""
+        prediction, confidence = self._predictor.step(observation)
+        self._internals = {"prediction": prediction.height, "confidence": confidence, "role": 1.0}
+        return np.array([prediction.height - observation[RobotObservation.HAND_HEIGHT]])
+
+    def internals(self) -> dict[str, float]:
+        """Return what the last action was based on: prediction [m], confidence, role."""
+        return self._internals

@@ -1,0 +1,53 @@
+"""The paper's reactive controller: a follower that was learned (section III.A)."""
+
+import json
+from collections.abc import Sequence
+from functools import cache
+from importlib.resources import files
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..agent import Action, Observation, RobotObservation
+from .q_learning import ACTIONS, Q_PARAMETERS, QParameters, state_of
+
+
+@cache
+def learned_table() -> NDArray[np.float64]:
+    """Return the shipped Q-table, as ``colift learn reactive`` learned it; states x actions."""
+    text = files(__package__).joinpath("data", "reactive.json").read_text()
+    table = np.array(json.loads(text)["table"])
+    table.flags.writeable = False
+    return table
+
+
+class Reactive:
+    """Follows by steps of 2 cm, learned by Q-learning (Thobbi, Gu, Sheng 2011, section III.A).
+
+    The state is the human's end, as seen, minus the own hand, as felt by its encoders. With a hand
+    height as old as the human's, the steps would overshoot and never come to rest.
+    """
+
+    def __init__(
+        self,
+        *,
+        parameters: QParameters = Q_PARAMETERS,
+        table: Sequence[Sequence[float]] | None = None,
+    ) -> None:
+        self._parameters = parameters
+        self._greedy = np.argmax(learned_table() if table is None else np.array(table), axis=1)
+
+    def reset(self, seed: int) -> None:
+        """Begin an episode; there is nothing to prepare."""
+
+    def act(self, observation: Observation) -> Action:
+        """Return the learned step [m] for the height difference."""
+        return np.array([self.step(observation)])
+
+    def step(self, observation: Observation) -> float:
+        """Return the greedy action in the observed state [m]."""
+        difference = (
+            observation[RobotObservation.HUMAN_END] - observation[RobotObservation.HAND_HEIGHT]
+        )
+        action = self._greedy[state_of(float(difference), self._parameters)]
+        return ACTIONS[action] * self._parameters.position_step
