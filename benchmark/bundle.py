@@ -9,7 +9,7 @@ import platform
 import shutil
 import tempfile
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Final
@@ -19,7 +19,9 @@ from numpy.typing import NDArray
 
 from ..agents.errors import InputError
 from .episode import Episode
+from .references import HUMAN_HUMAN, Reference
 from .runner import Run
+from .statistics import stratified_bootstrap
 from .summary import group, summarise
 from .trace import Trace
 
@@ -30,7 +32,7 @@ LIBRARIES: Final = ("colift", "numpy", "pybullet")
 """Packages whose version can change a number."""
 
 
-def results(run: Run, references: dict[str, Any]) -> dict[str, Any]:
+def results(run: Run, references: Mapping[str, Reference]) -> dict[str, Any]:
     """Return the content of ``results.json``.
 
     Parameters
@@ -38,17 +40,29 @@ def results(run: Run, references: dict[str, Any]) -> dict[str, Any]:
     run
         The policy's episodes.
     references
-        Summaries of other agents on the same episodes, by name.
+        Other agents on the same episodes, by name; see :mod:`.references`.
     """
+    team = references.get(HUMAN_HUMAN)
     return {
         "colift": version("colift"),
         "suite": run.suite.name,
         "suite_digest": run.suite.digest,
         "complete": run.complete,
         "policy": {"name": run.policy, "digest": run.policy_digest},
-        "summary": summarise(run.episodes),
-        "groups": group(run.episodes),
-        "references": references,
+        "summary": summarise(run.episodes, team.rmse_mm if team else None),
+        "groups": group(run.episodes, team.by_cell() if team else None),
+        "references": {name: _reference(value) for name, value in references.items()},
+    }
+
+
+def _reference(reference: Reference) -> dict[str, Any]:
+    return {
+        "rmse_mm": {
+            "mean": reference.mean,
+            "ci95": list(stratified_bootstrap(reference.rmse_mm, reference.cells)),
+        },
+        "sparc": {"mean": reference.sparc},
+        "human_force_n": {"mean": reference.human_force_n},
     }
 
 

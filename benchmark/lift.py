@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from ..agents.agent import FRAME, HISTORY, Action, HumanObservation, Observation
-from ..agents.humans import Plan, ScriptedHuman
+from ..agents.humans import PARTNER_SUBJECT, Plan, ScriptedHuman, Subject
 from ..robots.arm_kinematics import STROKE
 from .scenario import Scenario
 from .seeding import derive_seed
@@ -55,18 +55,10 @@ class Lift:
         self.step_limit = HAND_SPEED * scenario.control_period
         self._latency = scenario.latency_frames
         subject = scenario.subject
-        self._seen = round(subject.visual_delay / FRAME)
-        self._felt = round(subject.haptic_delay / FRAME)
-        body = BodyParameters(
-            stiffness=subject.stiffness,
-            damping=subject.damping,
-            mass=subject.mass,
-            pull=subject.pull,
-            visual_delay=subject.visual_delay,
-            haptic_delay=subject.haptic_delay,
-        )
-        second = body if scenario.partner == "human" else None
-        self.world = World(scenario.partner, body, second, physics=physics)
+        self._human_delays = _delays(subject)
+        self._partner_delays = _delays(PARTNER_SUBJECT)
+        second = _body(PARTNER_SUBJECT) if scenario.partner == "human" else None
+        self.world = World(scenario.partner, _body(subject), second, physics=physics)
 
     def reset(self, seed: int) -> None:
         """Begin the episode ``seed``: draw the human's plan and the sensors' noise."""
@@ -169,9 +161,15 @@ class Lift:
         if self.scenario.partner == "nao":
             return self._robot_view()
         world = self.world
-        target = np.full(self.frames_per_step, world.human_end[-1 - self._seen])
+        delays = self._partner_delays
+        target = np.full(self.frames_per_step, world.human_end[-1 - delays[0]])
         return self._human_view(
-            world.robot_end, world.robot_velocity, world.human_end, world.robot_force, target
+            world.robot_end,
+            world.robot_velocity,
+            world.human_end,
+            world.robot_force,
+            target,
+            delays,
         )
 
     def _robot_view(self) -> Observation:
@@ -197,6 +195,7 @@ class Lift:
             world.robot_end,
             world.human_force,
             self.target[frame : frame + self.frames_per_step],
+            self._human_delays,
         )
 
     def _human_view(
@@ -206,8 +205,9 @@ class Lift:
         other: list[float],
         force: list[float],
         target: Observation,
+        delays: tuple[int, int],
     ) -> Observation:
-        seen, felt = len(other) - self._seen, len(force) - self._felt
+        seen, felt = len(other) - delays[0], len(force) - delays[1]
         view = np.empty(HumanObservation.size(self.frames_per_step))
         view[HumanObservation.OWN_HEIGHT] = own[-HISTORY:]
         view[HumanObservation.OWN_VELOCITY] = velocity[-HISTORY:]
@@ -221,6 +221,24 @@ class Lift:
     def close(self) -> None:
         """Release the world."""
         self.world.close()
+
+
+def _delays(person: Subject) -> tuple[int, int]:
+    """Return a person's visual and haptic delay in frames."""
+    return round(person.visual_delay / FRAME), round(person.haptic_delay / FRAME)
+
+
+def _body(person: Subject) -> BodyParameters:
+    """Return what the world needs to know of a person."""
+    return BodyParameters(
+        stiffness=person.stiffness,
+        damping=person.damping,
+        mass=person.mass,
+        pull=person.pull,
+        felt_share=person.felt_share,
+        visual_delay=person.visual_delay,
+        haptic_delay=person.haptic_delay,
+    )
 
 
 def _checked(agent: str, action: Action, size: int) -> list[float]:

@@ -4,8 +4,9 @@ import itertools
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError, Executor, Future, as_completed
 from dataclasses import dataclass
+from typing import Protocol
 
-from ..agents.policies.loading import PolicySpec
+from ..agents.agent import Agent
 from .episode import Episode, run_episode
 from .lift import Lift
 from .scenario import Scenario
@@ -14,6 +15,29 @@ from .suite import Suite
 SEEDS_PER_TASK = 5
 """Seeds of one scenario that a worker plays at a time: few enough that progress shows, many
 enough that building the world (some milliseconds) does not."""
+
+
+class AgentSpec(Protocol):
+    """Where the agent at the robot's end comes from; goes to worker processes, so it is pickled.
+
+    :class:`colift.agents.policies.loading.PolicySpec` is one.
+    """
+
+    @property
+    def name(self) -> str:
+        """The agent's name, for tables."""
+
+    def digest(self) -> str:
+        """Return a hash of the agent's source."""
+
+    def make(self) -> Agent:
+        """Return a new agent.
+
+        Raises
+        ------
+        InputError
+            If there is none.
+        """
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -33,7 +57,7 @@ class Run:
         return len(self.episodes) == self.suite.size
 
 
-def play(policy: PolicySpec, scenario: Scenario, seeds: tuple[int, ...]) -> Iterator[Episode]:
+def play(policy: AgentSpec, scenario: Scenario, seeds: tuple[int, ...]) -> Iterator[Episode]:
     """Play the scenario with each seed, with a new policy object for each episode."""
     lift = Lift(scenario)
     try:
@@ -43,13 +67,13 @@ def play(policy: PolicySpec, scenario: Scenario, seeds: tuple[int, ...]) -> Iter
         lift.close()
 
 
-def _task(policy: PolicySpec, scenario: Scenario, seeds: tuple[int, ...]) -> list[Episode]:
+def _task(policy: AgentSpec, scenario: Scenario, seeds: tuple[int, ...]) -> list[Episode]:
     """Return the episodes of :func:`play`; what a worker process runs."""
     return list(play(policy, scenario, seeds))
 
 
 def run_suite(
-    policy: PolicySpec,
+    policy: AgentSpec,
     suite: Suite,
     *,
     executor: Executor | None = None,
@@ -81,7 +105,7 @@ def run_suite(
     InputError
         If the policy cannot be loaded.
     """
-    policy.load()
+    policy.make()
     seeds = [
         suite.seeds[i : i + SEEDS_PER_TASK] for i in range(0, len(suite.seeds), SEEDS_PER_TASK)
     ]
@@ -103,7 +127,7 @@ def run_suite(
 
 
 def _gather(
-    policy: PolicySpec,
+    policy: AgentSpec,
     tasks: list[tuple[Scenario, tuple[int, ...]]],
     executor: Executor,
     done: dict[int, list[Episode]],

@@ -243,6 +243,43 @@ def paired_difference(
     return PairedDifference(mean=float((x - y).mean()), ci95=ci95)
 
 
+def paired_permutation_p(
+    a: ArrayLike, b: ArrayLike, *, resamples: int = 10_000, seed: int = 0
+) -> float:
+    """Return the two-sided p value of "a and b do not differ", by random sign flips.
+
+    If they did not, each difference a - b would be as likely with the other sign. The p value is
+    the share of sign flips, the observed signs among them, whose mean difference is at least as
+    far from zero; it is never below 1 / (resamples + 1).
+
+    Parameters
+    ----------
+    a, b
+        Values of two policies on the same episodes in the same order, each of shape (n,).
+    resamples
+        Number of random sign flips.
+    seed
+        Seed of the flips: the same inputs give the same p value.
+
+    Returns
+    -------
+    float
+        p value, in (0, 1].
+
+    Raises
+    ------
+    InputError
+        If the values are empty, not finite or of unequal length.
+    """
+    x, y = _paired("a", a, "b", b)
+    difference = x - y
+    signs = np.random.default_rng(seed).choice((-1.0, 1.0), (resamples, difference.size))
+    # Flips that give the same sum in another order of rounding count as equal.
+    least = abs(difference.sum()) - 1e-9 * np.abs(difference).sum()
+    extreme = int((np.abs(signs @ difference) >= least).sum())
+    return (1 + extreme) / (1 + resamples)
+
+
 def _cells(strata: Iterable[Hashable], episodes: int) -> list[NDArray[np.intp]]:
     """Return the indices of the episodes of each cell, cells in order of appearance."""
     members: dict[Hashable, list[int]] = {}

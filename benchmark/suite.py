@@ -18,7 +18,7 @@ from ..agents.humans import lift as human_lift
 from . import lift, metrics
 from .catalogue import RECORDED, make_scenario
 from .scenario import Scenario
-from .world import PHYSICS, SERVO, human_body, table
+from .world import PHYSICS, SERVO, Partner, human_body, table
 
 RULES: Final = 1
 """Number of the rules. It is raised by every change to the code that changes a score; parameters
@@ -74,6 +74,16 @@ class Suite:
             raise InputError(f"seeds must be A:B with 0 <= A < B, got {start}:{stop}")
         name = f"{self.name}[{start}:{stop}]"
         return dataclasses.replace(self, name=name, seeds=tuple(range(start, stop)))
+
+    def with_partner(self, partner: Partner) -> "Suite":
+        """Return the same episodes with another holder of the robot's end.
+
+        The human's plans stay the same: they follow from the seed and the scenario's name.
+        """
+        scenarios = tuple(
+            dataclasses.replace(scenario, partner=partner) for scenario in self.scenarios
+        )
+        return dataclasses.replace(self, scenarios=scenarios)
 
     def with_timing(self, latency: float | None, control_period: float | None) -> "Suite":
         """Return the same episodes with another latency or control period [s].

@@ -2,13 +2,18 @@
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
 
 from .episode import Episode, Scores
-from .statistics import interquartile_mean, mean_with_missing, stratified_bootstrap
+from .statistics import (
+    interquartile_mean,
+    mean_with_missing,
+    ratio_of_means_ci,
+    stratified_bootstrap,
+)
 
 METRICS: Final = tuple(field.name for field in dataclasses.fields(Scores))
 
@@ -20,7 +25,9 @@ def cell(episode: Episode) -> Cell:
     return episode.behaviour, episode.subject
 
 
-def summarise(episodes: Sequence[Episode]) -> dict[str, Any]:
+def summarise(
+    episodes: Sequence[Episode], human_human: Sequence[float] | None = None
+) -> dict[str, Any]:
     """Return the summary of a policy's episodes.
 
     ``rmse_mm`` has mean, interquartile mean and the mean's 95 % confidence interval, by bootstrap
@@ -28,6 +35,15 @@ def summarise(episodes: Sequence[Episode]) -> dict[str, Any]:
     episodes that have one and the number of those that do not (``missing``): a policy that does
     not move has no smoothness, and ranks last by it. Step times are percentiles over all calls
     of the policy [ms].
+
+    Parameters
+    ----------
+    episodes
+        The policy's episodes.
+    human_human
+        RMSE of the human-human team on the same episodes [mm]. With it, ``vs_human`` is the ratio
+        of the means, with the 95 % interval of a bootstrap that pairs the episodes: 1 is as good
+        as a human partner, less is better. Without it, ``vs_human`` is None.
     """
     rmse = [episode.scores.rmse_mm for episode in episodes]
     cells = [cell(episode) for episode in episodes]
@@ -40,7 +56,7 @@ def summarise(episodes: Sequence[Episode]) -> dict[str, Any]:
             "iqm": float(interquartile_mean(rmse)),
             "ci95": list(stratified_bootstrap(rmse, cells)),
         },
-        "vs_human": None,
+        "vs_human": _vs_human(rmse, human_human, cells),
     }
     for name in METRICS:
         if name != "rmse_mm":
@@ -51,8 +67,22 @@ def summarise(episodes: Sequence[Episode]) -> dict[str, Any]:
     return summary
 
 
-def group(episodes: Sequence[Episode]) -> list[dict[str, Any]]:
-    """Return one entry for each behaviour and subject, in order of appearance."""
+def _vs_human(
+    rmse: Sequence[float], human_human: Sequence[float] | None, cells: Sequence[Cell]
+) -> dict[str, Any] | None:
+    if human_human is None or len(human_human) != len(rmse):
+        return None
+    ratio = float(np.mean(rmse) / np.mean(human_human))
+    return {"mean": ratio, "ci95": list(ratio_of_means_ci(rmse, human_human, cells))}
+
+
+def group(
+    episodes: Sequence[Episode], human_human: Mapping[Cell, float] | None = None
+) -> list[dict[str, Any]]:
+    """Return one entry for each behaviour and subject, in order of appearance.
+
+    ``human_human`` is the mean RMSE of the human-human team in each cell [mm], if it is known.
+    """
     members: dict[Cell, list[Episode]] = {}
     for episode in episodes:
         members.setdefault(cell(episode), []).append(episode)
@@ -63,7 +93,7 @@ def group(episodes: Sequence[Episode]) -> list[dict[str, Any]]:
             "episodes": len(some),
             "failed": sum(episode.failure is not None for episode in some),
             **{name: _mean([getattr(e.scores, name) for e in some]) for name in METRICS},
-            "human_human_rmse_mm": None,
+            "human_human_rmse_mm": {"mean": (human_human or {}).get((behaviour, subject))},
         }
         for (behaviour, subject), some in members.items()
     ]

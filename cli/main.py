@@ -5,7 +5,7 @@ import sys
 import typer
 
 from ..agents.errors import InputError
-from . import bench, listing, render, run
+from . import bench, listing, paper, render, run
 
 app = typer.Typer(
     name="colift",
@@ -17,6 +17,7 @@ app = typer.Typer(
 )
 app.command()(run.run)
 app.command("list")(listing.list_all)
+app.command()(paper.paper)
 app.command()(render.render)
 app.command()(bench.bench)
 

@@ -3,7 +3,7 @@
 import json
 import sys
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 from rich.console import Console
@@ -11,15 +11,12 @@ from rich.console import Console
 from ..agents.errors import InputError
 from ..agents.policies.loading import PolicySpec
 from ..benchmark.bundle import check_target, results, write_bundle
+from ..benchmark.references import SPECS, Reference, play_references, shipped_references
 from ..benchmark.runner import Run, run_suite
 from ..benchmark.suite import Suite, make_suite, recorded_suite
-from ..benchmark.summary import summarise
 from .pool import default_jobs, local_pool
 from .progress import progress_bar
 from .tables import results_table, standing
-
-REFERENCES = ("hold", "copy")
-"""Policies that every result is set against, on the same episodes."""
 
 
 def run(
@@ -91,21 +88,17 @@ def _suite(name: str, seeds: str | None, recordings: Path | None) -> Suite:
     return suite.with_seeds(int(start), int(stop))
 
 
-def _evaluate(spec: PolicySpec, suite: Suite, jobs: int) -> tuple[Run, dict[str, Any]]:
-    """Run the policy, then the references on the same episodes."""
-    references: dict[str, Any] = {}
-    with (
-        local_pool(jobs) as pool,
-        progress_bar(spec.name, suite.size * (1 + len(REFERENCES))) as progress,
-    ):
+def _evaluate(spec: PolicySpec, suite: Suite, jobs: int) -> tuple[Run, dict[str, Reference]]:
+    """Run the policy, then the references on the same episodes, unless they are shipped."""
+    shipped = shipped_references(suite)
+    total = suite.size * (1 if shipped else 1 + len(SPECS))
+    with local_pool(jobs) as pool, progress_bar(spec.name, total) as progress:
         done = run_suite(spec, suite, executor=pool, progress=progress)
-        for name in REFERENCES:
-            if not done.complete:
-                break
-            reference = run_suite(PolicySpec(text=name), suite, executor=pool, progress=progress)
-            if reference.complete:
-                references[name] = summarise(reference.episodes)
-    return done, references
+        if not done.complete:
+            return done, {}
+        if shipped is not None:
+            return done, shipped
+        return done, play_references(suite, executor=pool, progress=progress)
 
 
 def _complaints(run: Run) -> bool:

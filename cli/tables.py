@@ -6,11 +6,13 @@ from typing import Any, Final
 from rich import box
 from rich.table import Table
 
-PAPER_HUMAN_TEAM_MM: Final = 6.531
-"""RMSE of the paper's one human-human team (section V.A)."""
+NAMES: Final = {
+    "human_human": "human-human team",
+    "hold": "hold (never moves)",
+    "copy": "copy (goes where the human was)",
+}
 
 COLUMNS: Final = (
-    ("rmse_mm", "RMSE mm", ".1f"),
     ("max_tilt_deg", "tilt °", ".1f"),
     ("sparc", "SPARC", ".2f"),
     ("ldlj", "LDLJ", ".1f"),
@@ -31,6 +33,8 @@ def results_table(content: dict[str, Any]) -> Table:
         box=box.SIMPLE_HEAD,
     )
     table.add_column("human", no_wrap=True)
+    table.add_column("RMSE mm", justify="right")
+    table.add_column("human team", justify="right")
     for _, title, _ in COLUMNS:
         table.add_column(title, justify="right")
     table.add_column("lifts", justify="right")
@@ -38,32 +42,51 @@ def results_table(content: dict[str, Any]) -> Table:
     for behaviour in behaviours:
         groups = [group for group in content["groups"] if group["behaviour"] == behaviour]
         cells = [_cell(_pooled(groups, name), digits) for name, _, digits in COLUMNS]
-        table.add_row(behaviour, *cells, str(sum(group["episodes"] for group in groups)))
+        table.add_row(
+            behaviour, *_errors(groups), *cells, str(sum(group["episodes"] for group in groups))
+        )
     table.add_section()
     cells = [_cell(summary[name]["mean"], digits) for name, _, digits in COLUMNS]
-    table.add_row("all", *cells, str(summary["episodes"]), style="bold")
+    table.add_row(
+        "all", *_errors(content["groups"]), *cells, str(summary["episodes"]), style="bold"
+    )
     return table
 
 
 def standing(content: dict[str, Any]) -> str:
     """Return the lines that say where the policy stands."""
-    rmse = content["summary"]["rmse_mm"]
-    low, high = rmse["ci95"]
-    interval = f" (95 % interval {low:.1f} to {high:.1f})" if high > low else ""
-    step = content["summary"]["step_ms"]
-    lines = [f"RMSE {rmse['mean']:.2f} mm{interval}"]
+    summary = content["summary"]
+    rmse, versus, step = summary["rmse_mm"], summary["vs_human"], summary["step_ms"]
+    lines = [f"RMSE {rmse['mean']:.2f} mm{_interval(rmse['ci95'], '.1f')}"]
+    if versus is not None:
+        ratio = f"{versus['mean']:.2f}{_interval(versus['ci95'], '.2f')}"
+        lines.append(f"vs_human {ratio}: 1 is as good as a human partner, less is better")
     for name, reference in content["references"].items():
-        other = reference["rmse_mm"]["mean"]
-        lines.append(f"  against {name}: {other:.2f} mm, ratio {rmse['mean'] / other:.3f}")
-    lines.append(f"  against the paper's human-human team: {PAPER_HUMAN_TEAM_MM:.3f} mm (one team)")
-    if content["summary"]["goal_missed"]:
+        lines.append(f"  {NAMES.get(name, name)}: {reference['rmse_mm']['mean']:.2f} mm")
+    if summary["goal_missed"]:
         lines.append(
-            f"The human did not reach the intended height in {content['summary']['goal_missed']} "
-            f"of {content['summary']['episodes']} lifts."
+            f"The human did not reach the intended height in {summary['goal_missed']} "
+            f"of {summary['episodes']} lifts."
         )
     if step["p99"] is not None:
         lines.append(f"Policy time per step: median {step['p50']:.3f} ms, p99 {step['p99']:.3f} ms")
     return "\n".join(lines)
+
+
+def _errors(groups: list[dict[str, Any]]) -> tuple[str, str]:
+    """Return the mean RMSE of the policy and of the human-human team over groups."""
+    weights = [group["episodes"] for group in groups]
+    team = [group["human_human_rmse_mm"]["mean"] for group in groups]
+    mean = (
+        sum(w * x for w, x in zip(weights, team, strict=True)) / sum(weights) if all(team) else None
+    )
+    return _cell(_pooled(groups, "rmse_mm"), ".1f"), _cell(mean, ".1f")
+
+
+def _interval(ci95: list[float], digits: str) -> str:
+    """Return the interval in words, or nothing if it has no width."""
+    low, high = ci95
+    return f" (95 % interval {low:{digits}} to {high:{digits}})" if high > low else ""
 
 
 def _pooled(groups: Iterable[dict[str, Any]], name: str) -> float | None:

@@ -3,6 +3,8 @@
 import math
 from typing import Literal
 
+from ..errors import InputError
+
 Reading = Literal["variance as rho", "standard deviation as rho"]
 """How eq. 6 is read. The paper calls rho "the 1-D variance" and squares it: literally the
 variance [mm2] stands where a Gaussian has its standard deviation. The other reading takes the
@@ -14,6 +16,8 @@ LITERAL: Reading = "variance as rho"
 def likelihood(error: float, variance: float, reading: Reading = LITERAL) -> float:
     """Return the unnormalised likelihood of a measurement (eq. 6), in (0, 1].
 
+    Beyond 38 rho it is too small for a float and returned as 0.
+
         L = exp(-(z - s)^2 / (2 rho^2))
 
     Parameters
@@ -21,7 +25,7 @@ def likelihood(error: float, variance: float, reading: Reading = LITERAL) -> flo
     error
         Measured minus predicted height, z - s [mm].
     variance
-        Variance of the predicted height [mm2].
+        Variance of the predicted height [mm2], positive.
     reading
         What rho is.
     """
@@ -41,13 +45,13 @@ class Confidence:
 
     Raises
     ------
-    ValueError
+    InputError
         If phi is not in (0, 1].
     """
 
     def __init__(self, forgetting: float = 0.45) -> None:
         if not 0 < forgetting <= 1:
-            raise ValueError(f"forgetting must be in (0, 1], got {forgetting}")
+            raise InputError(f"forgetting must be in (0, 1], got {forgetting}")
         self._forgetting = forgetting
         self._sum = self._weight = 0.0
 

@@ -2,13 +2,17 @@
 
 import math
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 from filterpy.kalman import ExtendedKalmanFilter
 from numpy.typing import NDArray
 
+from ..errors import InputError
+
 Matrix = NDArray[np.float64]
+
+NoiseForm = Literal["jerk", "acceleration"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,7 +29,7 @@ class MotionFilterParameters:
     paper does not state Q; this value is calibrated (``colift calibrate``). Its root, 316 mm/s3,
     is of the order of the rms jerk of a 0.2 m lift in 2 s."""
 
-    noise_enters: Literal["jerk", "acceleration"] = "jerk"
+    noise_enters: NoiseForm = "jerk"
     """How Q is built: q g g' with g = [t3/6, t2/2, t] (a jerk that is constant over a step), or
     q t2 on the acceleration alone."""
 
@@ -38,13 +42,20 @@ class MotionFilterParameters:
 
         Raises
         ------
-        ValueError
-            If a noise is not positive or the spread does not have three positive entries.
+        InputError
+            If a noise is not a positive number, the spread does not have three positive entries,
+            or there is no such form of the process noise.
         """
-        if not (self.measurement_noise > 0 and self.process_noise > 0):
-            raise ValueError(f"noises must be positive, got {self}")
-        if len(self.initial_spread) != 3 or min(self.initial_spread) <= 0:
-            raise ValueError(f"initial_spread must be three positive numbers, got {self}")
+        for name in ("measurement_noise", "process_noise"):
+            noise = getattr(self, name)
+            if not 0 < noise < math.inf:
+                raise InputError(f"{name} must be a positive number, got {noise}")
+        spread = self.initial_spread
+        if len(spread) != 3 or not all(0 < entry < math.inf for entry in spread):
+            raise InputError(f"initial_spread must be three positive numbers, got {spread}")
+        if self.noise_enters not in get_args(NoiseForm):
+            known = ", ".join(get_args(NoiseForm))
+            raise InputError(f"noise_enters must be one of {known}, got {self.noise_enters!r}")
 
 
 class Prediction(NamedTuple):
@@ -85,7 +96,14 @@ class MotionFilter:
         self._parameters = parameters or MotionFilterParameters()
 
     def reset(self, height: float) -> None:
-        """Begin at rest at a measured height [m]."""
+        """Begin at rest at a measured height [m].
+
+        Raises
+        ------
+        ValueError
+            If the height is not a finite number.
+        """
+        _require_finite("a measured height", height)
         spread = np.array(self._parameters.initial_spread)
         self._filter = ExtendedKalmanFilter(dim_x=3, dim_z=1)
         self._filter.x = np.array([[1000 * height], [0.0], [0.0]])
@@ -101,13 +119,19 @@ class MotionFilter:
         ValueError
             If the height is not a finite number.
         """
-        if not math.isfinite(height):
-            raise ValueError(f"a measured height must be finite, got {height}")
+        _require_finite("a measured height", height)
         measured = np.array([[1000 * height]])
         self._filter.update(measured, HJacobian=_observe, Hx=_measure)
 
     def predict(self, period: float) -> Prediction:
-        """Advance the state by ``period`` [s] and return what is expected then (eqs. 4, 5)."""
+        """Advance the state by ``period`` [s] and return what is expected then (eqs. 4, 5).
+
+        Raises
+        ------
+        ValueError
+            If the period is not a finite number.
+        """
+        _require_finite("a period", period)
         if period != self._period:
             self._period = period
             self._filter.F = transition(period)
@@ -124,6 +148,11 @@ class MotionFilter:
 
 
 _H = np.array([[1.0, 0.0, 0.0]])
+
+
+def _require_finite(name: str, value: float) -> None:
+    if not math.isfinite(value):
+        raise ValueError(f"{name} must be finite, got {value}")
 
 
 def _observe(state: Matrix) -> Matrix:

@@ -5,6 +5,7 @@ A subject and a behaviour make a plan from a seed; ``ScriptedHuman`` carries a p
 
 from .changing_goal import ChangingGoal
 from .jerky import Jerky
+from .partner import PARTNER_SUBJECT, Partner
 from .pause import Pause
 from .plan import Behaviour, Plan
 from .recorded import Recorded
@@ -16,10 +17,12 @@ from .subject import BOUNDS, GOAL_RANGE, SUBJECTS, Subject
 __all__ = [
     "BOUNDS",
     "GOAL_RANGE",
+    "PARTNER_SUBJECT",
     "SUBJECTS",
     "Behaviour",
     "ChangingGoal",
     "Jerky",
+    "Partner",
     "Pause",
     "Plan",
     "Recorded",

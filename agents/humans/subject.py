@@ -87,6 +87,8 @@ class Subject:
     """Mass M of the arm's endpoint [kg]."""
     pull: float
     """Share of the height difference that the person gives in to; 0 ignores it."""
+    felt_share: float = 0.5
+    """Share of that pull which comes from the felt force; the rest comes from sight."""
 
     def __post_init__(self) -> None:
         for name, (low, high) in BOUNDS.items():

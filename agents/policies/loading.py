@@ -53,9 +53,7 @@ class PolicySpec:
         InputError
             As :meth:`load`.
         """
-        source = inspect.getsourcefile(self.load())
-        content = Path(source).read_bytes() if source else b""
-        return hashlib.sha256(content).hexdigest()[:16]
+        return source_digest(self.load())
 
     def make(self) -> Agent:
         """Return a new policy object.
@@ -66,6 +64,13 @@ class PolicySpec:
             As :meth:`load`, or if the class needs arguments.
         """
         return self.load()()
+
+
+def source_digest(agent: type) -> str:
+    """Return the SHA-256 (16 hexadecimal digits) of the source file of a class."""
+    source = inspect.getsourcefile(agent)
+    content = Path(source).read_bytes() if source else b""
+    return hashlib.sha256(content).hexdigest()[:16]
 
 
 def policy_names() -> tuple[str, ...]:

@@ -1,8 +1,10 @@
 """One-step prediction of the human's end with its confidence: what proactive policies share."""
 
 from dataclasses import dataclass, field
+from typing import get_args
 
 from ..agent import Observation, RobotObservation
+from ..errors import InputError
 from ..estimators.confidence import LITERAL, Confidence, Reading, likelihood
 from ..estimators.motion_filter import MotionFilter, MotionFilterParameters, Prediction
 
@@ -21,11 +23,25 @@ class PredictorParameters:
     reading: Reading = LITERAL
     """How eq. 6 is read."""
 
+    def __post_init__(self) -> None:
+        """Check the reading; the rest is checked where it is used.
+
+        Raises
+        ------
+        InputError
+            If there is no such reading of eq. 6.
+        """
+        if self.reading not in get_args(Reading):
+            known = ", ".join(map(repr, get_args(Reading)))
+            raise InputError(f"reading must be one of {known}, got {self.reading!r}")
+
 
 class Predictor:
     """Predicts the human's height one step ahead of the sample, and says how sure it is.
 
-    Literally the paper's: the sample's age is not compensated.
+    Literally the paper's: the sample's age is not compensated. A step lasts as long as the one
+    before it. With the first sample there is no prediction to judge yet: it counts as one of
+    likelihood 1, so that eq. 7 begins at a confidence of 1 and the robot copies.
     """
 
     def __init__(self, parameters: PredictorParameters | None = None) -> None:

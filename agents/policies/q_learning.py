@@ -1,5 +1,6 @@
 """Guided Q-learning of a levelling controller (eq. 1, Algorithm 1)."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,12 +34,25 @@ Q_PARAMETERS = QParameters()
 
 
 def state_of(difference: float, parameters: QParameters = Q_PARAMETERS) -> int:
-    """Return the state of a height difference, human minus robot [m]; 0 is the lowest."""
+    """Return the state of a height difference, human minus robot [m]; 0 is the lowest.
+
+    A difference on an edge belongs to the state below it.
+
+    Raises
+    ------
+    ValueError
+        If the difference is not a number, which would otherwise count as the highest.
+    """
+    if math.isnan(difference):
+        raise ValueError(f"a height difference must be a number, got {difference}")
     return int(np.searchsorted(parameters.edges, difference))
 
 
 def right_action(state: int, parameters: QParameters = Q_PARAMETERS) -> int:
-    """Return the index of the action that levels the table best from the middle of a state."""
+    """Return the index of the action that levels the table best from the middle of a state.
+
+    This holds for states of one position step each, as many as there are actions, around level.
+    """
     steps = state - parameters.states // 2
     return ACTIONS.index(steps)
 
@@ -59,18 +73,17 @@ class QLearner:
         self.table: NDArray[np.float64] = np.zeros(shape)
         self.visits: NDArray[np.int64] = np.zeros(shape, dtype=np.int64)
 
-    def select(self, state: int, allowed: list[int]) -> int:
-        """Return the index of the allowed action that was visited least (line 6) and count it."""
-        counts = self.visits[state, allowed]
-        least = np.flatnonzero(counts == counts.min())
-        action = allowed[int(self._rng.choice(least))]
+    def select(self, state: int) -> int:
+        """Return the index of the action that was visited least (line 6) and count the visit."""
+        counts = self.visits[state]
+        action = int(self._rng.choice(np.flatnonzero(counts == counts.min())))
         self.visits[state, action] += 1
         return action
 
     def update(self, state: int, action: int, reward: float, following: int) -> None:
-        """Take one experience in (eq. 1):
+        """Take one experience in (eq. 1).
 
-        dQ(s, a) = alpha (r + gamma max_a' Q(s', a') - Q(s, a)).
+        dQ(s, a) = alpha (r + gamma max_a' Q(s', a') - Q(s, a))
         """
         aim = reward + self._parameters.discount * self.table[following].max()
         self.table[state, action] += self._parameters.learning_rate * (

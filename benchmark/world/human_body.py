@@ -36,6 +36,8 @@ class BodyParameters:
     """M, the arm's apparent mass at the hand [kg]."""
     pull: float
     """Share of a height difference that the reflexes try to take away, 0 = ignores it."""
+    felt_share: float = 0.5
+    """Share of the pull that comes from the felt force; the rest comes from sight."""
     visual_delay: float
     """Delay of what is seen [s]."""
     haptic_delay: float
@@ -61,8 +63,8 @@ class HumanBody:
 
     with the person's share ``W`` of the table's weight fed forward; the weight of the arms
     themselves is held by the person. The reflex follows, low-passed, from the felt force
-    ``haptic_delay`` ago and from the seen height difference ``visual_delay`` ago, half from each:
-    a steady height difference d shifts the reference by ``pull`` d.
+    ``haptic_delay`` ago and from the seen height difference ``visual_delay`` ago: a steady height
+    difference d shifts the reference by ``pull`` d.
     """
 
     __slots__ = (
@@ -87,8 +89,9 @@ class HumanBody:
         self._gain_velocity = parameters.damping / implicit
         self._seen = -1 - round(parameters.visual_delay / FRAME)
         self._felt = -1 - round(parameters.haptic_delay / FRAME)
-        self._visual_gain = parameters.pull / 2
-        self._haptic_gain = parameters.pull / 2 * TABLE_LENGTH**2 / GRIP_STIFFNESS
+        felt = parameters.felt_share * parameters.pull
+        self._visual_gain = parameters.pull - felt
+        self._haptic_gain = felt * TABLE_LENGTH**2 / GRIP_STIFFNESS
         self._smoothing = -math.expm1(-FRAME / MUSCLE_TIME)
         self._reflex = 0.0
 

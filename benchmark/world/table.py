@@ -9,6 +9,9 @@ holds the other end closes the loop. The tree's three joints:
 
 A table on a free pin would transmit nothing. A two-handed grip on its edge resists pitching, so
 that a height difference is felt: 60 mm over 0.8 m are 75 mrad, 0.75 Nm, about 1 N at the hands.
+The far end is held without such a stiffness, whoever holds it: the NAO's fingers do not resist
+pitching, and the wrists of a person who follows give way. So a height difference feels the same
+with either partner.
 """
 
 from typing import Final

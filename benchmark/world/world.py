@@ -106,15 +106,12 @@ class World:
         self._far: NaoArms | SecondHuman
         if second_human is None:
             self._far = NaoArms(self.client, self._tree, physics, servo)
-            grips = 1
         else:
             self._far = SecondHuman(second_human, physics.step)
-            grips = 2
-        stiffness, damping = grips * GRIP_STIFFNESS, grips * GRIP_DAMPING
         inertia = TABLE_INERTIA + far_mass * TABLE_LENGTH**2
-        implicit = 1 + self._step * damping / inertia / 2
-        self._pitch_gain = stiffness / implicit
-        self._pitch_rate_gain = damping / implicit
+        implicit = 1 + self._step * GRIP_DAMPING / inertia / 2
+        self._pitch_gain = GRIP_STIFFNESS / implicit
+        self._pitch_rate_gain = GRIP_DAMPING / implicit
         self._rest = pybullet.saveState(physicsClientId=self.client)
         self.reset()
 

@@ -1,0 +1,192 @@
+"""All that the report is made from, and how it is gathered."""
+
+import dataclasses
+import itertools
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import Final
+
+from ...agents.humans import Behaviour, Jerky, Pause
+from ...agents.policies.loading import PolicySpec
+from ..learning import LearningTrial, learning_trials
+from ..references import human_team_run
+from ..runner import Run, run_suite
+from ..scenario import Scenario
+from ..suite import Suite
+from .published import FORGETTING_FACTORS
+from .sampled import SampledLift, sampled_lifts
+from .watched import WatchedBlend
+
+PAUSE: Final = Pause(length=(2.0, 2.0), lowering_share=0.0)
+"""Figure 6: a pause of 2 s on the way up."""
+
+LONG_PAUSE: Final = Pause(length=(8.0, 8.0), lowering_share=0.0)
+"""Long enough for the slowest confidence of figure 7 to settle."""
+
+REACTIVE: Final = PolicySpec(text="reactive")
+BLEND: Final = WatchedBlend()
+
+TRIALS_PER_TASK: Final = 10
+
+
+@dataclass(frozen=True, kw_only=True)
+class Effort:
+    """How many seeds, at most, a subject gets in each experiment beside Table I."""
+
+    pause: int = 10
+    rest: int = 4
+    jerky: int = 10
+    forgetting: int = 4
+    timing: int = 2
+    periods: tuple[float, ...] = (0.02, 0.05, 0.1)
+    """Control periods to compare [s]."""
+    latencies: tuple[float, ...] = (0.0, 0.05, 0.1, 0.15)
+    """Latencies to compare [s]."""
+    learning_trials: int = 200
+
+
+@dataclass(frozen=True, kw_only=True)
+class Timing:
+    """One setting of the comparison of control periods and latencies."""
+
+    policy: str
+    control_period: float
+    """[s]"""
+    latency: float
+    """[s]"""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Evidence:
+    """The runs behind the report; lifts of the blend policy are watched."""
+
+    reactive: Run
+    """Table I without prediction."""
+    blend: Run
+    """Table I with prediction."""
+    lifts: list[SampledLift]
+    """The lifts of ``blend``."""
+    team: Run
+    """Two humans on the lifts of Table I."""
+    pauses: list[SampledLift]
+    """Lifts that stop for 2 s on the way up."""
+    rests: list[SampledLift]
+    """Lifts that stop for 8 s on the way up."""
+    jerky_reactive: Run
+    jerky_blend: Run
+    """Lifts in fits and starts."""
+    forgetting: Mapping[float, Run]
+    """Some of Table I's lifts with prediction, by forgetting factor."""
+    timing: Mapping[Timing, Run]
+    """Some of Table I's lifts, by policy, control period and latency."""
+    learning: list[LearningTrial]
+
+
+def gather(
+    suite: Suite,
+    effort: Effort | None = None,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda done: None,
+) -> Evidence:
+    """Run every experiment.
+
+    Parameters
+    ----------
+    suite
+        The lifts of Table I: one smooth scenario a subject. The other experiments have the same
+        subjects and take the first of the same seeds.
+    effort
+        How much of each experiment.
+    executor, progress
+        As for :func:`.run_suite`; :func:`amount` is what ``progress`` adds up to.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        If it is interrupted; there is no report of half an experiment.
+    """
+    effort = effort or Effort()
+
+    def run(policy: PolicySpec, lifts: Suite) -> Run:
+        return _complete(run_suite(policy, lifts, executor=executor, progress=progress))
+
+    blend = run(BLEND, suite)
+    jerky = behaving(suite, "jerky", Jerky(), effort.jerky)
+    some = first_seeds(suite, effort.forgetting)
+    timings = [
+        Timing(policy=policy, control_period=period, latency=latency)
+        for policy, period, latency in itertools.product(
+            ("reactive", "blend"), effort.periods, effort.latencies
+        )
+    ]
+    return Evidence(
+        reactive=run(REACTIVE, suite),
+        blend=blend,
+        lifts=sampled_lifts(blend),
+        team=_complete(human_team_run(suite, executor=executor, progress=progress)),
+        pauses=sampled_lifts(run(BLEND, behaving(suite, "pause", PAUSE, effort.pause))),
+        rests=sampled_lifts(run(BLEND, behaving(suite, "pause", LONG_PAUSE, effort.rest))),
+        jerky_reactive=run(REACTIVE, jerky),
+        jerky_blend=run(BLEND, jerky),
+        forgetting={phi: run(WatchedBlend(forgetting=phi), some) for phi in FORGETTING_FACTORS},
+        timing={
+            timing: run(
+                REACTIVE if timing.policy == "reactive" else BLEND,
+                first_seeds(suite, effort.timing).with_timing(
+                    timing.latency, timing.control_period
+                ),
+            )
+            for timing in timings
+        },
+        learning=_learn(effort.learning_trials, suite.seeds[0], executor, progress),
+    )
+
+
+def amount(suite: Suite, effort: Effort | None = None) -> int:
+    """Return the number of lifts and learning trials that :func:`gather` plays."""
+    effort = effort or Effort()
+    subjects, seeds = len(suite.scenarios), len(suite.seeds)
+    settings = 2 * len(effort.periods) * len(effort.latencies)
+    repeated = (
+        (3, seeds),
+        (1, effort.pause),
+        (1, effort.rest),
+        (2, effort.jerky),
+        (len(FORGETTING_FACTORS), effort.forgetting),
+        (settings, effort.timing),
+    )
+    lifts = sum(times * min(count, seeds) for times, count in repeated)
+    return subjects * lifts + effort.learning_trials
+
+
+def first_seeds(suite: Suite, count: int) -> Suite:
+    """Return the suite on the first of its seeds only."""
+    return dataclasses.replace(suite, seeds=suite.seeds[:count])
+
+
+def behaving(suite: Suite, name: str, human: Behaviour, seeds: int) -> Suite:
+    """Return a suite of the same subjects, moving in another way, on the first of the seeds."""
+    scenarios = tuple(
+        Scenario(behaviour=name, human=human, subject=scenario.subject)
+        for scenario in suite.scenarios
+    )
+    return Suite(name=name, scenarios=scenarios, seeds=suite.seeds[:seeds])
+
+
+def _complete(run: Run) -> Run:
+    if not run.complete:
+        raise KeyboardInterrupt
+    return run
+
+
+def _learn(
+    count: int, seed: int, executor: Executor | None, progress: Callable[[int], None]
+) -> list[LearningTrial]:
+    trials: list[LearningTrial] = []
+    for start in range(0, count, TRIALS_PER_TASK):
+        size = min(TRIALS_PER_TASK, count - start)
+        trials += learning_trials(size, seed + start, executor=executor)
+        progress(size)
+    return trials

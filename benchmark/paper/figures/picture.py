@@ -1,0 +1,111 @@
+"""A figure with its words and its data, and the look that all figures share."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from ...rendering.palette import FAINT, HUMAN, INK, LINE, PAPER, ROBOT
+
+DPI: Final = 130
+WIDTH: Final = 8.0
+"""Width of a figure [inches]."""
+
+PREDICTION: Final = "#009E73"
+CONFIDENCE: Final = "#8A4F9E"
+"""Told apart from the two ends with any kind of colour vision."""
+
+COLOURS: Final = {"human": HUMAN, "robot": ROBOT}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Picture:
+    """A figure of the report."""
+
+    name: str
+    """Name of its files, such as ``figure-4``."""
+    title: str
+    caption: str
+    """What it shows and what to see in it."""
+    figure: Figure
+    columns: Mapping[str, Sequence[float | str] | Sequence[float]]
+    """The data, column by column, units in the names."""
+
+
+def panels(
+    labels: Sequence[str],
+    heights: Sequence[float],
+    *,
+    columns: int = 1,
+    x_label: str = "time step (100 ms)",
+    share_x: bool = True,
+) -> tuple[Figure, list[list[Axes]]]:
+    """Return a figure of stacked panels in the common look.
+
+    Parameters
+    ----------
+    labels
+        What the vertical axis of each row of panels shows.
+    heights
+        Height of each row [inches].
+    columns
+        Panels in a row; they share the vertical axis.
+    x_label
+        What the horizontal axes show.
+    share_x
+        Whether all panels share the horizontal axis.
+    """
+    figure = Figure(
+        figsize=(WIDTH, sum(heights) + 0.6), dpi=DPI, facecolor=PAPER, layout="constrained"
+    )
+    FigureCanvasAgg(figure)
+    grid = figure.subplots(
+        len(labels),
+        columns,
+        sharex=share_x,
+        sharey="row",
+        squeeze=False,
+        height_ratios=list(heights),
+    )
+    rows: list[list[Axes]] = [list(row) for row in grid]
+    for row, label in zip(rows, labels, strict=True):
+        for axes in row:
+            plain(axes)
+        row[0].set_ylabel(label, fontsize=9, color=INK)
+    for axes in rows[-1]:
+        axes.set_xlabel(x_label, fontsize=9, color=INK)
+    return figure, rows
+
+
+def plain(axes: Axes) -> None:
+    """Give axes the common look: a light grid, no box."""
+    axes.grid(color=LINE, linewidth=0.7)
+    axes.set_axisbelow(True)
+    axes.tick_params(labelsize=8.5, colors=FAINT, length=0)
+    for side in ("top", "left", "right"):
+        axes.spines[side].set_visible(False)
+    axes.spines["bottom"].set_color(LINE)
+
+
+def legend(axes: Axes, columns: int = 4) -> None:
+    """Put the legend above the axes."""
+    axes.legend(
+        loc="lower left",
+        bbox_to_anchor=(0, 1.0),
+        borderaxespad=0.2,
+        ncols=columns,
+        frameon=False,
+        fontsize=8.5,
+        labelcolor=INK,
+    )
+
+
+def shade(axes: Axes, spans: Sequence[tuple[float, float]], label: str = "") -> None:
+    """Shade spans of the horizontal axis; one of them carries the label."""
+    for index, (start, stop) in enumerate(spans):
+        axes.axvspan(
+            start, stop, color=LINE, alpha=0.45, lw=0, label=label if index == 0 and label else None
+        )

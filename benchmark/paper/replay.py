@@ -1,0 +1,84 @@
+"""The predictor run again, offline, over the samples of a recorded lift (section IV.C)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...agents.estimators.confidence import Confidence, likelihood
+from ...agents.estimators.motion_filter import MotionFilter
+from ...agents.policies.predictor import PredictorParameters
+
+Series = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Replayed:
+    """What was expected of each sample before it was seen; n samples.
+
+    Nothing is expected of the first one: it stands as its own prediction, at rest.
+    """
+
+    height: Series
+    """(n,) predicted height [m]."""
+    velocity: Series
+    """(n,) predicted velocity [m/s]."""
+    acceleration: Series
+    """(n,) predicted acceleration [m/s2]."""
+    spread: Series
+    """(n,) standard deviation of the predicted height [m]."""
+    likelihood: Series
+    """(n,) likelihood of the sample (eq. 6)."""
+
+
+def replay(
+    samples: ArrayLike, period: float, parameters: PredictorParameters | None = None
+) -> Replayed:
+    """Run the Kalman filter over samples and compare each with what was predicted.
+
+    Parameters
+    ----------
+    samples
+        Measured heights of the human's end [m], shape (n,), n > 0.
+    period
+        Time between two samples [s].
+    parameters
+        Filter and reading of eq. 6; the shipped ones by default.
+    """
+    parameters = parameters or PredictorParameters()
+    first, *others = np.asarray(samples, dtype=np.float64).tolist()
+    motion = MotionFilter(parameters.motion)
+    motion.reset(first)
+    rows = [(first, 0.0, 0.0, 0.0, 1.0)]
+    for sample in others:
+        expected = motion.predict(period)
+        chance = likelihood(
+            1000 * (sample - expected.height), expected.variance, parameters.reading
+        )
+        spread = expected.variance**0.5 / 1000
+        rows.append((expected.height, expected.velocity, expected.acceleration, spread, chance))
+        motion.update(sample)
+    return Replayed(
+        **dict(
+            zip(
+                ("height", "velocity", "acceleration", "spread", "likelihood"),
+                np.array(rows).T,
+                strict=True,
+            )
+        )
+    )
+
+
+def confidence_course(likelihoods: ArrayLike, forgetting: float) -> Series:
+    """Return the confidence after each likelihood (eq. 7), shape (n,).
+
+    Parameters
+    ----------
+    likelihoods
+        Likelihood of each sample (eq. 6), shape (n,).
+    forgetting
+        phi, in (0, 1].
+    """
+    confidence = Confidence(forgetting)
+    course = [confidence.update(value) for value in np.asarray(likelihoods).tolist()]
+    return np.array(course)

@@ -1,0 +1,112 @@
+"""Table I, side by side: the paper's errors and ours."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..episode import Episode
+from ..runner import Run
+from ..statistics import (
+    Interval,
+    PairedDifference,
+    paired_difference,
+    paired_permutation_p,
+    ratio_of_means_ci,
+    stratified_bootstrap,
+)
+from .published import HUMAN_TEAM, WITH_PREDICTION, WITHOUT_PREDICTION
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cell:
+    """One number of the paper and ours."""
+
+    paper: float
+    mean: float
+    ci95: Interval
+    """95 % confidence interval of ``mean`` over other seeds."""
+
+    @property
+    def ratio(self) -> float:
+        """Ours / the paper's."""
+        return self.mean / self.paper
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row:
+    """One subject, or all of them."""
+
+    subject: str
+    reactive: Cell
+    """RMSE without prediction [mm]."""
+    blend: Cell
+    """RMSE with prediction [mm]."""
+    difference: PairedDifference
+    """With minus without, over the same lifts [mm]."""
+    p: float
+    """p value of "prediction changes nothing", by sign flips over the lifts."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TableOne:
+    """The paper's Table I with ours next to it."""
+
+    rows: tuple[Row, ...]
+    mean: Row
+    """All subjects together."""
+    ratio: Cell
+    """Mean with prediction / mean without."""
+    team: Cell
+    """RMSE of the human-human team [mm] (section V.A)."""
+    lifts: int
+    """Lifts in each of our cells."""
+
+
+def table_one(reactive: Run, blend: Run, team: Run) -> TableOne:
+    """Return Table I from runs on the same suite, one scenario a subject."""
+    subjects = [scenario.subject.name for scenario in blend.suite.scenarios]
+    strata = [episode.subject for episode in blend.episodes]
+    without, with_it = errors(reactive.episodes), errors(blend.episodes)
+    paper_without = _mean(WITHOUT_PREDICTION, subjects)
+    paper_with = _mean(WITH_PREDICTION, subjects)
+
+    def row(name: str, papers: tuple[float, float], members: Sequence[str]) -> Row:
+        mask = np.isin(strata, members)
+        cells = [subject for subject in strata if subject in members]
+        return Row(
+            subject=name,
+            reactive=_cell(papers[0], without[mask], cells),
+            blend=_cell(papers[1], with_it[mask], cells),
+            difference=paired_difference(with_it[mask], without[mask], cells),
+            p=paired_permutation_p(with_it[mask], without[mask]),
+        )
+
+    return TableOne(
+        rows=tuple(
+            row(subject, (WITHOUT_PREDICTION[subject], WITH_PREDICTION[subject]), [subject])
+            for subject in subjects
+        ),
+        mean=row("mean", (paper_without, paper_with), subjects),
+        ratio=Cell(
+            paper=paper_with / paper_without,
+            mean=float(with_it.mean() / without.mean()),
+            ci95=ratio_of_means_ci(with_it, without, strata),
+        ),
+        team=_cell(HUMAN_TEAM, errors(team.episodes), strata),
+        lifts=len(blend.suite.seeds),
+    )
+
+
+def errors(episodes: Sequence[Episode]) -> NDArray[np.float64]:
+    """Return the RMSE of each episode [mm]."""
+    return np.array([episode.scores.rmse_mm for episode in episodes])
+
+
+def _mean(column: dict[str, float], subjects: Sequence[str]) -> float:
+    return float(np.mean([column[subject] for subject in subjects]))
+
+
+def _cell(paper: float, values: NDArray[np.float64], strata: Sequence[str]) -> Cell:
+    return Cell(paper=paper, mean=float(values.mean()), ci95=stratified_bootstrap(values, strata))

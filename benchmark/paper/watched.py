@@ -1,0 +1,45 @@
+"""The blend policy, watched: what it saw goes into the trace with what it thought."""
+
+import dataclasses
+from dataclasses import dataclass
+
+from ...agents.agent import Action, Agent, Observation, RobotObservation
+from ...agents.policies.blend import Blend
+from ...agents.policies.loading import PolicySpec
+from ...agents.policies.predictor import PredictorParameters
+
+
+class Watched:
+    """Acts as the blend policy does; its internals also hold the ``sample`` it acted on."""
+
+    def __init__(self, blend: Blend) -> None:
+        self._blend = blend
+
+    def reset(self, seed: int) -> None:
+        """Begin an episode."""
+        self._blend.reset(seed)
+
+    def act(self, observation: Observation) -> Action:
+        """Return the action of the blend policy [m]."""
+        self._sample = float(observation[RobotObservation.HUMAN_END])
+        return self._blend.act(observation)
+
+    def internals(self) -> dict[str, float]:
+        """Return the internals of the blend policy and the sample that was acted on [m]."""
+        return {**self._blend.internals(), "sample": self._sample}
+
+
+@dataclass(frozen=True, kw_only=True)
+class WatchedBlend(PolicySpec):
+    """Makes a watched blend policy, if need be with another forgetting factor."""
+
+    text: str = "blend"
+    forgetting: float | None = None
+    """phi of eq. 7; the policy's own by default."""
+
+    def make(self) -> Agent:
+        """Return a new policy object."""
+        parameters = PredictorParameters()
+        if self.forgetting is not None:
+            parameters = dataclasses.replace(parameters, forgetting=self.forgetting)
+        return Watched(Blend(parameters=parameters))

@@ -1,0 +1,90 @@
+"""The words of the report and its Table I, for every format."""
+
+from typing import Final
+
+from .table_one import Cell, Row, TableOne
+
+TITLE: Final = "Using Human Motion Estimation for Human-Robot Cooperative Manipulation, reproduced"
+
+INTRODUCTION: Final = (
+    "The results of section IV of Thobbi, Gu and Sheng (IROS 2011), measured again in simulation "
+    "with their framework: a reactive controller learned by Q-learning, a Kalman filter that "
+    "predicts the human one step ahead, and a confidence that mixes the two. "
+    "Every number of ours comes from the run that made this page. "
+    "Subjects are simulated people, calibrated to Table I on other seeds than these."
+)
+
+TABLE_CAPTION: Final = (
+    "RMSE of the height difference of the table's ends [mm], mean over the lifts, with 95 % "
+    "bootstrap intervals over the seeds. The paper's cells are means of 10 lifts. Ratio: ours / "
+    "the paper's. Difference: with minus without prediction on the same lifts; p by paired sign "
+    "flips."
+)
+
+HEADER: Final = (
+    "Subject",
+    "Without: paper",
+    "ours",
+    "ratio",
+    "With: paper",
+    "ours",
+    "ratio",
+    "Difference",
+    "p",
+)
+
+DEFINITIONS: Final = (
+    "A step is one control period, 100 ms. A prediction is one step ahead of the sample it was "
+    "made from, and is checked against the next sample; the sample itself is 100 ms old when the "
+    "robot decides.",
+    "The motion begins with the first sample taken after the human's intention starts to move; "
+    "a pause begins with the first sample taken after it starts to brake. Intentions are known "
+    "to the simulation only, never to the robot.",
+    "Fluctuation of the confidence C: root mean square of its change from one step to the next. "
+    "Settling: steps from the human's standstill until C first comes within 5 % of its value at "
+    "rest, which is its mean over the last quarter of the rest.",
+    "SPARC is the spectral arc length of the speed of the robot's table end over each stroke; "
+    "closer to 0 is smoother. Absolute error is eq. 10 of the paper, summed over frames of 10 ms.",
+    "p values are two-sided, by random sign flips of the paired differences over lifts.",
+    "Where one lift is drawn, it is the one with the median error.",
+)
+
+
+def table_rows(table: TableOne) -> list[tuple[str, ...]]:
+    """Return the rows of Table I as text: subjects, then all together."""
+    return [_row(row) for row in (*table.rows, table.mean)]
+
+
+def table_notes(table: TableOne) -> list[str]:
+    """Return the lines under Table I."""
+    return [
+        f"Ratio of the means, with / without: paper {table.ratio.paper:.3f}, ours "
+        f"{_ours(table.ratio, '.3f')}.",
+        f"Human-human team: paper {table.team.paper:.3f} mm (one team, no spread), ours "
+        f"{_ours(table.team)} mm.",
+    ]
+
+
+def _row(row: Row) -> tuple[str, ...]:
+    low, high = row.difference.ci95
+    return (
+        row.subject,
+        *_cells(row.reactive),
+        *_cells(row.blend),
+        f"{row.difference.mean:.2f} ({low:.2f} to {high:.2f})",
+        f"{row.p:.4f}" if row.p >= 0.00015 else "< 0.0002",
+    )
+
+
+def _cells(cell: Cell) -> tuple[str, str, str]:
+    return f"{cell.paper:.2f}", _ours(cell), f"{cell.ratio:.3f}"
+
+
+def _ours(cell: Cell, digits: str = ".2f") -> str:
+    low, high = (format(value, digits) for value in cell.ci95)
+    return f"{cell.mean:{digits}} ({low} to {high})"
+
+
+def verdict(count: int, total: int) -> str:
+    """Return how many of the claims hold, as a sentence."""
+    return f"{count} of {total} claims hold."

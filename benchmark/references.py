@@ -1,0 +1,153 @@
+"""What every result is set against: the human-human team, and the policies hold and copy.
+
+For the public suites the references are shipped; for any other set of episodes they are played.
+"""
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from importlib.resources import files
+from typing import Any, Final
+
+import numpy as np
+
+from ..agents.agent import Agent
+from ..agents.humans import Partner
+from ..agents.policies.loading import PolicySpec, source_digest
+from .runner import AgentSpec, Run, run_suite
+from .suite import Suite
+from .summary import Cell, cell
+
+HUMAN_HUMAN: Final = "human_human"
+
+PAPER_HUMAN_TEAM_MM: Final = 6.531
+"""RMSE of the paper's one human-human team (section V.A)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class HumanTeam:
+    """The second human of a human-human team, as :class:`.AgentSpec`."""
+
+    name: str = HUMAN_HUMAN
+
+    def digest(self) -> str:
+        """Return the hash of the partner's source."""
+        return source_digest(Partner)
+
+    def make(self) -> Agent:
+        """Return the second human."""
+        return Partner()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reference:
+    """What remains of a reference's run: enough for paired comparisons of RMSE."""
+
+    cells: tuple[Cell, ...]
+    """Behaviour and subject of each episode, in the suite's order."""
+    rmse_mm: tuple[float, ...]
+    """RMSE of each episode."""
+    sparc: float | None
+    """Mean smoothness, none if it does not move."""
+    human_force_n: float
+    """Mean of the rms force at the human's hands."""
+
+    @classmethod
+    def of(cls, run: Run) -> "Reference":
+        """Return the reference that a complete run is."""
+        smooth = [episode.scores.sparc for episode in run.episodes]
+        return cls(
+            cells=tuple(cell(episode) for episode in run.episodes),
+            rmse_mm=tuple(episode.scores.rmse_mm for episode in run.episodes),
+            sparc=None if np.isnan(smooth).all() else float(np.nanmean(smooth)),
+            human_force_n=float(np.mean([e.scores.human_force_n for e in run.episodes])),
+        )
+
+    @property
+    def mean(self) -> float:
+        """Mean RMSE [mm]."""
+        return float(np.mean(self.rmse_mm))
+
+    def by_cell(self) -> dict[Cell, float]:
+        """Return the mean RMSE of each behaviour and subject [mm]."""
+        members: dict[Cell, list[float]] = {}
+        for key, value in zip(self.cells, self.rmse_mm, strict=True):
+            members.setdefault(key, []).append(value)
+        return {key: float(np.mean(values)) for key, values in members.items()}
+
+
+SPECS: Final[Mapping[str, AgentSpec]] = {
+    HUMAN_HUMAN: HumanTeam(),
+    "hold": PolicySpec(text="hold"),
+    "copy": PolicySpec(text="copy"),
+}
+"""Where each reference comes from."""
+
+
+def human_team_run(
+    suite: Suite,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> Run:
+    """Play a suite's episodes with a second human at the robot's end; see :func:`.run_suite`."""
+    return run_suite(HumanTeam(), suite.with_partner("human"), executor=executor, progress=progress)
+
+
+def play_references(
+    suite: Suite,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> dict[str, Reference]:
+    """Play the references on a suite's episodes; after Ctrl-C, those finished by then."""
+    found = {}
+    for name, spec in SPECS.items():
+        played = suite.with_partner("human") if name == HUMAN_HUMAN else suite
+        run = run_suite(spec, played, executor=executor, progress=progress)
+        if not run.complete:
+            break
+        found[name] = Reference.of(run)
+    return found
+
+
+def shipped_references(suite: Suite) -> dict[str, Reference] | None:
+    """Return the shipped references of a suite, or None if there are none for its digest."""
+    path = files(__package__).joinpath("data", "references.json")
+    if not path.is_file():
+        return None
+    content = json.loads(path.read_text()).get(suite.digest)
+    if content is None:
+        return None
+    return {name: _from_plain(value) for name, value in content["references"].items()}
+
+
+def references_json(played: Sequence[tuple[Suite, Mapping[str, Reference]]]) -> str:
+    """Return the content of the shipped file: references by suite digest."""
+    content = {
+        suite.digest: {
+            "suite": suite.name,
+            "references": {name: _plain(value) for name, value in references.items()},
+        }
+        for suite, references in played
+    }
+    return json.dumps(content, indent=1) + "\n"
+
+
+def _plain(reference: Reference) -> dict[str, Any]:
+    return {
+        "cells": [list(key) for key in reference.cells],
+        "rmse_mm": list(reference.rmse_mm),
+        "sparc": reference.sparc,
+        "human_force_n": reference.human_force_n,
+    }
+
+
+def _from_plain(content: dict[str, Any]) -> Reference:
+    return Reference(
+        cells=tuple((behaviour, subject) for behaviour, subject in content["cells"]),
+        rmse_mm=tuple(content["rmse_mm"]),
+        sparc=content["sparc"],
+        human_force_n=content["human_force_n"],
+    )
