@@ -5,6 +5,8 @@ reflects the action (with a measurement one action old the learner credits the w
 never converges); ties are broken at random; no action inclines the table by more than about 8 cm.
 """
 
+import json
+from collections.abc import Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Final
@@ -105,12 +107,25 @@ def learn(seed: int, *, iterations: int = 100, subject: str = "S1") -> LearningT
     )
 
 
+def table_json(trial: LearningTrial, seed: int) -> str:
+    """Return the content of the shipped Q-table, with where it comes from."""
+    content = {
+        "table": trial.table.tolist(),
+        "provenance": {
+            "command": f"colift learn reactive --seed {seed}",
+            "iterations": len(trial.rewards),
+            "converged_at": trial.converged_at,
+        },
+    }
+    return json.dumps(content, indent=2) + "\n"
+
+
 def learning_trials(
     count: int, seed: int = 0, *, executor: Executor | None = None
-) -> list[LearningTrial]:
-    """Return independent learning trials on the seeds ``seed`` to ``seed + count - 1``."""
+) -> Iterator[LearningTrial]:
+    """Yield independent learning trials on the seeds ``seed`` to ``seed + count - 1``, in order."""
     seeds = range(seed, seed + count)
-    return list(map(learn, seeds) if executor is None else executor.map(learn, seeds))
+    return map(learn, seeds) if executor is None else executor.map(learn, seeds)
 
 
 class _Table:

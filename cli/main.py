@@ -5,7 +5,7 @@ import sys
 import typer
 
 from ..agents.errors import InputError
-from . import bench, listing, paper, render, run
+from . import bench, calibrate, learn, listing, paper, references, render, run
 
 app = typer.Typer(
     name="colift",
@@ -19,6 +19,9 @@ app.command()(run.run)
 app.command("list")(listing.list_all)
 app.command()(paper.paper)
 app.command()(render.render)
+app.command()(learn.learn)
+app.command()(calibrate.calibrate)
+app.command()(references.references)
 app.command()(bench.bench)
 
 

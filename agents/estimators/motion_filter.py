@@ -8,6 +8,7 @@ import numpy as np
 from filterpy.kalman import ExtendedKalmanFilter
 from numpy.typing import NDArray
 
+from ..calibration import CALIBRATION
 from ..errors import InputError
 
 Matrix = NDArray[np.float64]
@@ -24,10 +25,10 @@ class MotionFilterParameters:
     motion-capture system (section III.B). Read literally as a variance; as a standard deviation
     of 0.7 mm it would be 0.49."""
 
-    process_noise: float = 1e5
+    process_noise: float = CALIBRATION.process_noise
     """q, the intensity of the process noise [mm2/s6] as a variance of the jerk over a step. The
-    paper does not state Q; this value is calibrated (``colift calibrate``). Its root, 316 mm/s3,
-    is of the order of the rms jerk of a 0.2 m lift in 2 s."""
+    paper does not state Q; this value is calibrated (``colift calibrate``). Its root is about half
+    of the rms jerk of a 0.2 m minimum-jerk lift in 2 s, 671 mm/s3."""
 
     noise_enters: NoiseForm = "jerk"
     """How Q is built: q g g' with g = [t3/6, t2/2, t] (a jerk that is constant over a step), or

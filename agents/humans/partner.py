@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from ..agent import FRAME, Action, HumanObservation, Observation
+from ..calibration import CALIBRATION
 from .scripted import ScriptedHuman
 from .subject import Subject
 
@@ -38,9 +39,9 @@ feels. Choices inside the ranges of the literature; height and duration of own l
 class PartnerParameters:
     """Parameters of :class:`Partner`."""
 
-    lag: float = 0.025
+    lag: float = CALIBRATION.partner_lag
     """How far behind the other person the partner means to be [s]: the one number that is
-    calibrated, so that the teams on ``paper-v1`` have the RMSE of the paper's one team, 6.531 mm."""
+    calibrated, so that the teams have the RMSE of the paper's one team, 6.531 mm."""
 
     velocity_memory: float = 0.1
     """Time constant with which the seen velocity is smoothed [s]: one control period."""

@@ -7,6 +7,7 @@ from typing import Final, Self
 
 import numpy as np
 
+from ..calibration import CALIBRATION
 from ..errors import InputError
 
 GOAL_RANGE: Final = (0.08, 0.285)
@@ -142,7 +143,7 @@ SUBJECTS: Final[dict[str, Subject]] = {
     for subject in (
         Subject(
             name="S1",
-            amplitude=0.200,
+            amplitude=CALIBRATION.amplitude["S1"],
             duration=2.15,
             lowering_ratio=1.05,
             submovements=(0, 1),
@@ -158,7 +159,7 @@ SUBJECTS: Final[dict[str, Subject]] = {
         ),
         Subject(
             name="S2",
-            amplitude=0.243,
+            amplitude=CALIBRATION.amplitude["S2"],
             duration=2.10,
             lowering_ratio=1.05,
             submovements=(1, 1),
@@ -174,7 +175,7 @@ SUBJECTS: Final[dict[str, Subject]] = {
         ),
         Subject(
             name="S3",
-            amplitude=0.247,
+            amplitude=CALIBRATION.amplitude["S3"],
             duration=2.05,
             lowering_ratio=1.00,
             submovements=(2, 3),
@@ -190,7 +191,7 @@ SUBJECTS: Final[dict[str, Subject]] = {
         ),
         Subject(
             name="S4",
-            amplitude=0.206,
+            amplitude=CALIBRATION.amplitude["S4"],
             duration=2.05,
             lowering_ratio=1.10,
             submovements=(1, 1),
@@ -206,7 +207,7 @@ SUBJECTS: Final[dict[str, Subject]] = {
         ),
         Subject(
             name="S5",
-            amplitude=0.240,
+            amplitude=CALIBRATION.amplitude["S5"],
             duration=2.10,
             lowering_ratio=1.10,
             submovements=(1, 2),

@@ -1,0 +1,67 @@
+"""``colift calibrate``: fit the free numbers to the paper's results."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from ..agents.errors import InputError
+from ..benchmark.calibration import ROUNDS, TABLE_1, Fit, calibration_json, episodes, fit_rounds
+from .pool import default_jobs, local_pool
+from .progress import progress_bar
+
+
+def calibrate(
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Where to write the numbers, with their provenance."),
+    ] = None,
+    jobs: Annotated[
+        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
+    ] = None,
+) -> None:
+    """Fit lift heights, process noise and the human team's lag to the paper, on own seeds."""
+    if out is not None and not out.parent.is_dir():
+        raise InputError(f"cannot write {out}: there is no folder {out.parent}")
+    console = Console()
+    with (
+        local_pool(default_jobs() if jobs is None else jobs) as pool,
+        progress_bar("calibrating", episodes()) as progress,
+    ):
+        for number, fit in enumerate(fit_rounds(executor=pool, progress=progress), 1):
+            console.print(
+                f"round {number} of {ROUNDS}: worst cell {100 * fit.worst_cell:.1f} % off, "
+                f"human-human {fit.human_human:.3f} mm",
+                highlight=False,
+            )
+    console.print(_table(fit))
+    if out is not None:
+        out.write_text(calibration_json(fit))
+        console.print(f"written: {out}", highlight=False, soft_wrap=True)
+
+
+def _table(fit: Fit) -> Table:
+    numbers = fit.calibration
+    table = Table(
+        title="Table I (mm), measured and the paper's",
+        caption=f"process noise q = {numbers.process_noise:.3g} mm2/s6, "
+        f"partner's lag {1000 * numbers.partner_lag:.1f} ms",
+        title_justify="left",
+        caption_justify="left",
+        box=box.SIMPLE_HEAD,
+    )
+    for title in ("subject", "height mm", "without", "paper", "with", "paper"):
+        table.add_column(title, justify="right")
+    for name, row in TABLE_1.items():
+        table.add_row(
+            name,
+            f"{1000 * numbers.amplitude[name]:.1f}",
+            f"{fit.without[name]:.2f}",
+            f"{row[0]:.2f}",
+            f"{fit.with_prediction[name]:.2f}",
+            f"{row[1]:.2f}",
+        )
+    return table

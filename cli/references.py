@@ -1,0 +1,62 @@
+"""``colift references``: play what results are set against."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from ..agents.errors import InputError
+from ..benchmark.references import Reference, play_references, references_json
+from ..benchmark.statistics import stratified_bootstrap
+from ..benchmark.suite import SUITES, Suite, make_suite
+from .pool import default_jobs, local_pool
+from .progress import progress_bar
+
+
+def references(
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Where to write them, to be shipped.")
+    ] = None,
+    jobs: Annotated[
+        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
+    ] = None,
+) -> None:
+    """Play the human-human team, hold and copy on every suite; print their error by behaviour."""
+    if out is not None and not out.parent.is_dir():
+        raise InputError(f"cannot write {out}: there is no folder {out.parent}")
+    suites = [make_suite(name) for name in SUITES]
+    played: list[tuple[Suite, dict[str, Reference]]] = []
+    with (
+        local_pool(default_jobs() if jobs is None else jobs) as pool,
+        progress_bar("references", 3 * sum(suite.size for suite in suites)) as progress,
+    ):
+        for suite in suites:
+            played.append((suite, play_references(suite, executor=pool, progress=progress)))
+    table = Table(box=box.SIMPLE_HEAD)
+    for title in ("suite", "reference", "human"):
+        table.add_column(title)
+    table.add_column("RMSE mm", justify="right")
+    table.add_column("95 % interval", justify="right")
+    for suite, found in played:
+        for name, reference in found.items():
+            for behaviour in (*dict.fromkeys(key[0] for key in reference.cells), "all"):
+                table.add_row(suite.name, name, behaviour, *_error(reference, behaviour))
+    Console().print(table)
+    if out is not None:
+        out.write_text(references_json(played))
+        print(f"written: {out}")
+
+
+def _error(reference: Reference, behaviour: str) -> tuple[str, str]:
+    """Return mean and interval over the episodes of a behaviour, or over all."""
+    chosen = [
+        (cell, value)
+        for cell, value in zip(reference.cells, reference.rmse_mm, strict=True)
+        if behaviour in ("all", cell[0])
+    ]
+    values = [value for _, value in chosen]
+    low, high = stratified_bootstrap(values, [cell for cell, _ in chosen])
+    return f"{sum(values) / len(values):.2f}", f"{low:.2f} to {high:.2f}"
