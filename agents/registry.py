@@ -46,7 +46,11 @@ def lookup(group: str, name: str) -> Any:
     known = entries(group)
     if name not in known:
         raise InputError(f"unknown {_KIND[group]} {name!r}; known: {', '.join(known)}")
-    return known[name].load()
+    try:
+        return known[name].load()
+    except Exception as error:
+        told = f"{type(error).__name__}: {error}"
+        raise InputError(f"{_KIND[group]} {name!r} ({known[name].value}) fails: {told}") from error
 
 
 def summary(agent: type) -> str:

@@ -58,6 +58,9 @@ class BlendSpec:
     process_noise: float
     name: str = "blend"
 
+    def check(self) -> None:
+        """Do nothing: it is always there."""
+
     def digest(self) -> str:
         """Return the hash of the policy's source."""
         return source_digest(Blend)
@@ -74,6 +77,9 @@ class PartnerSpec:
 
     lag: float
     name: str = "partner"
+
+    def check(self) -> None:
+        """Do nothing: it is always there."""
 
     def digest(self) -> str:
         """Return the hash of the partner's source."""

@@ -104,14 +104,14 @@ def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
     clock = time.perf_counter
     try:
         partner.reset(policy_seed())
-    except Exception as error:
-        failure = f"reset: {_told(error)}"
+    except (Exception, SystemExit) as error:
+        failure = f"start: {_told(error)}"
     while failure is None and not lift.done:
         observation = lift.partner_observation()
         begin = clock()
         try:
             action = partner.act(observation)
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             failure = f"step {len(actions)}: {_told(error)}"
             break
         times.append(clock() - begin)
@@ -138,7 +138,7 @@ def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
     )
 
 
-def _told(error: Exception) -> str:
+def _told(error: BaseException) -> str:
     return f"{type(error).__name__}: {error}".rstrip(": ")
 
 

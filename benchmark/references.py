@@ -31,6 +31,9 @@ class HumanTeam:
 
     name: str = HUMAN_HUMAN
 
+    def check(self) -> None:
+        """Do nothing: it is always there."""
+
     def digest(self) -> str:
         """Return the hash of the partner's source."""
         return source_digest(Partner)

@@ -6,7 +6,7 @@ from concurrent.futures import CancelledError, Executor, Future, as_completed
 from dataclasses import dataclass
 from typing import Protocol
 
-from ..agents.agent import Agent
+from ..agents.agent import Action, Agent, Observation
 from .episode import Episode, run_episode
 from .lift import Lift
 from .scenario import Scenario
@@ -30,14 +30,11 @@ class AgentSpec(Protocol):
     def digest(self) -> str:
         """Return a hash of the agent's source."""
 
-    def make(self) -> Agent:
-        """Return a new agent.
+    def check(self) -> None:
+        """Raise an InputError if there is no such agent."""
 
-        Raises
-        ------
-        InputError
-            If there is none.
-        """
+    def make(self) -> Agent:
+        """Return a new agent."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -62,9 +59,29 @@ def play(policy: AgentSpec, scenario: Scenario, seeds: tuple[int, ...]) -> Itera
     lift = Lift(scenario)
     try:
         for seed in seeds:
-            yield run_episode(lift, policy.make(), seed)
+            yield run_episode(lift, _made(policy), seed)
     finally:
         lift.close()
+
+
+class _Unmade:
+    """Stands in for an agent whose constructor failed: fails in the same way at the reset."""
+
+    def __init__(self, error: BaseException) -> None:
+        self._error = error
+
+    def reset(self, seed: int) -> None:
+        raise self._error
+
+    def act(self, observation: Observation) -> Action:
+        raise self._error
+
+
+def _made(policy: AgentSpec) -> Agent:
+    try:
+        return policy.make()
+    except (Exception, SystemExit) as error:
+        return _Unmade(error)
 
 
 def _task(policy: AgentSpec, scenario: Scenario, seeds: tuple[int, ...]) -> list[Episode]:
@@ -105,7 +122,7 @@ def run_suite(
     InputError
         If the policy cannot be loaded.
     """
-    policy.make()
+    policy.check()
     seeds = [
         suite.seeds[i : i + SEEDS_PER_TASK] for i in range(0, len(suite.seeds), SEEDS_PER_TASK)
     ]

@@ -24,25 +24,27 @@ def paper(
     jobs: Annotated[
         int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
     ] = None,
+    trials: Annotated[int, typer.Option(metavar="N", help="Learning trials.", min=1)] = 60,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print claims.json alone, and nothing else.")
     ] = False,
 ) -> None:
     """Reproduce the paper: Table I, figures 4 to 9 and its claims, side by side with ours."""
     # The report needs matplotlib, which is slow to load: not for the other commands.
-    from ..benchmark.paper.evidence import amount, gather
+    from ..benchmark.paper.evidence import Effort, amount, gather
     from ..benchmark.paper.report import check_target, claims_json, make_report, write_report
     from ..benchmark.suite import make_suite
     from .paper_summary import summary_table
 
     suite = make_suite("paper-v1").with_seeds(*seed_range(seeds))
+    effort = Effort(learning_trials=trials)
     check_target(out)
     try:
         with (
             local_pool(default_jobs() if jobs is None else jobs) as pool,
-            progress_bar("paper", amount(suite)) as progress,
+            progress_bar("paper", amount(suite, effort)) as progress,
         ):
-            evidence = gather(suite, executor=pool, progress=progress)
+            evidence = gather(suite, effort, executor=pool, progress=progress)
     except KeyboardInterrupt:
         print("interrupted: no report was written", file=sys.stderr)
         raise typer.Exit(1) from None

@@ -110,7 +110,6 @@ class MotionFilter:
         self._filter.x = np.array([[1000 * height], [0.0], [0.0]])
         self._filter.P = np.diag(spread**2)
         self._filter.R = np.array([[self._parameters.measurement_noise]])
-        self._period = math.nan
 
     def update(self, height: float) -> None:
         """Correct the state by a measured height [m].
@@ -133,19 +132,34 @@ class MotionFilter:
             If the period is not a finite number.
         """
         _require_finite("a period", period)
-        if period != self._period:
-            self._period = period
-            self._filter.F = transition(period)
-            self._filter.Q = process_covariance(self._parameters, period)
+        self._filter.F = transition(period)
+        self._filter.Q = process_covariance(self._parameters, period)
         self._filter.predict()
-        height, velocity, acceleration = (self._filter.x[:, 0] / 1000).tolist()
-        return Prediction(height, float(self._filter.P[0, 0]), velocity, acceleration)
+        return _prediction(self._filter.x, self._filter.P)
+
+    def ahead(self, period: float) -> Prediction:
+        """Return what is expected ``period`` [s] from now (eq. 5); the state stays as it is.
+
+        Raises
+        ------
+        ValueError
+            If the period is not a finite number.
+        """
+        _require_finite("a period", period)
+        step = transition(period)
+        covariance = step @ self._filter.P @ step.T + process_covariance(self._parameters, period)
+        return _prediction(step @ self._filter.x, covariance)
 
     @property
     def state(self) -> Matrix:
         """The state (s, v, a) [m, m/s, m/s2], shape (3,)."""
         state: Matrix = self._filter.x[:, 0] / 1000
         return state
+
+
+def _prediction(state: Matrix, covariance: Matrix) -> Prediction:
+    height, velocity, acceleration = (state[:, 0] / 1000).tolist()
+    return Prediction(height, float(covariance[0, 0]), velocity, acceleration)
 
 
 _H = np.array([[1.0, 0.0, 0.0]])

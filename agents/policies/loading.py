@@ -45,6 +45,10 @@ class PolicySpec:
             raise InputError(f"{source} has no class {name!r}{_listing(module)}")
         return _checked(getattr(module, name), self.text)
 
+    def check(self) -> None:
+        """Raise an InputError, as :meth:`load`, if there is no such policy."""
+        self.load()
+
     def digest(self) -> str:
         """Return the SHA-256 (16 hexadecimal digits) of the source file of the policy's class.
 
@@ -81,8 +85,9 @@ def policy_names() -> tuple[str, ...]:
 def _from_module(name: str) -> ModuleType:
     try:
         return importlib.import_module(name)
-    except ImportError as error:
-        raise InputError(f"cannot import module {name!r}: {error}") from error
+    except (Exception, SystemExit) as error:
+        told = f"{type(error).__name__}: {error}"
+        raise InputError(f"cannot import module {name!r}: {told}") from error
 
 
 def _from_file(path: Path) -> ModuleType:
@@ -96,7 +101,7 @@ def _from_file(path: Path) -> ModuleType:
     sys.modules[name] = module
     try:
         spec.loader.exec_module(module)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         raise InputError(f"{path} fails on import: {type(error).__name__}: {error}") from error
     return module
 
@@ -113,6 +118,8 @@ def _listing(module: ModuleType) -> str:
 def _checked(policy: object, text: str) -> type[Agent]:
     if not inspect.isclass(policy):
         raise InputError(f"{text} is not a class")
+    if inspect.isabstract(policy) or getattr(policy, "_is_protocol", False):
+        raise InputError(f"{text} is abstract: name a class that can be made")
     for method in ("reset", "act"):
         if not callable(getattr(policy, method, None)):
             raise InputError(f"policy {text} has no method {method}(); it needs reset and act")

@@ -39,9 +39,9 @@ class PredictorParameters:
 class Predictor:
     """Predicts the human's height one step ahead of the sample, and says how sure it is.
 
-    Literally the paper's: the sample's age is not compensated. A step lasts as long as the one
-    before it. With the first sample there is no prediction to judge yet: it counts as one of
-    likelihood 1, so that eq. 7 begins at a confidence of 1 and the robot copies.
+    Literally the paper's: the sample's age is not compensated. The next step is taken to last as
+    long as the one before it. With the first sample there is no prediction to judge yet: it counts
+    as one of likelihood 1, so that eq. 7 begins at a confidence of 1 and the robot copies.
     """
 
     def __init__(self, parameters: PredictorParameters | None = None) -> None:
@@ -51,7 +51,6 @@ class Predictor:
         """Forget the last episode."""
         self._filter: MotionFilter | None = None
         self._confidence = Confidence(self._parameters.forgetting)
-        self._expected: Prediction | None = None
         self._time = 0.0
 
     def step(self, observation: Observation) -> tuple[Prediction, float]:
@@ -64,17 +63,17 @@ class Predictor:
         """
         height = float(observation[RobotObservation.HUMAN_END])
         time = float(observation[RobotObservation.TIME])
-        if self._filter is None or self._expected is None:
+        if self._filter is None:
             self._filter = MotionFilter(self._parameters.motion)
             self._filter.reset(height)
             confidence = self._confidence.update(1.0)
             period = DEFAULT_PERIOD
         else:
-            error = 1000 * (height - self._expected.height)
-            chance = likelihood(error, self._expected.variance, self._parameters.reading)
-            confidence = self._confidence.update(chance)
             period = time - self._time
+            expected = self._filter.predict(period)
+            error = 1000 * (height - expected.height)
+            chance = likelihood(error, expected.variance, self._parameters.reading)
+            confidence = self._confidence.update(chance)
             self._filter.update(height)
         self._time = time
-        self._expected = self._filter.predict(period)
-        return self._expected, confidence
+        return self._filter.ahead(period), confidence

@@ -22,7 +22,13 @@ class Proactive:
     def act(self, observation: Observation) -> Action:
         """Return the movement to the predicted height [m]."""
         prediction, confidence = self._predictor.step(observation)
-        self._internals = {"prediction": prediction.height, "confidence": confidence, "role": 1.0}
+        self._internals = {
+            "prediction": prediction.height,
+            "predicted_velocity": prediction.velocity,
+            "predicted_acceleration": prediction.acceleration,
+            "confidence": confidence,
+            "role": 1.0,
+        }
         return np.array([prediction.height - observation[RobotObservation.HAND_HEIGHT]])
 
     def internals(self) -> dict[str, float]:

@@ -11,7 +11,7 @@ from ...agents.humans import Behaviour, Jerky, Pause
 from ...agents.policies.loading import PolicySpec
 from ..learning import LearningTrial, learning_trials
 from ..references import human_team_run
-from ..runner import Run, run_suite
+from ..runner import AgentSpec, Run, run_suite
 from ..scenario import Scenario
 from ..suite import Suite
 from .published import FORGETTING_FACTORS
@@ -27,8 +27,6 @@ LONG_PAUSE: Final = Pause(length=(8.0, 8.0), lowering_share=0.0)
 REACTIVE: Final = PolicySpec(text="reactive")
 BLEND: Final = WatchedBlend()
 
-TRIALS_PER_TASK: Final = 10
-
 
 @dataclass(frozen=True, kw_only=True)
 class Effort:
@@ -43,7 +41,7 @@ class Effort:
     """Control periods to compare [s]."""
     latencies: tuple[float, ...] = (0.0, 0.05, 0.1, 0.15)
     """Latencies to compare [s]."""
-    learning_trials: int = 200
+    learning_trials: int = 60
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,7 +107,7 @@ def gather(
     """
     effort = effort or Effort()
 
-    def run(policy: PolicySpec, lifts: Suite) -> Run:
+    def run(policy: AgentSpec, lifts: Suite) -> Run:
         return _complete(run_suite(policy, lifts, executor=executor, progress=progress))
 
     blend = run(BLEND, suite)
@@ -184,9 +182,8 @@ def _complete(run: Run) -> Run:
 def _learn(
     count: int, seed: int, executor: Executor | None, progress: Callable[[int], None]
 ) -> list[LearningTrial]:
-    trials: list[LearningTrial] = []
-    for start in range(0, count, TRIALS_PER_TASK):
-        size = min(TRIALS_PER_TASK, count - start)
-        trials += learning_trials(size, seed + start, executor=executor)
-        progress(size)
+    trials = []
+    for trial in learning_trials(count, seed, executor=executor):
+        trials.append(trial)
+        progress(1)
     return trials

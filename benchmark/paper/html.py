@@ -30,7 +30,7 @@ STYLE: Final = """
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--paper); color: var(--ink);
   font: 16px/1.55 system-ui, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif; }
-main { max-width: 62rem; margin: 0 auto; padding: 2.5rem 1.25rem 5rem; }
+main { max-width: 66rem; margin: 0 auto; padding: 2.5rem 1.25rem 5rem; }
 h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 1rem; text-wrap: balance; }
 h2 { font-size: 1.3rem; margin: 3rem 0 0.75rem; padding-top: 1rem;
   border-top: 1px solid var(--line); }
@@ -40,10 +40,11 @@ p { max-width: 46rem; margin: 0.6rem 0; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 0.9rem;
   margin: 1rem 0; white-space: nowrap; }
-th, td { padding: 0.35rem 0.7rem; text-align: right; border-bottom: 1px solid var(--line); }
+th, td { padding: 0.35rem 0.6rem; text-align: right; border-bottom: 1px solid var(--line); }
 th { font-weight: 600; color: var(--faint); vertical-align: bottom; }
 th:first-child, td:first-child { text-align: left; }
 tbody tr:last-child td { font-weight: 650; }
+td span { display: block; font-weight: 400; font-size: 0.8rem; color: var(--faint); }
 figure { margin: 2rem 0 2.5rem; }
 figure img { display: block; width: 100%; max-width: 52rem; height: auto; border-radius: 6px; }
 figcaption { max-width: 46rem; margin-top: 0.6rem; }
@@ -113,9 +114,15 @@ def html_page(
 def _table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
     body = "".join(
-        "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
+        "<tr>" + "".join(f"<td>{_two_lines(cell)}</td>" for cell in row) + "</tr>" for row in rows
     )
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def _two_lines(cell: str) -> str:
+    """Return a cell with what is in brackets, its interval, on a line of its own."""
+    value, bracket, interval = cell.partition(" (")
+    return escape(value) + (f"<span>({escape(interval)}</span>" if bracket else "")
 
 
 def _claim(claim: Claim) -> str:

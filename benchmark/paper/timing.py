@@ -1,18 +1,24 @@
 """Errors of control and of prediction for other control periods and latencies (section V.A)."""
 
+import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...agents.policies.predictor import PredictorParameters
 from ..runner import Run
+from ..scenario import LATENCY
 from .evidence import Timing
 from .measures import rms
+from .replay import replay
 from .sampled import SampledLift, sampled_lifts
 from .table_one import errors
+
+Series = NDArray[np.float64]
 
 HORIZON: Final = 0.1
 """How far ahead predictions of different control periods are compared [s]: the paper's step."""
@@ -35,6 +41,8 @@ class TimingResult:
     """The same as time [ms]: divided by the root mean square speed."""
     ahead_mm: float
     """Root mean square error of a prediction ``HORIZON`` ahead while the human moves [mm]."""
+    ahead_retuned_mm: float
+    """The same, offline, with the process noise of :func:`retuned`."""
 
 
 def timing_results(runs: Mapping[Timing, Run]) -> list[TimingResult]:
@@ -42,15 +50,23 @@ def timing_results(runs: Mapping[Timing, Run]) -> list[TimingResult]:
     return [_result(timing, run) for timing, run in runs.items()]
 
 
+def at_papers_latency(results: Sequence[TimingResult], policy: str) -> list[TimingResult]:
+    """Return a policy's results at the latency of Table I, or the next below, by period."""
+    latency = max(r.latency_s for r in results if r.latency_s <= LATENCY)
+    some = [r for r in results if r.policy == policy and r.latency_s == latency]
+    return sorted(some, key=lambda result: result.control_period_s)
+
+
 def _result(timing: Timing, run: Run) -> TimingResult:
-    one_step = one_step_ms = ahead = math.nan
+    one_step = one_step_ms = ahead = ahead_retuned = math.nan
     if timing.policy == "blend":
         lifts = sampled_lifts(run)
-        moving = [lift.speed > MOVING for lift in lifts]
-        speed = rms(_pooled([lift.speed for lift in lifts], moving))
-        one_step = 1000 * rms(_pooled([lift.errors for lift in lifts], moving))
+        speed = rms(np.concatenate([lift.speed[_moving(lift)] for lift in lifts]))
+        one_step = _pooled(lifts, lambda lift: lift.errors)
         one_step_ms = one_step / speed
-        ahead = 1000 * rms(_pooled([ahead_errors(lift) for lift in lifts], moving))
+        ahead = _pooled(lifts, ahead_errors)
+        other = retuned(timing.control_period)
+        ahead_retuned = _pooled(lifts, lambda lift: ahead_errors(lift, other))
     return TimingResult(
         policy=timing.policy,
         control_period_s=timing.control_period,
@@ -59,29 +75,48 @@ def _result(timing: Timing, run: Run) -> TimingResult:
         one_step_mm=one_step,
         one_step_ms=one_step_ms,
         ahead_mm=ahead,
+        ahead_retuned_mm=ahead_retuned,
     )
 
 
-def _pooled(
-    series: Sequence[NDArray[np.float64]], masks: Sequence[NDArray[np.bool_]]
-) -> NDArray[np.float64]:
-    return np.concatenate([values[mask] for values, mask in zip(series, masks, strict=True)])
+def retuned(period: float) -> PredictorParameters:
+    """Return the predictor's parameters with the process noise of ``HORIZON``, for a period [s].
+
+    The filter takes the jerk for constant over a step with variance q, whatever the step. Over a
+    second such a jerk changes the acceleration by a variance of q times the period: a filter with
+    the same q trusts its model the more, the shorter the step. Here q times the period stays.
+    """
+    shipped = PredictorParameters()
+    noise = shipped.motion.process_noise * HORIZON / period
+    return dataclasses.replace(
+        shipped, motion=dataclasses.replace(shipped.motion, process_noise=noise)
+    )
 
 
-def ahead_errors(lift: SampledLift) -> NDArray[np.float64]:
-    """Return how wrong the predictions ``HORIZON`` ahead of the sample were [m], shape (m,).
+def _moving(lift: SampledLift) -> NDArray[np.bool_]:
+    return lift.speed > MOVING
+
+
+def _pooled(lifts: Sequence[SampledLift], wrong: Callable[[SampledLift], Series]) -> float:
+    """Return the root mean square of an error over all steps in which the human moves [mm]."""
+    return 1000 * rms(np.concatenate([wrong(lift)[_moving(lift)] for lift in lifts]))
+
+
+def ahead_errors(lift: SampledLift, parameters: PredictorParameters | None = None) -> Series:
+    """Return how wrong the predictions ``HORIZON`` ahead of the sample are [m], shape (m,).
 
     The filter's prediction one step ahead is carried on at constant acceleration (eq. 5) to the
     horizon. The error stands in the step whose sample it is checked against; NaN before there is
-    a prediction for one.
+    a prediction for one. Computed offline, with the shipped parameters by default.
     """
-    internals, period = lift.episode.trace.internals, lift.scenario.control_period
-    rest = HORIZON - period
-    steps = round(HORIZON / period)
+    period = lift.scenario.control_period
+    replayed = replay(lift.samples, period, parameters)
+    further = HORIZON - period
     expected = (
-        internals["prediction"]
-        + internals["predicted_velocity"] * rest
-        + internals["predicted_acceleration"] * rest**2 / 2
+        replayed.height + replayed.velocity * further + replayed.acceleration * further**2 / 2
     )
-    missing = np.full(steps, np.nan)
-    return lift.samples - np.concatenate((missing, expected[:-steps]))
+    # What was expected of sample k, one step ahead, reaches to sample k + steps.
+    steps = round(further / period)
+    wrong = np.full(len(expected), np.nan)
+    wrong[steps + 1 :] = lift.samples[steps + 1 :] - expected[1 : len(expected) - steps]
+    return wrong

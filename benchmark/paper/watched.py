@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from ...agents.agent import Action, Agent, Observation, RobotObservation
 from ...agents.policies.blend import Blend
-from ...agents.policies.loading import PolicySpec
+from ...agents.policies.loading import source_digest
 from ...agents.policies.predictor import PredictorParameters
 
 
@@ -30,12 +30,19 @@ class Watched:
 
 
 @dataclass(frozen=True, kw_only=True)
-class WatchedBlend(PolicySpec):
-    """Makes a watched blend policy, if need be with another forgetting factor."""
+class WatchedBlend:
+    """Where the watched blend policy comes from, as :class:`.AgentSpec`."""
 
-    text: str = "blend"
+    name: str = "blend"
     forgetting: float | None = None
     """phi of eq. 7; the policy's own by default."""
+
+    def check(self) -> None:
+        """Accept it: the class is here."""
+
+    def digest(self) -> str:
+        """Return the hash of the blend policy's source."""
+        return source_digest(Blend)
 
     def make(self) -> Agent:
         """Return a new policy object."""

@@ -11,7 +11,7 @@ INTRODUCTION: Final = (
     "with their framework: a reactive controller learned by Q-learning, a Kalman filter that "
     "predicts the human one step ahead, and a confidence that mixes the two. "
     "Every number of ours comes from the run that made this page. "
-    "Subjects are simulated people, calibrated to Table I on other seeds than these."
+    "Subjects are simulated people, calibrated to Table I."
 )
 
 TABLE_CAPTION: Final = (

@@ -74,7 +74,7 @@ def test_a_policy_that_fails_at_once_scores_the_worst_there_is(lift):
             raise RuntimeError("no model file")
 
     episode = run_episode(lift, Broken(), 4)
-    assert episode.failure == "reset: RuntimeError: no model file"
+    assert episode.failure == "start: RuntimeError: no model file"
     assert episode.scores.rmse_mm == FAILED_FRAME_MM
     assert len(episode.trace.human_end) == 0
 

@@ -45,7 +45,15 @@ def test_run_prints_a_table_and_where_the_policy_stands():
     done = colift("run", "copy", "--suite", "quick-v1")
     assert done.returncode == 0
     assert done.stderr == ""
-    for told in ("smooth", "pause", "jerky", "changing_goal", "against hold", "6.531 mm"):
+    for told in (
+        "vs_human",
+        "smooth",
+        "pause",
+        "jerky",
+        "changing_goal",
+        "against hold",
+        "human-human team",
+    ):
         assert told in done.stdout
 
 
@@ -87,7 +95,7 @@ def test_list_names_everything():
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["run", "nonesuch"], "known: copy, hold, random"),
+        (["run", "nonesuch"], "known: blend, copy, hold, proactive, random, reactive"),
         (["run", "copy", "--suite", "nonesuch"], "standard-v1, paper-v1, quick-v1"),
         (["run", "copy", "--seeds", "5:5"], "5:5"),
         (["run", "copy", "--seeds", "5"], "A:B"),
@@ -108,6 +116,10 @@ def test_list_names_everything():
         (["render", "copy", "--scenario", "nonesuch", "--out", "lift.png"], "smooth"),
         (["render", "copy", "--subject", "S9", "--out", "lift.png"], "S1, S2, S3, S4, S5"),
         (["bench", "--episodes", "1"], "at least 200"),
+        (["learn", "everything"], "can learn: reactive"),
+        (["learn", "reactive", "--trials", "0"], "--trials"),
+        (["learn", "reactive", "--out", "/nowhere/x.json"], "no folder /nowhere"),
+        (["calibrate", "--out", "/nowhere/x.json"], "no folder /nowhere"),
         ([], "Usage"),
     ],
 )
@@ -219,7 +231,7 @@ def test_render_draws_a_picture(tmp_path):
 
 
 def test_every_command_explains_itself():
-    for command in ("run", "list", "render", "bench"):
+    for command in ("run", "list", "paper", "render", "learn", "calibrate", "bench"):
         done = colift(command, "--help")
         assert done.returncode == 0
         assert command in done.stdout

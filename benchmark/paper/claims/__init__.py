@@ -20,7 +20,7 @@ def all_claims(evidence: Evidence, table: TableOne) -> list[Claim]:
         *learning_claims(evidence.learning),
         *prediction_claims(evidence.lifts),
         *confidence_claims(evidence.lifts, evidence.pauses),
-        *forgetting_claims(evidence.rests, evidence.forgetting),
+        *forgetting_claims(evidence.rests, evidence.pauses, evidence.forgetting),
         *table_claims(table),
         *performance_claims(evidence),
         *timing_claims(evidence.timing),

@@ -16,7 +16,7 @@ from .picture import Picture
 from .prediction import prediction_picture
 from .table import table_picture
 from .timing import timing_picture
-from .trajectories import comparison_picture, team_picture
+from .trajectories import comparison_picture, error_limit, team_picture
 
 
 def all_pictures(evidence: Evidence, table: TableOne) -> list[Picture]:
@@ -26,15 +26,15 @@ def all_pictures(evidence: Evidence, table: TableOne) -> list[Picture]:
     the best nor the worst. Figures 4, 5, 8 and 9 show the same lift.
     """
     shown = median_lift([lift.episode for lift in evidence.lifts])
-    lift = evidence.lifts[shown]
+    lift, reactive = evidence.lifts[shown], evidence.reactive.episodes[shown]
     return [
         table_picture(table),
         prediction_picture(lift),
         confidence_picture(lift),
         pause_picture(_median(evidence.pauses)),
         forgetting_picture(_median(evidence.rests)),
-        comparison_picture(lift.episode, evidence.reactive.episodes[shown]),
-        team_picture(evidence.team.episodes[shown]),
+        comparison_picture(lift.episode, reactive),
+        team_picture(evidence.team.episodes[shown], error_limit(lift.episode, reactive)),
         learning_picture(evidence.learning),
         timing_picture(timing_results(evidence.timing)),
     ]

@@ -1,5 +1,7 @@
 """Figure 7: what the forgetting factor does, computed offline from one recorded lift."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ...rendering.palette import HUMAN, INK
@@ -22,7 +24,7 @@ def forgetting_picture(lift: SampledLift) -> Picture:
     steps = np.arange(len(lift.samples))
     shade(rows[0][0], [(start, stop)])
     rows[0][0].plot(steps, 1000 * lift.samples, color=HUMAN, lw=2.0)
-    columns: dict[str, list[float]] = {
+    columns: dict[str, Sequence[float]] = {
         "step": steps.tolist(),
         "observed_position_m": lift.samples.tolist(),
         "likelihood": replayed.likelihood.tolist(),

@@ -1,6 +1,7 @@
 """How many iterations Q-learning takes to converge (section IV.A)."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -16,11 +17,12 @@ def learning_picture(trials: Sequence[LearningTrial]) -> Picture:
     figure, ((axes,),) = panels(["trials"], [2.6], x_label="iterations until convergence")
     longest = max(len(trial.rewards) for trial in trials)
     axes.hist(converged, bins=np.arange(0, longest + 5, 5).tolist(), color=HUMAN, alpha=0.65)
-    for value, colour, dashes, label in (
+    lines: tuple[tuple[float, str, Any, str], ...] = (
         (float(np.median(converged or [np.nan])), HUMAN, "-", "our median"),
         (MEDIAN_ITERATIONS, INK, "-", "the paper's median"),
         (LONGEST_ITERATIONS, FAINT, (0, (4, 3)), "the paper's longest of ten"),
-    ):
+    )
+    for value, colour, dashes, label in lines:
         axes.axvline(value, color=colour, lw=1.8, ls=dashes, label=label)
     legend(axes)
     return Picture(

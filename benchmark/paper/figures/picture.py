@@ -42,6 +42,7 @@ def panels(
     columns: int = 1,
     x_label: str = "time step (100 ms)",
     share_x: bool = True,
+    share_y: bool = True,
 ) -> tuple[Figure, list[list[Axes]]]:
     """Return a figure of stacked panels in the common look.
 
@@ -52,11 +53,13 @@ def panels(
     heights
         Height of each row [inches].
     columns
-        Panels in a row; they share the vertical axis.
+        Panels in a row.
     x_label
         What the horizontal axes show.
     share_x
         Whether all panels share the horizontal axis.
+    share_y
+        Whether the panels of a row share the vertical axis.
     """
     figure = Figure(
         figsize=(WIDTH, sum(heights) + 0.6), dpi=DPI, facecolor=PAPER, layout="constrained"
@@ -66,7 +69,7 @@ def panels(
         len(labels),
         columns,
         sharex=share_x,
-        sharey="row",
+        sharey="row" if share_y else False,
         squeeze=False,
         height_ratios=list(heights),
     )

@@ -20,26 +20,33 @@ def comparison_picture(blend: Episode, reactive: Episode) -> Picture:
         "both cases. Above the trajectories of the two ends, below the absolute error, whose sum "
         "over the frames is eq. 10.",
         figure=_figure(
-            {"case I: with prediction": blend, "case II: without": reactive}, "robot's end"
+            {"case I: with prediction": blend, "case II: without": reactive},
+            "robot's end",
+            error_limit(blend, reactive),
         ),
         columns={**_columns(blend, "with_"), **_columns(reactive, "without_", time=False)},
     )
 
 
-def team_picture(team: Episode) -> Picture:
-    """Return figure 9: two humans."""
+def error_limit(*episodes: Episode) -> float:
+    """Return where the axis of the absolute error ends for it to hold all episodes [mm]."""
+    traces = [episode.trace for episode in episodes]
+    return 1050 * max(float(np.abs(t.human_end - t.robot_end).max()) for t in traces)
+
+
+def team_picture(team: Episode, limit: float) -> Picture:
+    """Return figure 9: two humans, the error's axis up to ``limit`` [mm]."""
     return Picture(
         name="figure-9",
         title="Figure 9. A human-human team",
         caption=f"Subject {team.subject}, seed {team.seed}, with a second human at the far end "
-        "instead of the robot. The vertical scale of the error is that of figure 8's kind; "
-        "compare the numbers.",
-        figure=_figure({"two humans": team}, "partner's end"),
+        "instead of the robot: the same intention as in figure 8, and the same scale of the error.",
+        figure=_figure({"two humans": team}, "partner's end", limit),
         columns=_columns(team, ""),
     )
 
 
-def _figure(cases: Mapping[str, Episode], far: str) -> Figure:
+def _figure(cases: Mapping[str, Episode], far: str, limit: float) -> Figure:
     figure, (upper, lower) = panels(
         ["height [mm]", "|Z1 - Z2| [mm]"],
         [2.2, 1.4],
@@ -55,7 +62,6 @@ def _figure(cases: Mapping[str, Episode], far: str) -> Figure:
         error = 1000 * np.abs(trace.human_end - trace.robot_end)
         below.fill_between(times, error, color=FAINT, alpha=0.35, lw=0)
         below.plot(times, error, color=FAINT, lw=1.0)
-        below.set_ylim(bottom=0)
         above.set_title(
             f"{name}\nRMSE {scores.rmse_mm:.1f} mm, absolute error {scores.abs_error_mm:.0f} mm, "
             f"SPARC {scores.sparc:.2f}",
@@ -65,6 +71,8 @@ def _figure(cases: Mapping[str, Episode], far: str) -> Figure:
             pad=20,
         )
         legend(above)
+    for below in lower:
+        below.set_ylim(0, limit)
     return figure
 
 
