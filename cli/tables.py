@@ -33,23 +33,13 @@ def results_table(content: dict[str, Any]) -> Table:
         box=box.SIMPLE_HEAD,
     )
     table.add_column("human", no_wrap=True)
-    table.add_column("RMSE mm", justify="right")
-    table.add_column("human team", justify="right")
-    for _, title, _ in COLUMNS:
-        table.add_column(title, justify="right")
-    table.add_column("lifts", justify="right")
-    behaviours = dict.fromkeys(group["behaviour"] for group in content["groups"])
-    for behaviour in behaviours:
-        groups = [group for group in content["groups"] if group["behaviour"] == behaviour]
-        cells = [_cell(_pooled(groups, name), digits) for name, _, digits in COLUMNS]
-        table.add_row(
-            behaviour, *_errors(groups), *cells, str(sum(group["episodes"] for group in groups))
-        )
+    for title in ("RMSE mm", "team", *(title for _, title, _ in COLUMNS)):
+        table.add_column(title, justify="right", no_wrap=True)
+    groups = content["groups"]
+    for behaviour in dict.fromkeys(group["behaviour"] for group in groups):
+        table.add_row(behaviour, *_row([g for g in groups if g["behaviour"] == behaviour]))
     table.add_section()
-    cells = [_cell(summary[name]["mean"], digits) for name, _, digits in COLUMNS]
-    table.add_row(
-        "all", *_errors(content["groups"]), *cells, str(summary["episodes"]), style="bold"
-    )
+    table.add_row("all", *_row(groups), style="bold")
     return table
 
 
@@ -73,14 +63,15 @@ def standing(content: dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def _errors(groups: list[dict[str, Any]]) -> tuple[str, str]:
-    """Return the mean RMSE of the policy and of the human-human team over groups."""
+def _row(groups: list[dict[str, Any]]) -> list[str]:
+    """Return the cells of a row: the means over the groups' episodes."""
     weights = [group["episodes"] for group in groups]
-    team = [group["human_human_rmse_mm"]["mean"] for group in groups]
-    mean = (
-        sum(w * x for w, x in zip(weights, team, strict=True)) / sum(weights) if all(team) else None
-    )
-    return _cell(_pooled(groups, "rmse_mm"), ".1f"), _cell(mean, ".1f")
+    known = [group["human_human_rmse_mm"]["mean"] for group in groups]
+    team = None
+    if None not in known:
+        team = sum(w * mean for w, mean in zip(weights, known, strict=True)) / sum(weights)
+    errors = [_cell(_pooled(groups, "rmse_mm"), ".1f"), _cell(team, ".1f")]
+    return errors + [_cell(_pooled(groups, name), digits) for name, _, digits in COLUMNS]
 
 
 def _interval(ci95: list[float], digits: str) -> str:

@@ -16,7 +16,7 @@ def learning_picture(trials: Sequence[LearningTrial]) -> Picture:
     converged = [trial.converged_at for trial in trials if trial.converged_at is not None]
     figure, ((axes,),) = panels(["trials"], [2.6], x_label="iterations until convergence")
     longest = max(len(trial.rewards) for trial in trials)
-    axes.hist(converged, bins=np.arange(0, longest + 5, 5).tolist(), color=HUMAN, alpha=0.65)
+    axes.hist(converged, bins=list(range(0, longest + 5, 5)), color=HUMAN, alpha=0.65)
     lines: tuple[tuple[float, str, Any, str], ...] = (
         (float(np.median(converged or [np.nan])), HUMAN, "-", "our median"),
         (MEDIAN_ITERATIONS, INK, "-", "the paper's median"),
