@@ -2,7 +2,7 @@
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,14 +31,14 @@ class Trace:
     """(n,) the human's intended height [m]."""
     action: Series
     """(m, k) the actions of the robot's end as given: of a NAO, changes of the command [m]."""
-    internals: Mapping[str, Series]
+    internals: Mapping[str, Series] = field(default_factory=dict)
     """(m,) each: what the policy says its actions were based on, where it says so; see
     :class:`colift.agents.agent.Explaining`."""
 
     @staticmethod
     def series() -> tuple[str, ...]:
         """Return the names of the fields that are arrays, in order."""
-        return tuple(field.name for field in fields(Trace) if field.name != "internals")
+        return tuple(each.name for each in fields(Trace) if each.name != "internals")
 
     def digest(self) -> str:
         """Return the SHA-256 of all numbers: equal if and only if every bit is."""

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from colift.agents.agent import HumanObservation, RobotObservation
 from colift.agents.errors import InputError
+from colift.agents.humans import PARTNER_SUBJECT
 from colift.benchmark.catalogue import make_scenario
 from colift.benchmark.environment import parallel_env
 from colift.benchmark.lift import MOCAP_NOISE, Lift
@@ -94,7 +95,7 @@ class TestHumanView:
         view = made.partner_observation()
         assert view.shape == made.human_observation().shape
         others = made.world.since_reset(made.world.human_end)
-        seen = 250 - 1 - round(made.scenario.subject.visual_delay / 0.01)
+        seen = 250 - 1 - round(PARTNER_SUBJECT.visual_delay / 0.01)
         assert set(view[HumanObservation.TARGET].tolist()) == {others[seen]}
 
 
@@ -150,11 +151,11 @@ class TestEnd:
         assert not made.truncated
 
     def test_a_hard_pull_costs_the_grip(self):
-        """Two strong people who fight over the height."""
-        made = lift(partner="human", subject="S3")
-        for step in range(40):
-            up = 0.5 if step % 2 else -0.2
-            made.step(np.full(10, up), np.full(10, up))
+        """Two people who throw the table up and down."""
+        made = lift(partner="human", subject="S3", control_period=0.02)
+        for step in range(100):
+            up = 0.5 if step // 5 % 2 else -0.2
+            made.step(np.full(2, up), np.full(2, up))
             if made.done:
                 break
         assert "N pull" in made.dropped

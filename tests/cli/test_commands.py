@@ -51,7 +51,7 @@ def test_run_prints_a_table_and_where_the_policy_stands():
         "pause",
         "jerky",
         "changing_goal",
-        "against hold",
+        "hold (never",
         "human-human team",
     ):
         assert told in done.stdout

@@ -76,7 +76,7 @@ def _lowering(evidence: Evidence) -> Claim:
         holds=better and p < 0.01,
         note="The paper's reason, an arm that jerks when it works against gravity, is not in the "
         "simulation: its servos carry the load alike in both directions, and only the human's own "
-        "strokes differ up and down.",
+        "strokes differ up and down. What difference there is comes from them.",
     )
 
 

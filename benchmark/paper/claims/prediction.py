@@ -54,7 +54,7 @@ def _improves(lifts: Sequence[SampledLift]) -> Claim:
         "average. The filter takes the acceleration for constant and errs where it changes: as "
         "the motion begins, and again when the human turns from speeding up to slowing down, "
         "where speed is highest. Relative to the speed the claim is seen: rms error / rms distance "
-        "a step is {relative[0]:.2f} in steps 1 to 5, "
+        f"a step is {relative[0]:.2f} in steps 1 to 5, "
         f"{relative[1]:.2f} in 6 to 10, {relative[2]:.2f} in 11 to 20.",
     )
 
@@ -102,8 +102,15 @@ def _velocity(lifts: Sequence[SampledLift]) -> Claim:
         values={"difference_mm_s": 1000 * trailing[0], "share": share},
         holds=share < SMALL,
         note="The calculated velocity is the central difference of the samples. The predicted one "
-        f"trails it: against the velocity of {steps} step(s) earlier the difference is "
-        f"{trailing[steps] / peak:.1%}.",
+        f"trails it ({trailing[steps] / peak:.1%} from the velocity of {steps} steps earlier) and "
+        f"overshoots: its peak is {_predicted_peak(lifts) / peak:.2f} times the calculated one.",
+    )
+
+
+def _predicted_peak(lifts: Sequence[SampledLift]) -> float:
+    """Return the mean peak of the predicted speed [m/s]."""
+    return float(
+        np.mean([np.nanmax(np.abs(lift.one_step_ahead("predicted_velocity"))) for lift in lifts])
     )
 
 

@@ -3,6 +3,7 @@ from colift.benchmark.episode import Episode
 from colift.benchmark.rendering.caption import title
 from colift.benchmark.rendering.curves import Curves
 from colift.benchmark.rendering.palette import HUMAN
+from colift.benchmark.trace import Trace
 from numpy.typing import NDArray
 from PIL import Image, ImageColor
 
@@ -40,7 +41,7 @@ def test_marked_curves_have_a_cursor_at_each_moment(long_episode: Episode) -> No
 
 
 def test_a_single_frame_can_be_drawn(episode: Episode) -> None:
-    one = type(episode.trace)(**{name: values[:1] for name, values in vars(episode.trace).items()})
+    one = Trace(**{name: getattr(episode.trace, name)[:1] for name in Trace.series()})
     assert Curves(one, WIDTH, HEIGHT, partner="robot").at(0).size == (WIDTH, HEIGHT)
 
 

@@ -1,0 +1,59 @@
+"""The predictor, offline, against what it said online."""
+
+import numpy as np
+import pytest
+from colift.agents.policies.blend import Blend
+from colift.benchmark.episode import run_episode
+from colift.benchmark.lift import Lift
+from colift.benchmark.paper.replay import confidence_course, replay
+from colift.benchmark.paper.timing import ahead_errors, retuned
+
+
+def test_a_watched_blend_acts_as_the_blend(made, suite):
+    lift = Lift(suite.scenarios[0])
+    plain = run_episode(lift, Blend(), 1000)
+    lift.close()
+    watched = made.evidence.blend.episodes[0]
+    assert np.array_equal(plain.trace.action, watched.trace.action)
+    assert np.array_equal(plain.trace.robot_end, watched.trace.robot_end)
+
+
+def test_offline_equals_online(made):
+    for lift in made.evidence.lifts:
+        replayed = replay(lift.samples, 0.1)
+        confidence = confidence_course(replayed.likelihood, 0.45)
+        assert confidence == pytest.approx(lift.confidence, abs=1e-9)
+        assert replayed.height[1:] == pytest.approx(lift.predicted[1:], abs=1e-12)
+
+
+def test_samples_are_the_traces_at_their_frames_but_for_the_sensor(made):
+    for lift in made.evidence.lifts:
+        frames = lift.sample_frames
+        shown = frames >= 0
+        difference = lift.samples[shown] - lift.episode.trace.human_end[frames[shown]]
+        assert 1e-5 < np.abs(difference).max() < 0.0015
+
+
+def test_a_step_shows_an_event_as_soon_as_its_sample_is_late_enough(made):
+    lift = made.evidence.pauses[0]
+    for name in ("brake", "pause", "resume"):
+        step, frame = lift.step_showing(lift.event(name)), lift.event(name)
+        assert lift.sample_frames[step] >= frame > lift.sample_frames[step - 1]
+
+
+def test_at_the_papers_period_the_horizon_is_one_step(made):
+    lift = made.evidence.lifts[0]
+    assert ahead_errors(lift)[1:] == pytest.approx(lift.errors[1:], abs=1e-12)
+
+
+def test_retuning_changes_nothing_at_the_papers_period_and_doubles_at_half_of_it():
+    assert retuned(0.1) == retuned(0.1000)
+    ratio = retuned(0.05).motion.process_noise / retuned(0.1).motion.process_noise
+    assert ratio == pytest.approx(2.0)
+
+
+def test_a_constant_velocity_is_predicted_without_error_in_the_end():
+    replayed = replay(0.02 * np.arange(60), 0.1)
+    assert replayed.height[-1] == pytest.approx(0.02 * 59, abs=1e-6)
+    assert replayed.velocity[-1] == pytest.approx(0.2, abs=1e-5)
+    assert replayed.likelihood[-1] == pytest.approx(1.0)
