@@ -102,8 +102,8 @@ def _velocity(lifts: Sequence[SampledLift]) -> Claim:
         values={"difference_mm_s": 1000 * trailing[0], "share": share},
         holds=share < SMALL,
         note="The calculated velocity is the central difference of the samples. The predicted one "
-        f"trails it ({trailing[steps] / peak:.1%} from the velocity of {steps} steps earlier) and "
-        f"overshoots: its peak is {_predicted_peak(lifts) / peak:.2f} times the calculated one.",
+        f"trails it ({trailing[steps] / peak:.1%} from the velocity of {100 * steps} ms earlier) "
+        f"and overshoots: its peak is {_predicted_peak(lifts) / peak:.2f} times that calculated.",
     )
 
 

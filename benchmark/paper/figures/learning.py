@@ -1,5 +1,6 @@
 """How many iterations Q-learning takes to converge (section IV.A)."""
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -18,7 +19,7 @@ def learning_picture(trials: Sequence[LearningTrial]) -> Picture:
     longest = max(len(trial.rewards) for trial in trials)
     axes.hist(converged, bins=list(range(0, longest + 5, 5)), color=HUMAN, alpha=0.65)
     lines: tuple[tuple[float, str, Any, str], ...] = (
-        (float(np.median(converged or [np.nan])), HUMAN, "-", "our median"),
+        (float(np.median(converged)) if converged else math.nan, HUMAN, "-", "our median"),
         (MEDIAN_ITERATIONS, INK, "-", "the paper's median"),
         (LONGEST_ITERATIONS, FAINT, (0, (4, 3)), "the paper's longest of ten"),
     )

@@ -36,8 +36,8 @@ def timing_picture(results: Sequence[TimingResult]) -> Picture:
         axes.set_title(name, fontsize=9, color=INK, loc="left")
         axes.set_ylim(bottom=0)
         axes.set_xticks(sorted({1000 * result.control_period_s for result in results}))
-    for axes, place, columns in ((row[0], "lower right", 2), (row[2], "upper right", 1)):
-        axes.legend(fontsize=8, labelcolor=INK, loc=place, ncols=columns, edgecolor="none")
+    row[0].legend(fontsize=8, labelcolor=INK, loc="lower right", ncols=2, edgecolor="none")
+    row[2].legend(fontsize=8, labelcolor=INK, loc="upper right", edgecolor="none")
     return Picture(
         name="timing",
         title="A faster robot, fresher samples",
