@@ -16,6 +16,7 @@ from ..benchmark.runner import Run, run_suite
 from ..benchmark.suite import Suite, make_suite, recorded_suite
 from .pool import default_jobs, local_pool
 from .progress import progress_bar
+from .seeds import seed_range
 from .tables import results_table, standing
 
 
@@ -82,10 +83,7 @@ def _suite(name: str, seeds: str | None, recordings: Path | None) -> Suite:
     suite = make_suite(name)
     if seeds is None:
         return suite
-    start, colon, stop = seeds.partition(":")
-    if not (colon and start.isdecimal() and stop.isdecimal()):
-        raise InputError(f"--seeds must be A:B with 0 <= A < B, got {seeds!r}")
-    return suite.with_seeds(int(start), int(stop))
+    return suite.with_seeds(*seed_range(seeds))
 
 
 def _evaluate(spec: PolicySpec, suite: Suite, jobs: int) -> tuple[Run, dict[str, Reference]]:
