@@ -101,6 +101,7 @@ def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
     internals: list[dict[str, float]] = []
     times: list[float] = []
     failure: str | None = None
+    explaining = partner if isinstance(partner, Explaining) else None
     clock = time.perf_counter
     try:
         partner.reset(policy_seed())
@@ -121,8 +122,8 @@ def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
             failure = f"step {len(actions)}: {error}"
             break
         actions.append(action)
-        if isinstance(partner, Explaining):
-            internals.append(partner.internals())
+        if explaining is not None:
+            internals.append(explaining.internals())
     failure = failure or lift.dropped
     trace = _trace(lift, actions, internals)
     scenario = lift.scenario
