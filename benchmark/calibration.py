@@ -25,16 +25,12 @@ from ..agents.humans.partner import PartnerParameters
 from ..agents.policies.blend import Blend
 from ..agents.policies.loading import PolicySpec, source_digest
 from ..agents.policies.predictor import PredictorParameters
-from .references import PAPER_HUMAN_TEAM_MM
+from .paper.published import HUMAN_TEAM, WITH_PREDICTION, WITHOUT_PREDICTION
 from .runner import AgentSpec, run_suite
 from .suite import Suite, make_suite
 
 TABLE_1: Final = {
-    "S1": (19.139, 12.967),
-    "S2": (23.567, 16.591),
-    "S3": (24.872, 18.418),
-    "S4": (20.085, 15.391),
-    "S5": (22.432, 17.684),
+    name: (WITHOUT_PREDICTION[name], WITH_PREDICTION[name]) for name in WITHOUT_PREDICTION
 }
 """Average RMSE of each subject without and with prediction [mm] (Table I)."""
 
@@ -193,7 +189,7 @@ def _correct(fit: Fit) -> Calibration:
         amplitude[name] = round(height, 4)
     wanted = sum(row[1] for row in TABLE_1.values()) / sum(row[0] for row in TABLE_1.values())
     factor = math.exp((wanted - _ratio(fit)) / RATIO_SLOPE)
-    lag = old.partner_lag + (PAPER_HUMAN_TEAM_MM - fit.human_human) / LAG_SLOPE
+    lag = old.partner_lag + (HUMAN_TEAM - fit.human_human) / LAG_SLOPE
     return Calibration(
         amplitude=amplitude,
         process_noise=float(f"{old.process_noise * factor:.3g}"),

@@ -21,9 +21,6 @@ from .summary import Cell, cell
 
 HUMAN_HUMAN: Final = "human_human"
 
-PAPER_HUMAN_TEAM_MM: Final = 6.531
-"""RMSE of the paper's one human-human team (section V.A)."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class HumanTeam:

@@ -8,8 +8,8 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from ..agents.errors import InputError
 from ..benchmark.calibration import ROUNDS, TABLE_1, Fit, calibration_json, episodes, fit_rounds
+from .output import check_output
 from .pool import default_jobs, local_pool
 from .progress import progress_bar
 
@@ -24,8 +24,7 @@ def calibrate(
     ] = None,
 ) -> None:
     """Fit lift heights, process noise and the human team's lag to the paper, on own seeds."""
-    if out is not None and not out.parent.is_dir():
-        raise InputError(f"cannot write {out}: there is no folder {out.parent}")
+    check_output(out)
     console = Console()
     with (
         local_pool(default_jobs() if jobs is None else jobs) as pool,

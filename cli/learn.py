@@ -12,6 +12,7 @@ from rich.table import Table
 from ..agents.errors import InputError
 from ..agents.policies.q_learning import ACTIONS, Q_PARAMETERS
 from ..benchmark.learning import LearningTrial, learning_trials, table_json
+from .output import check_output
 from .pool import default_jobs, local_pool
 from .progress import progress_bar
 
@@ -36,8 +37,7 @@ def learn(
         raise InputError(f"cannot learn {policy!r}; can learn: {', '.join(LEARNABLE)}")
     if trials < 1:
         raise InputError(f"--trials must be at least 1, got {trials}")
-    if out is not None and not out.parent.is_dir():
-        raise InputError(f"cannot write {out}: there is no folder {out.parent}")
+    check_output(out)
     done: list[LearningTrial] = []
     jobs = min(trials, default_jobs() if jobs is None else jobs)
     with local_pool(jobs) as pool, progress_bar("learning", trials) as progress:

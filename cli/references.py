@@ -8,10 +8,10 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from ..agents.errors import InputError
 from ..benchmark.references import Reference, play_references, references_json
 from ..benchmark.statistics import stratified_bootstrap
 from ..benchmark.suite import SUITES, Suite, make_suite
+from .output import check_output
 from .pool import default_jobs, local_pool
 from .progress import progress_bar
 
@@ -25,8 +25,7 @@ def references(
     ] = None,
 ) -> None:
     """Play the human-human team, hold and copy on every suite; print their error by behaviour."""
-    if out is not None and not out.parent.is_dir():
-        raise InputError(f"cannot write {out}: there is no folder {out.parent}")
+    check_output(out)
     suites = [make_suite(name) for name in SUITES]
     played: list[tuple[Suite, dict[str, Reference]]] = []
     with (

@@ -12,7 +12,7 @@ from typing import cast
 
 from ..agent import Agent
 from ..errors import InputError
-from ..registry import POLICIES, entries, lookup
+from ..registry import POLICIES, lookup
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,11 +75,6 @@ def source_digest(agent: type) -> str:
     source = inspect.getsourcefile(agent)
     content = Path(source).read_bytes() if source else b""
     return hashlib.sha256(content).hexdigest()[:16]
-
-
-def policy_names() -> tuple[str, ...]:
-    """Return the names of all registered policies."""
-    return tuple(entries(POLICIES))
 
 
 def _from_module(name: str) -> ModuleType:

@@ -3,7 +3,8 @@ import pickle
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.policies.hold import Hold
-from colift.agents.policies.loading import PolicySpec, policy_names
+from colift.agents.policies.loading import PolicySpec
+from colift.agents.registry import POLICIES, entries
 
 GOOD = """
 class Mine:
@@ -48,8 +49,10 @@ def test_name_for_tables(text, name):
 
 
 def test_every_registered_policy_can_be_made():
-    assert {"blend", "copy", "hold", "proactive", "random", "reactive"} <= set(policy_names())
-    for name in policy_names():
+    assert {"blend", "copy", "hold", "proactive", "random", "reactive"} <= set(
+        tuple(entries(POLICIES))
+    )
+    for name in tuple(entries(POLICIES)):
         PolicySpec(text=name).make().reset(0)
 
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from colift.agents.agent import Agent, Explaining
 from colift.agents.errors import InputError
-from colift.agents.policies.loading import PolicySpec, policy_names
+from colift.agents.policies.loading import PolicySpec
 from colift.agents.registry import HUMANS, POLICIES, entries, lookup, summary
 
-NAMES = policy_names()
+NAMES = tuple(entries(POLICIES))
 
 
 def views(seed=0):
@@ -53,25 +53,25 @@ def test_another_labs_policy_is_found_like_ours(install, tmp_path):
         "    def act(self, observation): return observation[:1]\n"
     )
     install("otherlab", "lifter = otherlab_lifting:Lifter")
-    assert set(policy_names()) == {*NAMES, "lifter"}
+    assert set(tuple(entries(POLICIES))) == {*NAMES, "lifter"}
     policy = PolicySpec(text="lifter").make()
     assert summary(type(policy)) == "Lifts like the other lab."
     assert run(policy, views()).shape == (40, 1)
 
 
 def test_an_uninstalled_policy_is_gone():
-    assert "lifter" not in policy_names()
+    assert "lifter" not in tuple(entries(POLICIES))
 
 
 def test_a_name_is_registered_once(install):
     install("otherlab", "blend = otherlab_lifting:Blend")
     with pytest.raises(InputError, match=r"policy 'blend' is registered twice: .*otherlab_lifting"):
-        policy_names()
+        tuple(entries(POLICIES))
 
 
 def test_the_same_entry_found_twice_is_one(install):
     install("copied", "hold = colift.agents.policies.hold:Hold")
-    assert policy_names() == NAMES
+    assert tuple(entries(POLICIES)) == NAMES
 
 
 def test_an_unknown_name_is_told_all_names():
