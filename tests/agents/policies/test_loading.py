@@ -52,7 +52,7 @@ def test_every_registered_policy_can_be_made():
     assert {"blend", "copy", "hold", "proactive", "random", "reactive"} <= set(
         tuple(entries(POLICIES))
     )
-    for name in tuple(entries(POLICIES)):
+    for name in entries(POLICIES):
         PolicySpec(text=name).make().reset(0)
 
 

@@ -53,7 +53,7 @@ def test_another_labs_policy_is_found_like_ours(install, tmp_path):
         "    def act(self, observation): return observation[:1]\n"
     )
     install("otherlab", "lifter = otherlab_lifting:Lifter")
-    assert set(tuple(entries(POLICIES))) == {*NAMES, "lifter"}
+    assert set(entries(POLICIES)) == {*NAMES, "lifter"}
     policy = PolicySpec(text="lifter").make()
     assert summary(type(policy)) == "Lifts like the other lab."
     assert run(policy, views()).shape == (40, 1)
