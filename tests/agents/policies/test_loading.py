@@ -49,9 +49,7 @@ def test_name_for_tables(text, name):
 
 
 def test_every_registered_policy_can_be_made():
-    assert {"blend", "copy", "hold", "proactive", "random", "reactive"} <= set(
-        tuple(entries(POLICIES))
-    )
+    assert {"blend", "copy", "hold", "proactive", "random", "reactive"} <= set(entries(POLICIES))
     for name in entries(POLICIES):
         PolicySpec(text=name).make().reset(0)
 
