@@ -15,7 +15,7 @@ LATENCY: Final = 0.1
 """Default age of the motion-capture sample when the robot decides [s]: in the paper the robot
 gets a sample only once its last action is complete (section II.A)."""
 
-LONGEST_LATENCY: Final = 0.5
+LONGEST_LATENCY: Final = 0.49
 LONGEST_PERIOD: Final = 0.5
 
 

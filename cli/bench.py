@@ -1,4 +1,4 @@
-"""``colift bench``: how fast the benchmark is, and how fine its physics."""
+"""``colift bench``: how fast the benchmark is, how fine its physics, how fast the policies."""
 
 import json
 from typing import Annotated, Final
@@ -9,9 +9,13 @@ from rich.console import Console
 from rich.table import Table
 
 from ..agents.errors import InputError
+from ..agents.policies.loading import PolicySpec
+from ..agents.registry import POLICIES, entries
 from ..benchmark.convergence import REFERENCE, study
+from ..benchmark.policy_speed import LIMIT_MS, StepTime, default_scenarios, step_time
 from ..benchmark.speed import endurance, single_process, two_workers_ratio
 from .pool import process_pool
+from .progress import progress_bar
 
 MEANING: Final = {
     "sim_speed": "simulated seconds per wall second, one process",
@@ -31,11 +35,19 @@ def bench(
     convergence: Annotated[
         bool, typer.Option("--convergence", help="Print the convergence study instead.")
     ] = False,
+    policies: Annotated[
+        bool, typer.Option("--policies", help="Time a step of every registered policy instead.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON alone.")] = False,
 ) -> None:
     """Measure the benchmark itself: speed as ratios within this run, memory, convergence."""
+    if convergence and policies:
+        raise InputError("--convergence and --policies exclude each other: name one")
     if convergence:
         _convergence(as_json)
+        return
+    if policies:
+        _policies(as_json)
         return
     if episodes < 200:
         raise InputError(f"--episodes must be at least 200, got {episodes}")
@@ -61,6 +73,51 @@ def _endurance(episodes: int) -> dict[str, float]:
         "memory_growth_mb": rows[-1]["memory_mb"] - rows[0]["memory_mb"],
         "late_over_early": late / early,
     }
+
+
+def _policies(as_json: bool) -> None:
+    """Print what a step of each policy takes, and which are over the limit."""
+    scenarios, names = default_scenarios(), list(entries(POLICIES))
+    found: dict[str, StepTime | None] = {}
+    with progress_bar("bench", len(names)) as progress:
+        for name in names:
+            found[name] = step_time(PolicySpec(text=name), scenarios)
+            progress(1)
+    if as_json:
+        content = {
+            "limit_ms": LIMIT_MS,
+            "policies": {
+                name: None
+                if taken is None
+                else {
+                    "steps": taken.steps,
+                    "median_ms": taken.median_ms,
+                    "p99_ms": taken.p99_ms,
+                    "within_limit": taken.within_limit,
+                }
+                for name, taken in found.items()
+            },
+        }
+        print(json.dumps(content, indent=2))
+        return
+    table = Table(
+        title="time of a step",
+        caption=f"limit: 99th percentile at most {LIMIT_MS:g} ms",
+        title_justify="left",
+        caption_justify="left",
+        box=box.SIMPLE_HEAD,
+    )
+    table.add_column("policy")
+    for heading in ("median ms", "p99 ms", "steps", "limit"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for name, taken in found.items():
+        if taken is None:
+            table.add_row(name, "none", "none", "0", "fails")
+        else:
+            kept = "kept" if taken.within_limit else "exceeded"
+            cells = (f"{taken.median_ms:.3f}", f"{taken.p99_ms:.3f}", str(taken.steps), kept)
+            table.add_row(name, *cells)
+    Console().print(table)
 
 
 def _convergence(as_json: bool) -> None:

@@ -1,26 +1,52 @@
-"""``colift learn``: learn a controller in the world."""
+"""``colift learn``: learn a policy in the world."""
 
+import dataclasses
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated, Any
 
 import numpy as np
 import typer
 from rich import box
 from rich.console import Console
 from rich.table import Table
+from typer.core import TyperGroup
 
 from ..agents.errors import InputError
 from ..agents.policies.q_learning import ACTIONS, Q_PARAMETERS
+from ..agents.policies.task import Task, task_json
+from ..benchmark.demonstrations import FIRST_SEED, LIFTS, read_demonstrations
 from ..benchmark.learning import LearningTrial, learning_trials, table_json
+from ..benchmark.task_learning import (
+    COMPONENTS,
+    PRACTICE_LIFTS,
+    learn_task,
+    practise,
+    require_learner,
+)
+from .demonstrate import record
 from .output import check_output
 from .pool import default_jobs, local_pool
 from .progress import progress_bar
 
-LEARNABLE: Final = ("reactive",)
+
+class _Learnable(TyperGroup):
+    """The policies that can be learned, as commands."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        if args[0] not in self.commands:
+            raise InputError(f"cannot learn {args[0]!r}; can learn: {', '.join(self.commands)}")
+        return super().resolve_command(ctx, args)
 
 
-def learn(
-    policy: Annotated[str, typer.Argument(help="What to learn: reactive.")],
+app = typer.Typer(
+    cls=_Learnable,
+    help="Learn a policy in the world, as the shipped one was learned.",
+    no_args_is_help=True,
+)
+
+
+@app.command()
+def reactive(
     trials: Annotated[
         int, typer.Option(metavar="N", help="Independent learning trials; the first is shown.")
     ] = 1,
@@ -33,8 +59,6 @@ def learn(
     ] = None,
 ) -> None:
     """Learn the paper's reactive controller online, while the human stands still."""
-    if policy not in LEARNABLE:
-        raise InputError(f"cannot learn {policy!r}; can learn: {', '.join(LEARNABLE)}")
     if trials < 1:
         raise InputError(f"--trials must be at least 1, got {trials}")
     check_output(out)
@@ -50,6 +74,73 @@ def learn(
     if out is not None:
         out.write_text(table_json(done[0], seed))
         console.print(f"written: {out}", highlight=False, soft_wrap=True)
+
+
+@app.command("task_model")
+def task_model(
+    demonstrations: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE.csv", help="Lifts of 'colift demonstrate'; default: record."),
+    ] = None,
+    components: Annotated[
+        int, typer.Option(metavar="N", help="Gaussians of the mixture.")
+    ] = COMPONENTS,
+    seed: Annotated[int, typer.Option(help="Seed of the mixture's fit.")] = 0,
+    practice: Annotated[
+        int, typer.Option(metavar="N", help="Lifts to practise the impedance in.")
+    ] = PRACTICE_LIFTS,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE.json", help="Where to write the model.")
+    ] = None,
+) -> None:
+    """Learn the task model from demonstrations, then its impedance by practice."""
+    if practice < 1:
+        raise InputError(f"--practice must be at least 1, got {practice}")
+    check_output(out)
+    require_learner()
+    if demonstrations is None:
+        lifts = record(LIFTS, FIRST_SEED, default_jobs())
+    else:
+        lifts = list(read_demonstrations(demonstrations))
+    task = learn_task(lifts, components=components, seed=seed)
+    with progress_bar("practising", practice) as progress:
+        task = practise(task, practice, progress=progress)
+    source = "" if demonstrations is None else f" --demonstrations {demonstrations.name}"
+    command = (
+        f"colift learn task_model{source} --components {components} --seed {seed} "
+        f"--practice {practice}"
+    )
+    task = dataclasses.replace(task, provenance={"command": command, **task.provenance})
+    console = Console()
+    console.print(_task(task), highlight=False)
+    if out is not None:
+        out.write_text(task_json(task))
+        console.print(f"written: {out}", highlight=False, soft_wrap=True)
+
+
+def _task(task: Task) -> Table:
+    """Return the situations that the model tells apart, the most frequent first."""
+    impedance = task.impedance
+    table = Table(
+        title="Situations (mean of each component of the mixture) and their stiffness",
+        caption=f"lead {1000 * impedance.lead:.0f} ms, offset {1000 * impedance.offset:.1f} mm, "
+        f"tolerance {1000 * task.tolerance:.1f} mm",
+        title_justify="left",
+        caption_justify="left",
+        box=box.SIMPLE_HEAD,
+    )
+    for title in ("share", "height mm", "velocity mm/s", "then", "stiffness"):
+        table.add_column(title, justify="right")
+    for i in np.argsort(-task.mixture.weights, kind="stable"):
+        height, *velocities = 1000 * task.mixture.means[i]
+        table.add_row(
+            f"{100 * task.mixture.weights[i]:.0f} %",
+            f"{height:.0f}",
+            f"{velocities[0]:.0f}",
+            f"{velocities[-1]:.0f}",
+            f"{impedance.stiffness[i]:.2f}",
+        )
+    return table
 
 
 def _table(trial: LearningTrial) -> Table:

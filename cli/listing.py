@@ -1,15 +1,28 @@
 """``colift list``: what there is."""
 
+from typing import Annotated
+
+import typer
 from rich.console import Console
 from rich.table import Table
 
 from ..agents.humans import SUBJECTS, Subject
 from ..agents.registry import HUMANS, POLICIES, entries, lookup, summary
 from ..benchmark.suite import SUITES
+from .policy_parameters import policy_parameters
 
 
-def list_all() -> None:
+def list_all(
+    policy: Annotated[
+        str | None,
+        typer.Argument(help="List its parameters: a name, module:Class or file.py:Class."),
+    ] = None,
+) -> None:
     """List policies, human behaviours, subjects and suites, one line each."""
+    if policy is not None:
+        for part in policy_parameters(policy):
+            Console().print(part, highlight=False)
+        return
     table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
     table.add_column(style="bold", no_wrap=True)
     table.add_column()

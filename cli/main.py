@@ -5,7 +5,7 @@ import sys
 import typer
 
 from ..agents.errors import InputError
-from . import bench, calibrate, learn, listing, paper, references, render, run
+from . import bench, calibrate, compare, demonstrate, learn, listing, paper, references, render, run
 
 app = typer.Typer(
     name="colift",
@@ -17,9 +17,11 @@ app = typer.Typer(
 )
 app.command()(run.run)
 app.command("list")(listing.list_all)
+app.command()(compare.compare)
 app.command()(paper.paper)
 app.command()(render.render)
-app.command()(learn.learn)
+app.command()(demonstrate.demonstrate)
+app.add_typer(learn.app, name="learn")
 app.command()(calibrate.calibrate)
 app.command()(references.references)
 app.command()(bench.bench)

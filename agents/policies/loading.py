@@ -8,24 +8,27 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
-from typing import cast
+from typing import Any, cast
 
 from ..agent import Agent
 from ..errors import InputError
 from ..registry import POLICIES, lookup
+from .parameters import make_with, read_values
 
 
 @dataclass(frozen=True, kw_only=True)
 class PolicySpec:
-    """Where a policy's class is: picklable, so that any worker process can load it."""
+    """Where a policy's class is, and its parameters: picklable, so that any process can load it."""
 
     text: str
-    """``name``, ``package.module:Class`` or ``path/to/file.py:Class``."""
+    """``name``, ``package.module:Class`` or ``path/to/file.py:Class``, and parameters that differ
+    from the default after a comma: ``name,parameter=value,parameter=value``."""
 
     @property
     def name(self) -> str:
-        """The name for tables: a registered name, or the class."""
-        return self.text.rpartition(":")[2]
+        """The name for tables: a registered name or the class, and the parameters as given."""
+        place, comma, parameters = self._parts
+        return place.rpartition(":")[2] + comma + parameters
 
     def load(self) -> type[Agent]:
         """Return the policy's class.
@@ -35,29 +38,39 @@ class PolicySpec:
         InputError
             If there is no such policy, or the class is not one.
         """
-        source, colon, name = self.text.rpartition(":")
+        place, _, _ = self._parts
+        source, colon, name = place.rpartition(":")
         if not colon:
-            if Path(self.text).suffix == ".py" or "/" in self.text:
-                raise InputError(f"which class of {self.text}? Say {self.text}:Class")
-            return _checked(lookup(POLICIES, self.text), self.text)
+            if Path(place).suffix == ".py" or "/" in place:
+                raise InputError(f"which class of {place}? Say {place}:Class")
+            return _checked(lookup(POLICIES, place), place)
         module = _from_file(Path(source)) if source.endswith(".py") else _from_module(source)
         if not hasattr(module, name):
             raise InputError(f"{source} has no class {name!r}{_listing(module)}")
-        return _checked(getattr(module, name), self.text)
+        return _checked(getattr(module, name), place)
 
     def check(self) -> None:
-        """Raise an InputError, as :meth:`load`, if there is no such policy."""
-        self.load()
+        """Raise an InputError, as :meth:`make`, if there is no such policy or parameter."""
+        policy = self.load()
+        if self._values(policy):
+            self.make()
 
     def digest(self) -> str:
         """Return the SHA-256 (16 hexadecimal digits) of the source file of the policy's class.
 
+        It is also over the values of the parameters that are given, however they are written.
+
         Raises
         ------
         InputError
-            As :meth:`load`.
+            As :meth:`load`, or if there is no such parameter.
         """
-        return source_digest(self.load())
+        policy = self.load()
+        values = self._values(policy)
+        if not values:
+            return source_digest(policy)
+        told = ",".join(f"{name}={value!r}" for name, value in sorted(values.items()))
+        return hashlib.sha256(f"{source_digest(policy)},{told}".encode()).hexdigest()[:16]
 
     def make(self) -> Agent:
         """Return a new policy object.
@@ -65,16 +78,59 @@ class PolicySpec:
         Raises
         ------
         InputError
-            As :meth:`load`, or if the class needs arguments.
+            As :meth:`load`, if the class needs arguments, or refuses the parameters.
         """
-        return self.load()()
+        policy = self.load()
+        values = self._values(policy)
+        if not values:
+            return policy()
+        try:
+            return cast(Agent, make_with(policy, values))
+        except Exception as error:
+            told = error if isinstance(error, ValueError) else f"{type(error).__name__}: {error}"
+            raise InputError(f"policy {self._parts[0]}: {told}") from error
+
+    @property
+    def _parts(self) -> tuple[str, str, str]:
+        """The place of the class, a comma, and the parameters; the last two may be empty.
+
+        Names and classes have no comma, but the path of a file may.
+        """
+        path, colon, rest = self.text.partition(".py:")
+        if not colon:
+            path, rest = "", self.text
+        name, comma, parameters = rest.partition(",")
+        return path + colon + name, comma, parameters
+
+    def _values(self, policy: type) -> dict[str, Any]:
+        """Return the values of the parameters that are given, by name."""
+        place, comma, parameters = self._parts
+        try:
+            return read_values(policy, parameters) if comma else {}
+        except InputError as error:
+            raise InputError(f"policy {place}: {error}") from error
 
 
 def source_digest(agent: type) -> str:
-    """Return the SHA-256 (16 hexadecimal digits) of the source file of a class."""
+    """Return the SHA-256 (16 hexadecimal digits) of the source of a class.
+
+    Of a policy of colift it is over all policies, estimators and what was learned or calibrated
+    for them, since they build on each other; of another class it is over its file.
+    """
+    sha = hashlib.sha256()
+    for path in _sources(agent):
+        sha.update(path.read_bytes())
+    return sha.hexdigest()[:16]
+
+
+def _sources(agent: type) -> list[Path]:
+    if agent.__module__.startswith(f"{__package__}."):
+        here = Path(__file__).parent
+        found = [*here.glob("*.py"), *here.glob("data/*.json")]
+        found += [*here.parent.glob("estimators/*.py"), *here.parent.glob("calibration.*")]
+        return sorted(found)
     source = inspect.getsourcefile(agent)
-    content = Path(source).read_bytes() if source else b""
-    return hashlib.sha256(content).hexdigest()[:16]
+    return [Path(source)] if source else []
 
 
 def _from_module(name: str) -> ModuleType:

@@ -1,12 +1,17 @@
 """One-step prediction of the human's end with its confidence: what proactive policies share."""
 
 from dataclasses import dataclass, field
-from typing import get_args
+from typing import Literal, get_args
 
 from ..agent import Observation, RobotObservation
 from ..errors import InputError
 from ..estimators.confidence import LITERAL, Confidence, Reading, likelihood
 from ..estimators.motion_filter import MotionFilter, MotionFilterParameters, Prediction
+from ..estimators.residuals import ResidualConfidence
+
+ConfidenceForm = Literal["likelihood", "residuals"]
+"""What the confidence is: the paper's forgetting mean of likelihoods (eqs. 6 and 7), or the
+p-value of the latest residuals (:mod:`colift.agents.estimators.residuals`)."""
 
 DEFAULT_PERIOD = 0.1
 """Time between two samples before there have been two [s]: the paper's."""
@@ -18,22 +23,29 @@ class PredictorParameters:
 
     motion: MotionFilterParameters = field(default_factory=MotionFilterParameters)
     """The Kalman filter."""
+    confidence: ConfidenceForm = "likelihood"
+    """What the confidence follows from: likelihoods (eqs. 6 and 7), or statistics of residuals."""
     forgetting: float = 0.45
-    """phi of eq. 7."""
+    """phi of eq. 7, in (0, 1]; of the likelihood."""
     reading: Reading = LITERAL
-    """How eq. 6 is read."""
+    """What rho is in eq. 6; of the likelihood."""
+    window: int = 5
+    """Number of residuals that are judged together; of the residuals."""
 
     def __post_init__(self) -> None:
-        """Check the reading; the rest is checked where it is used.
+        """Check every value.
 
         Raises
         ------
         InputError
-            If there is no such reading of eq. 6.
+            If there is no such confidence or reading of eq. 6, or a number is out of range.
         """
-        if self.reading not in get_args(Reading):
-            known = ", ".join(map(repr, get_args(Reading)))
-            raise InputError(f"reading must be one of {known}, got {self.reading!r}")
+        for name, kinds in (("confidence", ConfidenceForm), ("reading", Reading)):
+            if getattr(self, name) not in get_args(kinds):
+                known = ", ".join(map(repr, get_args(kinds)))
+                raise InputError(f"{name} must be one of {known}, got {getattr(self, name)!r}")
+        Confidence(self.forgetting)
+        ResidualConfidence(self.window)
 
 
 class Predictor:
@@ -41,7 +53,8 @@ class Predictor:
 
     Literally the paper's: the sample's age is not compensated. The next step is taken to last as
     long as the one before it. With the first sample there is no prediction to judge yet: it counts
-    as one of likelihood 1, so that eq. 7 begins at a confidence of 1 and the robot copies.
+    as one of likelihood 1, so that eq. 7 begins at a confidence of 1 and the robot copies. So does
+    the confidence by residuals.
     """
 
     def __init__(self, parameters: PredictorParameters | None = None) -> None:
@@ -51,7 +64,9 @@ class Predictor:
         """Forget the last episode."""
         self._filter: MotionFilter | None = None
         self._confidence = Confidence(self._parameters.forgetting)
+        self._residuals = ResidualConfidence(self._parameters.window)
         self._time = 0.0
+        self._period = DEFAULT_PERIOD
 
     def step(self, observation: Observation) -> tuple[Prediction, float]:
         """Take the newest sample in.
@@ -67,13 +82,34 @@ class Predictor:
             self._filter = MotionFilter(self._parameters.motion)
             self._filter.reset(height)
             confidence = self._confidence.update(1.0)
-            period = DEFAULT_PERIOD
         else:
-            period = time - self._time
-            expected = self._filter.predict(period)
-            error = 1000 * (height - expected.height)
-            chance = likelihood(error, expected.variance, self._parameters.reading)
-            confidence = self._confidence.update(chance)
+            self._period = time - self._time
+            expected = self._filter.predict(self._period)
+            confidence = self._judge(1000 * (height - expected.height), expected.variance)
             self._filter.update(height)
         self._time = time
-        return self._filter.ahead(period), confidence
+        return self.ahead(self._period), confidence
+
+    @property
+    def period(self) -> float:
+        """The time between the last two samples [s]; the paper's before there have been two."""
+        return self._period
+
+    def ahead(self, horizon: float) -> Prediction:
+        """Return what is expected ``horizon`` [s] after the newest sample; nothing changes by it.
+
+        Raises
+        ------
+        ValueError
+            If there was no sample yet.
+        """
+        if self._filter is None:
+            raise ValueError("nothing can be predicted before the first sample")
+        return self._filter.ahead(horizon)
+
+    def _judge(self, error: float, variance: float) -> float:
+        """Return the confidence after an error [mm] of a prediction of a variance [mm2]."""
+        parameters = self._parameters
+        if parameters.confidence == "residuals":
+            return self._residuals.update(error, variance + parameters.motion.measurement_noise)
+        return self._confidence.update(likelihood(error, variance, parameters.reading))

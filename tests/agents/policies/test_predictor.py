@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.estimators.confidence import LITERAL, likelihood
-from colift.agents.estimators.motion_filter import MotionFilter
+from colift.agents.estimators.motion_filter import MotionFilter, MotionFilterParameters
+from colift.agents.estimators.residuals import chi_square_tail
 from colift.agents.policies.predictor import DEFAULT_PERIOD, Predictor, PredictorParameters
 
 PRECISION = 0.7e-3 / 3
@@ -44,6 +45,58 @@ def test_confidence_is_equation_7_of_equation_6_of_past_predictions(reading, for
         explicit = (weights * likelihoods[::-1]).sum() / weights.sum()
         assert confidences[k] == pytest.approx(explicit, rel=1e-12)
     assert np.ptp(confidences) > 0.3
+
+
+@pytest.mark.parametrize("window", [1, 4])
+def test_confidence_by_residuals_is_the_p_value_of_past_predictions(window):
+    heights = np.cumsum(np.random.default_rng(1).normal(0.0, 2e-3, 40))
+    motion = MotionFilterParameters(measurement_noise=0.3, process_noise=1e6)
+    parameters = PredictorParameters(confidence="residuals", window=window, motion=motion)
+    predictions, confidences = follow(heights, parameters)
+    assert confidences[0] == 1.0
+    squares = [
+        (1000 * (height - expected.height)) ** 2 / (expected.variance + 0.3)
+        for height, expected in zip(heights[1:], predictions, strict=False)
+    ]
+    for k in range(1, len(heights)):
+        latest = squares[max(0, k - window) : k]
+        assert confidences[k] == pytest.approx(
+            chi_square_tail(sum(latest), len(latest)), rel=1e-9, abs=1e-12
+        )
+    assert np.ptp(confidences) > 0.5
+
+
+def test_confidence_does_not_touch_the_predictions():
+    heights = rise_and_stop()
+    by_residuals = PredictorParameters(confidence="residuals")
+    assert follow(heights)[0] == follow(heights, by_residuals)[0]
+
+
+def test_looking_ahead_changes_nothing():
+    looking, plain = Predictor(), Predictor()
+    looking.reset()
+    plain.reset()
+    for k, height in enumerate(rise_and_stop()):
+        told, _ = looking.step(seen(height, 0.1 * k))
+        assert looking.ahead(0.1 if k == 0 else looking.period) == told
+        far = looking.ahead(0.3)
+        assert far.variance > told.variance
+        assert plain.step(seen(height, 0.1 * k))[0] == told
+    plain.reset()
+    with pytest.raises(ValueError, match="before the first sample"):
+        plain.ahead(0.1)
+
+
+def test_the_period_is_the_time_between_the_last_two_samples():
+    predictor = Predictor()
+    predictor.reset()
+    periods = []
+    for time in (0.0, 0.05, 0.25):
+        predictor.step(seen(0.0, time))
+        periods.append(predictor.period)
+    assert periods == pytest.approx([DEFAULT_PERIOD, 0.05, 0.2])
+    predictor.reset()
+    assert predictor.period == DEFAULT_PERIOD
 
 
 def test_predictions_are_the_filters():
@@ -88,9 +141,13 @@ def test_before_a_second_sample_the_step_is_the_papers():
     assert (prediction.height, confidence) == (pytest.approx(0.07), 1.0)
 
 
-@pytest.mark.parametrize("reading", READINGS)
-def test_an_abrupt_stop_shakes_the_confidence_until_it_is_learned(reading):
-    confidences = follow(rise_and_stop(), PredictorParameters(reading=reading))[1]
+@pytest.mark.parametrize(
+    "parameters",
+    [*({"reading": reading} for reading in READINGS), {"confidence": "residuals"}],
+    ids=str,
+)
+def test_an_abrupt_stop_shakes_the_confidence_until_it_is_learned(parameters):
+    confidences = follow(rise_and_stop(), PredictorParameters(**parameters))[1]
     assert confidences[30] > 0.95
     assert confidences[31] < 0.6
     assert confidences[31:37].min() < 0.3
@@ -140,11 +197,16 @@ def test_forgetting_is_the_papers_by_default():
     assert PredictorParameters().forgetting == 0.45
 
 
-def test_an_unknown_reading_is_refused():
-    with pytest.raises(InputError, match="'variance as rho', 'standard deviation as rho', got 'x'"):
-        PredictorParameters(reading="x")
-
-
-def test_an_impossible_forgetting_factor_is_refused_before_the_first_step():
-    with pytest.raises(InputError, match="forgetting"):
-        Predictor(PredictorParameters(forgetting=0.0)).reset()
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"reading": "x"}, "'variance as rho', 'standard deviation as rho', got 'x'"),
+        ({"confidence": "x"}, "confidence must be one of 'likelihood', 'residuals', got 'x'"),
+        ({"forgetting": 0.0}, r"forgetting must be in \(0, 1\], got 0.0"),
+        ({"forgetting": np.nan}, "forgetting"),
+        ({"window": 0}, "window must be from 1 to 100 residuals, got 0"),
+    ],
+)
+def test_impossible_parameters_are_refused(values, message):
+    with pytest.raises(InputError, match=message):
+        PredictorParameters(**values)

@@ -1,0 +1,99 @@
+"""Policies on the same episodes, and what remains of their runs."""
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..episode import Scores
+from ..references import HUMAN_HUMAN, Reference, human_team_run, shipped_references
+from ..runner import AgentSpec, Run, run_suite
+from ..suite import Suite
+from ..summary import Cell, cell
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Entry:
+    """One policy's scores, episode by episode. The traces are not kept: there are many policies."""
+
+    name: str
+    digest: str
+    """Hash of the policy's source."""
+    cells: tuple[Cell, ...]
+    """Behaviour and subject of each episode, in the suite's order."""
+    scores: tuple[Scores, ...]
+    failures: tuple[str | None, ...]
+    """Why an episode failed, or nothing if it did not."""
+    step_ms: tuple[float, float] | None
+    """Median and 99th percentile of the time of a step [ms]; nothing if it never made one."""
+
+    @classmethod
+    def of(cls, name: str, run: Run) -> "Entry":
+        """Return what is kept of a run, under the name that tables use."""
+        times = [1000 * time for episode in run.episodes for time in episode.step_times]
+        p50, p99 = np.percentile(times, [50, 99]) if times else (0.0, 0.0)
+        return cls(
+            name=name,
+            digest=run.policy_digest,
+            cells=tuple(cell(episode) for episode in run.episodes),
+            scores=tuple(episode.scores for episode in run.episodes),
+            failures=tuple(episode.failure for episode in run.episodes),
+            step_ms=(float(p50), float(p99)) if times else None,
+        )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Contest:
+    """Policies and the human-human team on the same episodes."""
+
+    suite: Suite
+    entries: tuple[Entry, ...]
+    team: Reference
+    """The human-human team."""
+
+
+def amount(policies: int, suite: Suite) -> int:
+    """Return how many episodes :func:`play_contest` will play."""
+    return suite.size * (policies + (shipped_references(suite) is None))
+
+
+def play_contest(
+    policies: Mapping[str, AgentSpec],
+    suite: Suite,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> Contest:
+    """Play the suite with every policy; and with the human-human team, unless it is shipped.
+
+    Parameters
+    ----------
+    policies
+        Where each policy is, by the name that tables use.
+    suite, executor, progress
+        As for :func:`.run_suite`.
+
+    Raises
+    ------
+    InputError
+        If a policy cannot be loaded.
+    KeyboardInterrupt
+        After Ctrl-C: without all episodes there are no pairs.
+    """
+    entries = [
+        Entry.of(name, _complete(run_suite(spec, suite, executor=executor, progress=progress)))
+        for name, spec in policies.items()
+    ]
+    shipped = shipped_references(suite)
+    if shipped is None:
+        team = Reference.of(_complete(human_team_run(suite, executor=executor, progress=progress)))
+    else:
+        team = shipped[HUMAN_HUMAN]
+    return Contest(suite=suite, entries=tuple(entries), team=team)
+
+
+def _complete(run: Run) -> Run:
+    if not run.complete:
+        raise KeyboardInterrupt
+    return run

@@ -1,0 +1,127 @@
+"""The words of a comparison: what its table, picture and page say in sentences."""
+
+from typing import Final
+
+from .comparison import Comparison
+
+TEAM: Final = "human-human team"
+
+SURE: Final = 0.975
+"""Probability above which the 95 % interval of a difference leaves zero out."""
+
+HOW_TO_READ: Final = (
+    "RMSE is how far apart in height the two ends of the table are, over the whole lift: smaller "
+    "is more level. A lift that failed counts 250 mm from the failure on.",
+    "Policies of the same rank cannot be told from the first of that rank (paired sign flips, "
+    "Holm-corrected for the policies behind it, 5 %).",
+    "The human-human team is two simulated people on the same lifts. vs_human is the RMSE over "
+    "theirs: 1 is as level as a human partner, less is better.",
+    "SPARC is the smoothness of the robot's end over the human's strokes: closer to 0 is smoother. "
+    "A robot that does not move along has none, and counts as least smooth.",
+    "Intervals are 95 %, by a bootstrap over the seeds within each behaviour and subject: how far "
+    "other lifts of these people would move the number.",
+)
+
+
+PICTURE_CAPTION: Final = (
+    "The higher and the further left, the better. Bars are 95 % intervals. The line joins the "
+    "policies than which no other is, by its means, both more level and smoother; the diamond is "
+    f"the {TEAM}."
+)
+
+RANKS_CAPTION: Final = (
+    "Small: 95 % intervals; under the median time of a step, its 99th percentile. Policies of one "
+    "rank cannot be told from the first of them."
+)
+
+AGAINST_CAPTION: Final = (
+    "How far each policy is behind the best on the same lifts, with the 95 % interval; p of no "
+    "difference, Holm-corrected; the share of the lifts in which it is better than the best; and "
+    f"the probability that its mean error on such lifts is below the {TEAM}'s."
+)
+
+
+def title(comparison: Comparison) -> str:
+    """Return what is compared, in one line."""
+    return f"{len(comparison.contest.entries)} policies on {comparison.contest.suite.name}"
+
+
+def picture_title(comparison: Comparison) -> str:
+    """Return the title of the picture, with a line on how to read it."""
+    return (
+        f"How level and how smooth: {title(comparison)}\n"
+        f"Means over {comparison.overall.episodes} lifts, with 95 % intervals. "
+        "Orange: no other policy is both more level and smoother."
+    )
+
+
+def verdict(comparison: Comparison) -> str:
+    """Return who is the most level, who cannot be told from it, and where it beats two people."""
+    overall = comparison.overall
+    best, *others = overall.standings
+    told = (
+        f"{best.name} is the most level: {best.rmse_mm.mean:.1f} mm, "
+        f"{best.vs_human.mean:.2f} times the {TEAM}'s {overall.team_rmse_mm.mean:.1f} mm."
+    )
+    equals = [standing.name for standing in others if standing.rank == best.rank]
+    if equals:
+        told += f" {_listed(equals)} cannot be told from it."
+    if best.better_than_human > SURE:
+        return f"{told} It is more level than two people."
+    won = [
+        scope.name
+        for scope in comparison.behaviours
+        for standing in scope.standings
+        if standing.name == best.name and standing.better_than_human > SURE
+    ]
+    return f"{told} On {_listed(won)} it is more level than two people." if won else told
+
+
+def failures(comparison: Comparison) -> list[str]:
+    """Return a sentence for each policy that failed in a lift."""
+    told = []
+    for entry in comparison.contest.entries:
+        reasons = [failure for failure in entry.failures if failure is not None]
+        if reasons:
+            told.append(
+                f"{entry.name}: {len(reasons)} of {len(entry.failures)} lifts failed and count as "
+                f"worst; the first: {reasons[0]}"
+            )
+    return told
+
+
+def provenance(comparison: Comparison, version: str) -> str:
+    """Return what the comparison was made from."""
+    suite, lifts = comparison.contest.suite, comparison.overall.episodes
+    return f"colift {version}, suite {suite.name}, digest {suite.digest}, {lifts} lifts"
+
+
+def between(interval: tuple[float, float], digits: str) -> str:
+    """Return an interval in words, or nothing if it has no width."""
+    low, high = interval
+    return f"{low:{digits}} to {high:{digits}}" if high > low else ""
+
+
+def p_value(p: float) -> str:
+    """Return a p value; small ones as a bound."""
+    return "< 0.001" if p < 0.001 else f"{p:.3f}"
+
+
+def probability(value: float) -> str:
+    """Return a probability; what is nearly certain as a bound."""
+    if value < 0.005:
+        return "< 0.01"
+    return "> 0.99" if value >= 0.995 else f"{value:.2f}"
+
+
+def parts_caption(kind: str) -> str:
+    """Return how to read the table of one kind of scope, such as behaviours."""
+    return (
+        f"RMSE in mm for each {kind}, and below it how far that is behind the best there, with the "
+        "95 % interval. Bold: the best, and those of its rank."
+    )
+
+
+def _listed(names: list[str]) -> str:
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last

@@ -1,0 +1,50 @@
+"""What may be said from a sample of episodes: averages, intervals, tests and ranks.
+
+The cells of a suite (subject x behaviour) are fixed; only the seeds within a cell are a sample. So
+episodes are resampled within their cell, never across, and an interval says how far another draw
+of seeds would move the number, not how far other people or other behaviours would.
+
+Smoothness is missing (NaN) in episodes in which the robot did not move. Its summary is the mean of
+the episodes that have one *and* the count of those that do not: whoever ranks by smoothness ranks
+by that count first, so that moving only when it is easy never helps. Intervals take no NaN: leave
+out the missing episodes, with their strata, first.
+
+References
+----------
+T. Hesterberg (2015). What teachers should know about the bootstrap: resampling in the
+undergraduate statistics curriculum. The American Statistician 69(4):371-386.
+
+R. Agarwal et al. (2021). Deep reinforcement learning at the edge of the statistical precipice.
+NeurIPS 34 (interquartile mean, bootstrap stratified over tasks, probability of improvement).
+"""
+
+from .averages import MeanWithMissing, interquartile_mean, mean_with_missing
+from .bootstrap import (
+    PairedDifference,
+    paired_difference,
+    ratio_of_means_ci,
+    stratified_bootstrap,
+)
+from .holm import holm_correction
+from .permutation import paired_permutation_p, permutation_ps_against
+from .ranking import rank_groups
+from .samples import FloatArray, Interval
+from .superiority import probability_better, share_better
+
+__all__ = [
+    "FloatArray",
+    "Interval",
+    "MeanWithMissing",
+    "PairedDifference",
+    "holm_correction",
+    "interquartile_mean",
+    "mean_with_missing",
+    "paired_difference",
+    "paired_permutation_p",
+    "permutation_ps_against",
+    "probability_better",
+    "rank_groups",
+    "ratio_of_means_ci",
+    "share_better",
+    "stratified_bootstrap",
+]

@@ -1,0 +1,74 @@
+"""Ranks that say no more than the episodes do: policies that cannot be told apart share one."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .holm import holm_correction
+from .permutation import permutation_ps_against
+from .samples import paired
+
+RankGroups = tuple[tuple[str, ...], ...]
+
+
+def rank_groups(
+    errors: Mapping[str, ArrayLike],
+    *,
+    level: float = 0.05,
+    resamples: int = 10_000,
+    seed: int = 0,
+) -> RankGroups:
+    """Return the policies in groups, best first; those of a group share a rank.
+
+    In the order of their means, the first policy is the anchor of the first group. Its paired
+    permutation tests against all policies behind it, Holm-corrected, say which can be told from
+    it. The policies up to the first that can join its group; that one is the next anchor, and so
+    on. The anchor of a group never moves: if each were compared with its neighbour instead, small
+    differences would chain, and the first and the last of a group could be far apart.
+
+    So every policy in a group is one that the episodes cannot tell from the group's best, and
+    the anchors of two neighbouring groups can be told apart. Two policies of one group, or of
+    neighbouring groups, may still differ from each other either way: pairs are what
+    :func:`.paired_difference` is for.
+
+    Parameters
+    ----------
+    errors
+        Error of each policy in the same episodes in the same order, each of shape (n,); smaller is
+        better. Episodes that failed are in it, with the worst error.
+    level
+        Largest corrected p value at which two policies can be told apart.
+    resamples, seed
+        As for :func:`.paired_permutation_p`.
+
+    Returns
+    -------
+    tuple of tuples of str
+        Names, each group in the order of the means, its anchor first. The order of ``errors``
+        does not matter; policies of equal mean are in the order of their names.
+
+    Raises
+    ------
+    InputError
+        If values are empty, not finite or of unequal length.
+    """
+    names = sorted(errors)
+    means = {name: _mean(names[0], name, errors) for name in names}
+    waiting = sorted(names, key=lambda name: means[name])
+    groups = []
+    while waiting:
+        anchor, *behind = waiting
+        ps = permutation_ps_against(
+            errors[anchor], [errors[name] for name in behind], resamples=resamples, seed=seed
+        )
+        apart = holm_correction(ps) <= level
+        size = 1 + (int(apart.argmax()) if apart.any() else len(behind))
+        groups.append(tuple(waiting[:size]))
+        waiting = waiting[size:]
+    return tuple(groups)
+
+
+def _mean(first: str, name: str, errors: Mapping[str, ArrayLike]) -> float:
+    _, values = paired(first, errors[first], name, errors[name])
+    return float(np.mean(values))

@@ -1,0 +1,50 @@
+"""``colift demonstrate``: record lifts of human-human teams, for a robot to learn from."""
+
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+from rich.console import Console
+
+from ..benchmark.demonstrations import (
+    FIRST_SEED,
+    LIFTS,
+    Demonstration,
+    demonstrations,
+    write_demonstrations,
+)
+from .output import check_output
+from .pool import default_jobs, local_pool
+from .progress import progress_bar
+
+
+def demonstrate(
+    out: Annotated[Path, typer.Option(metavar="FILE.csv", help="Where to write the lifts.")],
+    lifts: Annotated[int, typer.Option(metavar="N", help="Number of lifts.")] = LIFTS,
+    seed: Annotated[int, typer.Option(help="Seed of the first lift.")] = FIRST_SEED,
+    jobs: Annotated[
+        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
+    ] = None,
+) -> None:
+    """Record lifts of human-human teams: new people, all behaviours, seeds of no suite."""
+    check_output(out)
+    recorded = record(lifts, seed, default_jobs() if jobs is None else jobs)
+    write_demonstrations(out, recorded)
+    apart = np.concatenate([each["human_m"] - each["partner_m"] for each in recorded])
+    Console().print(
+        f"{lifts} lifts, {len(apart)} samples; the ends were "
+        f"{1000 * float(np.sqrt(np.mean(apart**2))):.1f} mm apart (rms)\nwritten: {out}",
+        highlight=False,
+        soft_wrap=True,
+    )
+
+
+def record(lifts: int, seed: int, jobs: int) -> list[Demonstration]:
+    """Return demonstrations, recorded with a progress bar."""
+    with local_pool(jobs) as pool, progress_bar("demonstrating", lifts) as progress:
+        recorded = []
+        for each in demonstrations(lifts, seed, executor=pool):
+            recorded.append(each)
+            progress(1)
+    return recorded

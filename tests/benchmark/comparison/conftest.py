@@ -1,0 +1,81 @@
+"""Contests with scores of which the answer is known."""
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import pytest
+from colift.benchmark.comparison.comparison import Comparison, compare
+from colift.benchmark.comparison.contest import Contest, Entry
+from colift.benchmark.episode import Scores
+from colift.benchmark.references import Reference
+from colift.benchmark.suite import BEHAVIOURS, make_suite
+
+CELLS = tuple(
+    (behaviour, subject) for behaviour in BEHAVIOURS for subject in ("S1", "S2") for _ in range(8)
+)
+"""Eight lifts of each of two subjects on each behaviour."""
+
+DIFFICULTY = np.array([6.0 if behaviour != "jerky" else 20.0 for behaviour, _ in CELLS])
+
+MakeContest = Callable[[Mapping[str, tuple[object, object]]], Contest]
+
+
+def entry(name: str, rmse: object, sparc: object, failed: int = 0) -> Entry:
+    """Return a policy's scores; the first lifts failed."""
+    errors = np.broadcast_to(np.asarray(rmse, dtype=float), len(CELLS))
+    smoothness = np.broadcast_to(np.asarray(sparc, dtype=float), len(CELLS))
+    return Entry(
+        name=name,
+        digest=f"digest of {name}",
+        cells=CELLS,
+        scores=tuple(
+            Scores(
+                rmse_mm=float(error),
+                abs_error_mm=0.0,
+                max_tilt_deg=0.0,
+                sparc=float(smooth),
+                ldlj=-12.0,
+                human_force_n=0.25,
+                human_work_j=0.0,
+                robot_lag_ms=100.0,
+                short_of_goal_mm=0.0,
+            )
+            for error, smooth in zip(errors, smoothness, strict=True)
+        ),
+        failures=tuple("step 3: oops" if i < failed else None for i in range(len(CELLS))),
+        step_ms=(0.1, 0.2),
+    )
+
+
+def noise(seed: int, spread: float = 0.5) -> np.ndarray:
+    """Return what differs from lift to lift; its mean is zero on every behaviour."""
+    drawn = np.random.default_rng(seed).normal(0.0, spread, (4, 16))
+    return (drawn - drawn.mean(axis=1, keepdims=True)).ravel()
+
+
+def contest(*entries: Entry) -> Contest:
+    """Return a contest against a team whose error is the difficulty of the lift."""
+    team = Reference(cells=CELLS, rmse_mm=tuple(DIFFICULTY), sparc=-2.5, human_force_n=0.4)
+    return Contest(suite=make_suite("quick-v1"), entries=entries, team=team)
+
+
+@pytest.fixture(scope="session")
+def comparison() -> Comparison:
+    """A leader, one that cannot be told from it, a smooth follower, one still, one that fails."""
+    leader = DIFFICULTY + 2.0 + noise(0)
+    twin = leader + 0.01 + noise(1, 0.1)
+    follower = DIFFICULTY + 5.0 + noise(2)
+    # It wins on jerky lifts.
+    follower = np.where(DIFFICULTY > 10.0, 18.0 + noise(3), follower)
+    failing = np.full(len(CELLS), 30.0)
+    failing[:3] = 250.0
+    some = np.where(np.arange(len(CELLS)) < 3, np.nan, -1.2)
+    return compare(
+        contest(
+            entry("still", 120.0 + noise(4), np.nan),
+            entry("follower", follower, -1.5 + 0.1 * noise(5)),
+            entry("leader", leader, -2.0 + 0.1 * noise(6)),
+            entry("failing", failing, some, failed=3),
+            entry("twin", twin, -2.1 + 0.1 * noise(7)),
+        )
+    )

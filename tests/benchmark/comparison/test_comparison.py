@@ -1,0 +1,89 @@
+"""Ranks, differences and smoothness of policies whose scores are known."""
+
+import numpy as np
+import pytest
+from colift.benchmark.comparison.comparison import Comparison
+from colift.benchmark.comparison.standing import Scope, Standing
+from colift.benchmark.statistics import paired_permutation_p
+
+
+def named(scope: Scope, name: str) -> Standing:
+    return next(standing for standing in scope.standings if standing.name == name)
+
+
+def errors(comparison: Comparison, name: str) -> np.ndarray:
+    (entry,) = [entry for entry in comparison.contest.entries if entry.name == name]
+    return np.array([scores.rmse_mm for scores in entry.scores])
+
+
+def test_the_order_is_that_of_the_mean_error(comparison: Comparison) -> None:
+    assert [standing.name for standing in comparison.overall.standings] == [
+        "leader",
+        "twin",
+        "follower",
+        "failing",
+        "still",
+    ]
+
+
+def test_policies_that_cannot_be_told_apart_share_a_rank(comparison: Comparison) -> None:
+    smooth = comparison.behaviours[0]
+    assert (smooth.name, named(smooth, "leader").rank, named(smooth, "twin").rank) == (
+        "smooth",
+        1,
+        1,
+    )
+    assert named(smooth, "follower").rank == 2
+    assert named(smooth, "still").rank == 4
+
+
+def test_each_behaviour_has_its_own_winner(comparison: Comparison) -> None:
+    winners = {scope.name: scope.standings[0].name for scope in comparison.behaviours}
+    assert winners["jerky"] == "follower"
+    assert winners["smooth"] in ("leader", "twin")
+    assert [scope.name for scope in comparison.subjects] == ["S1", "S2"]
+    assert [scope.episodes for scope in comparison.behaviours] == [16] * 4
+
+
+def test_differences_are_to_the_best_on_the_same_lifts(comparison: Comparison) -> None:
+    overall = comparison.overall
+    assert overall.standings[0].to_best is None
+    behind = named(overall, "still").to_best
+    assert behind is not None
+    difference = errors(comparison, "still") - errors(comparison, "leader")
+    assert behind.mean == pytest.approx(difference.mean())
+    assert behind.ci95[0] < behind.mean < behind.ci95[1]
+    assert behind.share_better == 0.0
+    raw = paired_permutation_p(errors(comparison, "leader"), errors(comparison, "still"))
+    assert behind.p == pytest.approx(4 * raw)
+    twin = named(overall, "twin").to_best
+    assert twin is not None
+    assert twin.p > 0.05
+    assert twin.ci95[0] < 0.0 < twin.ci95[1]
+
+
+def test_a_policy_as_good_as_two_people_has_a_ratio_of_one(comparison: Comparison) -> None:
+    jerky = named(comparison.behaviours[2], "follower")
+    assert jerky.vs_human.mean == pytest.approx(0.9)
+    assert jerky.better_than_human > 0.99
+    leader = named(comparison.overall, "leader")
+    assert leader.vs_human.mean == pytest.approx(1 + 2 / 9.5)
+    assert leader.better_than_human < 0.01
+    assert leader.vs_human.ci95[0] < leader.vs_human.mean < leader.vs_human.ci95[1]
+
+
+def test_failed_lifts_count_and_are_counted(comparison: Comparison) -> None:
+    failing = named(comparison.overall, "failing")
+    assert failing.failed == 3
+    assert failing.rmse_mm.mean == pytest.approx((3 * 250 + 61 * 30) / 64)
+    assert failing.sparc_missing == 3
+
+
+def test_holding_still_has_no_smoothness(comparison: Comparison) -> None:
+    still = named(comparison.overall, "still")
+    assert (still.sparc, still.sparc_missing) == (None, 64)
+
+
+def test_the_front_leaves_out_who_is_beaten_in_both(comparison: Comparison) -> None:
+    """The twin is less level and less smooth than the leader; failing is smooth in some lifts."""
+    assert comparison.front == ("leader", "follower")

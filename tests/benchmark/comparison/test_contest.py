@@ -1,0 +1,67 @@
+"""Contests that are played, on the quick suite."""
+
+import dataclasses
+
+import pytest
+from colift.agents.policies.loading import PolicySpec
+from colift.benchmark.bundle import results
+from colift.benchmark.comparison.comparison import compare
+from colift.benchmark.comparison.content import comparison_json
+from colift.benchmark.comparison.contest import Contest, amount, play_contest
+from colift.benchmark.references import human_team_run, shipped_references
+from colift.benchmark.runner import run_suite
+from colift.benchmark.suite import Suite, make_suite
+
+
+@pytest.fixture(scope="module")
+def quick() -> Suite:
+    return make_suite("quick-v1")
+
+
+@pytest.fixture(scope="module")
+def played(quick: Suite) -> Contest:
+    return play_contest({name: PolicySpec(text=name) for name in ("copy", "hold")}, quick)
+
+
+def test_a_policy_has_the_numbers_that_run_gives_it(quick: Suite, played: Contest) -> None:
+    run = run_suite(PolicySpec(text="copy"), quick)
+    summary = results(run, shipped_references(quick) or {})["summary"]
+    standing = next(p for p in comparison_json(compare(played))["policies"] if p["name"] == "copy")
+    for name in ("mean", "ci95"):
+        assert list_of(standing["rmse_mm"][name]) == list_of(summary["rmse_mm"][name])
+        assert list_of(standing["vs_human"][name]) == list_of(summary["vs_human"][name])
+    assert standing["sparc"]["mean"] == pytest.approx(summary["sparc"]["mean"])
+    assert standing["human_force_n"] == pytest.approx(summary["human_force_n"]["mean"])
+    assert standing["digest"] == run.policy_digest
+
+
+def list_of(value: object) -> list[object]:
+    return list(value) if isinstance(value, list | tuple) else [value]
+
+
+def test_the_team_is_the_one_shipped_or_is_played(quick: Suite, played: Contest) -> None:
+    assert played.team == (shipped_references(quick) or {})["human_human"]
+    other = dataclasses.replace(quick.with_seeds(7, 8), scenarios=quick.scenarios[:1])
+    counted: list[int] = []
+    copies = {"a": PolicySpec(text="copy"), "b": PolicySpec(text="copy")}
+    found = play_contest(copies, other, progress=counted.append)
+    team = human_team_run(other)
+    assert found.team.rmse_mm == tuple(episode.scores.rmse_mm for episode in team.episodes)
+    assert sum(counted) == amount(2, other) == 3
+
+
+def test_a_policy_against_itself_shares_the_first_rank(quick: Suite, played: Contest) -> None:
+    (copy, _) = played.entries
+    twice = dataclasses.replace(copy, name="copy again")
+    first, second = compare(dataclasses.replace(played, entries=(copy, twice))).overall.standings
+    assert first.rank == second.rank == 1
+    assert second.to_best is not None
+    assert (second.to_best.mean, second.to_best.p, second.to_best.share_better) == (0.0, 1.0, 0.5)
+
+
+def test_an_interrupted_contest_is_none(quick: Suite) -> None:
+    def stop(episodes: int) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        play_contest({"copy": PolicySpec(text="copy")}, quick, progress=stop)

@@ -1,0 +1,100 @@
+import itertools
+
+import numpy as np
+import pytest
+from colift.agents.errors import InputError
+from colift.benchmark.statistics import (
+    holm_correction,
+    paired_permutation_p,
+    rank_groups,
+)
+
+N = 60
+LIFTS = np.repeat(np.linspace(5.0, 40.0, 4), 15)
+
+
+def policies(*means: float, spread: float = 1.0, seed: int = 0) -> dict[str, np.ndarray]:
+    """Return errors on the same lifts, of policies "a", "b", ... with exactly these means."""
+    rng = np.random.default_rng(seed)
+    noise = rng.normal(0.0, spread, (len(means), N))
+    noise -= noise.mean(axis=1, keepdims=True)
+    return {
+        chr(ord("a") + i): LIFTS + mean + row
+        for i, (mean, row) in enumerate(zip(means, noise, strict=True))
+    }
+
+
+@pytest.fixture(params=range(4))
+def board(request: pytest.FixtureRequest) -> dict[str, np.ndarray]:
+    """Seven policies about as far apart as can just be told."""
+    rng = np.random.default_rng(request.param)
+    return policies(*rng.uniform(0.0, 1.5, 7), seed=request.param)
+
+
+def test_clearly_different_policies_each_have_a_rank() -> None:
+    assert rank_groups(policies(2.0, 0.0, 4.0)) == (("b",), ("a",), ("c",))
+
+
+def test_two_equal_policies_share_a_group() -> None:
+    errors = policies(0.0, 3.0)
+    errors["z"] = errors["b"].copy()
+    assert rank_groups(errors) == (("a",), ("b", "z"))
+
+
+def test_policies_that_cannot_be_told_apart_share_a_group() -> None:
+    assert rank_groups(policies(0.0, 0.05, 5.0)) == (("a", "b"), ("c",))
+
+
+def test_the_order_of_the_input_does_not_matter(board: dict[str, np.ndarray]) -> None:
+    expected = rank_groups(board)
+    for order in list(itertools.permutations(board))[:: 5040 // 6]:
+        assert rank_groups({name: board[name] for name in order}) == expected
+
+
+def test_groups_follow_the_means(board: dict[str, np.ndarray]) -> None:
+    listed = [name for group in rank_groups(board) for name in group]
+    assert listed == sorted(board, key=lambda name: board[name].mean())
+
+
+def test_only_those_that_can_be_told_from_the_anchor_open_a_group(
+    board: dict[str, np.ndarray],
+) -> None:
+    groups = rank_groups(board)
+    for index, (anchor, *members) in enumerate(groups):
+        behind = [*members, *(name for group in groups[index + 1 :] for name in group)]
+        ps = holm_correction([paired_permutation_p(board[anchor], board[b]) for b in behind])
+        assert (ps[: len(members)] > 0.05).all()
+        assert (ps[len(members) : len(members) + 1] <= 0.05).all()
+
+
+def test_groups_do_not_chain() -> None:
+    """Neighbours cannot be told apart, the first and the last can: they share no group."""
+    errors = policies(*np.arange(0.0, 2.1, 0.2))
+    steps = list(zip(list(errors)[:-1], list(errors)[1:], strict=True))
+    assert all(paired_permutation_p(errors[x], errors[y]) > 0.05 for x, y in steps)
+    assert len(rank_groups(errors)) >= 3
+
+
+def test_a_worse_policy_far_behind_does_not_change_who_shares_with_the_best() -> None:
+    few = rank_groups(policies(0.0, 0.05, 2.0))
+    assert few[0] == ("a", "b")
+    assert rank_groups(policies(0.0, 0.05, 2.0, 90.0))[0] == ("a", "b")
+
+
+def test_equal_policies_are_told_apart_in_at_most_five_percent_of_the_boards() -> None:
+    rng = np.random.default_rng(3)
+    wrong = sum(
+        len(rank_groups({name: rng.normal(size=20) for name in "abcd"}, resamples=400)) > 1
+        for _ in range(400)
+    )
+    assert 0 < wrong <= 0.08 * 400
+
+
+def test_one_policy_or_none() -> None:
+    assert rank_groups({"a": [1.0, 2.0]}) == (("a",),)
+    assert rank_groups({}) == ()
+
+
+def test_needs_the_same_episodes() -> None:
+    with pytest.raises(InputError, match="pairs are needed"):
+        rank_groups({"a": [1.0, 2.0], "b": [1.0]})

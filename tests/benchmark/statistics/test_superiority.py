@@ -1,0 +1,89 @@
+import math
+
+import numpy as np
+import pytest
+from colift.agents.errors import InputError
+from colift.benchmark.statistics import paired_difference, probability_better, share_better
+
+RNG = np.random.default_rng(0)
+DIFFICULTY = np.repeat(np.linspace(5.0, 40.0, 20), 15)
+STRATA = np.repeat(np.arange(20), 15).tolist()
+
+
+def pair(difference: float, rng: np.random.Generator = RNG) -> tuple[np.ndarray, np.ndarray]:
+    """Return errors of two policies on lifts of different difficulty; differences of sd 2."""
+    b = DIFFICULTY + rng.normal(0.0, 1.0, 300)
+    return b + difference + rng.normal(0.0, 2.0, 300), b
+
+
+class TestProbabilityBetter:
+    def test_of_normal_differences_is_that_of_the_t_distribution(self) -> None:
+        """Of t = -1 with 280 degrees of freedom: 0.8409."""
+        rng = np.random.default_rng(1)
+        residual = rng.normal(0.0, 2.0, (20, 15))
+        residual -= residual.mean(axis=1, keepdims=True)
+        standard_error = math.sqrt(residual.var(axis=1, ddof=1).mean() / 300)
+        a = DIFFICULTY + residual.ravel() - standard_error
+        assert probability_better(a, DIFFICULTY, STRATA, resamples=20_000) == pytest.approx(
+            0.8409, abs=0.01
+        )
+
+    def test_is_uniform_when_both_are_equally_good_even_in_cells_of_three(self) -> None:
+        rng = np.random.default_rng(2)
+        strata = np.repeat(np.arange(4), 3).tolist()
+        found = np.array(
+            [
+                probability_better(rng.normal(size=12), rng.normal(size=12), strata, resamples=400)
+                for _ in range(2000)
+            ]
+        )
+        for level in (0.025, 0.1, 0.25, 0.5, 0.75, 0.9, 0.975):
+            tolerance = 4 * math.sqrt(level * (1 - level) / len(found))
+            assert np.mean(found < level) == pytest.approx(level, abs=tolerance)
+
+    @pytest.mark.parametrize("seed", range(30))
+    def test_agrees_with_the_interval_of_the_difference(self, seed: int) -> None:
+        a, b = pair(-0.25, np.random.default_rng(seed))
+        sure = probability_better(a, b, STRATA) > 0.975
+        assert sure == (paired_difference(a, b, STRATA).ci95[1] < 0.0)
+
+    def test_of_the_reverse_is_the_complement(self) -> None:
+        a, b = pair(0.1)
+        forth, back = probability_better(a, b, STRATA), probability_better(b, a, STRATA)
+        assert forth + back == pytest.approx(1.0)
+
+    def test_of_equal_policies_is_one_half(self) -> None:
+        assert probability_better(DIFFICULTY, DIFFICULTY, STRATA) == pytest.approx(0.5)
+
+    def test_is_never_certain(self) -> None:
+        a, b = pair(-30.0)
+        assert 0.999 < probability_better(a, b, STRATA) < 1.0
+        assert 0.0 < probability_better(b, a, STRATA) < 0.001
+
+    def test_the_seed_decides(self) -> None:
+        a, b = pair(0.1)
+        first = probability_better(a, b, STRATA, seed=1)
+        assert probability_better(a, b, STRATA, seed=1) == first
+        assert probability_better(a, b, STRATA, seed=2) != first
+
+    def test_needs_pairs(self) -> None:
+        with pytest.raises(InputError, match="pairs are needed"):
+            probability_better([1.0, 2.0], [1.0], ["a", "a"])
+
+
+class TestShareBetter:
+    def test_counts_the_lifts_and_half_of_the_ties(self) -> None:
+        assert share_better([1.0, 2.0, 3.0, 9.0], [2.0, 2.0, 4.0, 1.0]) == 0.625
+
+    def test_does_not_ask_by_how_much(self) -> None:
+        assert share_better([1.0, 1.0, 1.0, 900.0], [2.0, 2.0, 2.0, 2.0]) == 0.75
+
+    def test_of_two_normal_errors_is_the_normal_probability(self) -> None:
+        """P(N(-1, 1) < N(0, 1)) is Phi(1 / sqrt 2) = 0.7602."""
+        rng = np.random.default_rng(3)
+        a, b = rng.normal(-1.0, 1.0, 40_000), rng.normal(0.0, 1.0, 40_000)
+        assert share_better(a, b) == pytest.approx(0.7602, abs=0.01)
+
+    def test_refuses_a_missing_value(self) -> None:
+        with pytest.raises(InputError, match="a of episode 0"):
+            share_better([math.nan], [1.0])

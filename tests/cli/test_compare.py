@@ -1,0 +1,123 @@
+"""``colift compare`` and ``colift bench --policies`` as a user meets them."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+
+def colift(*arguments: str, **settings: object) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "colift.cli", *arguments],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        **settings,
+    )
+
+
+QUICK = ("--suite", "quick-v1", "--jobs", "1")
+
+
+def test_two_policies_are_ranked_against_each_other_and_people(tmp_path: Path) -> None:
+    out = tmp_path / "made" / "here"
+    done = colift("compare", "hold", "copy", *QUICK, "--out", str(out))
+    assert done.returncode == 0
+    assert done.stderr == ""
+    team, copy, hold = (
+        done.stdout.index(f" {name} ") for name in ("human-human team", "copy", "hold")
+    )
+    assert team < copy < hold
+    for told in ("Behind copy", "vs_human", "changing_goal", "none", "copy is the most level"):
+        assert told in done.stdout
+    assert f"{out / 'compare.html'}" in done.stdout
+    content = json.loads((out / "compare.json").read_text())
+    assert [policy["name"] for policy in content["policies"]] == ["copy", "hold"]
+    assert (out / "compare.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_json_is_alone_on_stdout() -> None:
+    done = colift("compare", "copy", "hold", *QUICK, "--seeds", "0:1", "--json")
+    content = json.loads(done.stdout)
+    assert content["episodes"] == 4
+    assert content["suite"] == "quick-v1[0:1]"
+
+
+def test_recordings_are_compared(tmp_path: Path) -> None:
+    path = tmp_path / "lifts.csv"
+    lines = [f"a,{k / 50:.2f},{0.3 * min(k, 60 - k) / 30:.3f}\n" for k in range(61)]
+    path.write_text("trial,t_s,z_m\n" + "".join(lines))
+    done = colift("compare", "copy", "hold", "--recordings", str(path), "--jobs", "1")
+    assert done.returncode == 0
+    assert "RMSE mm on each behaviour" not in done.stdout
+    assert "copy is the most level" in done.stdout
+
+
+def test_failed_lifts_are_said_and_the_rest_is_compared(tmp_path: Path) -> None:
+    path = tmp_path / "bad.py"
+    path.write_text(
+        "class Bad:\n"
+        "    def reset(self, seed): pass\n"
+        "    def act(self, observation): raise KeyError('oops')\n"
+    )
+    done = colift("compare", f"{path}:Bad", "hold", *QUICK, "--seeds", "0:1")
+    assert done.returncode == 1
+    assert "Bad: 4 of 4 lifts failed and count as worst" in done.stderr
+    assert "KeyError: 'oops'" in done.stderr
+    assert "hold is the most level" in done.stdout
+
+
+def test_classes_of_one_name_are_told_apart_by_their_files(tmp_path: Path) -> None:
+    text = "class Mine:\n    def reset(self, seed): pass\n    def act(self, o): return [0.0]\n"
+    for name in ("a.py", "b.py"):
+        (tmp_path / name).write_text(text)
+    options = (*QUICK, "--seeds", "0:1", "--json")
+    done = colift("compare", "a.py:Mine", "b.py:Mine", *options, cwd=tmp_path)
+    names = {policy["name"] for policy in json.loads(done.stdout)["policies"]}
+    assert names == {"a.py:Mine", "b.py:Mine"}
+
+
+def test_all_takes_every_registered_policy_beside_those_named() -> None:
+    listed = colift("compare", "hold", "--all", *QUICK, "--seeds", "0:1", "--json")
+    names = [policy["name"] for policy in json.loads(listed.stdout)["policies"]]
+    assert {"blend", "copy", "hold", "proactive", "random", "reactive"} <= set(names)
+    assert len(names) == len(set(names))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        ([], "at least two policies, or --all"),
+        (["copy"], "only copy was named"),
+        (["copy", "hold", "copy"], "policy copy is named twice"),
+        (["copy", "nonesuch"], "unknown policy 'nonesuch'"),
+        (["copy", "hold", "--seeds", "0:1", "--recordings", "x.csv"], "exclude each other"),
+        (["copy", "hold", "--out", "/dev/null"], "cannot be a folder"),
+    ],
+)
+def test_wrong_usage_is_one_clear_line(arguments: list[str], told: str, tmp_path: Path) -> None:
+    done = colift("compare", *arguments, cwd=tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: ")
+    assert done.stderr.count("\n") == 1
+    assert told in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_bench_times_every_registered_policy() -> None:
+    done = colift("bench", "--policies", "--json")
+    assert done.returncode == 0
+    content = json.loads(done.stdout)
+    assert content["limit_ms"] == 10.0
+    assert {"blend", "copy", "hold"} <= set(content["policies"])
+    for taken in content["policies"].values():
+        assert 0.0 < taken["median_ms"] <= taken["p99_ms"]
+        assert taken["within_limit"] == (taken["p99_ms"] <= 10.0)
+
+
+def test_bench_does_one_thing_at_a_time() -> None:
+    done = colift("bench", "--policies", "--convergence")
+    assert done.returncode == 2
+    assert "--convergence and --policies" in done.stderr

@@ -1,0 +1,103 @@
+import json
+import sys
+from dataclasses import dataclass
+
+import pytest
+from colift.cli.main import main
+from colift.cli.policy_parameters import field_docstrings
+
+
+@pytest.fixture
+def colift(monkeypatch, capsys):
+    """Run the command in this process; return its exit code, stdout and stderr."""
+
+    def run(*arguments):
+        monkeypatch.setattr(sys, "argv", ["colift", *arguments])
+        with pytest.raises(SystemExit) as end:
+            main()
+        told = capsys.readouterr()
+        return end.value.code, told.out, told.err
+
+    return run
+
+
+@dataclass
+class Base:
+    speed: float = 1.0
+    """How fast
+    it goes [m/s]."""
+    bare: int = 0
+
+
+@dataclass
+class Derived(Base):
+    """Not a field's."""
+
+    speed: float = 2.0
+    """Faster."""
+    size: float = 1.0
+    """How large."""
+
+
+def test_docstrings_are_read_from_under_the_fields():
+    assert field_docstrings(Base) == {"speed": "How fast it goes [m/s]."}
+    assert field_docstrings(Derived) == {"speed": "Faster.", "size": "How large."}
+
+
+def test_a_class_without_source_has_none():
+    assert field_docstrings(int) == {}
+
+
+def test_list_tells_a_policys_parameters_with_units(colift):
+    code, out, err = colift("list", "blend")
+    assert (code, err) == (0, "")
+    for told in (
+        "Leads as far as",
+        "  forgetting=0.45  a number",
+        "phi of eq. 7",
+        "  motion.initial_spread=0.83666/10/100  3 values",
+        "the variance of a measured height [mm2]",
+        "'standard deviation",
+        "colift run blend,",
+    ):
+        assert told in out
+
+
+def test_a_policy_of_ones_own_is_listed_and_varied(colift, tmp_path):
+    path = tmp_path / "mine.py"
+    path.write_text(
+        "class Mine:\n"
+        "    'Lifts.'\n"
+        "    def __init__(self, gain: float = 0.5): self.gain = gain\n"
+        "    def reset(self, seed): pass\n"
+        "    def act(self, observation): return self.gain * (observation[:1] - observation[3])\n"
+    )
+    assert "gain=0.5  a number" in colift("list", f"{path}:Mine")[1]
+    options = ("--suite", "quick-v1", "--seeds", "0:1", "--jobs", "1", "--json")
+    half, full = (
+        json.loads(colift("run", f"{path}:Mine,gain={gain}", *options)[1]) for gain in ("0.5", "1")
+    )
+    assert full["policy"]["name"] == "Mine,gain=1"
+    assert full["policy"]["digest"] != half["policy"]["digest"]
+    assert full["summary"]["rmse_mm"]["mean"] < half["summary"]["rmse_mm"]["mean"]
+
+
+def test_a_policy_without_parameters_is_listed(colift):
+    assert "It has no parameters." in colift("list", "hold")[1]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["list", "nobody"], "unknown policy 'nobody'"),
+        (["run", "blend,forgeting=0.9"], "it has motion.measurement_noise=0.7"),
+        (["run", "blend,forgetting=often"], "policy blend: forgetting must be a number"),
+        (["run", "blend,forgetting=2"], "policy blend: forgetting must be in (0, 1], got 2.0"),
+    ],
+)
+def test_what_is_wrong_is_one_line_and_exit_code_2(colift, arguments, told):
+    code, _, err = colift(*arguments)
+    assert code == 2
+    assert told in err
+    assert err.startswith("error:")
+    assert err.count("\n") == 1
