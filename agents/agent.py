@@ -42,6 +42,15 @@ class Explaining(Protocol):
         """
 
 
+@runtime_checkable
+class Printing(Protocol):
+    """An agent in a process of its own, whose printed lines are kept."""
+
+    @property
+    def printed(self) -> str:
+        """The end of what it has printed since its reset, to stdout and stderr."""
+
+
 class RobotObservation(IntEnum):
     """Index table of the robot's observation: all that a robot policy may see.
 

@@ -23,10 +23,12 @@ from ..agents.estimators.motion_filter import MotionFilterParameters
 from ..agents.humans import GOAL_RANGE, Partner
 from ..agents.humans.partner import PartnerParameters
 from ..agents.policies.blend import Blend
+from ..agents.policies.in_process import InProcess
 from ..agents.policies.loading import PolicySpec, source_digest
 from ..agents.policies.predictor import PredictorParameters
+from .agent_spec import AgentSpec
 from .paper.published import HUMAN_TEAM, WITH_PREDICTION, WITHOUT_PREDICTION
-from .runner import AgentSpec, run_suite
+from .runner import run_suite
 from .suite import Suite, make_suite
 
 TABLE_1: Final = {
@@ -48,7 +50,7 @@ LAG_SLOPE: Final = 25.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class BlendSpec:
+class BlendSpec(InProcess):
     """The paper's policy with another q, as :class:`.AgentSpec`."""
 
     process_noise: float
@@ -68,7 +70,7 @@ class BlendSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class PartnerSpec:
+class PartnerSpec(InProcess):
     """The second human with another lag, as :class:`.AgentSpec`."""
 
     lag: float

@@ -1,39 +1,16 @@
 """One episode: an agent at the robot's end, a scripted human at the other, and what came of it."""
 
-import functools
-import math
 import time
 from dataclasses import asdict, dataclass
 
-import numpy as np
-
-from ..agents.agent import Agent, Explaining
-from . import metrics
+from ..agents.actions import ActionError, checked_action
+from ..agents.agent import Agent, Explaining, Printing
+from ..agents.errors import EvaluatorFault, told
 from .lift import Lift
+from .recorder import Recorder
+from .scores import Scores, score
 from .seeding import derive_seed
-from .smoothness import ldlj, sparc
 from .trace import Trace
-from .world.table import TABLE_LENGTH, WEIGHT_SHARE
-
-REACHED = 0.02
-"""The human has reached the intended height if it comes within this of it [m]."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Scores:
-    """The metrics of one episode; NaN where there is none."""
-
-    rmse_mm: float
-    abs_error_mm: float
-    max_tilt_deg: float
-    sparc: float
-    ldlj: float
-    human_force_n: float
-    human_work_j: float
-    robot_lag_ms: float
-    short_of_goal_mm: float
-    """How far below the intended height the human's end stayed [mm]; above 20 mm it has not
-    reached it. Negative when it went beyond."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -51,11 +28,8 @@ class Episode:
     trace: Trace
     step_times: tuple[float, ...]
     """What each call of the policy took [s]; the only field that differs between two runs."""
-
-    @property
-    def reached(self) -> bool:
-        """Whether the human's end reached the intended height."""
-        return self.scores.short_of_goal_mm <= 1000 * REACHED
+    log: str = ""
+    """The end of what the policy printed, if it was kept apart."""
 
     def row(self) -> dict[str, object]:
         """Return the episode as one row of a table."""
@@ -65,7 +39,7 @@ class Episode:
             "trial": self.trial,
             "seed": self.seed,
             **asdict(self.scores),
-            "reached": self.reached,
+            "reached": self.scores.reached,
             "failure": self.failure or "",
         }
 
@@ -80,7 +54,7 @@ def policy_seed(key: bytes = b"") -> int:
     return derive_seed(0, "policy", key=key)
 
 
-def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
+def run_episode(lift: Lift, partner: Agent, seed: int, *, key: bytes = b"") -> Episode:
     """Play one episode and score it.
 
     Whatever the partner does, this returns: an exception or an unusable action of the partner
@@ -94,39 +68,40 @@ def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
         Who acts at the robot's end.
     seed
         The episode's seed: plan, noise and human follow from it, whoever the partner is.
+    key
+        The key of :func:`policy_seed`.
+
+    Raises
+    ------
+    EvaluatorFault
+        If the partner's machine failed, and not the partner.
     """
     lift.reset(seed)
-    human = lift.scripted_human()
-    actions: list[object] = []
-    internals: list[dict[str, float]] = []
+    human, frames = lift.scripted_human(), lift.frames_per_step
+    recorder = Recorder(lift)
     times: list[float] = []
-    failure: str | None = None
+    failure = _start(partner, key)
     explaining = partner if isinstance(partner, Explaining) else None
-    clock = time.perf_counter
-    try:
-        partner.reset(policy_seed())
-    except (Exception, SystemExit) as error:
-        failure = f"start: {_told(error)}"
+    size = 1 if lift.scenario.partner == "nao" else frames
     while failure is None and not lift.done:
         observation = lift.partner_observation()
-        begin = clock()
+        begin = time.perf_counter()
         try:
-            action = partner.act(observation)
+            chosen = partner.act(observation)
+            times.append(time.perf_counter() - begin)
+            action = checked_action("robot", chosen, size)
+            said = {} if explaining is None else _internals(explaining)
+        except EvaluatorFault:
+            raise
         except (Exception, SystemExit) as error:
-            failure = f"step {len(actions)}: {_told(error)}"
+            reason = error if isinstance(error, ActionError) else told(error)
+            failure = f"step {recorder.steps}: {reason}"
             break
-        times.append(clock() - begin)
-        try:
-            lift.step(human.act(lift.human_observation()), action)
-        except ValueError as error:
-            failure = f"step {len(actions)}: {error}"
-            break
-        actions.append(action)
-        if explaining is not None:
-            internals.append(explaining.internals())
+        reference = checked_action("human", human.act(lift.human_observation()), frames)
+        lift.step(reference, action)
+        recorder.step(reference, action, said)
     failure = failure or lift.dropped
-    trace = _trace(lift, actions, internals)
-    scenario = lift.scenario
+    trace, scenario = recorder.trace(), lift.scenario
     return Episode(
         behaviour=scenario.behaviour,
         subject=scenario.subject.name,
@@ -136,48 +111,26 @@ def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
         failure=failure,
         trace=trace,
         step_times=tuple(times),
+        log=_log(partner),
     )
 
 
-def _told(error: BaseException) -> str:
-    return f"{type(error).__name__}: {error}".rstrip(": ")
+def _start(partner: Agent, key: bytes) -> str | None:
+    """Reset the partner; return why that failed, or None."""
+    try:
+        partner.reset(policy_seed(key))
+    except EvaluatorFault:
+        raise
+    except (Exception, SystemExit) as error:
+        return f"start: {told(error)}"
+    return None
 
 
-def _trace(lift: Lift, actions: list[object], internals: list[dict[str, float]]) -> Trace:
-    world = lift.world
-    width = 1 if lift.scenario.partner == "nao" else lift.frames_per_step
-    return Trace(
-        human_end=world.since_reset(world.human_end),
-        robot_end=world.since_reset(world.robot_end),
-        human_velocity=world.since_reset(world.human_velocity),
-        human_force=world.since_reset(world.human_force),
-        robot_force=world.since_reset(world.robot_force),
-        target=lift.target[: lift.frame],
-        action=np.array(actions, dtype=np.float64).reshape(len(actions), width),
-        internals={
-            name: np.array([step.get(name, math.nan) for step in internals])
-            for name in (internals[0] if internals else {})
-        },
-    )
+def _internals(partner: Explaining) -> dict[str, float]:
+    """Return what a partner says of its last action; raises if these are not named numbers."""
+    return {str(name): float(value) for name, value in partner.internals().items()}
 
 
-def score(lift: Lift, trace: Trace, *, failed: bool) -> Scores:
-    """Return the metrics of a trace of the lift's current episode.
-
-    A failed episode keeps the frames it has for force and work; it has no smoothness and no lag.
-    """
-    human, robot, horizon = trace.human_end, trace.robot_end, lift.horizon
-    felt = trace.human_force - WEIGHT_SHARE
-    smoothness = functools.partial(metrics.stroke_smoothness, robot, human, lift.plan.strokes)
-    empty = len(human) == 0
-    return Scores(
-        rmse_mm=metrics.rmse_mm(human, robot, horizon=horizon),
-        abs_error_mm=metrics.abs_error_mm(human, robot, horizon=horizon),
-        max_tilt_deg=math.nan if empty else metrics.max_tilt_deg(human, robot, length=TABLE_LENGTH),
-        sparc=math.nan if failed else smoothness(metric=sparc),
-        ldlj=math.nan if failed else smoothness(metric=ldlj),
-        human_force_n=math.nan if empty else metrics.human_force_n(felt),
-        human_work_j=math.nan if empty else metrics.human_work_j(felt, trace.human_velocity),
-        robot_lag_ms=math.nan if failed else metrics.robot_lag_ms(human, robot),
-        short_of_goal_mm=1000 * (lift.plan.goal - float(human.max(initial=0.0))),
-    )
+def _log(partner: Agent) -> str:
+    """Return what a partner has printed, where that is kept."""
+    return partner.printed if isinstance(partner, Printing) else ""

@@ -4,8 +4,10 @@ import math
 from typing import Final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ..agents.agent import FRAME, HISTORY, Action, HumanObservation, Observation
+from ..agents.actions import checked_action
+from ..agents.agent import FRAME, HISTORY, HumanObservation, Observation
 from ..agents.humans import PARTNER_SUBJECT, Plan, ScriptedHuman, Subject
 from ..robots.arm_kinematics import STROKE
 from .scenario import Scenario
@@ -99,7 +101,7 @@ class Lift:
         human.reset(self._role_seed("human"))
         return human
 
-    def step(self, human: Action, partner: Action) -> None:
+    def step(self, human: ArrayLike, partner: ArrayLike) -> None:
         """Advance by one control period.
 
         Parameters
@@ -112,7 +114,7 @@ class Lift:
 
         Raises
         ------
-        ValueError
+        ActionError
             If an action has the wrong shape or is not finite.
         """
         size = self.frames_per_step
@@ -133,18 +135,18 @@ class Lift:
         elif abs(world.hand_height - world.robot_end[-1]) > GRIP_GAP:
             self.dropped = "the table's end is out of the partner's reach"
 
-    def _references(self, agent: str, action: Action) -> list[float]:
+    def _references(self, agent: str, action: ArrayLike) -> list[float]:
         """Return a human's action as a list, checked and held to the range of heights."""
         size = self.frames_per_step
-        values = _checked(agent, action, size)
+        values = checked_action(agent, action, size)
         low, high = REFERENCE_RANGE
         if min(values) < low or max(values) > high:
             values = [min(max(value, low), high) for value in values]
         return values
 
-    def _ramp(self, action: Action) -> list[float]:
+    def _ramp(self, action: ArrayLike) -> list[float]:
         """Return the hand command at the end of each frame of the step [m]."""
-        (change,) = _checked("robot", action, 1)
+        (change,) = checked_action("robot", action, 1)
         limit, (low, high) = self.step_limit, STROKE
         start = self.command
         change = min(max(change, -limit), limit)
@@ -239,23 +241,3 @@ def _body(person: Subject) -> BodyParameters:
         visual_delay=person.visual_delay,
         haptic_delay=person.haptic_delay,
     )
-
-
-def _checked(agent: str, action: Action, size: int) -> list[float]:
-    """Return the action as a list of ``size`` finite floats.
-
-    Raises
-    ------
-    ValueError
-        If it is anything else.
-    """
-    try:
-        values = np.asarray(action, dtype=np.float64)
-    except (TypeError, ValueError):
-        values = np.empty(0)
-    if values.shape != (size,):
-        raise ValueError(f"{agent}'s action must be {size} number(s), got {action!r:.80}")
-    listed: list[float] = values.tolist()
-    if not all(map(math.isfinite, listed)):
-        raise ValueError(f"{agent}'s action must be finite, got {listed}")
-    return listed

@@ -6,10 +6,11 @@ from typing import Final
 
 import numpy as np
 
+from .agent_spec import AgentSpec
 from .catalogue import make_scenario
-from .runner import AgentSpec, play
 from .scenario import Scenario
 from .suite import BEHAVIOURS
+from .tasks import play
 
 LIMIT_MS: Final = 10.0
 """Longest 99th percentile of a step [ms]: one motion-capture frame, a tenth of a control period.

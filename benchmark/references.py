@@ -14,8 +14,10 @@ import numpy as np
 
 from ..agents.agent import Agent
 from ..agents.humans import Partner
+from ..agents.policies.in_process import InProcess
 from ..agents.policies.loading import PolicySpec, source_digest
-from .runner import AgentSpec, Run, run_suite
+from .agent_spec import AgentSpec
+from .runner import Run, run_suite
 from .suite import Suite
 from .summary import Cell, cell
 
@@ -23,7 +25,7 @@ HUMAN_HUMAN: Final = "human_human"
 
 
 @dataclass(frozen=True, kw_only=True)
-class HumanTeam:
+class HumanTeam(InProcess):
     """The second human of a human-human team, as :class:`.AgentSpec`."""
 
     name: str = HUMAN_HUMAN

@@ -1,40 +1,15 @@
 """Runs a policy through a suite, alone or on any executor."""
 
-import itertools
-from collections.abc import Callable, Iterator
-from concurrent.futures import CancelledError, Executor, Future, as_completed
+import contextlib
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
 from dataclasses import dataclass
-from typing import Protocol
 
-from ..agents.agent import Action, Agent, Observation
-from .episode import Episode, run_episode
-from .lift import Lift
-from .scenario import Scenario
+from .agent_spec import AgentSpec
+from .episode import Episode
+from .gathering import Faults, gather
 from .suite import Suite
-
-SEEDS_PER_TASK = 5
-"""Seeds of one scenario that a worker plays at a time: few enough that progress shows, many
-enough that building the world (some milliseconds) does not."""
-
-
-class AgentSpec(Protocol):
-    """Where the agent at the robot's end comes from; goes to worker processes, so it is pickled.
-
-    :class:`colift.agents.policies.loading.PolicySpec` is one.
-    """
-
-    @property
-    def name(self) -> str:
-        """The agent's name, for tables."""
-
-    def digest(self) -> str:
-        """Return a hash of the agent's source."""
-
-    def check(self) -> None:
-        """Raise an InputError if there is no such agent."""
-
-    def make(self) -> Agent:
-        """Return a new agent."""
+from .tasks import tasks
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -47,46 +22,15 @@ class Run:
     """Hash of the policy's source."""
     suite: Suite
     episodes: tuple[Episode, ...]
+    isolation: str = "none"
+    """What kept the policy from the process that scores."""
+    faults: int = 0
+    """How often episodes had to be played again because the machine had failed."""
 
     @property
     def complete(self) -> bool:
         """Whether every episode of the suite is there."""
         return len(self.episodes) == self.suite.size
-
-
-def play(policy: AgentSpec, scenario: Scenario, seeds: tuple[int, ...]) -> Iterator[Episode]:
-    """Play the scenario with each seed, with a new policy object for each episode."""
-    lift = Lift(scenario)
-    try:
-        for seed in seeds:
-            yield run_episode(lift, _made(policy), seed)
-    finally:
-        lift.close()
-
-
-class _Unmade:
-    """Stands in for an agent whose constructor failed: fails in the same way at the reset."""
-
-    def __init__(self, error: BaseException) -> None:
-        self._error = error
-
-    def reset(self, seed: int) -> None:
-        raise self._error
-
-    def act(self, observation: Observation) -> Action:
-        raise self._error
-
-
-def _made(policy: AgentSpec) -> Agent:
-    try:
-        return policy.make()
-    except (Exception, SystemExit) as error:
-        return _Unmade(error)
-
-
-def _task(policy: AgentSpec, scenario: Scenario, seeds: tuple[int, ...]) -> list[Episode]:
-    """Return the episodes of :func:`play`; what a worker process runs."""
-    return list(play(policy, scenario, seeds))
 
 
 def run_suite(
@@ -95,11 +39,14 @@ def run_suite(
     *,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
+    done: Mapping[int, Episode] | None = None,
+    keep: Callable[[int, Episode], None] = lambda place, episode: None,
+    key: bytes = b"",
 ) -> Run:
     """Evaluate a policy on a suite.
 
     The result depends on the policy and the suite only: not on the executor, its workers or the
-    order in which they finish.
+    order in which they finish. What fails because a worker died is played again.
 
     Parameters
     ----------
@@ -111,6 +58,12 @@ def run_suite(
         Runs the tasks, at most its own number at a time; None runs everything in this process.
     progress
         Called with the number of episodes that were finished since the last call.
+    done
+        Episodes of an earlier run by their place in the suite; they are not played again.
+    keep
+        Called with the place and the episode whenever one is finished.
+    key
+        The key of the policy's seed; see :func:`.policy_seed`.
 
     Returns
     -------
@@ -121,45 +74,24 @@ def run_suite(
     ------
     InputError
         If the policy cannot be loaded.
+    EvaluatorFault
+        If the machine fails again and again; what was finished went to ``keep``.
     """
     policy.check()
-    seeds = [
-        suite.seeds[i : i + SEEDS_PER_TASK] for i in range(0, len(suite.seeds), SEEDS_PER_TASK)
-    ]
-    tasks = list(itertools.product(suite.scenarios, seeds))
-    done: dict[int, list[Episode]] = {}
-    try:
-        if executor is None:
-            for index, (scenario, chunk) in enumerate(tasks):
-                done[index] = []
-                for episode in play(policy, scenario, chunk):
-                    done[index].append(episode)
-                    progress(1)
-        else:
-            _gather(policy, tasks, executor, done, progress)
-    except KeyboardInterrupt:
-        pass
-    episodes = tuple(episode for index in sorted(done) for episode in done[index])
-    return Run(policy=policy.name, policy_digest=policy.digest(), suite=suite, episodes=episodes)
-
-
-def _gather(
-    policy: AgentSpec,
-    tasks: list[tuple[Scenario, tuple[int, ...]]],
-    executor: Executor,
-    done: dict[int, list[Episode]],
-    progress: Callable[[int], None],
-) -> None:
-    """Submit all tasks and collect their episodes into ``done`` as they finish."""
-    futures: dict[Future[list[Episode]], int] = {
-        executor.submit(_task, policy, scenario, chunk): index
-        for index, (scenario, chunk) in enumerate(tasks)
-    }
-    try:
-        for future in as_completed(futures):
-            done[futures[future]] = future.result()
-            progress(len(done[futures[future]]))
-    except (KeyboardInterrupt, CancelledError):
-        for future in futures:
-            future.cancel()
-        raise
+    found = dict(done or {})
+    if found:
+        progress(len(found))
+    faults = Faults()
+    with contextlib.suppress(KeyboardInterrupt):
+        for place, episode in gather(tasks(policy, suite, found, key), executor, faults):
+            found[place] = episode
+            keep(place, episode)
+            progress(1)
+    return Run(
+        policy=policy.name,
+        policy_digest=policy.digest(),
+        suite=suite,
+        episodes=tuple(found[place] for place in sorted(found)),
+        isolation=policy.isolation,
+        faults=faults.count,
+    )

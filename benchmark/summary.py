@@ -7,7 +7,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from .episode import Episode, Scores
+from .episode import Episode
+from .scores import Scores
 from .statistics import (
     interquartile_mean,
     mean_with_missing,
@@ -50,7 +51,7 @@ def summarise(
     summary: dict[str, Any] = {
         "episodes": len(episodes),
         "failed": sum(episode.failure is not None for episode in episodes),
-        "goal_missed": sum(not episode.reached for episode in episodes),
+        "goal_missed": sum(not episode.scores.reached for episode in episodes),
         "rmse_mm": {
             "mean": float(np.mean(rmse)),
             "iqm": float(interquartile_mean(rmse)),

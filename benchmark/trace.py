@@ -31,14 +31,18 @@ class Trace:
     """(n,) the human's intended height [m]."""
     action: Series
     """(m, k) the actions of the robot's end as given: of a NAO, changes of the command [m]."""
+    human_action: Series
+    """(m, k) the actions of the human's end as given: hand references [m]."""
+    state: NDArray[np.uint8]
+    """(m, 16) a hash of all actions and states up to each step; see :mod:`.recorder`."""
     internals: Mapping[str, Series] = field(default_factory=dict)
     """(m,) each: what the policy says its actions were based on, where it says so; see
     :class:`colift.agents.agent.Explaining`."""
 
     @staticmethod
     def series() -> tuple[str, ...]:
-        """Return the names of the fields that are arrays, in order."""
-        return tuple(each.name for each in fields(Trace) if each.name != "internals")
+        """Return the names of the fields that are measured series, in order."""
+        return tuple(each.name for each in fields(Trace) if each.name not in ("state", "internals"))
 
     def digest(self) -> str:
         """Return the SHA-256 of all numbers: equal if and only if every bit is."""
@@ -49,4 +53,5 @@ class Trace:
             values = np.ascontiguousarray(array, dtype="<f8")
             sha.update(f"{name}{values.shape}".encode())
             sha.update(values.tobytes())
+        sha.update(self.state.tobytes())
         return sha.hexdigest()

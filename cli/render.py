@@ -7,8 +7,8 @@ import typer
 
 from ..agents.policies.loading import PolicySpec
 from ..benchmark.catalogue import make_scenario
-from ..benchmark.runner import play
 from ..benchmark.scenario import CONTROL_PERIOD, LATENCY
+from ..benchmark.tasks import play
 from .progress import progress_bar
 
 

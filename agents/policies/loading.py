@@ -13,11 +13,12 @@ from typing import Any, cast
 from ..agent import Agent
 from ..errors import InputError
 from ..registry import POLICIES, lookup
+from .in_process import InProcess
 from .parameters import make_with, read_values
 
 
 @dataclass(frozen=True, kw_only=True)
-class PolicySpec:
+class PolicySpec(InProcess):
     """Where a policy's class is, and its parameters: picklable, so that any process can load it."""
 
     text: str

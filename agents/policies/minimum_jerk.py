@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..agent import Action, Observation, RobotObservation
-from ..errors import InputError
 from ..estimators.minimum_jerk_fit import (
     REFERENCE_PERIOD,
     MinimumJerkFit,

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..episode import Scores
+from ..agent_spec import AgentSpec
 from ..references import HUMAN_HUMAN, Reference, human_team_run, shipped_references
-from ..runner import AgentSpec, Run, run_suite
+from ..runner import Run, run_suite
+from ..scores import Scores
 from ..suite import Suite
 from ..summary import Cell, cell
 

@@ -9,9 +9,10 @@ from typing import Final
 
 from ...agents.humans import Behaviour, Jerky, Pause
 from ...agents.policies.loading import PolicySpec
+from ..agent_spec import AgentSpec
 from ..learning import LearningTrial, learning_trials
 from ..references import human_team_run
-from ..runner import AgentSpec, Run, run_suite
+from ..runner import Run, run_suite
 from ..scenario import Scenario
 from ..suite import Suite
 from .published import FORGETTING_FACTORS

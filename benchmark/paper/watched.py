@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from ...agents.agent import Action, Agent, Observation, RobotObservation
 from ...agents.policies.blend import Blend
+from ...agents.policies.in_process import InProcess
 from ...agents.policies.loading import source_digest
 from ...agents.policies.predictor import PredictorParameters
 
@@ -30,7 +31,7 @@ class Watched:
 
 
 @dataclass(frozen=True, kw_only=True)
-class WatchedBlend:
+class WatchedBlend(InProcess):
     """Where the watched blend policy comes from, as :class:`.AgentSpec`."""
 
     name: str = "blend"

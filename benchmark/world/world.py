@@ -188,6 +188,18 @@ class World:
         self._pitch, self._pitch_rate = pitch, pitch_rate
         self.hand_height = far.hand_height(far_height)
 
+    def state(self) -> tuple[float, ...]:
+        """Return what the last frame ended with: heights, velocities, forces, the hand's height."""
+        return (
+            self.human_end[-1],
+            self.human_velocity[-1],
+            self.robot_end[-1],
+            self.robot_velocity[-1],
+            self.human_force[-1],
+            self.robot_force[-1],
+            self.hand_height,
+        )
+
     def since_reset(self, history: list[float]) -> NDArray[np.float64]:
         """Return one of the world's histories without the frames of rest before the reset."""
         return np.array(history[HISTORY_FRAMES:])

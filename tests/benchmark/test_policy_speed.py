@@ -5,6 +5,7 @@ import time
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
+from colift.agents.policies.in_process import InProcess
 from colift.agents.policies.loading import PolicySpec
 from colift.benchmark.policy_speed import LIMIT_MS, StepTime, default_scenarios, step_time
 
@@ -29,7 +30,7 @@ class Broken:
         raise ValueError("broken")
 
 
-class Spec:
+class Spec(InProcess):
     def __init__(self, policy: type) -> None:
         self._policy = policy
         self.name = policy.__name__

@@ -88,8 +88,8 @@ class TestPolicies:
             for episode in played[behaviour, policy]:
                 top = 1000 * (episode.trace.target.max() - episode.trace.human_end.max())
                 assert episode.scores.short_of_goal_mm == pytest.approx(top, abs=1e-6)
-                assert episode.reached == (top <= 20)
-        assert all(episode.reached for episode in played[behaviour, Copy])
+                assert episode.scores.reached == (top <= 20)
+        assert all(episode.scores.reached for episode in played[behaviour, Copy])
 
     def test_every_policy_meets_the_same_plan(self, played, behaviour):
         pairs = zip(played[behaviour, Copy], played[behaviour, Random], strict=True)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from colift.benchmark.comparison.comparison import Comparison, compare
 from colift.benchmark.comparison.contest import Contest, Entry
-from colift.benchmark.episode import Scores
 from colift.benchmark.references import Reference
+from colift.benchmark.scores import Scores
 from colift.benchmark.suite import BEHAVIOURS, make_suite
 
 CELLS = tuple(

@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
 from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.episode import Episode, Scores
+from colift.benchmark.episode import Episode
 from colift.benchmark.scenario import Scenario
+from colift.benchmark.scores import Scores
 from colift.benchmark.trace import Trace
 
 
@@ -35,6 +36,8 @@ def short_episode(frames: int, *, failure: str | None = None) -> Episode:
             robot_force=still,
             target=target,
             action=np.zeros((frames // 10, 1)),
+            human_action=np.zeros((frames // 10, 10)),
+            state=np.zeros((frames // 10, 16), dtype=np.uint8),
         ),
         step_times=(),
     )

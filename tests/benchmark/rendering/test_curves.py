@@ -1,3 +1,5 @@
+import dataclasses
+
 import numpy as np
 from colift.benchmark.episode import Episode
 from colift.benchmark.rendering.caption import title
@@ -41,7 +43,8 @@ def test_marked_curves_have_a_cursor_at_each_moment(long_episode: Episode) -> No
 
 
 def test_a_single_frame_can_be_drawn(episode: Episode) -> None:
-    one = Trace(**{name: getattr(episode.trace, name)[:1] for name in Trace.series()})
+    first = {name: getattr(episode.trace, name)[:1] for name in Trace.series()}
+    one = dataclasses.replace(episode.trace, **first)
     assert Curves(one, WIDTH, HEIGHT, partner="robot").at(0).size == (WIDTH, HEIGHT)
 
 

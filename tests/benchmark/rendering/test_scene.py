@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.benchmark.environment.parallel import ParallelLift, parallel_env
+from colift.benchmark.recorder import Recorder
 from colift.benchmark.rendering.palette import HUMAN, ROBOT, SKY
 from colift.benchmark.rendering.scene import Picture, Scene, check_render_mode
-from colift.benchmark.trace import Trace
 from PIL import ImageColor
 
 PLACES = ((0.0, 0.0), (0.29, 0.29), (-0.03, 0.10))
@@ -85,18 +85,9 @@ def play(env: ParallelLift, *, rendered: bool) -> str:
         if rendered:
             picture = env.render()
             assert picture is not None
-    world = env.lift.world
-    trace = Trace(
-        human_end=world.since_reset(world.human_end),
-        robot_end=world.since_reset(world.robot_end),
-        human_velocity=world.since_reset(world.human_velocity),
-        human_force=world.since_reset(world.human_force),
-        robot_force=world.since_reset(world.robot_force),
-        target=env.lift.target,
-        action=np.zeros((0, 1)),
-    )
+    digest = Recorder(env.lift).trace().digest()
     env.close()
-    return trace.digest()
+    return digest
 
 
 def test_looking_does_not_change_the_lift() -> None:

@@ -1,0 +1,123 @@
+"""How a hand goes on by least jerk from any state, and what is uncertain about it."""
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..errors import InputError
+from .minimum_jerk import Array
+
+# c4 and c5 of the quintic by v, a and j, and the powers of 1 / D that go with them.
+_BRAKING: Final = np.array([[-1.0, -0.75, -0.25], [0.6, 0.4, 0.1]])
+_POWERS: Final = np.array([[3.0, 2.0, 1.0], [4.0, 3.0, 2.0]])
+
+
+def transition(period: float, time_to_go: float) -> Array:
+    """Return what takes (height, velocity, acceleration, jerk) ``period`` [s] on, shape (4, 4).
+
+    From any state, the least jerk brings the hand to rest after the time to go D along a quintic
+    (Flash and Hogan 1985):
+
+        z(t) = s + v t + a t^2 / 2 + j t^3 / 6 + c4 t^4 + c5 t^5,  z'(D) = z''(D) = 0
+        c4 = -v / D^3 - 3 a / (4 D^2) - j / (4 D),  c5 = 3 v / (5 D^4) + 2 a / (5 D^3) + j / (10 D^2)
+
+    It holds for periods up to D.
+    """
+    t = period
+    moved = np.array(
+        [
+            [1.0, t, t**2 / 2, t**3 / 6],
+            [0.0, 1.0, t, t**2 / 2],
+            [0.0, 0.0, 1.0, t],
+            [0.0, 0.0, 0.0, 1.0],
+        ]
+    )
+    moved[:, 1:] += _last_two(t) @ (_BRAKING / time_to_go**_POWERS)
+    return moved
+
+
+@dataclass(frozen=True, kw_only=True)
+class MinimumJerkProcess:
+    """The motion of a hand to a goal it keeps to itself, as a process with five states.
+
+    The state is height s, velocity v, acceleration a, jerk j, and a clock C that runs down to the
+    end of the movement. The first four go on by :func:`transition` with the time to go D(C) of
+    :meth:`time_to_go`; the clock loses a second a second. Given D, the rates say where the movement
+    ends:
+
+        goal = s + 3/5 v D + 3/20 a D^2 + 1/60 j D^3
+
+    Noise enters the acceleration, by a jerk that is constant in a step, and the clock.
+    """
+
+    jerk_noise: float = 0.2
+    """Intensity of the jerk that the model does not know [m/s2/s^0.5]: the standard deviation of
+    the acceleration that it adds up to in a second."""
+    clock_noise: float = 0.1
+    """Standard deviation by which a person's own clock goes astray in a second [s/s^0.5]."""
+    shortest: float = 0.5
+    """Least time to go [s]: who is nearly there still corrects the rest of the way."""
+    softness: float = 0.2
+    """Width of the bend with which the time to go ends at the least [s]."""
+
+    def __post_init__(self) -> None:
+        """Check the ranges.
+
+        Raises
+        ------
+        InputError
+            If a value is not a positive number.
+        """
+        for name, value in vars(self).items():
+            if not 0 < value < math.inf:
+                raise InputError(f"{name} must be a positive number, got {value}")
+
+    def time_to_go(self, clock: float) -> tuple[float, float]:
+        """Return the time to go D [s] of a clock C [s] that runs down, and dD/dC.
+
+        D is C while that is long, and bends to the shortest D0 with the softness b:
+
+            D = D0 + b log(1 + exp((C - D0) / b))
+        """
+        x = (clock - self.shortest) / self.softness
+        bend = float(np.logaddexp(0.0, x))
+        return self.shortest + self.softness * bend, math.exp(x - bend)
+
+    def advance(self, state: Array, period: float) -> tuple[Array, Array]:
+        """Return the state after ``period`` [s], shape (5,), and its Jacobian, shape (5, 5).
+
+        Beyond the time to go, the hand rests.
+        """
+        left, slope = self.time_to_go(float(state[4]))
+        t = min(period, left)
+        by_rates = transition(t, left)
+        jacobian = np.eye(5)
+        jacobian[:4, :4] = by_rates
+        by_left = -_BRAKING * _POWERS / left ** (_POWERS + 1)
+        jacobian[:4, 4] = slope * (_last_two(t) @ by_left @ state[1:4])
+        return np.append(by_rates @ state[:4], state[4] - period), jacobian
+
+    def noise(self, period: float) -> Array:
+        """Return the covariance Q of what a step of ``period`` [s] adds, shape (5, 5).
+
+        The variance of the jerk is intensity^2 / period, so that what it does in a second does not
+        depend on the period.
+        """
+        gain = np.array([period**3 / 6, period**2 / 2, period, 0.0, 0.0])
+        covariance = self.jerk_noise**2 / period * np.outer(gain, gain)
+        covariance[4, 4] = self.clock_noise**2 * period
+        return covariance
+
+    def goal(self, state: Array) -> float:
+        """Return where the movement ends [m]."""
+        left, _ = self.time_to_go(float(state[4]))
+        return float(state[:4] @ [1.0, 0.6 * left, 0.15 * left**2, left**3 / 60])
+
+
+def _last_two(t: float) -> Array:
+    """Return t^4 and t^5 with their first three derivatives, shape (4, 2)."""
+    return np.array(
+        [[t**4, t**5], [4 * t**3, 5 * t**4], [12 * t**2, 20 * t**3], [24 * t, 60 * t**2]]
+    )
