@@ -5,6 +5,8 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Final
 
+from ..rendering.page import cell, page, row
+from ..rendering.page import table as html_table
 from .claims import Claim
 from .figures.picture import Picture
 from .table_one import TableOne
@@ -20,36 +22,17 @@ from .words import (
 )
 
 STYLE: Final = """
-:root { color-scheme: light dark; --ink: #22262e; --faint: #5b6472; --line: #d7dbe0;
-  --paper: #ffffff; --card: #f6f7f9; --yes: #00694c; --no: #a33f00; }
-@media (prefers-color-scheme: dark) {
-  :root { --ink: #e4e7ec; --faint: #a2abb8; --line: #3a414d; --paper: #15181d; --card: #1e232a;
-    --yes: #4cc79f; --no: #ff9a5c; }
-  figure img { filter: invert(0.91) hue-rotate(180deg); }
-}
-* { box-sizing: border-box; }
-body { margin: 0; background: var(--paper); color: var(--ink);
-  font: 16px/1.55 system-ui, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif; }
-main { max-width: 66rem; margin: 0 auto; padding: 2.5rem 1.25rem 5rem; }
-h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 1rem; text-wrap: balance; }
-h2 { font-size: 1.3rem; margin: 3rem 0 0.75rem; padding-top: 1rem;
-  border-top: 1px solid var(--line); }
+:root { --yes: #00694c; --no: #a33f00; }
+@media (prefers-color-scheme: dark) { :root { --yes: #4cc79f; --no: #ff9a5c; }
+  figure img { filter: invert(0.91) hue-rotate(180deg); } }
 h3 { font-size: 1.02rem; margin: 0 0 0.5rem; }
-p { max-width: 46rem; margin: 0.6rem 0; }
-.faint, figcaption { color: var(--faint); font-size: 0.9rem; }
-.scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 0.9rem;
-  margin: 1rem 0; white-space: nowrap; }
-th, td { padding: 0.35rem 0.6rem; text-align: right; border-bottom: 1px solid var(--line); }
-th { font-weight: 600; color: var(--faint); vertical-align: bottom; }
-th:first-child, td:first-child { text-align: left; }
-tbody tr:last-child td { font-weight: 650; }
-td span { display: block; font-weight: 400; font-size: 0.8rem; color: var(--faint); }
+tbody tr:last-child :is(th, td) { font-weight: 650; }
+td small { font-weight: 400; }
 figure { margin: 2rem 0 2.5rem; }
 figure img { display: block; width: 100%; max-width: 52rem; height: auto; border-radius: 6px; }
 figcaption { max-width: 46rem; margin-top: 0.6rem; }
 .claims { list-style: none; counter-reset: claim; padding: 0; margin: 1rem 0; }
-.claims li { counter-increment: claim; background: var(--card); border-radius: 8px;
+.claims li { counter-increment: claim; background: var(--card); border-radius: 8px; max-width: none;
   padding: 0.9rem 1.1rem; margin: 0.7rem 0; border-left: 4px solid var(--yes); }
 .claims li.no { border-left-color: var(--no); }
 .claims h3::before { content: counter(claim) ". "; color: var(--faint); }
@@ -61,6 +44,7 @@ dt { color: var(--faint); }
 dd { margin: 0; }
 @media (max-width: 36rem) { dl { grid-template-columns: 1fr; } dt { margin-top: 0.35rem; } }
 """
+"""What the report needs beside the common style."""
 
 
 def html_page(
@@ -82,6 +66,7 @@ def html_page(
         What the report was made from, in one line.
     """
     first, *figures = (_picture(picture, drawn[picture.name]) for picture in pictures)
+    scores = html_table(HEADER, [_cells(*told) for told in table_rows(table)])
     notes = "".join(f"<p>{escape(note)}</p>" for note in table_notes(table))
     definitions = "".join(f"<li>{escape(text)}</li>" for text in DEFINITIONS)
     items = "".join(_claim(claim) for claim in claims)
@@ -92,7 +77,7 @@ def html_page(
 <p class="faint">{escape(provenance)}</p>
 <h2>Table I</h2>
 <p class="faint">{escape(TABLE_CAPTION)}</p>
-<div class="scroll">{_table(HEADER, table_rows(table))}</div>
+{scores}
 {notes}
 {first}
 <h2>The paper's claims</h2>
@@ -103,26 +88,13 @@ def html_page(
 <h2>Definitions</h2>
 <ul>{definitions}</ul>
 """
-    return (
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f"<title>{escape(TITLE)}</title><style>{STYLE}</style></head>\n"
-        f"<body><main>{body}</main></body></html>\n"
-    )
+    return page(TITLE, body, style=STYLE)
 
 
-def _table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
-    body = "".join(
-        "<tr>" + "".join(f"<td>{_two_lines(cell)}</td>" for cell in row) + "</tr>" for row in rows
-    )
-    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
-
-
-def _two_lines(cell: str) -> str:
-    """Return a cell with what is in brackets, its interval, on a line of its own."""
-    value, bracket, interval = cell.partition(" (")
-    return escape(value) + (f"<span>({escape(interval)}</span>" if bracket else "")
+def _cells(name: str, *values: str) -> str:
+    """Return a row of the table; what is in brackets, an interval, goes under its value."""
+    parts = (value.partition(" (") for value in values)
+    return row(name, [cell(mean, bracket.strip() + rest) for mean, bracket, rest in parts])
 
 
 def _claim(claim: Claim) -> str:

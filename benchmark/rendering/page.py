@@ -46,7 +46,7 @@ figure svg.narrow { display: none; }
 """
 
 
-def page(title: str, body: str) -> str:
+def page(title: str, body: str, *, style: str = "") -> str:
     """Return an HTML page that requests nothing from elsewhere.
 
     Parameters
@@ -55,11 +55,13 @@ def page(title: str, body: str) -> str:
         Title as plain text.
     body
         Content as HTML.
+    style
+        CSS that only this page needs.
     """
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f"<title>{escape(title)}</title><style>{STYLE}</style></head>\n"
+        f"<title>{escape(title)}</title><style>{STYLE}{style}</style></head>\n"
         f"<body><main>\n{body}\n</main></body></html>\n"
     )
 

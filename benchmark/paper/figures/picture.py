@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from ...rendering.palette import FAINT, HUMAN, INK, LINE, PAPER, ROBOT
+from ...rendering.axes import plain
+from ...rendering.palette import HUMAN, INK, LINE, PAPER, ROBOT
 
 DPI: Final = 130
 WIDTH: Final = 8.0
@@ -81,16 +82,6 @@ def panels(
     for axes in rows[-1]:
         axes.set_xlabel(x_label, fontsize=9, color=INK)
     return figure, rows
-
-
-def plain(axes: Axes) -> None:
-    """Give axes the common look: a light grid, no box."""
-    axes.grid(color=LINE, linewidth=0.7)
-    axes.set_axisbelow(True)
-    axes.tick_params(labelsize=8.5, colors=FAINT, length=0)
-    for side in ("top", "left", "right"):
-        axes.spines[side].set_visible(False)
-    axes.spines["bottom"].set_color(LINE)
 
 
 def legend(axes: Axes, columns: int = 4) -> None:
