@@ -11,20 +11,20 @@ from ..errors import InputError
 from .minimum_jerk import Array
 from .minimum_jerk_process import MinimumJerkProcess
 
-REST_SPREAD: Final = (0.001, 0.01, 0.1)
-"""Standard deviations of velocity [m/s], acceleration [m/s2] and jerk [m/s3] of a hand at rest."""
+REST_SPREAD: Final = (0.001, 0.01)
+"""Standard deviations of velocity [m/s] and acceleration [m/s2] of a hand at rest."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class MinimumJerkFilterParameters:
     """Parameters of :class:`MinimumJerkFilter`."""
 
-    measurement_noise: float = 0.0008
+    measurement_noise: float = 0.0012
     """Standard deviation of a measured height around the model [m]: that of the motion capture,
     0.23 mm, and what a person does otherwise."""
     duration: float = 2.0
     """Mean duration of a movement [s]."""
-    duration_spread: float = 0.25
+    duration_spread: float = 0.2
     """Standard deviation of the duration [s]."""
     way: float = 0.1
     """Standard deviation of the way that a new movement goes, up or down [m]."""
@@ -58,7 +58,10 @@ class MinimumJerkFilter:
         self._process = self._parameters.process
 
     def reset(self, height: float) -> None:
-        """Begin at rest at a measured height [m].
+        """Begin at rest at a height [m], with a movement about to begin.
+
+        Its goal is normal around the height; that makes the standard deviation of the jerk
+        60 way / D^3.
 
         Raises
         ------
@@ -67,30 +70,13 @@ class MinimumJerkFilter:
         """
         _require_finite(height)
         given = self._parameters
+        left, _ = given.process.time_to_go(given.duration)
+        jerk = 60 * given.way / left**3
+        spread = np.array([given.measurement_noise, *REST_SPREAD, jerk, given.duration_spread])
         self._filter = ExtendedKalmanFilter(dim_x=5, dim_z=1)
-        self._filter.x = np.array([[height], [0.0], [0.0], [0.0], [self._process.shortest]])
-        spread = np.array([given.measurement_noise, *REST_SPREAD, given.duration_spread])
+        self._filter.x = np.array([[height], [0.0], [0.0], [0.0], [given.duration]])
         self._filter.P = np.diag(spread**2)
         self._filter.R = np.array([[given.measurement_noise**2]])
-
-    def begin(self) -> None:
-        """Take it that a new movement begins: goal and duration become those of the prior.
-
-        Height, velocity and acceleration stay what they are. The goal is normal around the place
-        where the hand would come to rest without any jerk now, and, linearised,
-
-            j = 60 way / D^3 - 36 v / D^2 - 9 a / D.
-        """
-        given = self._parameters
-        _, velocity, acceleration, _, _ = self.state.tolist()
-        left, slope = self._process.time_to_go(given.duration)
-        prior = np.diag([0.0, 0.0, 0.0, given.way**2, given.duration_spread**2])
-        prior[:3, :3] = self._filter.P[:3, :3]
-        change = np.eye(5)
-        change[3] = [0.0, -36 / left**2, -9 / left, 60 / left**3, 0.0]
-        change[3, 4] = -(36 * velocity / left**3 + 18 * acceleration / left**2) * slope
-        self._filter.x[3:, 0] = 0.0, given.duration
-        self._filter.P = change @ prior @ change.T
 
     def predict(self, period: float) -> None:
         """Advance the state by ``period`` [s].
@@ -106,11 +92,6 @@ class MinimumJerkFilter:
         self._filter.predict()
         # filterpy moves the state by F, which is right for the covariance only.
         self._filter.x = moved[:, None]
-
-    def surprise(self, height: float) -> float:
-        """Return how far a measured height [m] is from the expected one, in standard deviations."""
-        variance = self._filter.P[0, 0] + self._parameters.measurement_noise**2
-        return abs(height - float(self._filter.x[0, 0])) / math.sqrt(variance)
 
     def update(self, height: float) -> None:
         """Correct the state by a measured height [m].

@@ -9,21 +9,16 @@ import numpy as np
 
 from ..errors import InputError
 from .minimum_jerk import Array, MinimumJerkStroke, course
+from .minimum_jerk_search import Samples
 
 REFERENCE_PERIOD: Final = 0.1
 """Spacing of the samples [s] to which the spread of :class:`MinimumJerkFit` refers."""
 
+FEWEST: Final = 3
+"""Fewest samples of a fit."""
+
 SPAN: Final = 5.0
 """A sample older than this many memories has next to no weight (e^-5 = 0.7 %) and is left out."""
-
-STEPS: Final = 30
-"""Most steps of the least-squares search; ten are usual."""
-
-TOLERANCE: Final = 1e-4
-"""The search ends with a step that lowers the sum of squares by less than this share."""
-
-NEGLIGIBLE: Final = 1e-7
-"""Misfit [m, rms] that no search could lower: far below any sensor's."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,17 +62,14 @@ class MinimumJerkFitParameters:
 class MinimumJerkFit:
     """The minimum-jerk strokes that the samples so far may be the beginning of.
 
-    A stroke is linear in its start and end once onset and duration are given, so that these two
-    alone are searched and the others follow (variable projection; Golub and Pereyra, SIAM J.
-    Numer. Anal. 10, 1973). On a grid of durations and of shares gone by, the likelihood of a stroke
-    is
+    Over a grid of durations and of shares gone by, the likelihood of a stroke is
 
         p ~ exp(-1/2 sum_i w_i (z_i - z(t_i))^2 / spread^2),
         w_i = exp(-(t_n - t_i) / memory) (t_i - t_(i-1)) / 0.1 s
 
-    with start and end integrated out: by a flat prior on the start and on the grid, and a normal
-    one of mean 0 on the rise. Samples at a higher rate weigh less each, since what a person does
-    otherwise than the model lasts longer than a sample.
+    with start and end, in which the height is linear, integrated out: by a flat prior on the start
+    and on the grid, and a normal one of mean 0 on the rise. Samples at a higher rate weigh less
+    each, since what a person does otherwise than the model lasts longer than a sample.
 
     Early in a stroke many durations fit alike, and the best one is a gamble. So :attr:`stroke` is
     the best, but :meth:`height` is the mean over all, each as far as it is likely.
@@ -106,12 +98,13 @@ class MinimumJerkFit:
         parameters: MinimumJerkFitParameters | None = None,
     ) -> None:
         parameters = parameters or MinimumJerkFitParameters()
-        if len(times) < 3 or len(times) != len(heights):
+        if len(times) < FEWEST or len(times) != len(heights):
             raise ValueError(
-                f"a fit needs 3 samples or more, got {len(times)} times, {len(heights)} heights"
+                f"a fit needs {FEWEST} samples or more, got {len(times)} times and {len(heights)} "
+                "heights"
             )
         old = int(np.searchsorted(times, times[-1] - SPAN * parameters.memory))
-        first = min(old, len(times) - 3)
+        first = min(old, len(times) - FEWEST)
         spacing = np.diff(times, prepend=2 * times[0] - times[1])[first:]
         self._times, self._heights = times[first:], heights[first:]
         self._now = float(times[-1])
@@ -131,7 +124,8 @@ class MinimumJerkFit:
         done -= self._mean_done[:, None]
         precision = self._weight / spread**2
         moment = precision * (done @ (self._shares * (self._heights - self._mean_height)))
-        information = precision * (np.square(done) @ self._shares) + 1 / rise**2
+        self._pull = 1 / (precision * rise**2)
+        information = precision * (np.square(done) @ self._shares + self._pull)
         self._rises = moment / information
         evidence = 0.5 * (moment * self._rises - np.log(information))
         probability = np.exp(evidence - evidence.max())
@@ -145,52 +139,15 @@ class MinimumJerkFit:
 
     @cached_property
     def stroke(self) -> MinimumJerkStroke:
-        """The stroke that fits best: weighted least squares, without the prior on the rise.
+        """The likeliest stroke: weighted least squares, with the prior on the rise.
 
-        Found from the likeliest stroke of the grid by the method of Levenberg and Marquardt. Its
-        duration stays within the limits.
+        Searched for from the likeliest stroke of the grid; its duration stays within the limits.
         """
         best = int(np.argmax(self._probability))
         duration = float(self._durations[best])
-        stroke = self._complete(self._now - float(self._elapsed[best]) * duration, duration)
-        misfit = self._misfit(stroke)
-        damping = 1e-3
-        for _ in range(STEPS):
-            trial = self._step(stroke, damping)
-            missed = self._misfit(trial)
-            damping *= 0.1 if missed < misfit else 10.0
-            if missed < misfit:
-                settled = missed > (1 - TOLERANCE) * misfit
-                stroke, misfit = trial, missed
-                if settled or misfit < NEGLIGIBLE**2:
-                    break
-        return stroke
-
-    def _step(self, stroke: MinimumJerkStroke, damping: float) -> MinimumJerkStroke:
-        """Return the stroke after one damped Gauss-Newton step in onset and log duration."""
-        gradient = stroke.gradient(self._times)
-        gradient[3] *= stroke.duration
-        normal = (gradient * self._shares) @ gradient.T
-        normal[np.diag_indices(4)] *= 1 + damping
-        normal[np.diag_indices(4)] += 1e-15
-        misses = self._heights - stroke.height(self._times)
-        _, _, later, longer = np.linalg.solve(normal, gradient @ (self._shares * misses)).tolist()
-        duration = stroke.duration * math.exp(min(max(longer, -1.0), 1.0))
-        low, high = self._limits
-        return self._complete(stroke.onset + later, min(max(duration, low), high))
-
-    def _complete(self, onset: float, duration: float) -> MinimumJerkStroke:
-        """Return the stroke of that onset and duration whose start and end fit best."""
-        done = course((self._times - onset) / duration)
-        mean_done = float(self._shares @ done)
-        weighted = self._shares * (done - mean_done)
-        rise = float(weighted @ self._heights) / (float(weighted @ done) + 1e-15)
-        start = self._mean_height - rise * mean_done
-        return MinimumJerkStroke(start=start, end=start + rise, onset=onset, duration=duration)
-
-    def _misfit(self, stroke: MinimumJerkStroke) -> float:
-        """Return the weighted mean squared miss [m2]."""
-        return float(self._shares @ np.square(self._heights - stroke.height(self._times)))
+        onset = self._now - float(self._elapsed[best]) * duration
+        samples = Samples(self._times, self._heights, self._shares, self._pull)
+        return samples.search(onset, duration, self._limits)
 
 
 @lru_cache(maxsize=4)

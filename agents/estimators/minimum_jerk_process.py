@@ -21,7 +21,8 @@ def transition(period: float, time_to_go: float) -> Array:
     (Flash and Hogan 1985):
 
         z(t) = s + v t + a t^2 / 2 + j t^3 / 6 + c4 t^4 + c5 t^5,  z'(D) = z''(D) = 0
-        c4 = -v / D^3 - 3 a / (4 D^2) - j / (4 D),  c5 = 3 v / (5 D^4) + 2 a / (5 D^3) + j / (10 D^2)
+        c4 = -v / D^3 - 3 a / (4 D^2) - j / (4 D)
+        c5 = 3 v / (5 D^4) + 2 a / (5 D^3) + j / (10 D^2)
 
     It holds for periods up to D.
     """
@@ -49,15 +50,15 @@ class MinimumJerkProcess:
 
         goal = s + 3/5 v D + 3/20 a D^2 + 1/60 j D^3
 
-    Noise enters the acceleration, by a jerk that is constant in a step, and the clock.
+    Noise enters the jerk, by a snap (its rate) that is constant in a step, and the clock.
     """
 
-    jerk_noise: float = 0.2
-    """Intensity of the jerk that the model does not know [m/s2/s^0.5]: the standard deviation of
-    the acceleration that it adds up to in a second."""
+    jerk_noise: float = 1.0
+    """Standard deviation by which the jerk leaves the model in a second [m/s3/s^0.5]: people change
+    their minds."""
     clock_noise: float = 0.1
     """Standard deviation by which a person's own clock goes astray in a second [s/s^0.5]."""
-    shortest: float = 0.5
+    shortest: float = 0.8
     """Least time to go [s]: who is nearly there still corrects the rest of the way."""
     softness: float = 0.2
     """Width of the bend with which the time to go ends at the least [s]."""
@@ -102,10 +103,10 @@ class MinimumJerkProcess:
     def noise(self, period: float) -> Array:
         """Return the covariance Q of what a step of ``period`` [s] adds, shape (5, 5).
 
-        The variance of the jerk is intensity^2 / period, so that what it does in a second does not
+        The variance of the snap is jerk_noise^2 / period, so that what it does in a second does not
         depend on the period.
         """
-        gain = np.array([period**3 / 6, period**2 / 2, period, 0.0, 0.0])
+        gain = np.array([period**4 / 24, period**3 / 6, period**2 / 2, period, 0.0])
         covariance = self.jerk_noise**2 / period * np.outer(gain, gain)
         covariance[4, 4] = self.clock_noise**2 * period
         return covariance

@@ -71,7 +71,9 @@ class StrokeWindow:
         if not math.isfinite(height):
             raise ValueError(f"a measured height must be finite, got {height}")
         if self._times and not time > self._times[-1]:
-            raise ValueError(f"samples must be in order of time, got {time} after {self._times[-1]}")
+            raise ValueError(
+                f"samples must be in order of time, got {time} after {self._times[-1]}"
+            )
         self._times.append(time)
         self._heights.append(height)
         direction, before = self._directions()
@@ -95,8 +97,11 @@ class StrokeWindow:
         if first == last:
             return 0
         rise = self._heights[last] - self._heights[first]
-        slow = abs(rise) < self._parameters.rest_speed * (self._times[last] - self._times[first])
-        return 0 if slow else (1 if rise > 0 else -1)
+        # While there are samples of less than a baseline, their noise is no speed.
+        span = max(self._times[last] - self._times[first], self._parameters.baseline)
+        if abs(rise) < self._parameters.rest_speed * span:
+            return 0
+        return 1 if rise > 0 else -1
 
     def _forget(self, until: float) -> None:
         """Drop the samples before a time [s]."""

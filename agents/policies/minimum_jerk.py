@@ -1,18 +1,21 @@
-"""A leader by the minimum-jerk model of the whole stroke."""
+"""A leader by the minimum-jerk model of the whole stroke.
+
+After Y. Maeda, T. Hara, T. Arai, "Human-robot cooperative manipulation with motion estimation",
+IROS 2001. That paper was not at hand: this file follows the account of Thobbi, Gu and Sheng (2011,
+section I). By it the parameters of the minimum-jerk model are estimated from the human's motion,
+and the robot acts on the velocity profile that they predict. How they are estimated, and what is
+taken for a stroke, is ours.
+"""
 
 import math
-from collections import deque
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from ..agent import Action, Observation, RobotObservation
-from ..estimators.minimum_jerk_fit import (
-    REFERENCE_PERIOD,
-    MinimumJerkFit,
-    MinimumJerkFitParameters,
-)
+from ..errors import InputError
+from ..estimators.forecast_spread import ForecastSpread, ForecastSpreadParameters
+from ..estimators.minimum_jerk_fit import FEWEST, MinimumJerkFit, MinimumJerkFitParameters
 from ..estimators.stroke_window import StrokeWindow, StrokeWindowParameters
 from .predictor import DEFAULT_PERIOD
 
@@ -25,61 +28,92 @@ class MinimumJerkParameters:
     """Assumed age of the seen heights [s]."""
     lag: float = 0.02
     """How far the hand is behind its command [s]: one cycle of the NAO's motion thread."""
-    spread: float = 0.0007
-    """Least standard deviation of a sample around the model [m]."""
-    missed: float = 0.5
-    """Share of the rms miss of the own forecasts by which the spread exceeds the least one."""
-    forgetting: float = 0.45
-    """Time in which a miss is forgotten to 1/e [s]."""
     fit: MinimumJerkFitParameters = field(default_factory=MinimumJerkFitParameters)
     """The fit of a stroke."""
+    spread: ForecastSpreadParameters = field(default_factory=ForecastSpreadParameters)
+    """How far from the model the samples are thought to be."""
     strokes: StrokeWindowParameters = field(default_factory=StrokeWindowParameters)
     """Where a stroke begins."""
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
+        """Check the ranges.
+
+        Raises
+        ------
+        InputError
+            If latency or lag is not a number from 0 on.
+        """
+        for name in ("latency", "lag"):
+            if not 0 <= getattr(self, name) < math.inf:
+                raise InputError(f"{name} must be a number from 0 on, got {getattr(self, name)}")
 
 
 class MinimumJerk:
+    """Leads by the minimum-jerk stroke that the human's motion so far fits (Maeda et al. 2001).
+
+    A stroke is
+
+        z(t) = start + (end - start) s(tau),  tau = (t - onset) / duration
+        s(tau) = 10 tau^3 - 15 tau^4 + 6 tau^5,
+
+    and its four parameters are estimated at every sample from the samples since the last rest or
+    turning point (:class:`.MinimumJerkFit`). The command becomes the height to which the predicted
+    velocities bring the human by the end of the coming period,
+
+        u = E z(t_k + latency + period + lag),
+
+    the mean over all strokes, each as far as it is likely. While the human rests, u is the mean
+    height of the rest.
+    """
+
     def __init__(self, *, parameters: MinimumJerkParameters | None = None) -> None:
         self._parameters = parameters or MinimumJerkParameters()
 
     def reset(self, seed: int) -> None:
-        """Begin an episode."""
+        """Begin an episode: nothing was seen yet."""
         self._window = StrokeWindow(self._parameters.strokes)
-        self._past: deque[tuple[float, Callable[[float], float]]] = deque()
-        self._squares = self._count = 0.0
-        self._time = None
+        self._spread = ForecastSpread(self._parameters.spread)
+        self._time: float | None = None
 
     def act(self, observation: Observation) -> Action:
-        p = self._parameters
-        time = float(observation[RobotObservation.TIME])
+        """Return the change [m] that brings the command to the predicted height."""
         height = float(observation[RobotObservation.HUMAN_END])
+        time = float(observation[RobotObservation.TIME])
+        if self._time is not None and time <= self._time:
+            # The clock was set back: what was seen is of another time.
+            self.reset(0)
         period = DEFAULT_PERIOD if self._time is None else time - self._time
         self._time = time
-        # misses
-        while len(self._past) > 1 and self._past[1][0] <= time - REFERENCE_PERIOD + 1e-6:
-            self._past.popleft()
-        if self._past:
-            keep = math.exp(-period / p.forgetting)
-            if self._past[0][0] <= time - REFERENCE_PERIOD + 1e-6:
-                self._squares = keep * self._squares + period * (height - self._past[0][1](time)) ** 2
-                self._count = keep * self._count + period
         self._window.add(time, height)
-        ms = self._squares / self._count if self._count else 0.0
-        spread = math.sqrt(p.spread**2 + p.missed**2 * ms)
-        horizon = p.latency + period + p.lag
-        if self._window.resting or len(self._window.times) < 3:
-            rest = float(self._window.heights.mean())
-            self._past.append((time, lambda _: rest))
-            prediction, end, duration, role = rest, rest, 0.0, 0.0
-        else:
-            fit = MinimumJerkFit(self._window.times, self._window.heights, spread, p.fit)
-            self._past.append((time, fit.height))
-            prediction = fit.height(time + horizon)
-            end, duration, role = fit.stroke.end, fit.stroke.duration, 1.0
-        self._internals = {"prediction": prediction, "predicted_end": end, "predicted_duration": duration, "spread": spread, "role": role}
+        self._spread.compare(time, height, period)
+        prediction = self._predict(time, period)
         return np.array([prediction - observation[RobotObservation.HAND_COMMAND]])
 
     def internals(self) -> dict[str, float]:
+        """Return what the last action was based on.
+
+        The predicted height and the end of the likeliest stroke [m], its duration [s], 0 at rest,
+        and the spread of the samples [m]. The role is 1 for a leader, 0 at rest.
+        """
         return self._internals
+
+    def _predict(self, time: float, period: float) -> float:
+        """Return the height [m] for which the command is to be."""
+        times, heights, spread = self._window.times, self._window.heights, self._spread.spread
+        if self._window.resting or len(times) < FEWEST:
+            prediction = end = float(heights.mean())
+            duration = role = 0.0
+            self._spread.remember(time, lambda _: prediction)
+        else:
+            fit = MinimumJerkFit(times, heights, spread, self._parameters.fit)
+            prediction = fit.height(time + self._parameters.latency + period + self._parameters.lag)
+            end, duration, role = fit.stroke.end, fit.stroke.duration, 1.0
+            self._spread.remember(time, fit.height)
+        self._internals = {
+            "prediction": prediction,
+            "predicted_end": end,
+            "predicted_duration": duration,
+            "spread": spread,
+            "role": role,
+        }
+        return prediction
