@@ -35,6 +35,12 @@ def entries(group: str) -> dict[str, EntryPoint]:
     return found
 
 
+def own_entries(group: str) -> dict[str, EntryPoint]:
+    """Return the entry points of a group whose classes are in colift itself."""
+    known = entries(group)
+    return {name: known[name] for name in known if known[name].module.startswith(f"{__package__}.")}
+
+
 def lookup(group: str, name: str) -> Any:
     """Return the class that is registered under ``name``.
 

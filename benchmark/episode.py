@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import asdict, dataclass
+from typing import Final
 
 from ..agents.actions import ActionError, checked_action
 from ..agents.agent import Agent, Explaining, Printing
@@ -11,6 +12,9 @@ from .recorder import Recorder
 from .scores import Scores, score
 from .seeding import derive_seed
 from .trace import Trace
+
+START: Final = "start: "
+"""How the reason of a failure begins if the policy could not be made or reset."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -122,7 +126,7 @@ def _start(partner: Agent, key: bytes) -> str | None:
     except EvaluatorFault:
         raise
     except (Exception, SystemExit) as error:
-        return f"start: {told(error)}"
+        return f"{START}{told(error)}"
     return None
 
 

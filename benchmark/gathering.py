@@ -73,9 +73,7 @@ def _alone(tasks: Sequence[Task], faults: Faults) -> Iterator[tuple[int, Episode
 def _pooled(
     tasks: Sequence[Task], executor: Executor, faults: Faults
 ) -> Iterator[tuple[int, Episode]]:
-    waiting: dict[Future[list[tuple[int, Episode]]], tuple[Task, int]] = {
-        executor.submit(task): (task, 1) for task in tasks
-    }
+    waiting = {_submitted(task, executor): (task, 1) for task in tasks}
     try:
         while waiting:
             for future in wait(waiting, return_when=FIRST_COMPLETED).done:
@@ -86,9 +84,19 @@ def _pooled(
                     raise
                 except Exception as error:
                     faults.add(attempt, error)
-                    waiting[executor.submit(task)] = (task, attempt + 1)
+                    waiting[_submitted(task, executor)] = (task, attempt + 1)
                 else:
                     yield from played
     finally:
         for future in waiting:
             future.cancel()
+
+
+def _submitted(task: Task, executor: Executor) -> Future[list[tuple[int, Episode]]]:
+    """Return the future of a task; one that has failed if the executor does not take it."""
+    try:
+        return executor.submit(task)
+    except Exception as error:
+        refused: Future[list[tuple[int, Episode]]] = Future()
+        refused.set_exception(error)
+        return refused

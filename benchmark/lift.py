@@ -59,8 +59,8 @@ class Lift:
         subject = scenario.subject
         self._human_delays = _delays(subject)
         self._partner_delays = _delays(PARTNER_SUBJECT)
-        second = _body(PARTNER_SUBJECT) if scenario.partner == "human" else None
-        self.world = World(scenario.partner, _body(subject), second, physics=physics)
+        second = body_parameters(PARTNER_SUBJECT) if scenario.partner == "human" else None
+        self.world = World(scenario.partner, body_parameters(subject), second, physics=physics)
 
     def reset(self, seed: int) -> None:
         """Begin the episode ``seed``: draw the human's plan and the sensors' noise."""
@@ -230,7 +230,7 @@ def _delays(person: Subject) -> tuple[int, int]:
     return round(person.visual_delay / FRAME), round(person.haptic_delay / FRAME)
 
 
-def _body(person: Subject) -> BodyParameters:
+def body_parameters(person: Subject) -> BodyParameters:
     """Return what the world needs to know of a person."""
     return BodyParameters(
         stiffness=person.stiffness,

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from importlib.resources import files
-from typing import Any, Final
+from typing import Any, Final, Self
 
 import numpy as np
 
@@ -64,6 +64,25 @@ class Reference:
             rmse_mm=tuple(episode.scores.rmse_mm for episode in run.episodes),
             sparc=None if np.isnan(smooth).all() else float(np.nanmean(smooth)),
             human_force_n=float(np.mean([e.scores.human_force_n for e in run.episodes])),
+        )
+
+    def plain(self) -> dict[str, Any]:
+        """Return the reference as JSON has it."""
+        return {
+            "cells": [list(key) for key in self.cells],
+            "rmse_mm": list(self.rmse_mm),
+            "sparc": self.sparc,
+            "human_force_n": self.human_force_n,
+        }
+
+    @classmethod
+    def read(cls, content: Mapping[str, Any]) -> Self:
+        """Return the reference that :meth:`plain` has written."""
+        return cls(
+            cells=tuple((behaviour, subject) for behaviour, subject in content["cells"]),
+            rmse_mm=tuple(content["rmse_mm"]),
+            sparc=content["sparc"],
+            human_force_n=content["human_force_n"],
         )
 
     @property
@@ -122,7 +141,7 @@ def shipped_references(suite: Suite) -> dict[str, Reference] | None:
     content = json.loads(path.read_text()).get(suite.digest)
     if content is None:
         return None
-    return {name: _from_plain(value) for name, value in content["references"].items()}
+    return {name: Reference.read(value) for name, value in content["references"].items()}
 
 
 def references_json(played: Sequence[tuple[Suite, Mapping[str, Reference]]]) -> str:
@@ -130,26 +149,8 @@ def references_json(played: Sequence[tuple[Suite, Mapping[str, Reference]]]) -> 
     content = {
         suite.digest: {
             "suite": suite.name,
-            "references": {name: _plain(value) for name, value in references.items()},
+            "references": {name: value.plain() for name, value in references.items()},
         }
         for suite, references in played
     }
     return json.dumps(content, indent=1) + "\n"
-
-
-def _plain(reference: Reference) -> dict[str, Any]:
-    return {
-        "cells": [list(key) for key in reference.cells],
-        "rmse_mm": list(reference.rmse_mm),
-        "sparc": reference.sparc,
-        "human_force_n": reference.human_force_n,
-    }
-
-
-def _from_plain(content: dict[str, Any]) -> Reference:
-    return Reference(
-        cells=tuple((behaviour, subject) for behaviour, subject in content["cells"]),
-        rmse_mm=tuple(content["rmse_mm"]),
-        sparc=content["sparc"],
-        human_force_n=content["human_force_n"],
-    )

@@ -37,8 +37,8 @@ class Scores:
 
     @property
     def reached(self) -> bool:
-        """Whether the human's end reached the intended height."""
-        return self.short_of_goal_mm <= 1000 * REACHED
+        """Whether the human's end reached the intended height, as far as it is known."""
+        return not self.short_of_goal_mm > 1000 * REACHED
 
 
 def score(lift: Lift, trace: Trace, *, failed: bool) -> Scores:

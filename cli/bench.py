@@ -12,9 +12,9 @@ from ..agents.errors import InputError
 from ..agents.policies.loading import PolicySpec
 from ..agents.registry import POLICIES, entries
 from ..benchmark.convergence import REFERENCE, study
+from ..benchmark.executors import process_pool
 from ..benchmark.policy_speed import LIMIT_MS, StepTime, default_scenarios, step_time
 from ..benchmark.speed import endurance, single_process, two_workers_ratio
-from .pool import process_pool
 from .progress import progress_bar
 
 MEANING: Final = {

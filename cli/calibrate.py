@@ -9,8 +9,8 @@ from rich.console import Console
 from rich.table import Table
 
 from ..benchmark.calibration import ROUNDS, TABLE_1, Fit, calibration_json, episodes, fit_rounds
+from ..benchmark.executors import default_jobs, local_pool
 from .output import check_output
-from .pool import default_jobs, local_pool
 from .progress import progress_bar
 
 

@@ -18,11 +18,11 @@ from ..benchmark.comparison.comparison import compare as compared
 from ..benchmark.comparison.content import comparison_json
 from ..benchmark.comparison.contest import amount, play_contest
 from ..benchmark.comparison.words import failures, verdict
-from ..benchmark.suite import Suite, make_suite, recorded_suite
+from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.suite import Suite
 from .compare_tables import behaviours_table, differences_table, ranks_table
-from .pool import default_jobs, local_pool
 from .progress import progress_bar
-from .seeds import seed_range
+from .suites import chosen_suite
 
 
 def compare(
@@ -56,7 +56,7 @@ def compare(
 ) -> None:
     """Compare policies on the same lifts: ranks, paired differences, and who wins where."""
     specs = _specs(policies or [], everything)
-    episodes = _suite(suite, seeds, recordings)
+    episodes = chosen_suite(suite, seeds, recordings)
     for spec in specs.values():
         spec.check()
     if out is not None:
@@ -98,16 +98,6 @@ def _specs(named: Sequence[str], everything: bool) -> dict[str, PolicySpec]:
     names = Counter(spec.name for spec in specs)
     # Classes of one name in different files are told apart by their files.
     return {spec.name if names[spec.name] == 1 else spec.text: spec for spec in specs}
-
-
-def _suite(name: str, seeds: str | None, recordings: Path | None) -> Suite:
-    """Return the episodes that the options ask for."""
-    if recordings is not None:
-        if seeds is not None:
-            raise InputError("--seeds and --recordings exclude each other: a recording has no seed")
-        return recorded_suite(recordings)
-    suite = make_suite(name)
-    return suite if seeds is None else suite.with_seeds(*seed_range(seeds))
 
 
 def _compare(specs: Mapping[str, PolicySpec], suite: Suite, jobs: int) -> Comparison:

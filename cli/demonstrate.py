@@ -14,8 +14,8 @@ from ..benchmark.demonstrations import (
     demonstrations,
     write_demonstrations,
 )
+from ..benchmark.executors import default_jobs, local_pool
 from .output import check_output
-from .pool import default_jobs, local_pool
 from .progress import progress_bar
 
 

@@ -15,6 +15,7 @@ from ..agents.errors import InputError
 from ..agents.policies.q_learning import ACTIONS, Q_PARAMETERS
 from ..agents.policies.task import Task, task_json
 from ..benchmark.demonstrations import FIRST_SEED, LIFTS, read_demonstrations
+from ..benchmark.executors import default_jobs, local_pool
 from ..benchmark.learning import LearningTrial, learning_trials, table_json
 from ..benchmark.task_learning import (
     COMPONENTS,
@@ -24,8 +25,8 @@ from ..benchmark.task_learning import (
     require_learner,
 )
 from .demonstrate import record
+from .learn_anticipate import anticipate
 from .output import check_output
-from .pool import default_jobs, local_pool
 from .progress import progress_bar
 
 
@@ -116,6 +117,9 @@ def task_model(
     if out is not None:
         out.write_text(task_json(task))
         console.print(f"written: {out}", highlight=False, soft_wrap=True)
+
+
+app.command()(anticipate)
 
 
 def _task(task: Task) -> Table:

@@ -5,7 +5,22 @@ import sys
 import typer
 
 from ..agents.errors import InputError
-from . import bench, calibrate, compare, demonstrate, learn, listing, paper, references, render, run
+from . import (
+    bench,
+    calibrate,
+    check,
+    compare,
+    demonstrate,
+    learn,
+    listing,
+    new,
+    paper,
+    references,
+    render,
+    run,
+    submit,
+    verify,
+)
 
 app = typer.Typer(
     name="colift",
@@ -17,6 +32,10 @@ app = typer.Typer(
 )
 app.command()(run.run)
 app.command("list")(listing.list_all)
+app.command()(new.new)
+app.command()(check.check)
+app.command()(submit.submit)
+app.command()(verify.verify)
 app.command()(compare.compare)
 app.command()(paper.paper)
 app.command()(render.render)

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from .pool import default_jobs, local_pool
+from ..benchmark.executors import default_jobs, local_pool
 from .progress import progress_bar
 from .seeds import seed_range
 

@@ -14,8 +14,17 @@ from rich.progress import (
 
 
 @contextmanager
-def progress_bar(description: str, total: int) -> Iterator[Callable[[int], None]]:
+def progress_bar(description: str, total: int | None) -> Iterator[Callable[[int], None]]:
     """Show a bar while the body runs; the yielded function adds to what is done."""
+    with stage_bar(description, total) as (_, progress):
+        yield progress
+
+
+@contextmanager
+def stage_bar(
+    description: str, total: int | None
+) -> Iterator[tuple[Callable[[str], None], Callable[[int], None]]]:
+    """Show a bar of a job in stages: the functions tell which it is, and add to what is done."""
     console = Console(stderr=True)
     columns = (
         TextColumn("{task.description}"),
@@ -27,4 +36,7 @@ def progress_bar(description: str, total: int) -> Iterator[Callable[[int], None]
         *columns, console=console, transient=True, disable=not console.is_terminal
     ) as bar:
         task = bar.add_task(description, total=total)
-        yield lambda done: bar.advance(task, done)
+        yield (
+            lambda stage: bar.update(task, description=stage),
+            lambda done: bar.advance(task, done),
+        )

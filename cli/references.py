@@ -8,11 +8,11 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from ..benchmark.executors import default_jobs, local_pool
 from ..benchmark.references import Reference, play_references, references_json
 from ..benchmark.statistics import stratified_bootstrap
 from ..benchmark.suite import SUITES, Suite, make_suite
 from .output import check_output
-from .pool import default_jobs, local_pool
 from .progress import progress_bar
 
 

@@ -6,6 +6,8 @@ from typing import Any, Final
 from rich import box
 from rich.table import Table
 
+from ..benchmark.headline import error, versus_human
+
 NAMES: Final = {
     "human_human": "human-human team",
     "hold": "hold (never moves)",
@@ -46,11 +48,10 @@ def results_table(content: dict[str, Any]) -> Table:
 def standing(content: dict[str, Any]) -> str:
     """Return the lines that say where the policy stands."""
     summary = content["summary"]
-    rmse, versus, step = summary["rmse_mm"], summary["vs_human"], summary["step_ms"]
-    lines = [f"RMSE {rmse['mean']:.2f} mm{_interval(rmse['ci95'], '.1f')}"]
-    if versus is not None:
-        ratio = f"{versus['mean']:.2f}{_interval(versus['ci95'], '.2f')}"
-        lines.append(f"vs_human {ratio}: 1 is as good as a human partner, less is better")
+    step = summary["step_ms"]
+    lines = [error(summary)]
+    if summary["vs_human"] is not None:
+        lines.append(f"{versus_human(summary)}: 1 is as good as a human partner, less is better")
     for name, reference in content["references"].items():
         lines.append(f"  {NAMES.get(name, name)}: {reference['rmse_mm']['mean']:.2f} mm")
     if summary["goal_missed"]:
@@ -72,12 +73,6 @@ def _row(groups: list[dict[str, Any]]) -> list[str]:
         team = sum(w * mean for w, mean in zip(weights, known, strict=True)) / sum(weights)
     errors = [_cell(_pooled(groups, "rmse_mm"), ".1f"), _cell(team, ".1f")]
     return errors + [_cell(_pooled(groups, name), digits) for name, _, digits in COLUMNS]
-
-
-def _interval(ci95: list[float], digits: str) -> str:
-    """Return the interval in words, or nothing if it has no width."""
-    low, high = ci95
-    return f" (95 % interval {low:{digits}} to {high:{digits}})" if high > low else ""
 
 
 def _pooled(groups: Iterable[dict[str, Any]], name: str) -> float | None:

@@ -14,6 +14,9 @@ COLUMNS: Final = ("trial", "t_s", "z_m")
 LEAST_MOVEMENT: Final = 0.01
 """A recording whose heights span less than this [m] is no lift."""
 
+LARGEST_MOVEMENT: Final = 1e4
+"""A recording whose heights span more than this [m] is no lift, in whatever unit it is."""
+
 LONGEST: Final = 120.0
 """A recording longer than this [s] is taken for a mistake in the unit of time."""
 
@@ -50,6 +53,11 @@ class Recording:
                 "(is t_s in seconds?)"
             )
         span = max(self.heights) - min(self.heights)
+        if span > LARGEST_MOVEMENT:
+            raise InputError(
+                f"trial {self.name!r}: its heights span {span:g} m, must be at most "
+                f"{LARGEST_MOVEMENT:g} m (is z_m in metres?)"
+            )
         if span < LEAST_MOVEMENT:
             raise InputError(
                 f"trial {self.name!r} does not move: its heights span {span:.4f} m, must be at "

@@ -28,7 +28,7 @@ class PolicySpec(InProcess):
     @property
     def name(self) -> str:
         """The name for tables: a registered name or the class, and the parameters as given."""
-        place, comma, parameters = self._parts
+        place, comma, parameters = self.parts
         return place.rpartition(":")[2] + comma + parameters
 
     def load(self) -> type[Agent]:
@@ -39,7 +39,7 @@ class PolicySpec(InProcess):
         InputError
             If there is no such policy, or the class is not one.
         """
-        place, _, _ = self._parts
+        place, _, _ = self.parts
         source, colon, name = place.rpartition(":")
         if not colon:
             if Path(place).suffix == ".py" or "/" in place:
@@ -89,10 +89,10 @@ class PolicySpec(InProcess):
             return cast(Agent, make_with(policy, values))
         except Exception as error:
             told = error if isinstance(error, ValueError) else f"{type(error).__name__}: {error}"
-            raise InputError(f"policy {self._parts[0]}: {told}") from error
+            raise InputError(f"policy {self.parts[0]}: {told}") from error
 
     @property
-    def _parts(self) -> tuple[str, str, str]:
+    def parts(self) -> tuple[str, str, str]:
         """The place of the class, a comma, and the parameters; the last two may be empty.
 
         Names and classes have no comma, but the path of a file may.
@@ -105,7 +105,7 @@ class PolicySpec(InProcess):
 
     def _values(self, policy: type) -> dict[str, Any]:
         """Return the values of the parameters that are given, by name."""
-        place, comma, parameters = self._parts
+        place, comma, parameters = self.parts
         try:
             return read_values(policy, parameters) if comma else {}
         except InputError as error:

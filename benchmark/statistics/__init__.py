@@ -21,6 +21,7 @@ NeurIPS 34 (interquartile mean, bootstrap stratified over tasks, probability of 
 from .averages import MeanWithMissing, interquartile_mean, mean_with_missing
 from .bootstrap import (
     PairedDifference,
+    difference_of_means_ci,
     paired_difference,
     ratio_of_means_ci,
     stratified_bootstrap,
@@ -36,6 +37,7 @@ __all__ = [
     "Interval",
     "MeanWithMissing",
     "PairedDifference",
+    "difference_of_means_ci",
     "holm_correction",
     "interquartile_mean",
     "mean_with_missing",

@@ -123,6 +123,47 @@ def ratio_of_means_ci(
     return _expanded_percentile(ratios, cells, confidence)
 
 
+def difference_of_means_ci(
+    a: ArrayLike,
+    strata_a: Iterable[Hashable],
+    b: ArrayLike,
+    strata_b: Iterable[Hashable],
+    *,
+    resamples: int = 2000,
+    confidence: float = 0.95,
+    seed: int = 0,
+) -> Interval:
+    """Return a confidence interval of mean(a) - mean(b), of different episodes.
+
+    For the same episodes, :func:`paired_difference` says more.
+
+    Parameters
+    ----------
+    a, b
+        Values of two sets of episodes, of shapes (n,) and (m,).
+    strata_a, strata_b
+        The cell of each episode; a cell of one set is none of the other's.
+    resamples, confidence, seed
+        As for :func:`stratified_bootstrap`.
+
+    Returns
+    -------
+    tuple of float
+        Lower and upper end, in the unit of the values.
+
+    Raises
+    ------
+    InputError
+        As :func:`stratified_bootstrap`.
+    """
+    x, y = sample("a", a), sample("b", b)
+    cells_a, cells_b = cells_of(strata_a, x.size), cells_of(strata_b, y.size)
+    cells = [*cells_a, *(cell + x.size for cell in cells_b)]
+    drawn = np.concatenate((x, y))[resample(cells, resamples, seed)]
+    differences = drawn[:, : x.size].mean(axis=-1) - drawn[:, x.size :].mean(axis=-1)
+    return _expanded_percentile(differences, cells, confidence)
+
+
 def paired_difference(
     a: ArrayLike,
     b: ArrayLike,

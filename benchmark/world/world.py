@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Final, Literal
+from typing import ClassVar, Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,6 +75,9 @@ class World:
         If the second human is missing, or given without need.
     """
 
+    arms: ClassVar[type[NaoArms]] = NaoArms
+    """How the NAO's arms are moved."""
+
     def __init__(
         self,
         partner: Partner,
@@ -105,7 +108,7 @@ class World:
             )
         self._far: NaoArms | SecondHuman
         if second_human is None:
-            self._far = NaoArms(self.client, self._tree, physics, servo)
+            self._far = self.arms(self.client, self._tree, physics, servo)
         else:
             self._far = SecondHuman(second_human, physics.step)
         inertia = TABLE_INERTIA + far_mass * TABLE_LENGTH**2

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.benchmark.statistics import (
+    difference_of_means_ci,
     interquartile_mean,
     paired_difference,
     ratio_of_means_ci,
@@ -134,3 +135,43 @@ class TestPairedDifference:
     def test_of_equal_policies_is_zero(self) -> None:
         difference = paired_difference(self.a, self.a, self.strata)
         assert (difference.mean, difference.ci95) == (0.0, (0.0, 0.0))
+
+
+class TestDifferenceOfMeans:
+    """Two sets of episodes that have nothing in common: the variances add up."""
+
+    rng = np.random.default_rng(4)
+    a, b = 12.0 + rng.normal(0.0, 2.0, 60), 10.0 + rng.normal(0.0, 1.0, 30)
+    strata_a, strata_b = labels(4, 15), labels(2, 15)
+
+    def interval(self, confidence: float = 0.95) -> tuple[float, float]:
+        return difference_of_means_ci(
+            self.a, self.strata_a, self.b, self.strata_b, resamples=20000, confidence=confidence
+        )
+
+    def test_agrees_with_the_normal_interval(self) -> None:
+        variances = [
+            x.reshape(-1, 15).var(axis=1, ddof=1).mean() / x.size for x in (self.a, self.b)
+        ]
+        low, high = self.interval()
+        assert (high - low) / 2 == pytest.approx(1.99 * math.sqrt(sum(variances)), rel=0.03)
+        assert (high + low) / 2 == pytest.approx(self.a.mean() - self.b.mean(), abs=0.03)
+
+    def test_cells_of_equal_names_are_not_one(self) -> None:
+        """Constant cells that shared a name would be mixed, and vary."""
+        interval = difference_of_means_ci([5.0, 5.0], ["x", "x"], [2.0, 2.0], ["x", "x"])
+        assert interval == (3.0, 3.0)
+
+    def test_covers_the_true_difference_in_95_percent(self) -> None:
+        rng = np.random.default_rng(5)
+        strata = labels(3, 6)
+        hits = 0
+        for seed in range(1000):
+            a, b = rng.normal(1.0, 1.0, 18), rng.normal(0.0, 2.0, 18)
+            low, high = difference_of_means_ci(a, strata, b, strata, resamples=400, seed=seed)
+            hits += low <= 1.0 <= high
+        assert 0.93 <= hits / 1000 <= 0.97
+
+    def test_refuses_a_missing_value(self) -> None:
+        with pytest.raises(InputError, match="b of episode 0"):
+            difference_of_means_ci([1.0], ["x"], [math.nan], ["x"])

@@ -1,6 +1,7 @@
 """The result bundle: complete, reproducible, all or nothing."""
 
 import csv
+import dataclasses
 import hashlib
 import json
 
@@ -8,8 +9,16 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.policies.loading import PolicySpec
-from colift.benchmark.bundle import FILES, check_target, results, write_bundle
+from colift.benchmark.bundle import (
+    FILES,
+    check_target,
+    fingerprint,
+    read_bundle,
+    results,
+    write_bundle,
+)
 from colift.benchmark.runner import run_suite
+from colift.benchmark.scores import SCORING
 from colift.benchmark.suite import make_suite
 
 
@@ -96,3 +105,78 @@ def test_a_policy_without_smoothness_has_none_in_the_bundle(tmp_path):
     write_bundle(tmp_path / "still", still, content)
     with (tmp_path / "still" / "episodes.csv").open(newline="") as file:
         assert {row["sparc"] for row in csv.DictReader(file)} == {""}
+
+
+def test_equal_runs_give_equal_bundles_up_to_the_step_times(run, bundle, tmp_path):
+    slower = dataclasses.replace(
+        run,
+        episodes=tuple(
+            dataclasses.replace(episode, step_times=(0.2,) * 5) for episode in run.episodes
+        ),
+    )
+    write_bundle(tmp_path / "slower", slower, results(slower, {}))
+    one, other = (
+        json.loads((folder / "results.json").read_text())
+        for folder in (bundle, tmp_path / "slower")
+    )
+    assert one["summary"].pop("real_time") is True
+    assert other["summary"].pop("real_time") is False
+    assert one["summary"].pop("step_ms")["p99"] < 100
+    assert other["summary"].pop("step_ms") == {"p50": pytest.approx(200), "p99": pytest.approx(200)}
+    assert one == other
+
+
+def test_circumstances_are_in_the_results(run):
+    content = results(dataclasses.replace(run, isolation="bubblewrap", faults=2), {})
+    assert content["isolation"] == "bubblewrap"
+    assert content["evaluator_faults"] == 2
+    assert content["scoring"] == SCORING
+
+
+def test_the_manifest_says_how_the_episodes_are_made_and_where_they_were(run, bundle):
+    manifest = json.loads((bundle / "manifest.json").read_text())
+    assert manifest["recipe"]["seeds"] == [0, 1, 2]
+    assert manifest["recipe"]["scenarios"][1] == "pause/S2"
+    assert manifest["platform"] == fingerprint()
+
+
+def test_both_agents_actions_and_the_states_are_there_as_they_were(run, bundle):
+    with np.load(bundle / "traces.npz", allow_pickle=False) as traces:
+        for name in ("action", "human_action", "state"):
+            parts = [getattr(episode.trace, name) for episode in run.episodes]
+            assert traces[name].tobytes() == np.concatenate(parts).tobytes()
+        assert traces["human_action"].shape[1] == 10
+
+
+def test_an_incomplete_run_gives_a_bundle_that_says_so(run, tmp_path):
+    part = dataclasses.replace(run, episodes=(run.episodes[1], run.episodes[7]))
+    write_bundle(tmp_path / "part", part, results(part, {}))
+    bundle = read_bundle(tmp_path / "part")
+    assert bundle.results["complete"] is False
+    assert bundle.places == (1, 7)
+
+
+def test_a_failed_write_leaves_the_older_bundle(run, bundle, monkeypatch):
+    def full(*arguments):
+        raise OSError("no space left on device")
+
+    before = {path.name: path.read_bytes() for path in bundle.iterdir()}
+    monkeypatch.setattr(type(bundle), "write_bytes", full)
+    with pytest.raises(OSError, match="no space"):
+        write_bundle(bundle, run, results(run, {}))
+    assert {path.name: path.read_bytes() for path in bundle.iterdir()} == before
+    assert [path.name for path in bundle.parent.iterdir()] == ["bundle"]
+
+
+def test_what_a_hostile_policy_says_is_kept_where_it_does_no_harm(hostile_run, hostile):
+    failed = sum(episode.failure is not None for episode in hostile_run.episodes)
+    assert failed > 0
+    text = (hostile / "episodes.csv").read_bytes().decode()
+    assert text.count("\n") == 1 + len(hostile_run.episodes)
+    assert all(c.isprintable() or c == "\n" for c in text)
+    assert r"no\r\n" in text
+    logs = json.loads((hostile / "logs.json").read_text())
+    assert len(logs) == failed
+    assert all(log.startswith("line one") for log in logs.values())
+    with np.load(hostile / "traces.npz", allow_pickle=False) as traces:
+        assert [name for name in traces if name.startswith("internals")] == ["internals/guess"]

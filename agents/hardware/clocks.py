@@ -1,0 +1,23 @@
+"""The loop's time in the laboratory: the monotonic clock."""
+
+import time
+
+from .operator import StopButton
+
+
+class MonotonicClock:
+    """The system's monotonic clock; waiting ends early when the stop button is pressed."""
+
+    def __init__(self, button: StopButton | None = None) -> None:
+        self._button = button or StopButton()
+
+    def now(self) -> float:
+        """Return the time [s]."""
+        return time.monotonic()
+
+    def wait_until(self, when: float) -> str | None:
+        """Wait until a time; return how the stop button was pressed, or None."""
+        while (left := when - time.monotonic()) > 0:
+            if self._button.wait(left):
+                break
+        return self._button.reason

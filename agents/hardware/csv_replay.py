@@ -1,0 +1,121 @@
+"""The ports of a recorded trial: the same frames, hands and times, through the same loop."""
+
+from collections.abc import Sequence
+
+from ..agent import Agent, Observation
+from .decisions import Decision, ask
+from .loop import LoopSettings, run_trial
+from .ports import ArmState, CaptureLostError, HandLimits, RobotLostError, Sample
+from .record import Record, Step
+from .recording import Recording
+from .safety import next_command
+from .stops import Hold, Stop
+
+
+class Replay:
+    """A recorded trial as motion capture, robot, clock, and end of a trial.
+
+    Parameters
+    ----------
+    recording
+        The trial.
+    """
+
+    def __init__(self, recording: Recording) -> None:
+        record = recording.record
+        self._limits = recording.limits
+        self._record = record
+        self._groups: list[list[Sample]] = [[]]
+        for event in record.events:
+            if isinstance(event, Step):
+                self._groups.append([])
+            else:
+                self._groups[-1].append(event)
+        self._steps = record.steps
+        self._next = 0
+        self._command = 0.0
+        self._begun = False
+
+    @property
+    def limits(self) -> HandLimits:
+        """What the robot held its commands to."""
+        return self._limits
+
+    @property
+    def step(self) -> Step:
+        """The recorded step that is being played."""
+        return self._steps[min(self._next, len(self._steps)) - 1]
+
+    def now(self) -> float:
+        """Return the time of the recorded step [s]."""
+        return self.step.time if self._next else self._record.begin
+
+    def wait_until(self, time: float) -> str | None:
+        """Go on to the next recorded step."""
+        self._next += 1
+        if self._next > len(self._steps) and self._record.stop is Stop.OPERATOR:
+            return self._record.reason
+        return None
+
+    def drain(self) -> list[Sample]:
+        """Return the frames that came before the recorded step."""
+        if self._next > len(self._steps) and self._record.stop is Stop.CAPTURE_LOST:
+            raise CaptureLostError(self._record.reason)
+        group = self._groups[min(self._next, len(self._groups) - 1)]
+        taken, group[:] = list(group), []
+        return taken
+
+    def state(self) -> ArmState:
+        """Return where the hands were."""
+        if self._next > len(self._steps):
+            raise RobotLostError(self._record.reason)
+        return ArmState(self.step.hand_height, self.step.set_point, self.step.stiffness)
+
+    def command(self, height: float, duration: float) -> float:
+        """Return what the robot would have been told."""
+        self._command = next_command(
+            height, self._command, self.step.set_point, duration, self._limits
+        )
+        return self._command
+
+    def stop(self) -> None:
+        """Do nothing: nothing moves."""
+
+    def close(self) -> None:
+        """Do nothing: nothing is open."""
+
+    def over(self, record: Record) -> bool:
+        """Return whether all steps have been played, and nothing stopped the trial."""
+        return self._next >= len(self._steps) and self._record.stop is None
+
+
+class RecordedDecider:
+    """Asks the policy as it was asked; one that was late then is late again."""
+
+    def __init__(self, policy: Agent, replay: Replay) -> None:
+        self._policy, self._replay = policy, replay
+
+    def decide(self, observation: Observation, budget: float) -> Decision:
+        """Return the policy's action, unless it was late."""
+        held = self._replay.step.hold
+        if held == Hold.POLICY_BUSY.value:
+            return Decision(hold=Hold.POLICY_BUSY)
+        answer = ask(self._policy, observation)
+        return Decision(hold=Hold.POLICY_LATE) if held == Hold.POLICY_LATE.value else answer
+
+
+def replay_trial(recording: Recording, policy: Agent) -> Record:
+    """Play a recorded trial again, with a policy that has been reset; return what came of it."""
+    replay = Replay(recording)
+    record = recording.record
+    settings = LoopSettings(period=record.period, latency=record.latency)
+    played = run_trial(
+        replay, replay, RecordedDecider(policy, replay), replay, settings=settings, end=replay
+    )
+    played.late_steps = record.late_steps
+    return played
+
+
+def commands(record: Record) -> Sequence[float]:
+    """Return the commands of a trial's steps [m]."""
+    return [step.command for step in record.steps]

@@ -1,0 +1,22 @@
+"""The packages that only hardware needs."""
+
+import importlib
+from typing import Any
+
+from ..errors import InputError
+
+
+def load(package: str) -> Any:
+    """Return an imported package of the extra ``nao``.
+
+    Raises
+    ------
+    InputError
+        If it is not installed; the message says how to.
+    """
+    try:
+        return importlib.import_module(package)
+    except ImportError as error:
+        raise InputError(
+            f"{package} is not installed ({error}); say: pip install 'colift[nao]'"
+        ) from error

@@ -1,0 +1,126 @@
+"""Whether motion capture can be believed: not seen, too old, jumped, or against the encoders."""
+
+import math
+from collections.abc import Sequence
+from typing import Final
+
+from .ports import Sample
+from .stops import Hold
+
+STALE: Final = 0.2
+"""Age of the newest frame [s] from which the hands are held."""
+
+FASTEST: Final = 2.0
+"""Fastest that a table end can plausibly move [m/s]. Free hands peak at 1.84 +- 0.43 m/s in
+vertical movements of 0.8 m; people who move with a robot at a fraction of it."""
+
+SLACK: Final = 0.005
+"""Change between two frames [m] that is noise, whatever the time between them."""
+
+AGREEMENT: Final = 0.03
+"""Largest plausible distance between the hands by their encoders and the robot's table end [m]:
+beyond it the grip is lost, or the motion capture has drifted or took one end for the other."""
+
+SETTLED: Final = 0.1
+"""Time [s] without a jump after which the motion capture is believed again."""
+
+
+def seen(sample: Sample) -> bool:
+    """Return whether both ends were seen in a frame."""
+    return math.isfinite(sample.human_end) and math.isfinite(sample.robot_end)
+
+
+def jumped(before: Sample, after: Sample) -> bool:
+    """Return whether an end moved further between two frames than it can."""
+    reach = SLACK + FASTEST * abs(after.time - before.time)
+    moved = max(abs(after.human_end - before.human_end), abs(after.robot_end - before.robot_end))
+    return moved > reach
+
+
+def at(samples: Sequence[Sample], time: float) -> Sample:
+    """Return what the ends' heights were at a time, linear between two frames.
+
+    Before the first frame it is the first, after the last one the last: nothing is extrapolated.
+
+    Parameters
+    ----------
+    samples
+        At least one, in the order of their times.
+    """
+    later = samples[-1]
+    if time >= later.time:
+        return later
+    for sample in reversed(samples[:-1]):
+        if sample.time <= time:
+            share = (time - sample.time) / (later.time - sample.time)
+            return Sample(
+                time,
+                sample.human_end + share * (later.human_end - sample.human_end),
+                sample.robot_end + share * (later.robot_end - sample.robot_end),
+            )
+        later = sample
+    return later
+
+
+class Watch:
+    """Watches the motion capture and keeps the last second of plausible frames."""
+
+    def __init__(self) -> None:
+        self._kept: list[Sample] = []
+        self._newest: Sample | None = None
+        self._jump: float | None = None
+        self._hands: list[tuple[float, float]] = []
+
+    @property
+    def samples(self) -> Sequence[Sample]:
+        """The plausible frames of the last second, oldest first."""
+        return self._kept
+
+    def take(self, frames: Sequence[Sample]) -> None:
+        """Take new frames in; one that is not newer than the last is left out."""
+        for frame in frames:
+            last = self._newest
+            if last is not None and frame.time <= last.time:
+                continue
+            self._newest = frame
+            if not seen(frame):
+                continue
+            if self._kept and jumped(self._kept[-1], frame):
+                self._jump = frame.time
+                self._kept.clear()
+            self._kept.append(frame)
+        while self._kept and self._kept[0].time < self._kept[-1].time - 1.0:
+            self._kept.pop(0)
+
+    def age(self, now: float) -> float:
+        """Return the age of the newest frame [s], infinite before the first."""
+        return math.inf if self._newest is None else now - self._newest.time
+
+    def judge(self, now: float, hand_height: float) -> Hold | None:
+        """Return why the motion capture must not be acted on now, or None.
+
+        Parameters
+        ----------
+        now
+            The time [s].
+        hand_height
+            Height of the robot's hands by the encoders, now [m].
+        """
+        self._hands.append((now, hand_height))
+        del self._hands[:-64]
+        newest = self._newest
+        if newest is None or now - newest.time > STALE:
+            return Hold.STALE
+        if not seen(newest):
+            return Hold.NOT_SEEN
+        if self._jump is not None and newest.time - self._jump < SETTLED:
+            return Hold.JUMP
+        if self._disagrees(newest):
+            return Hold.DISAGREE
+        return None
+
+    def _disagrees(self, newest: Sample) -> bool:
+        """Return whether the robot's end is away from where its hands were, and are."""
+        recent = [height for time, height in self._hands if time >= newest.time - 0.15]
+        low, high = min(recent), max(recent)
+        return not low - AGREEMENT <= newest.robot_end <= high + AGREEMENT

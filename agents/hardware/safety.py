@@ -1,0 +1,114 @@
+"""The limits of the hands, enforced below the policy: pure functions.
+
+Whatever a policy returns, what reaches the robot has passed :func:`limited`.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import numpy as np
+
+from ...robots.arm_kinematics import ARM_JOINTS, STROKE, arm_path
+from ..errors import InputError
+from .ports import HandLimits
+
+HAND_SPEED: Final = 0.4
+"""Fastest hand command [m/s]: the paper's largest action, 4 cm in 100 ms, as in simulation."""
+
+JOINT_MARGIN: Final = 0.01
+"""Distance that a joint keeps from the robot's own limit [rad]."""
+
+TRACKING_ERROR: Final = 0.05
+"""Distance between hand and set-point [m] from which the hand counts as not following.
+
+The arms sag by some 4 mm and follow 20 to 50 ms late, 20 mm at the greatest speed."""
+
+LOWEST_STIFFNESS: Final = 0.3
+"""Stiffness below which a motor counts as switched off."""
+
+
+def limited(wanted: float, present: float, duration: float, limits: HandLimits) -> float:
+    """Return the height to command [m], or the present one if the wanted is not a number.
+
+        h = clip(present + clip(wanted - present, -speed T, speed T), low, high)
+
+    Parameters
+    ----------
+    wanted
+        Any float, also NaN or infinite.
+    present
+        Height of the command so far [m], finite.
+    duration
+        The time T that the hands have [s].
+    limits
+        Heights and speed. From outside the heights, the way back is as fast as the speed allows.
+    """
+    if not math.isfinite(wanted):
+        wanted = present
+    reach = limits.speed * duration
+    low, high = limits.low, limits.high
+    wanted = min(max(wanted, low), high)
+    return min(max(wanted, present - reach), present + reach)
+
+
+def next_command(
+    wanted: float, command: float, set_point: float, duration: float, limits: HandLimits
+) -> float:
+    """Return the height to command [m]: within reach of the last command and of the set-point.
+
+    The robot's set-point lags behind the command by a cycle or two. Without the second limit, it
+    would make up for that faster than the limit of the speed.
+
+    Parameters
+    ----------
+    wanted
+        Any float.
+    command
+        The last command [m].
+    set_point
+        Where the robot's own set-points are now [m].
+    duration, limits
+        As for :func:`limited`.
+    """
+    height = limited(wanted, command, duration, limits)
+    return limited(height, set_point, duration, limits)
+
+
+def hand_limits(joint_limits: Mapping[str, Sequence[float]]) -> HandLimits:
+    """Return the limits of the hands that follow from those that the robot states of its joints.
+
+    Parameters
+    ----------
+    joint_limits
+        For each arm joint lowest and highest angle [rad].
+
+    Raises
+    ------
+    InputError
+        If a joint is missing, or the table's rest height is out of the robot's reach.
+    """
+    missing = sorted(set(ARM_JOINTS) - set(joint_limits))
+    if missing:
+        raise InputError(f"the robot states no limits of {', '.join(missing)}: is it a NAO H25?")
+    lower, upper = np.array([joint_limits[name][:2] for name in ARM_JOINTS]).T
+    path = arm_path()
+    angles = np.array(path.joints)
+    inside = (angles >= lower + JOINT_MARGIN) & (angles <= upper - JOINT_MARGIN)
+    usable = inside.all(axis=1)
+    rest = path.row(0.0)
+    if not usable[rest]:
+        name = ARM_JOINTS[int(np.argmin(inside[rest]))]
+        raise InputError(
+            f"the rest posture is out of the robot's reach: {name} must be at "
+            f"{angles[rest][ARM_JOINTS.index(name)]:.3f} rad, its limits are "
+            f"{joint_limits[name][0]:.3f} to {joint_limits[name][1]:.3f} rad"
+        )
+    outside = np.flatnonzero(~usable)
+    first = int(outside[outside < rest].max(initial=-1)) + 1
+    last = int(outside[outside > rest].min(initial=len(angles))) - 1
+    return HandLimits(
+        low=max(float(path.heights[first]), STROKE[0]),
+        high=min(float(path.heights[last]), STROKE[1]),
+        speed=HAND_SPEED,
+    )

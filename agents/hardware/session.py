@@ -1,0 +1,172 @@
+"""A session in the laboratory: set-up, trials, and the way back to rest."""
+
+import gc
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..agent import Agent, RobotObservation
+from ..errors import InputError, told
+from . import setup
+from .decisions import Timed
+from .dry_run import DryArm
+from .loop import LoopSettings, run_trial
+from .lsl import LslCapture
+from .naoqi import NaoqiArm
+from .operator import StopButton, key_stops
+from .ports import Clock, RobotArm, RobotLostError
+from .record import Record
+from .stops import Stop, StopTrialError
+from .trial_end import TrialEnd
+
+READY: Final = 0.015
+"""Largest height of an end at which a trial may begin [m]."""
+
+GO: Final = "Go"
+"""What the robot says when a trial begins."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Session:
+    """A robot, a motion capture and a clock, and what to tell the operator.
+
+    Every method raises :class:`.StopTrialError` on a stop, and :class:`.InputError` if the set-up
+    is wrong.
+    """
+
+    arm: NaoqiArm
+    capture: LslCapture
+    clock: Clock
+    tell: Callable[[str], None]
+    """Shows a line to the operator."""
+    confirm: Callable[[str], None]
+    """Asks the operator to do something, and waits until it is done."""
+    button: StopButton
+    """The operator's stop, which the clock listens to."""
+    dry: bool = False
+    """Whether nothing may move."""
+
+    def set_up(self) -> None:
+        """Take hold of the table, find zero, and check that the ends move as they should."""
+        if self.dry:
+            self.tell("dry run: nothing moves; the weight offset and the test move are left out")
+            self._zero()
+            return
+        with _lost_is_stop():
+            self.confirm("Clear the space around the robot's arms: they move to the rest posture.")
+            self.arm.take_hold()
+            self.confirm("Put the table into its hands, hold the other end level, and keep still.")
+            sag = setup.measure_sag(self.arm, self.clock)
+            self.arm.weight_offset += sag
+            self.tell(f"weight offset: {1000 * sag:.1f} mm")
+            setup.move_to(self.arm, self.clock, 0.0)
+            setup.wait(self.clock, 0.3)
+            self._zero()
+            self.confirm(f"Keep still: the hands move up by {1000 * setup.TEST_MOVE:.0f} mm.")
+            direction = setup.measure_direction(self.arm, self.capture, self.clock)
+            self.tell(
+                f"test move: the robot's end follows by {direction.robot_end:.2f}, the human's by "
+                f"{direction.human_end:.2f} m per m"
+            )
+
+    def _zero(self) -> None:
+        """Take the ends' present heights as zero."""
+        rest = setup.measure_rest(self.capture, self.clock)
+        self.capture.set_rest(rest.human_end, rest.robot_end)
+        self.tell(
+            f"rest heights: human's end {rest.human_end:.4f} m, robot's end {rest.robot_end:.4f} m; "
+            f"noise {1000 * rest.noise:.2f} mm, {rest.rate:.0f} frames a second"
+        )
+
+    def play(
+        self,
+        policy: AbstractContextManager[Agent],
+        seed: int,
+        *,
+        number: int,
+        settings: LoopSettings,
+        end: TrialEnd,
+    ) -> Record:
+        """Play one trial with a new policy object; return also one that was stopped."""
+        robot: RobotArm = DryArm(self.arm) if self.dry else self.arm
+        with policy as agent:
+            warm_up(agent, seed)
+            with _lost_is_stop():
+                self._ready()
+                decider = Timed(agent)
+                self.arm.say(f"Lift {number}. {GO}!")
+            try:
+                with _undisturbed(), key_stops(self.button):
+                    return run_trial(
+                        robot, self.capture, decider, self.clock, settings=settings, end=end
+                    )
+            finally:
+                decider.close()
+
+    def _ready(self) -> None:
+        """Bring the hands to rest, and wait for the person to do so."""
+        if not self.dry:
+            setup.move_to(self.arm, self.clock, 0.0)
+        for _ in range(100):
+            setup.wait(self.clock, 0.2)
+            frames = [sample for sample in setup.drained(self.capture) if setup.seen(sample)]
+            if frames and max(map(abs, frames[-1][1:])) < READY:
+                return
+        raise InputError(
+            f"the table does not come to rest within {1000 * READY:.0f} mm of its rest height"
+        )
+
+    def stop(self, stop: StopTrialError) -> None:
+        """Freeze the hands for good, and say why."""
+        self.tell(f"STOPPED ({stop.stop.name}): {stop.reason}")
+        if not self.dry:
+            self.arm.stop()
+
+    def finish(self) -> None:
+        """Let the arms go limp, smoothly, and the robot rest; the table is out of its hands."""
+        try:
+            self.arm.release()
+            self.tell("the arms are released, the robot is at rest")
+        except RobotLostError as error:
+            self.tell(f"the arms are NOT released: {error}; press the robot's chest button twice")
+
+
+def warm_up(policy: Agent, seed: int) -> None:
+    """Reset a policy for a trial that will not be late at its first step.
+
+    What it does only once, such as importing, it does here, for an observation that means nothing.
+
+    Raises
+    ------
+    StopTrialError
+        If it fails.
+    """
+    try:
+        policy.reset(seed)
+        policy.act(np.zeros(len(RobotObservation)))
+        policy.reset(seed)
+    except (Exception, SystemExit) as error:
+        raise StopTrialError(Stop.POLICY, f"the policy fails at once: {told(error)}") from error
+
+
+@contextmanager
+def _lost_is_stop() -> Iterator[None]:
+    """Turn a lost robot into a stop."""
+    try:
+        yield
+    except RobotLostError as error:
+        raise StopTrialError(Stop.ROBOT_LOST, str(error)) from error
+
+
+@contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Keep the garbage collector from interrupting the loop."""
+    gc.collect()
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()

@@ -1,0 +1,50 @@
+"""Why a trial holds for a moment, and why it stops for good."""
+
+from enum import IntEnum, StrEnum
+
+
+class Hold(StrEnum):
+    """Why no new command was given in a period; the hands complete the last one and stay."""
+
+    STALE = "stale motion capture"
+    NOT_SEEN = "a table end was not seen"
+    JUMP = "a table end jumped"
+    DISAGREE = "motion capture and encoders disagree"
+    POLICY_FAILED = "the policy failed"
+    POLICY_LATE = "the policy was late"
+    POLICY_BUSY = "the policy is still at an earlier step"
+
+
+class Stop(IntEnum):
+    """Why a trial was stopped; the value is the exit code of ``colift nao run``."""
+
+    OPERATOR = 10
+    """Ctrl-C, or the operator's key."""
+    ROBOT_LOST = 11
+    """No connection to the robot, or no answer in time."""
+    CAPTURE_LOST = 12
+    """No motion capture for longer than it may be lost."""
+    CAPTURE_UNUSABLE = 13
+    """Motion capture that is not plausible, for longer than it may be held."""
+    POLICY = 14
+    """A policy that fails or is late, for longer than it may be held."""
+    MOTORS = 15
+    """Hands that do not follow their commands, or motors without stiffness."""
+
+    @classmethod
+    def after(cls, hold: Hold) -> "Stop":
+        """Return what a hold that lasts too long ends in."""
+        if hold is Hold.STALE:
+            return cls.CAPTURE_LOST
+        if hold in (Hold.POLICY_FAILED, Hold.POLICY_LATE, Hold.POLICY_BUSY):
+            return cls.POLICY
+        return cls.CAPTURE_UNUSABLE
+
+
+class StopTrialError(Exception):
+    """The trial must stop now."""
+
+    def __init__(self, stop: Stop, reason: str) -> None:
+        super().__init__(reason)
+        self.stop = stop
+        self.reason = reason

@@ -1,0 +1,71 @@
+"""When a trial is over."""
+
+from collections import deque
+from dataclasses import dataclass, field
+from typing import Final, Protocol
+
+from .plausibility import seen
+from .ports import Sample
+from .record import Record, Step
+
+RISEN: Final = 0.05
+"""Height of the human's end [m] from which a lift has begun."""
+
+DOWN: Final = 0.02
+"""Height of the human's end [m] below which the table is down again."""
+
+STILL: Final = 0.005
+"""Range of the human's end [m] within which it is at rest."""
+
+
+class TrialEnd(Protocol):
+    """Says when a trial is over."""
+
+    def over(self, record: Record) -> bool:
+        """Return whether the trial has reached its end; called before each step."""
+
+
+@dataclass(kw_only=True)
+class AfterDuration:
+    """A trial of a fixed length."""
+
+    duration: float
+    """[s]"""
+
+    def over(self, record: Record) -> bool:
+        """Return whether the next deadline is at the duration or beyond."""
+        last = record.events[-1] if record.events else None
+        if not isinstance(last, Step):
+            return False
+        return last.deadline + record.period > record.start + self.duration - record.period / 2
+
+
+@dataclass(kw_only=True)
+class AfterLift:
+    """A trial that is over when the table has been up, is down again and rests there."""
+
+    rest: float = 1.0
+    """How long it must rest [s]."""
+    longest: float = 30.0
+    """The trial is over after this time, whatever the table does [s]."""
+    _recent: deque[Sample] = field(default_factory=deque)
+    _read: int = 0
+    _risen: bool = False
+
+    def over(self, record: Record) -> bool:
+        """Return whether the table is down and at rest after a lift."""
+        recent, newest = self._recent, record.events[self._read :]
+        self._read = len(record.events)
+        for event in newest:
+            if isinstance(event, Step):
+                if event.time - record.start > self.longest:
+                    return True
+            elif seen(event):
+                self._risen |= event.human_end > RISEN
+                recent.append(event)
+        if not recent or recent[-1].time - recent[0].time < self.rest:
+            return False
+        while recent[-1].time - recent[1].time >= self.rest:
+            recent.popleft()
+        heights = [sample.human_end for sample in recent]
+        return self._risen and max(heights) < DOWN and max(heights) - min(heights) < STILL

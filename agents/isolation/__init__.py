@@ -1,0 +1,1 @@
+"""Isolation: policies of strangers, each episode in a fresh sandboxed process."""

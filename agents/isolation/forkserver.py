@@ -1,0 +1,109 @@
+"""The fork server: a small trusted process inside the sandbox that starts a cell an episode.
+
+It has imported NumPy and what serves a policy, and nothing of a stranger's: what an episode's
+process does to its modules dies with it.
+"""
+
+import contextlib
+import gc
+import importlib
+import json
+import os
+import select
+import signal
+import socket
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Final
+
+from . import landlock, linux
+from .cell import Ends, Walls, start
+from .preload import serve_forks
+from .probe import look
+from .server import serve
+
+EPISODE: Final = b"e"
+PRELOAD: Final = b"p"
+PROBE: Final = b"q"
+
+OURS: Final = "colift.agents."
+
+SETTINGS: Final = 1 << 17
+"""Longest message [bytes]."""
+
+_TRIAL_SECONDS: Final = 5.0
+
+
+def main(handle: int) -> None:
+    """Serve orders on a socket until its other side closes."""
+    orders = socket.socket(fileno=handle)
+    settings = json.loads(orders.recv(SETTINGS))
+    linux.hide(True)
+    linux.become_subreaper()
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    gc.freeze()
+    walls = _walls(settings)
+    orders.send(json.dumps({"namespaces": walls.namespaces}).encode())
+    while True:
+        order, handles, _, _ = socket.recv_fds(orders, SETTINGS, 3)
+        if not order:
+            return
+        start(walls, Ends(*handles), _work(order[:1], json.loads(order[1:])))
+
+
+def _work(kind: bytes, policy: Any) -> Callable[[int], None]:
+    """Return what a cell does."""
+    if kind == PROBE:
+        return lambda handle: look(handle, policy)
+    module = policy[0].partition(":")[0]
+    if module.startswith(OURS) and module not in sys.modules:
+        # What is colift's own is no stranger's: imported once for all episodes.
+        with contextlib.suppress(Exception):
+            importlib.import_module(module)
+            gc.freeze()
+    if kind == PRELOAD:
+        return lambda handle: serve_forks(handle, *policy)
+    return lambda handle: serve(handle, *policy)
+
+
+def _walls(settings: dict[str, Any]) -> Walls:
+    """Return the strongest walls that can be had here."""
+    fields = {
+        "landlock": settings["landlock"] and landlock.version() > 0,
+        "seccomp": settings["seccomp"],
+        "mounted": settings["mounted"],
+        "folder": Path(settings["folder"]) if settings["folder"] else None,
+        "limits": settings["limits"],
+    }
+    if settings["namespaces"]:
+        paths = {name: tuple(map(Path, settings[name])) for name in ("readable", "hidden")}
+        for kind in ("root", "user") if os.geteuid() == 0 else ("user",):
+            walls = Walls(namespaces=kind, scratch=None, **paths, **fields)
+            if _stands(walls):
+                return walls
+    visible = tuple(map(Path, settings["visible"]))
+    scratch = None if settings["mounted"] else Path(settings["scratch"])
+    return Walls(namespaces="", scratch=scratch, readable=visible, hidden=(), **fields)
+
+
+def _stands(walls: Walls) -> bool:
+    """Return whether a cell with these walls comes to serve."""
+    here, there = socket.socketpair()
+    watched, status = socket.socketpair()
+    output = os.open("/dev/null", os.O_WRONLY)
+    with contextlib.closing(here), contextlib.closing(watched):
+        start(walls, Ends(there.detach(), output, status.detach()), _say_yes)
+        if select.select([here], [], [], _TRIAL_SECONDS)[0] and here.recv(1) == b"y":
+            return True
+        watched.setblocking(False)
+        with contextlib.suppress(OSError):
+            print(
+                f"namespaces by {walls.namespaces}:", watched.recv(1000).decode(), file=sys.stderr
+            )
+        return False
+
+
+def _say_yes(handle: int) -> None:
+    os.write(handle, b"y")

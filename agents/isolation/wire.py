@@ -1,0 +1,150 @@
+"""Frames: what a sandboxed policy and its episode tell each other.
+
+A frame is its length (4 bytes, big-endian) and a msgpack list of numbers, words, lists of them.
+No pickle, no arrays, no extension types; whatever arrives is a list, or an error.
+"""
+
+import select
+import socket
+import struct
+import time
+from typing import Any, Final
+
+import msgpack
+
+FRAME: Final = 64 * 1024
+"""Longest frame [bytes]."""
+
+_LENGTH: Final = struct.Struct(">I")
+_CHUNK: Final = 64 * 1024
+
+
+class WireError(Exception):
+    """What came is no answer; the message says why."""
+
+
+class Closed(WireError):
+    """The other side has closed."""
+
+
+def packed(content: list[Any]) -> bytes:
+    """Return a list as a frame.
+
+    Raises
+    ------
+    WireError
+        If it is longer than a frame may be, or holds something that a frame cannot.
+    """
+    try:
+        body: bytes = msgpack.packb(content)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise WireError(f"cannot be sent: {error}") from None
+    if len(body) > FRAME:
+        raise WireError(f"a message of {len(body)} bytes; at most {FRAME} are allowed")
+    return _LENGTH.pack(len(body)) + body
+
+
+def unpacked(body: bytes) -> list[Any]:
+    """Return the list in the body of a frame.
+
+    Raises
+    ------
+    WireError
+        If it is anything else.
+    """
+    try:
+        content = msgpack.unpackb(body, max_ext_len=0, max_map_len=0)
+    except Exception as error:  # msgpack has no common base class of its errors.
+        raise WireError(f"not msgpack ({type(error).__name__})") from None
+    if type(content) is not list:
+        raise WireError(f"a {type(content).__name__} instead of a list")
+    return content
+
+
+class Channel:
+    """One end of the connection. There is at most one unanswered request at a time."""
+
+    def __init__(self, end: socket.socket) -> None:
+        self._end = end
+        self._end.setblocking(False)
+        self._buffer = bytearray()
+
+    def fileno(self) -> int:
+        """Return the file descriptor, to wait for."""
+        return self._end.fileno()
+
+    def close(self) -> None:
+        """Close this end."""
+        self._end.close()
+
+    def send(self, frame: bytes) -> None:
+        """Send a frame; it never waits.
+
+        Raises
+        ------
+        Closed
+            If the other side has closed, or has not read what came before.
+        """
+        try:
+            sent = self._end.send(frame, socket.MSG_NOSIGNAL)
+        except BlockingIOError:
+            sent = 0
+        except OSError:
+            raise Closed("closed the connection") from None
+        if sent != len(frame):
+            raise Closed("does not read what it is sent")
+
+    def fetch(self) -> list[Any] | None:
+        """Return the frame that has come, or None if it is not all there; it never waits.
+
+        Raises
+        ------
+        WireError
+            If it is too long, is followed by more, or is not msgpack.
+        """
+        try:
+            chunk = self._end.recv(_CHUNK)
+        except BlockingIOError:
+            return None
+        except OSError:
+            raise Closed("closed the connection") from None
+        if not chunk:
+            raise Closed(self.partial or "closed the connection")
+        self._buffer += chunk
+        if len(self._buffer) < _LENGTH.size:
+            return None
+        (length,) = _LENGTH.unpack_from(self._buffer)
+        if length > FRAME:
+            raise WireError(f"a message of {length} bytes; at most {FRAME} are allowed")
+        end = _LENGTH.size + length
+        if len(self._buffer) < end:
+            return None
+        if len(self._buffer) > end:
+            raise WireError("more than one answer to a request")
+        body = bytes(memoryview(self._buffer)[_LENGTH.size : end])
+        self._buffer.clear()
+        return unpacked(body)
+
+    @property
+    def partial(self) -> str:
+        """What there is of an unfinished frame, in words; empty if nothing."""
+        return f"sent {len(self._buffer)} bytes of an answer, then no more" if self._buffer else ""
+
+    def receive(self, seconds: float | None = None) -> list[Any]:
+        """Return the next frame, and wait for it.
+
+        Raises
+        ------
+        WireError
+            As :meth:`fetch`, or if it does not come in time.
+        """
+        end = None if seconds is None else time.monotonic() + seconds
+        waiting = select.poll()
+        waiting.register(self._end, select.POLLIN)
+        while True:
+            left = None if end is None else max(0.0, 1000 * (end - time.monotonic()))
+            if not waiting.poll(left):
+                raise WireError("no answer in time")
+            content = self.fetch()
+            if content is not None:
+                return content

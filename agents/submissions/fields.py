@@ -1,0 +1,121 @@
+"""What the values of a manifest may be: one function a field, from what TOML has to what we keep.
+
+Each raises an InputError that says what would be right; :mod:`.manifest` says where.
+"""
+
+import keyword
+import re
+import sys
+from typing import Any, Final
+from urllib.parse import urlsplit
+
+from ..errors import InputError
+from ..registry import POLICIES, own_entries
+from .packages import PACKAGES, installed
+
+NAME: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9 ._+-]{0,39}")
+LONGEST_LINE: Final = 200
+LONGEST_TEXT: Final = 1000
+MOST_AUTHORS: Final = 50
+
+
+def name(value: Any) -> str:
+    """Return the name under which the policy is shown."""
+    if not (isinstance(value, str) and NAME.fullmatch(value) and value == value.strip()):
+        raise _wrong(value, "1 to 40 letters, digits, spaces and . _ + -, a letter or digit first")
+    taken = {*own_entries(POLICIES), "human_human"}
+    if value.lower().replace(" ", "_").replace("-", "_") in taken:
+        raise InputError(f"must be another than colift's own {', '.join(sorted(taken))}")
+    return value
+
+
+def authors(value: Any) -> tuple[str, ...]:
+    """Return who wrote it."""
+    if not isinstance(value, list) or not 0 < len(value) <= MOST_AUTHORS:
+        raise _wrong(value, f'a list of 1 to {MOST_AUTHORS} names, such as ["Ada Lovelace"]')
+    return tuple(line(each) for each in value)
+
+
+def line(value: Any) -> str:
+    """Return a line of text."""
+    if not (isinstance(value, str) and 0 < len(value.strip()) <= LONGEST_LINE):
+        raise _wrong(value, f"a text of 1 to {LONGEST_LINE} characters")
+    if not value.isprintable():
+        raise _wrong(value, "a text on one line, without control characters")
+    return value.strip()
+
+
+def text(value: Any) -> str:
+    """Return a text of one or more lines."""
+    if not (isinstance(value, str) and 0 < len(value.strip()) <= LONGEST_TEXT):
+        raise _wrong(value, f"a text of 1 to {LONGEST_TEXT} characters")
+    if not value.replace("\n", "").isprintable():
+        raise _wrong(value, "a text without control characters")
+    return value.strip()
+
+
+def link(value: Any) -> str:
+    """Return an address of the web, or nothing."""
+    if value == "":
+        return ""
+    told = "an address that begins with https:// or http://, or empty"
+    if not isinstance(value, str) or len(value) > LONGEST_LINE or " " in value:
+        raise _wrong(value, told)
+    try:
+        address = urlsplit(value)
+    except ValueError:
+        raise _wrong(value, told) from None
+    good = address.scheme in ("https", "http") and address.hostname and "@" not in address.netloc
+    if not (good and value.isascii() and value.isprintable()):
+        raise _wrong(value, told)
+    return value
+
+
+def entry_point(value: Any) -> str:
+    """Return where the class is: ``module:Class``, the module in the submission's folder."""
+    told = 'module:Class, with the module in this folder, such as "policy:Policy" for policy.py'
+    if not isinstance(value, str):
+        raise _wrong(value, told)
+    module, colon, policy = value.partition(":")
+    parts = [*module.split("."), policy]
+    if not colon or not all(part.isascii() and part.isidentifier() for part in parts):
+        raise _wrong(value, told)
+    if any(keyword.iskeyword(part) for part in parts):
+        raise _wrong(value, f"{told}, and no keyword of Python")
+    if parts[0] in {*sys.stdlib_module_names, *PACKAGES.values(), "colift"}:
+        raise _wrong(value, f"{told}: {parts[0]} is a module of Python or of a package")
+    return value
+
+
+def packages(value: Any) -> tuple[str, ...]:
+    """Return the packages that the policy needs."""
+    known = ", ".join(PACKAGES)
+    if not isinstance(value, list):
+        raise _wrong(value, f"a list of some of: {known}")
+    for each in value:
+        if not isinstance(each, str) or each not in PACKAGES:
+            raise InputError(f"has {shown(each)}, which a sandbox does not have; it has {known}")
+        if not installed(each):
+            raise InputError(f"has {each!r}, which is not installed here: pip install {each}")
+    return tuple(dict.fromkeys(value))
+
+
+def flag(value: Any) -> bool:
+    """Return true or false."""
+    if not isinstance(value, bool):
+        raise _wrong(value, "true or false, without quotes")
+    return value
+
+
+def shown(value: Any) -> str:
+    """Return a value of TOML as a message shows it: short, and safe for a terminal."""
+    if isinstance(value, str):
+        return repr(value) if len(value) <= 60 else f"{value[:60]!r}... ({len(value)} long)"
+    if isinstance(value, bool):
+        return str(value).lower()
+    kinds = {int: "a number", float: "a number", list: "a list", dict: "a table"}
+    return kinds.get(type(value), "a date")
+
+
+def _wrong(value: Any, told: str) -> InputError:
+    return InputError(f"must be {told}; got {shown(value)}")

@@ -1,0 +1,218 @@
+"""Reads the folder of a stranger, and copies it, without trusting anything in it."""
+
+import hashlib
+import os
+import re
+import stat
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from ..errors import InputError
+
+MIB: Final = 2**20
+CHUNK: Final = MIB
+"""Bytes that are read at a time."""
+
+NAME: Final = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.+-]{0,79}")
+"""What a file or folder may be called: no name needs quoting, on any system."""
+
+_OPEN: Final = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+_DIRECTORY: Final = _OPEN | os.O_DIRECTORY
+
+
+@dataclass(frozen=True, kw_only=True)
+class FolderLimits:
+    """How large a submission may be."""
+
+    entries: int = 500
+    """Files and folders in all."""
+    file_bytes: int = 128 * MIB
+    """Largest file [bytes]."""
+    total_bytes: int = 256 * MIB
+    """All files together [bytes]."""
+    depth: int = 5
+    """Folders inside each other, the submission's own not counted."""
+
+
+LIMITS: Final = FolderLimits()
+
+
+@dataclass(frozen=True, kw_only=True)
+class File:
+    """A regular file of a folder."""
+
+    path: str
+    """Where it is in the folder, with ``/`` between the names."""
+    size: int
+    """Its size [bytes]."""
+    sha256: str
+    """Hash of its bytes, 64 hexadecimal digits."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Contents:
+    """The files of a folder, in the order of their paths."""
+
+    files: tuple[File, ...]
+
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """The paths of the files."""
+        return tuple(file.path for file in self.files)
+
+    @property
+    def size(self) -> int:
+        """The size of all files [bytes]."""
+        return sum(file.size for file in self.files)
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 (64 hexadecimal digits) over all names and bytes.
+
+        It is the hash of what ``sha256sum`` prints for the files in the order of their paths.
+        """
+        listing = "".join(f"{file.sha256}  {file.path}\n" for file in self.files)
+        return hashlib.sha256(listing.encode()).hexdigest()
+
+
+def is_part(name: str) -> bool:
+    """Whether what is called so belongs to a submission: not what tools leave in a folder."""
+    return not (name.startswith(".") or name == "__pycache__")
+
+
+def read_folder(folder: Path, limits: FolderLimits = LIMITS) -> Contents:
+    """Return what is in a folder.
+
+    Regular files only; names that begin with a dot, and ``__pycache__``, are left out. No link is
+    followed, not even one that is put there while the folder is read, and no file is read before
+    its size is known to be within the limits.
+
+    Raises
+    ------
+    InputError
+        If anything else is in it, a name or size is not allowed, or it cannot be read; the message
+        names the file.
+    """
+    return _walk(folder, limits, lambda path, data: None)
+
+
+def copy_folder(folder: Path, target: Path, limits: FolderLimits = LIMITS) -> Contents:
+    """Copy what :func:`read_folder` reads, and return what was copied.
+
+    Parameters
+    ----------
+    folder
+        From where.
+    target
+        To where: a folder that is there and empty.
+    limits
+        As for :func:`read_folder`.
+
+    Raises
+    ------
+    InputError
+        As :func:`read_folder`; the target then holds a part of the files.
+    """
+
+    def keep(path: str, data: bytes) -> None:
+        place = target / path
+        place.parent.mkdir(parents=True, exist_ok=True)
+        with place.open("ab") as file:
+            file.write(data)
+
+    return _walk(folder, limits, keep)
+
+
+def _walk(folder: Path, limits: FolderLimits, keep: Callable[[str, bytes], None]) -> Contents:
+    if not folder.is_dir():
+        raise InputError(f"{folder}: " + ("not a folder" if folder.exists() else "no such folder"))
+    files: list[File] = []
+    budget = limits.total_bytes
+    try:
+        for path, size, chunks in _files(folder, limits):
+            if size > budget:
+                raise _refused(folder, path, f"all files may have {_mib(limits.total_bytes)}")
+            sha, length = hashlib.sha256(), 0
+            for data in chunks:
+                length += len(data)
+                if length > size:
+                    raise _refused(folder, path, "it grows while it is read")
+                sha.update(data)
+                keep(path, data)
+            keep(path, b"")
+            budget -= length
+            files.append(File(path=path, size=length, sha256=sha.hexdigest()))
+    except OSError as error:
+        raise InputError(f"cannot read {folder}: {error.strerror} ({error.filename!r})") from error
+    return Contents(files=tuple(sorted(files, key=lambda file: file.path)))
+
+
+def _files(folder: Path, limits: FolderLimits) -> Iterator[tuple[str, int, Iterator[bytes]]]:
+    """Yield path, size and bytes of each file; everything is opened relative to its folder."""
+    left = limits.entries
+
+    def visit(directory: int, above: str, depth: int) -> Iterator[tuple[str, int, Iterator[bytes]]]:
+        nonlocal left
+        names = []
+        with os.scandir(directory) as entries:
+            for entry in entries:
+                left -= 1
+                if left < 0:
+                    raise InputError(f"{folder} holds more than {limits.entries} files and folders")
+                names.append(entry.name)
+        for name in filter(is_part, sorted(names)):
+            path = above + name
+            if not NAME.fullmatch(name):
+                raise _refused(
+                    folder, path, "a name is at most 80 letters, digits and _ . + -, in ASCII"
+                )
+            mode = os.stat(name, dir_fd=directory, follow_symlinks=False).st_mode
+            if stat.S_ISDIR(mode):
+                if depth == limits.depth:
+                    raise _refused(folder, path, f"folders may be {limits.depth} deep")
+                inner = os.open(name, _DIRECTORY, dir_fd=directory)
+                try:
+                    yield from visit(inner, f"{path}/", depth + 1)
+                finally:
+                    os.close(inner)
+            elif stat.S_ISREG(mode):
+                opened = os.open(name, _OPEN, dir_fd=directory)
+                try:
+                    status = os.fstat(opened)
+                    if not stat.S_ISREG(status.st_mode):
+                        raise _refused(folder, path, "it changes while it is read")
+                    if status.st_size > limits.file_bytes:
+                        told = f"a file may have {_mib(limits.file_bytes)}"
+                        raise _refused(folder, path, f"{told}, it has {_mib(status.st_size)}")
+                    yield path, status.st_size, _chunks(opened)
+                finally:
+                    os.close(opened)
+            else:
+                raise _refused(folder, path, f"{_kind(mode)}; a submission has regular files only")
+
+    root = os.open(folder, _DIRECTORY & ~os.O_NOFOLLOW)
+    try:
+        yield from visit(root, "", 0)
+    finally:
+        os.close(root)
+
+
+def _chunks(opened: int) -> Iterator[bytes]:
+    while data := os.read(opened, CHUNK):
+        yield data
+
+
+def _kind(mode: int) -> str:
+    kinds = {stat.S_IFLNK: "a symbolic link", stat.S_IFIFO: "a pipe", stat.S_IFSOCK: "a socket"}
+    return kinds.get(stat.S_IFMT(mode), "a device")
+
+
+def _mib(size: int) -> str:
+    return f"{size / MIB:.0f} MiB"
+
+
+def _refused(folder: Path, path: str, reason: str) -> InputError:
+    shown = path if path.isascii() and path.isprintable() else ascii(path)
+    return InputError(f"{folder}: {shown[:200]}: {reason}")

@@ -1,0 +1,56 @@
+"""Finds a module's source without running any of it, as an import would."""
+
+import hashlib
+import importlib.util
+from importlib.machinery import ModuleSpec, PathFinder
+from pathlib import Path
+
+from ..errors import InputError
+from ..isolation.view import view
+
+
+def module_digest(name: str) -> str:
+    """Return the SHA-256 (16 hexadecimal digits) of a module's source file.
+
+    Parameters
+    ----------
+    name
+        Its full name.
+
+    Raises
+    ------
+    InputError
+        If there is no such module, it has no source, or a sandbox does not see it.
+    """
+    source = _source(name)
+    if not any(source.is_relative_to(each) for each in view(None).visible()):
+        raise InputError(
+            f"module {name!r} is {source}, which a sandbox does not see: name the file, as in "
+            f"{source.name}:Class, make it a submission, or install it"
+        )
+    return hashlib.sha256(source.read_bytes()).hexdigest()[:16]
+
+
+def _source(name: str) -> Path:
+    if name.startswith("colift."):
+        spec = _found(name)
+    else:
+        # To find what is inside a package, importlib would run the package.
+        path, *inner = name.split(".")
+        spec = _found(path)
+        for part in inner:
+            inside = None if spec is None else spec.submodule_search_locations
+            path = f"{path}.{part}"
+            spec = None if inside is None else PathFinder.find_spec(path, list(inside))
+    if spec is None:
+        raise InputError(f"cannot import module {name!r}: there is none of that name")
+    if not (spec.origin and Path(spec.origin).is_file()):
+        raise InputError(f"module {name!r} has no source file; name one that has the class")
+    return Path(spec.origin).resolve()
+
+
+def _found(name: str) -> ModuleSpec | None:
+    try:
+        return importlib.util.find_spec(name)
+    except (ImportError, ValueError):  # What has been imported may have no specification.
+        return None

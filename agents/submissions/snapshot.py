@@ -1,0 +1,107 @@
+"""Private copies of submissions: what is run is what was read, whatever is edited meanwhile.
+
+A copy is named by its digest and lies in the user's cache folder, so that equal submissions have
+equal paths in every run, and a run that is resumed finds its own.
+"""
+
+import os
+import shutil
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Final
+
+from ..errors import InputError
+from .folder import LIMITS, Contents, copy_folder, read_folder
+
+KEPT_DAYS: Final = 7
+"""Days after its last use that a copy is kept."""
+
+
+def snapshot(folder: Path) -> tuple[Path, Contents]:
+    """Return the private copy of a folder, and what is in it.
+
+    Raises
+    ------
+    InputError
+        As :func:`.folder.read_folder`, or if the cache folder cannot be written to.
+    """
+    return _stored(lambda target: copy_folder(folder, target))
+
+
+def snapshot_file(path: Path) -> tuple[Path, Contents]:
+    """Return a private folder that holds a copy of one file alone, and what is in it.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, it is too large or its name is not one for a submission, or the
+        cache folder cannot be written to.
+    """
+    if not path.is_file():
+        raise InputError(f"no such file: {path}")
+    if path.stat().st_size > LIMITS.file_bytes:
+        raise InputError(f"{path} has more than {LIMITS.file_bytes} bytes")
+
+    def copy(target: Path) -> Contents:
+        shutil.copyfile(path, target / path.name)
+        return read_folder(target)
+
+    return _stored(copy)
+
+
+def _stored(copy: Callable[[Path], Contents]) -> tuple[Path, Contents]:
+    """Return the folder that ``copy`` fills, under the name of its digest, and what is in it."""
+    cache = _cache()
+    with _folder_in(cache) as made:
+        fresh = Path(made) / "submission"
+        fresh.mkdir()
+        contents = copy(fresh)
+        place = cache / contents.digest[:32]
+        if not _holds(place, contents):
+            if place.exists():
+                place.rename(Path(made) / "spoilt")
+            try:
+                fresh.rename(place)
+            except OSError:  # Another process has just made it.
+                if not _holds(place, contents):
+                    raise
+    os.utime(place)
+    return place, contents
+
+
+def _cache() -> Path:
+    """Return the folder of all copies, without those that were not used for long."""
+    root = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    cache = (root / "colift" / "submissions").absolute()
+    try:
+        cache.mkdir(mode=0o700, parents=True, exist_ok=True)
+        old = time.time() - KEPT_DAYS * 24 * 3600
+        for place in cache.iterdir():
+            if place.stat().st_mtime < old:
+                shutil.rmtree(place, ignore_errors=True)
+    except OSError as error:
+        raise _unwritable(cache, error) from error
+    return cache
+
+
+def _folder_in(cache: Path) -> tempfile.TemporaryDirectory[str]:
+    try:
+        return tempfile.TemporaryDirectory(dir=cache, prefix="new-")
+    except OSError as error:
+        raise _unwritable(cache, error) from error
+
+
+def _unwritable(cache: Path, error: OSError) -> InputError:
+    return InputError(
+        f"cannot write to {cache} ({error.strerror}); set XDG_CACHE_HOME to a folder of your own"
+    )
+
+
+def _holds(place: Path, contents: Contents) -> bool:
+    """Whether a copy is there, and unchanged."""
+    try:
+        return read_folder(place) == contents
+    except InputError:
+        return False

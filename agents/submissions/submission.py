@@ -1,0 +1,101 @@
+"""A submission: a folder with ``policy.toml`` and ``policy.py``, as a policy that can be run."""
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from ..errors import InputError
+from ..isolation.sandboxed import SandboxedPolicy
+from .folder import Contents, read_folder
+from .manifest import MANIFEST, Manifest, read_manifest
+from .snapshot import snapshot
+from .trusted import TrustedSubmission
+
+DIGEST: Final = 16
+"""Hexadecimal digits of the digests in tables."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Submission:
+    """A folder whose manifest and files are as they must be; its code has not been run."""
+
+    folder: Path
+    """Where the files are; absolute."""
+    manifest: Manifest
+    contents: Contents
+
+    @property
+    def digest(self) -> str:
+        """The digest in tables: the beginning of that of all names and bytes."""
+        return self.contents.digest[:DIGEST]
+
+    def sandboxed(self, rung: str | None = None) -> SandboxedPolicy:
+        """Return the policy on a rung of isolation; None is the strongest that works here."""
+        return SandboxedPolicy(
+            name=self.manifest.name,
+            place=self.manifest.entry_point,
+            folder=self.folder,
+            source_digest=self.digest,
+            preload=self.manifest.preload,
+            rung=rung,
+        )
+
+    def trusted(self) -> TrustedSubmission:
+        """Return the policy to run in this process, for those who trust it."""
+        return TrustedSubmission(
+            name=self.manifest.name,
+            entry_point=self.manifest.entry_point,
+            folder=self.folder,
+            source_digest=self.digest,
+        )
+
+
+def open_submission(folder: Path) -> Submission:
+    """Return the submission in a folder, as a private copy: later changes to the folder are none.
+
+    Raises
+    ------
+    InputError
+        As :func:`read_submission`, or if the copy cannot be written.
+    """
+    if folder.is_dir() and not os.path.lexists(folder / MANIFEST):
+        raise _without_manifest(str(folder))  # Before a large folder of something else is read.
+    place, contents = snapshot(folder)
+    return _submission(place, contents, str(folder))
+
+
+def read_submission(folder: Path) -> Submission:
+    """Return the submission in a folder, as it lies there.
+
+    Raises
+    ------
+    InputError
+        If the folder, its manifest or its files are not what they must be; the message names the
+        file, the key and what would be right.
+    """
+    contents = read_folder(folder)
+    return _submission(folder.absolute(), contents, str(folder))
+
+
+def _without_manifest(shown: str) -> InputError:
+    return InputError(
+        f"{shown} has no {MANIFEST}; a submission is a folder with {MANIFEST} and policy.py, "
+        "and 'colift new DIR' writes one"
+    )
+
+
+def _submission(folder: Path, contents: Contents, shown: str) -> Submission:
+    """Return the submission of files that have been read; ``shown`` is what the user calls it."""
+    if MANIFEST not in contents.paths:
+        raise _without_manifest(shown)
+    manifest = read_manifest((folder / MANIFEST).read_bytes(), f"{shown}/{MANIFEST}")
+    module, _, _ = manifest.entry_point.partition(":")
+    file = module.replace(".", "/")
+    if not {f"{file}.py", f"{file}/__init__.py"} & set(contents.paths):
+        sources = [path for path in contents.paths if path.endswith(".py")]
+        raise InputError(
+            f"{shown}/{MANIFEST}: entry_point {manifest.entry_point!r} needs a file {file}.py; "
+            f"the folder has {', '.join(sources[:5]) or 'no Python file'}"
+        )
+    return Submission(folder=folder, manifest=manifest, contents=contents)

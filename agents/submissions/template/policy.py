@@ -1,0 +1,30 @@
+"""A proportional controller for the NAO at one end of the table; a human lifts the other.
+
+Ten times a second it sees five numbers and says how far the robot's hands shall go. Try it with
+``colift check``, change it, try again.
+"""
+
+from pathlib import Path
+
+import numpy as np
+from colift.agents.agent import RobotObservation
+
+# Weights, if there are any, lie beside this file: np.load(HERE / "weights.npz").
+HERE = Path(__file__).parent
+
+
+class Policy:
+    """Takes away a fixed share of the height difference that it sees."""
+
+    gain = 1.8  # 1 goes to where the human was; more goes beyond, as the human is still moving
+
+    def reset(self, seed: int) -> None:
+        """Begin a lift: forget the last one, and draw all random numbers from ``seed``."""
+        self.random = np.random.default_rng(seed)  # unused here
+
+    def act(self, observation: np.ndarray) -> np.ndarray:
+        """Return the change of the hands' height [m] in this step, up is positive."""
+        human = observation[RobotObservation.HUMAN_END]  # where the human's end was 0.1 s ago
+        hand = observation[RobotObservation.HAND_HEIGHT]  # where the own hands are now
+        # There are also ROBOT_END, HAND_COMMAND and TIME; heights are in m from the start.
+        return np.array([self.gain * (human - hand)])

@@ -1,0 +1,64 @@
+"""A submission that is run without isolation."""
+
+import contextlib
+import importlib
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from ..agent import Agent
+from ..policies.in_process import InProcess
+from ..policies.loading import PolicySpec
+
+_importing: Final = threading.Lock()
+"""Where modules are found, and the folder we are in, belong to all threads."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrustedSubmission(InProcess):
+    """A submission whose policy acts in this process, made anew for each episode.
+
+    Its modules are imported from its folder, where it is also started; both end once the policy
+    is made, so that the next one finds nothing of it.
+    """
+
+    name: str
+    folder: Path
+    entry_point: str
+    """``module:Class``, the module a file of the folder."""
+    source_digest: str
+
+    def digest(self) -> str:
+        """Return the hash of the folder."""
+        return self.source_digest
+
+    def check(self) -> None:
+        """Raise an InputError if its class cannot be loaded."""
+        with _imports_from(self.folder):
+            PolicySpec(text=self.entry_point).load()
+
+    def make(self) -> Agent:
+        """Return a new policy object."""
+        with _imports_from(self.folder):
+            return PolicySpec(text=self.entry_point).make()
+
+
+@contextmanager
+def _imports_from(folder: Path) -> Iterator[None]:
+    """Import from a folder first, and forget its modules at the end."""
+    with _importing, contextlib.chdir(folder):
+        before, writes = sys.path[:], sys.dont_write_bytecode
+        sys.path.insert(0, str(folder))
+        sys.dont_write_bytecode = True
+        importlib.invalidate_caches()
+        try:
+            yield
+        finally:
+            sys.path[:], sys.dont_write_bytecode = before, writes
+            for name, module in list(sys.modules.items()):
+                if str(getattr(module, "__file__", None) or "").startswith(f"{folder}/"):
+                    del sys.modules[name]

@@ -1,0 +1,189 @@
+"""What a robot can learn anticipation from: lifts with simulated people, looked at again."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
+
+from ..agents.agent import FRAME, Action, Agent, Observation, RobotObservation
+from ..agents.policies.anticipation import Anticipation
+from ..agents.policies.anticipation_controller import AnticipateParameters, AnticipationController
+from ..agents.policies.extrapolate import Extrapolate
+from ..agents.policies.senses import ARM_LAG, Window
+from .catalogue import make_scenario, make_subject
+from .lift import MOCAP_NOISE, Lift
+from .roaming import Roaming
+from .scenario import CONTROL_PERIOD, LATENCY, Scenario
+from .seeding import derive_seed
+
+Array = NDArray[np.float64]
+
+LEADS: Final = tuple(round(0.05 * i, 2) for i in range(10))
+"""Times from now that are foreseen [s]: the foresight of the policy, and a little."""
+
+LOOKS: Final = 5
+"""Times at which each period of a lift is looked at, as if the robot had decided then."""
+
+ENCODER_NOISE: Final = 5e-5
+"""Standard deviation of the noise that is added to the own hand's height while learning [m]. The
+simulation's encoders are exact; a NAO's have 12 bits a turn, 1.5 mrad, of which the ten joints of
+two arms leave about this. So no more is read from the hand's sag than a real hand could tell."""
+
+DISTURBANCE: Final = (0.002, 0.6)
+"""Size [m] and persistence a step of the random disturbance of the robot's command in half of the
+lifts, so that what the human does because of the robot is told from what both do together."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Timing:
+    """When a robot sees and acts."""
+
+    latency: float = LATENCY
+    """Age of the seen heights [s]."""
+    control_period: float = CONTROL_PERIOD
+    """Time between two decisions [s]."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Experience:
+    """What was seen, and what came of it; in single precision, as there is a lot of it."""
+
+    inputs: NDArray[np.float32]
+    """(n, window.size) inputs of :class:`.Senses`."""
+    rises: NDArray[np.float32]
+    """(n, leads) how far the human's end then was above its newest seen height [m]."""
+
+    @classmethod
+    def join(cls, parts: Sequence["Experience"]) -> "Experience":
+        """Return all of it in one."""
+        return cls(
+            inputs=np.concatenate([part.inputs for part in parts]),
+            rises=np.concatenate([part.rises for part in parts]),
+        )
+
+
+class _Anticipating:
+    """A robot that anticipates with what was learned so far."""
+
+    def __init__(self, model: Anticipation) -> None:
+        self._controller = AnticipationController(model, AnticipateParameters())
+
+    def reset(self, seed: int) -> None:
+        self._controller.reset()
+
+    def act(self, observation: Observation) -> Action:
+        return np.array([self._controller.step(observation)])
+
+
+def scenario(seed: int, behaviours: Sequence[str], timing: Timing) -> Scenario:
+    """Return the scenario of a seed: a new person, who moves in one of the ways.
+
+    Parameters
+    ----------
+    seed
+        Of the person and the lift.
+    behaviours
+        Names of registered behaviours, and ``roaming``: :class:`.Roaming`.
+    timing
+        Latency and control period.
+    """
+    behaviour, subject = behaviours[seed % len(behaviours)], f"draw-{seed}"
+    latency, period = timing.latency, timing.control_period
+    if behaviour != "roaming":
+        return make_scenario(behaviour, subject, control_period=period, latency=latency)
+    return Scenario(
+        behaviour=behaviour,
+        human=Roaming(),
+        subject=make_subject(subject),
+        control_period=period,
+        latency=latency,
+    )
+
+
+def experience(
+    seed: int,
+    *,
+    model: Anticipation | None,
+    window: Window,
+    behaviours: Sequence[str],
+    timing: Timing,
+) -> Experience:
+    """Return what the lift of a seed shows; without a model, the robot extrapolates.
+
+    A lift of a few seconds holds some seventy decisions. It is looked at :data:`LOOKS` times as
+    often, as if the periods had begun at other frames, with sensor noise of its own; between the
+    robot's own decisions its hand is taken to be where its end of the table is.
+    """
+    lift = Lift(scenario(seed, behaviours, timing))
+    lift.reset(seed)
+    human = lift.scripted_human()
+    robot: Agent = Extrapolate() if model is None else _Anticipating(model)
+    robot.reset(0)
+    rng = np.random.default_rng(derive_seed(seed, "disturbance"))
+    size, persistence = DISTURBANCE
+    size *= float(rng.random() < 0.5)
+    views, disturbance = [], 0.0
+    while not lift.done:
+        view = lift.partner_observation()
+        view[RobotObservation.HAND_HEIGHT] += rng.normal(0.0, ENCODER_NOISE)
+        views.append(view)
+        before, disturbance = disturbance, persistence * disturbance + rng.normal(0.0, size)
+        lift.step(human.act(lift.human_observation()), robot.act(view) + disturbance - before)
+    lift.close()
+
+    seen = np.array(views)
+    size_of_step, age = lift.frames_per_step, lift.scenario.latency_frames
+    commands = np.append(seen[:, RobotObservation.HAND_COMMAND], lift.command)
+    line = np.interp(np.arange(lift.frame + 1) / size_of_step, np.arange(len(commands)), commands)
+    heights = np.array([0.0, *lift.world.since_reset(lift.world.human_end)])
+    hands = np.array([0.0, *lift.world.since_reset(lift.world.robot_end)])
+    parts = []
+    for first in range(0, size_of_step, max(size_of_step // LOOKS, 1)):
+        now = np.arange(first, lift.frame, size_of_step)
+        if first == 0:
+            human_end = seen[:, RobotObservation.HUMAN_END]
+            hand = seen[:, RobotObservation.HAND_HEIGHT]
+        else:
+            human_end = heights[np.maximum(now - age, 0)] + rng.normal(0.0, MOCAP_NOISE, len(now))
+            hand = hands[now] + rng.normal(0.0, ENCODER_NOISE, len(now))
+        sags = line[np.maximum(now - round(ARM_LAG / FRAME), 0)] - hand
+        coming = now[:, np.newaxis] + np.round(np.array(LEADS) / FRAME).astype(int)
+        rises = heights[np.minimum(coming, lift.frame)] - human_end[:, np.newaxis]
+        inputs = window_inputs(human_end, line[now], sags, window)
+        parts.append(Experience(inputs=np.float32(inputs), rises=np.float32(rises)))
+    return Experience.join(parts)
+
+
+def window_inputs(heights: Array, commands: Array, sags: Array, window: Window) -> Array:
+    """Return the inputs of :class:`.Senses` in each of n steps, an interval apart.
+
+    Parameters
+    ----------
+    heights, commands, sags
+        (n,) what was seen, commanded and felt in each step [m].
+
+    Returns
+    -------
+    array
+        (n, window.size).
+    """
+    past = _past(heights, window.velocities + 1)
+    return np.hstack(
+        (
+            past[:, :1],
+            past[:, :-1] - past[:, 1:],
+            _past(commands, window.commands) - past[:, :1],
+            _past(sags, window.sags),
+        )
+    )
+
+
+def _past(values: Array, count: int) -> Array:
+    """Return (n, count): each value and the ones before it, newest first; at first, the first."""
+    if not count:
+        return np.empty((len(values), 0))
+    begun = np.concatenate((np.full(count - 1, values[0]), values))
+    return sliding_window_view(begun, count)[:, ::-1]

@@ -1,0 +1,213 @@
+"""Learning to anticipate: a perceptron of how people move on, fitted to lifts with new people.
+
+It is learned in rounds, as in dataset aggregation (S. Ross, G. Gordon, D. Bagnell, "A reduction of
+imitation learning and structured prediction to no-regret online learning", AISTATS 2011): people
+give in to the robot, so that they move a little differently with each policy. In the first round
+the robot extrapolates, in each further one it anticipates with what was learned from all before.
+"""
+
+import importlib
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor
+from functools import partial
+from importlib.metadata import version
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..agents.errors import InputError
+from ..agents.estimators.perceptron import Perceptron
+from ..agents.policies.anticipation import Anticipation
+from ..agents.policies.senses import Window
+from .anticipation_experience import LEADS, Experience, Timing, experience
+from .suite import BEHAVIOURS
+
+FIRST_SEED: Final = 100_000
+"""Seed of the first lift, far from those of the suites, the calibration and the demonstrations."""
+
+LAST_SEED: Final = 199_999
+"""Last seed to learn from: from 200000 on, policies are compared on people that none has met."""
+
+LIFTS: Final = 3000
+"""Lifts of a round."""
+
+ROUNDS: Final = 2
+"""Rounds; a third changes nothing that shows."""
+
+HIDDEN: Final = (96, 96)
+"""Units of the hidden layers."""
+
+STAGES: Final = ((2e-3, 3), (5e-4, 3), (1e-4, 2))
+"""Learning rate and passes through the data of each stage of the fit."""
+
+BATCH: Final = 1024
+"""Samples of a step of the fit."""
+
+
+def fit(
+    data: Experience, *, hidden: Sequence[int] = HIDDEN, seed: int = 0
+) -> tuple[Perceptron, NDArray[np.float64]]:
+    """Fit a perceptron to experience, by Adam on the mean squared error.
+
+    Every lead counts alike: its errors are relative to those of the best linear function. The fit
+    is scikit-learn's, in one thread, so that the same experience gives the same bits.
+
+    Returns
+    -------
+    tuple
+        The perceptron, and its root mean square error at each lead [m].
+
+    Raises
+    ------
+    InputError
+        If scikit-learn is not installed.
+    """
+    learner, threads = _learner()
+    centre = data.inputs.mean(axis=0, dtype=np.float64)
+    spread = data.inputs.std(axis=0, dtype=np.float64) + 1e-9
+    inputs = ((data.inputs - centre) / spread).astype(np.float32)
+    with threads.threadpool_limits(1), warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # Its ConvergenceWarning: stages end early.
+        affine = np.hstack((inputs, np.ones((len(inputs), 1), np.float32)))
+        line = np.linalg.solve(affine.T @ affine + np.eye(affine.shape[1]), affine.T @ data.rises)
+        gain = (data.rises - affine @ line).std(axis=0, dtype=np.float64)
+        outputs = (data.rises / gain).astype(np.float32)
+        network = learner.MLPRegressor(
+            tuple(hidden),
+            batch_size=min(BATCH, len(inputs)),
+            warm_start=True,
+            random_state=seed,
+            alpha=1e-6,
+        )
+        for rate, passes in STAGES:
+            network.set_params(learning_rate_init=rate, max_iter=passes)
+            network.fit(inputs, outputs)
+        squares = ((network.predict(inputs) - outputs) ** 2).mean(axis=0, dtype=np.float64)
+    perceptron = Perceptron(
+        centre=centre,
+        spread=spread,
+        weights=tuple(weight.astype(np.float64) for weight in network.coefs_),
+        biases=tuple(bias.astype(np.float64) for bias in network.intercepts_),
+        gain=gain,
+    )
+    return perceptron, gain * np.sqrt(squares)
+
+
+def gather(
+    seeds: range,
+    *,
+    model: Anticipation | None,
+    window: Window,
+    behaviours: Sequence[str],
+    timing: Timing,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda lifts: None,
+) -> Experience:
+    """Return the experience of lifts on these seeds; see :func:`.experience`.
+
+    Raises
+    ------
+    InputError
+        If there is no seed, or one is not for learning.
+    """
+    if not seeds:
+        raise InputError("there must be at least 1 lift to learn from")
+    if not FIRST_SEED <= seeds[0] <= seeds[-1] <= LAST_SEED:
+        raise InputError(
+            f"seeds to learn from are {FIRST_SEED} to {LAST_SEED}, others are for tests; "
+            f"got {seeds[0]} to {seeds[-1]}"
+        )
+    play = partial(experience, model=model, window=window, behaviours=behaviours, timing=timing)
+    parts = []
+    for part in map(play, seeds) if executor is None else executor.map(play, seeds, chunksize=8):
+        parts.append(part)
+        progress(1)
+    return Experience.join(parts)
+
+
+def learn_anticipation(
+    *,
+    lifts: int = LIFTS,
+    rounds: int = ROUNDS,
+    timing: Timing | None = None,
+    first_seed: int = FIRST_SEED,
+    behaviours: Sequence[str] = (*BEHAVIOURS, "roaming"),
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda lifts: None,
+) -> Iterator[Anticipation]:
+    """Yield what was learned after each round; the last is the result.
+
+    Parameters
+    ----------
+    lifts, rounds
+        Lifts of a round, and rounds.
+    timing
+        Latency and control period.
+    first_seed
+        Seed of the first lift.
+    behaviours
+        How the people move, see :func:`.scenario`.
+    executor
+        Plays the lifts; none: in this process.
+    progress
+        Called with the number of lifts that were finished since the last call.
+
+    Raises
+    ------
+    InputError
+        If scikit-learn is not installed, or as :func:`gather`.
+    """
+    _learner()
+    timing = timing or Timing()
+    window = window_for(timing)
+    model: Anticipation | None = None
+    parts: list[Experience] = []
+    for number in range(rounds):
+        first = first_seed + number * lifts
+        part = gather(
+            range(first, first + lifts),
+            model=model,
+            window=window,
+            behaviours=behaviours,
+            timing=timing,
+            executor=executor,
+            progress=progress,
+        )
+        parts.append(part)
+        data = Experience.join(parts)
+        perceptron, errors = fit(data)
+        model = Anticipation(
+            perceptron=perceptron,
+            window=window,
+            leads=np.array(LEADS),
+            latency=timing.latency,
+            provenance={
+                "seeds": [first_seed, first + lifts - 1],
+                "rounds": number + 1,
+                "behaviours": list(behaviours),
+                "control_period_s": timing.control_period,
+                "samples": len(data.inputs),
+                "library": f"scikit-learn {version('scikit-learn')}",
+                "rms_error_mm": [round(1000 * error, 3) for error in errors.tolist()],
+            },
+        )
+        yield model
+
+
+def window_for(timing: Timing) -> Window:
+    """Return the window of a robot: as many values as at the paper's timing, or 1.2 s."""
+    period = timing.control_period
+    return Window(interval=period, velocities=max(Window.velocities, round(1.2 / period)))
+
+
+def _learner() -> tuple[Any, Any]:
+    """Return the modules that learning needs beyond what a robot needs."""
+    try:
+        return (
+            importlib.import_module("sklearn.neural_network"),
+            importlib.import_module("threadpoolctl"),
+        )
+    except ImportError as error:
+        raise InputError("learning to anticipate needs the extra: install colift[learn]") from error

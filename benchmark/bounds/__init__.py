@@ -1,0 +1,1 @@
+"""What no policy can beat: one that knows the future, and one that learned all there is to see."""

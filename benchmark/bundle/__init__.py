@@ -1,0 +1,38 @@
+"""The result bundle: a folder with a policy's scores, and all that they follow from.
+
+================== ===============================================================================
+file               content
+================== ===============================================================================
+``results.json``   the summary; see :func:`.results`
+``episodes.csv``   one row an episode: who lifts, seed, scores, why it failed
+``traces.npz``     both agents' actions, a hash of each step's state, the heights and forces
+``manifest.json``  what re-makes the episodes, the platform, the SHA-256 of every other file
+``recordings.csv`` the recordings, if people's recorded lifts were played
+``logs.json``      what failed policies had printed, if they had
+================== ===============================================================================
+"""
+
+from .content import results
+from .differences import Difference, differences
+from .files import FILES, check_target, read_files
+from .fingerprint import fingerprint
+from .reading import Bundle, parse, read_bundle
+from .recipe import Recipe
+from .table import one_line
+from .writing import write_bundle
+
+__all__ = [
+    "FILES",
+    "Bundle",
+    "Difference",
+    "Recipe",
+    "check_target",
+    "differences",
+    "fingerprint",
+    "one_line",
+    "parse",
+    "read_bundle",
+    "read_files",
+    "results",
+    "write_bundle",
+]

@@ -1,0 +1,94 @@
+"""Arrays in an ``.npz`` file: equal arrays give equal files, and no file is trusted."""
+
+import io
+import math
+import warnings
+import zipfile
+from collections.abc import Mapping
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.errors import InputError, told
+
+MOST_BYTES: Final = 2**30
+"""Bytes that all arrays of a file may take together, unpacked."""
+
+MOST_ARRAYS: Final = 200
+"""Arrays that a file may have."""
+
+DTYPES: Final = ("<f8", "<i8", "|u1")
+"""Types that an array may have."""
+
+Arrays = dict[str, NDArray[Any]]
+
+
+def dump_arrays(arrays: Mapping[str, NDArray[Any]]) -> bytes:
+    """Return the arrays as one ``.npz`` file, compressed, without pickles."""
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, array in arrays.items():
+            # A fixed date, so that equal arrays give equal files.
+            entry = zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            with archive.open(entry, "w") as file:
+                np.lib.format.write_array(file, array, version=(1, 0), allow_pickle=False)
+    return data.getvalue()
+
+
+def parse_arrays(data: bytes, file: str) -> Arrays:
+    """Return the arrays of an ``.npz`` file by name.
+
+    What each array claims to be is checked before memory is taken for it.
+
+    Raises
+    ------
+    InputError
+        If it is not such a file, or an array is of another type or larger than it may be.
+    """
+    try:
+        with warnings.catch_warnings(), zipfile.ZipFile(io.BytesIO(data)) as archive:
+            warnings.simplefilter("error")
+            entries = archive.infolist()
+            _check_directory(entries, file)
+            return {
+                entry.filename.removesuffix(".npy"): _array(archive, entry, file)
+                for entry in entries
+            }
+    except (InputError, MemoryError):
+        raise
+    except Exception as error:
+        # A broken archive raises whatever its broken part makes the reader do.
+        raise InputError(f"{file}: damaged, or not an .npz file: {told(error)}") from None
+
+
+def _check_directory(entries: list[zipfile.ZipInfo], file: str) -> None:
+    names = [entry.filename for entry in entries]
+    if len(names) > MOST_ARRAYS:
+        raise InputError(f"{file}: {len(names)} arrays, at most {MOST_ARRAYS} are read")
+    if len(set(names)) < len(names):
+        raise InputError(f"{file}: two arrays have the same name")
+    size = sum(entry.file_size for entry in entries)
+    if size > MOST_BYTES:
+        raise InputError(f"{file}: claims {size} bytes, at most {MOST_BYTES} are read")
+    for entry in entries:
+        if not entry.filename.endswith(".npy") or entry.flag_bits & 1:
+            raise InputError(f"{file}: {entry.filename!r:.80} is not a plain .npy array")
+        if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+            raise InputError(f"{file}: {entry.filename!r:.80} is compressed in an unknown way")
+
+
+def _array(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, file: str) -> NDArray[Any]:
+    what = f"{file}: {entry.filename!r:.80}"
+    with archive.open(entry) as stream:
+        if np.lib.format.read_magic(stream) != (1, 0):
+            raise InputError(f"{what} is not an array of format 1.0")
+        shape, fortran, dtype = np.lib.format.read_array_header_1_0(stream)
+        if dtype.str not in DTYPES or (fortran and len(shape) > 1):
+            raise InputError(f"{what} is of type {dtype.str}, must be one of {', '.join(DTYPES)}")
+        if len(shape) > 2 or min(shape, default=0) < 0:
+            raise InputError(f"{what} has the shape {shape}, must have one or two dimensions")
+        if math.prod(shape) * dtype.itemsize != entry.file_size - stream.tell():
+            raise InputError(f"{what} claims the shape {shape}, but has another size")
+        return np.frombuffer(stream.read(), dtype).reshape(shape)

@@ -1,0 +1,111 @@
+"""The files of a bundle: written all or nothing, read without trust."""
+
+import os
+import shutil
+import stat
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Final
+
+from ...agents.errors import InputError
+
+RESULTS: Final = "results.json"
+EPISODES: Final = "episodes.csv"
+TRACES: Final = "traces.npz"
+MANIFEST: Final = "manifest.json"
+RECORDINGS: Final = "recordings.csv"
+LOGS: Final = "logs.json"
+
+FILES: Final = (RESULTS, EPISODES, TRACES, MANIFEST)
+"""The files of every bundle."""
+
+LARGEST: Final[Mapping[str, int]] = {
+    RESULTS: 2**24,
+    EPISODES: 2**26,
+    TRACES: 2**30,
+    MANIFEST: 2**24,
+    RECORDINGS: 2**26,
+    LOGS: 2**24,
+}
+"""All files that a bundle can have, and the bytes beyond which they are not read."""
+
+
+def check_target(folder: Path) -> None:
+    """Refuse a folder that a bundle cannot be written to, before any work is done.
+
+    Raises
+    ------
+    InputError
+        If it holds something else than a bundle, or cannot be created or written to.
+    """
+    if folder.exists():
+        if not folder.is_dir():
+            raise InputError(f"--out must be a folder, {folder} is a file")
+        others = sorted({path.name for path in folder.iterdir()} - set(LARGEST))
+        if others:
+            raise InputError(f"--out {folder} holds other things ({others[0]}); name a new folder")
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=folder.parent):
+            pass
+    except OSError as error:
+        raise InputError(f"cannot write to {folder.parent}: {error.strerror}") from error
+
+
+def write_files(folder: Path, files: Mapping[str, bytes]) -> None:
+    """Write the files as the only ones of a folder: all of them, or none.
+
+    Raises
+    ------
+    InputError
+        As :func:`check_target`.
+    """
+    check_target(folder)
+    with tempfile.TemporaryDirectory(dir=folder.parent) as temporary:
+        made = Path(temporary) / "bundle"
+        made.mkdir()
+        for name, data in files.items():
+            (made / name).write_bytes(data)
+        if folder.exists():
+            shutil.move(folder, Path(temporary) / "older")
+        made.rename(folder)
+
+
+def read_files(folder: Path) -> dict[str, bytes]:
+    """Return the content of the files of a bundle by name, each read once.
+
+    Raises
+    ------
+    InputError
+        If there is no such folder, one of :data:`FILES` is missing, it holds anything else than
+        plain files of a bundle, or a file is too large.
+    """
+    try:
+        names = sorted(path.name for path in folder.iterdir())
+    except OSError as error:
+        raise InputError(f"{folder}: not a bundle's folder: {error.strerror}") from None
+    for name in FILES:
+        if name not in names:
+            raise InputError(f"{name}: it is missing")
+    for name in names:
+        if name not in LARGEST:
+            raise InputError(f"{name!r:.80} is not a file of a bundle")
+    return {name: _read(folder / name) for name in names}
+
+
+def _read(path: Path) -> bytes:
+    """Return the content of a plain file; of a link, a pipe or a device nothing is read."""
+    largest = LARGEST[path.name]
+    try:
+        handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+        with os.fdopen(handle, "rb") as file:
+            if not stat.S_ISREG(os.fstat(handle).st_mode):
+                raise InputError(f"{path.name}: not a plain file")
+            data = file.read(largest + 1)
+    except OSError as error:
+        told = "it is a link" if path.is_symlink() else error.strerror
+        raise InputError(f"{path.name}: cannot be read: {told}") from None
+    if len(data) > largest:
+        raise InputError(f"{path.name}: larger than {largest} bytes")
+    return data

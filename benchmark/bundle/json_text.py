@@ -1,0 +1,98 @@
+"""JSON, read as strictly as it is written."""
+
+import json
+import math
+from collections.abc import Sequence
+from typing import Any, NoReturn, TypeVar
+
+from ...agents.errors import InputError
+
+T = TypeVar("T")
+
+
+def dump_json(content: Any) -> bytes:
+    """Return the content as text, in ASCII."""
+    return (json.dumps(content, indent=2, allow_nan=False) + "\n").encode()
+
+
+def parse_json(data: bytes, file: str) -> dict[str, Any]:
+    """Return the object that a JSON text is.
+
+    Raises
+    ------
+    InputError
+        If it is none; also for NaN, infinite numbers and names that are given twice, which other
+        readers of JSON take differently.
+    """
+    try:
+        content = json.loads(
+            data,
+            parse_constant=_refuse_number,
+            parse_float=_finite,
+            object_pairs_hook=_without_repetition,
+        )
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{file}: not JSON as it must be: {error}") from None
+    if not isinstance(content, dict):
+        raise InputError(f"{file}: must be one object {{...}}")
+    return content
+
+
+def _refuse_number(text: str) -> NoReturn:
+    raise ValueError(f"the number {text} is not finite")
+
+
+def _finite(text: str) -> float:
+    value = float(text)
+    return value if math.isfinite(value) else _refuse_number(text)
+
+
+def _without_repetition(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    content = dict(pairs)
+    if len(content) < len(pairs):
+        raise ValueError("a name is given twice in one object")
+    return content
+
+
+def pick(content: Any, path: str, kind: type[T] | tuple[type[T], ...], file: str) -> T:
+    """Return the value at a dotted path, of the type it must have (bool is no int here).
+
+    Raises
+    ------
+    InputError
+        If it is missing or of another type.
+    """
+    value = content
+    for name in path.split("."):
+        if not isinstance(value, dict) or name not in value:
+            raise InputError(f"{file}: {path} is missing")
+        value = value[name]
+    return checked(value, kind, f"{file}: {path}")
+
+
+def checked(value: Any, kind: type[T] | tuple[type[T], ...], what: str) -> T:
+    """Return a value, of the type it must have.
+
+    Raises
+    ------
+    InputError
+        If it has another; ``what`` begins the message.
+    """
+    kinds = kind if isinstance(kind, tuple) else (kind,)
+    if type(value) not in kinds:
+        raise InputError(f"{what} must be {_told(kinds)}, got {value!r:.80}")
+    found: T = value
+    return found
+
+
+def _told(kinds: Sequence[type]) -> str:
+    names = {
+        str: "a text",
+        int: "a whole number",
+        float: "a number",
+        bool: "true or false",
+        dict: "an object",
+        list: "a list",
+        type(None): "null",
+    }
+    return " or ".join(names[kind] for kind in kinds)

@@ -1,0 +1,182 @@
+"""What re-makes the episodes of a bundle."""
+
+import csv
+import io
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final, Self, cast
+
+from ...agents.errors import InputError
+from ...agents.humans import Recorded, load_recordings
+from ...agents.humans.recordings import COLUMNS
+from ..catalogue import RECORDED, make_scenario, make_subject
+from ..scenario import Scenario
+from ..suite import Suite
+from ..world import Partner
+from .files import MANIFEST, RECORDINGS
+from .json_text import checked, pick
+
+MOST_EPISODES: Final = 100_000
+"""Episodes a bundle may have."""
+
+SEED_BITS: Final = 128
+"""Seeds are smaller than two to the power of this."""
+
+LONGEST_NAME: Final = 1000
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recipe:
+    """Names and numbers that make a suite."""
+
+    name: str
+    """The suite's name."""
+    scenarios: tuple[tuple[str, str, str], ...]
+    """Behaviour, subject and trial of each scenario."""
+    seeds: tuple[int, ...]
+    partner: str
+    control_period: float
+    latency: float
+    recordings: bytes | None = None
+    """The recordings as a CSV file, if people's recorded lifts are played."""
+
+    @classmethod
+    def of(cls, suite: Suite) -> Self | None:
+        """Return the recipe of a suite; None if it cannot be made from names.
+
+        That is so of behaviours and subjects that are not registered, or whose parameters were
+        changed, and of scenarios that differ in partner, control period or latency.
+        """
+        first = suite.scenarios[0]
+        recipe = cls(
+            name=suite.name,
+            scenarios=tuple((s.behaviour, s.subject.name, s.trial) for s in suite.scenarios),
+            seeds=suite.seeds,
+            partner=first.partner,
+            control_period=float(first.control_period),
+            latency=float(first.latency),
+            recordings=_recordings(suite.scenarios),
+        )
+        try:
+            made = cls.parse(recipe.plain(), recipe.recordings).suite()
+        except InputError:
+            return None
+        return recipe if made.digest == suite.digest else None
+
+    def suite(self) -> Suite:
+        """Return the suite.
+
+        Raises
+        ------
+        InputError
+            If a name is unknown, a number out of range, or the recordings cannot be used.
+        """
+        recorded = {} if self.recordings is None else _load(self.recordings)
+        try:
+            scenarios = tuple(self._scenario(*names, recorded) for names in self.scenarios)
+        except InputError as error:
+            raise InputError(f"{MANIFEST}: {error}") from None
+        return Suite(name=self.name, scenarios=scenarios, seeds=self.seeds)
+
+    def _scenario(
+        self, behaviour: str, subject: str, trial: str, recorded: dict[str, Recorded]
+    ) -> Scenario:
+        partner = cast(Partner, self.partner)  # Scenario checks it.
+        if behaviour == RECORDED:
+            if trial not in recorded:
+                raise InputError(f"{RECORDINGS} has no trial {trial!r:.80}")
+            return Scenario(
+                behaviour=RECORDED,
+                human=recorded[trial],
+                trial=trial,
+                subject=make_subject(subject),
+                partner=partner,
+                control_period=self.control_period,
+                latency=self.latency,
+            )
+        # A name with a colon would be that of a file.
+        if trial or ":" in behaviour:
+            raise InputError(f"there is no behaviour {behaviour!r:.80} with trial {trial!r:.80}")
+        return make_scenario(behaviour, subject, partner, self.control_period, self.latency)
+
+    def plain(self) -> dict[str, Any]:
+        """Return what JSON can hold of it: all but the recordings."""
+        return {
+            "suite": self.name,
+            "partner": self.partner,
+            "control_period": self.control_period,
+            "latency": self.latency,
+            "seeds": list(self.seeds),
+            "scenarios": ["/".join(filter(None, names)) for names in self.scenarios],
+        }
+
+    @classmethod
+    def parse(cls, content: dict[str, Any], recordings: bytes | None) -> Self:
+        """Return the recipe that :meth:`plain` and the recordings came from.
+
+        Raises
+        ------
+        InputError
+            If something is missing, of the wrong type or out of range.
+        """
+        scenarios = [
+            checked(names, str, f"{MANIFEST}: a scenario")
+            for names in pick(content, "scenarios", list, MANIFEST)
+        ]
+        seeds = [
+            checked(seed, int, f"{MANIFEST}: a seed")
+            for seed in pick(content, "seeds", list, MANIFEST)
+        ]
+        if not 0 < len(scenarios) * len(seeds) <= MOST_EPISODES:
+            raise InputError(f"{MANIFEST}: there must be 1 to {MOST_EPISODES} episodes")
+        if min(seeds) < 0 or max(seeds).bit_length() > SEED_BITS:
+            raise InputError(f"{MANIFEST}: seeds must be from 0 to 2^{SEED_BITS} - 1")
+        if max(map(len, scenarios)) > LONGEST_NAME:
+            raise InputError(f"{MANIFEST}: a scenario's name is too long")
+        return cls(
+            name=pick(content, "suite", str, MANIFEST),
+            scenarios=tuple(_names(name) for name in scenarios),
+            seeds=tuple(seeds),
+            partner=pick(content, "partner", str, MANIFEST),
+            control_period=pick(content, "control_period", float, MANIFEST),
+            latency=pick(content, "latency", float, MANIFEST),
+            recordings=recordings,
+        )
+
+
+def _names(name: str) -> tuple[str, str, str]:
+    """Return behaviour, subject and trial of a scenario's name; a trial may have slashes."""
+    behaviour, _, rest = name.partition("/")
+    subject, _, trial = rest.partition("/")
+    return behaviour, subject, trial
+
+
+def _recordings(scenarios: tuple[Scenario, ...]) -> bytes | None:
+    """Return the recordings of the scenarios as the file that they could have come from."""
+    recordings = {
+        scenario.human.recording.name: scenario.human.recording
+        for scenario in scenarios
+        if isinstance(scenario.human, Recorded)
+    }
+    if not recordings:
+        return None
+    text = io.StringIO()
+    writer = csv.writer(text, quoting=csv.QUOTE_NONNUMERIC, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for name, recording in recordings.items():
+        for time, height in zip(recording.times, recording.heights, strict=True):
+            writer.writerow((name, time, height))
+    return text.getvalue().encode(errors="replace")
+
+
+def _load(recordings: bytes) -> dict[str, Recorded]:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / RECORDINGS
+        path.write_bytes(recordings)
+        try:
+            return {
+                recording.name: Recorded(recording=recording) for recording in load_recordings(path)
+            }
+        except InputError as error:
+            raise InputError(str(error).replace(str(path), RECORDINGS)) from None

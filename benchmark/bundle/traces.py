@@ -1,0 +1,130 @@
+"""``traces.npz``: the traces of all episodes, joined end to end."""
+
+import itertools
+import math
+import re
+from collections.abc import Sequence
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.errors import InputError
+from ..recorder import HASH_BYTES
+from ..trace import Trace
+from .arrays import Arrays
+from .files import TRACES
+
+INTERNALS: Final = "internals/"
+
+_PLAIN_NAME: Final = re.compile(r"[A-Za-z0-9_.-]{1,64}", re.ASCII)
+
+MOST_INTERNALS: Final = 100
+"""Numbers a policy may report of itself that are kept."""
+
+BY_STEP: Final = ("action", "human_action")
+"""Series with a row a step; the others have a number a frame."""
+
+
+def dump_traces(traces: Sequence[Trace], places: Sequence[int]) -> Arrays:
+    """Return the traces as arrays.
+
+    ``places``, ``frames`` and ``steps`` (k,) say of each of the k episodes where in the suite it
+    is, counted from 0, and how many frames and steps it has. Then come the series of
+    :class:`.Trace`, ``state``, and as ``internals/NAME`` what the policy said of itself, NaN where
+    it said nothing; names with other characters than letters, digits and ``_.-`` are left out.
+    """
+    arrays: dict[str, NDArray[Any]] = {
+        "places": np.array(places, dtype="<i8"),
+        "frames": np.array([len(trace.human_end) for trace in traces], dtype="<i8"),
+        "steps": np.array([len(trace.action) for trace in traces], dtype="<i8"),
+    }
+    for name in Trace.series():
+        parts = [getattr(trace, name) for trace in traces]
+        arrays[name] = np.concatenate(parts).astype("<f8")
+    arrays["state"] = np.concatenate([trace.state for trace in traces])
+    said = sorted({name for trace in traces for name in trace.internals})
+    for name in [name for name in said if _PLAIN_NAME.fullmatch(name)][:MOST_INTERNALS]:
+        parts = [
+            trace.internals.get(name, np.full(len(trace.action), math.nan)) for trace in traces
+        ]
+        arrays[INTERNALS + name] = np.concatenate(parts).astype("<f8")
+    return arrays
+
+
+def parse_traces(arrays: Arrays) -> tuple[tuple[Trace, ...], tuple[int, ...]]:
+    """Return the traces, and their places in the suite.
+
+    Raises
+    ------
+    InputError
+        If an array is missing, superfluous, of the wrong type or shape, or not finite.
+    """
+    arrays = dict(arrays)
+    places, frames, steps = (_counts(arrays, name) for name in ("places", "frames", "steps"))
+    episodes = len(places)
+    if not episodes or len(frames) != episodes or len(steps) != episodes:
+        raise InputError(f"{TRACES}: places, frames and steps must have one number an episode")
+    if any(b <= a for a, b in itertools.pairwise(places)):
+        raise InputError(f"{TRACES}: places must increase")
+    series = {
+        name: _series(arrays, name, sum(steps) if name in BY_STEP else sum(frames))
+        for name in Trace.series()
+    }
+    per_step = series["human_action"].shape[1]
+    for episode, (n, m) in enumerate(zip(frames, steps, strict=True)):
+        if n != m * per_step:
+            raise InputError(f"{TRACES}: episode {episode} has {n} frames in {m} steps")
+    state = _taken(arrays, "state", "|u1", 2)
+    if state.shape != (sum(steps), HASH_BYTES):
+        raise InputError(f"{TRACES}: state has the shape {state.shape}")
+    internals = {name: _said(arrays, name, sum(steps)) for name in sorted(arrays)}
+    traces = []
+    last_frame = last_step = 0
+    for n, m in zip(frames, steps, strict=True):
+        frame = slice(last_frame, last_frame + n)
+        step = slice(last_step, last_step + m)
+        last_frame, last_step = frame.stop, step.stop
+        cut = {name: all_[step if name in BY_STEP else frame] for name, all_ in series.items()}
+        said = {name.removeprefix(INTERNALS): all_[step] for name, all_ in internals.items()}
+        traces.append(Trace(**cut, state=state[step], internals=said))
+    return tuple(traces), places
+
+
+def _taken(arrays: Arrays, name: str, dtype: str, dimensions: int) -> NDArray[Any]:
+    if name not in arrays:
+        raise InputError(f"{TRACES}: {name} is missing")
+    array = arrays.pop(name)
+    if array.dtype.str != dtype or array.ndim != dimensions:
+        raise InputError(
+            f"{TRACES}: {name} must be of type {dtype} and have {dimensions} dimension(s), "
+            f"got {array.dtype.str} and {array.ndim}"
+        )
+    return array
+
+
+def _counts(arrays: Arrays, name: str) -> tuple[int, ...]:
+    counts = tuple(_taken(arrays, name, "<i8", 1).tolist())
+    if min(counts, default=0) < 0:
+        raise InputError(f"{TRACES}: {name} must not be negative")
+    return counts
+
+
+def _series(arrays: Arrays, name: str, length: int) -> NDArray[np.float64]:
+    array: NDArray[np.float64] = _taken(arrays, name, "<f8", 2 if name in BY_STEP else 1)
+    if len(array) != length:
+        raise InputError(f"{TRACES}: {name} has {len(array)} rows, must have {length}")
+    if not np.isfinite(array).all():
+        row = int(np.argwhere(~np.isfinite(array))[0][0])
+        raise InputError(f"{TRACES}: {name} is not finite in row {row}")
+    return array
+
+
+def _said(arrays: Arrays, name: str, length: int) -> NDArray[np.float64]:
+    plain = name.startswith(INTERNALS) and _PLAIN_NAME.fullmatch(name.removeprefix(INTERNALS))
+    if not plain:
+        raise InputError(f"{TRACES}: {name!r:.80} does not belong there")
+    array: NDArray[np.float64] = _taken(arrays, name, "<f8", 1)
+    if len(array) != length:
+        raise InputError(f"{TRACES}: {name} has {len(array)} rows, must have {length}")
+    return array

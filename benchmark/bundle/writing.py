@@ -1,0 +1,98 @@
+"""Writing a bundle."""
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Final
+
+from ..episode import Episode
+from ..runner import Run
+from .arrays import dump_arrays
+from .files import EPISODES, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, write_files
+from .fingerprint import fingerprint
+from .json_text import dump_json
+from .recipe import Recipe
+from .table import dump_table
+from .traces import dump_traces
+
+FORMAT: Final = 1
+"""Number of the bundle's format."""
+
+LONGEST_LOG: Final = 10_000
+"""Characters of a failed episode's printed lines that are kept, from the end."""
+
+MOST_LOGS: Final = 100
+"""Failed episodes whose printed lines are kept, from the first."""
+
+
+def write_bundle(
+    folder: Path,
+    run: Run,
+    content: dict[str, Any],
+    *,
+    platform: Mapping[str, str] | None = None,
+) -> None:
+    """Write the bundle of a run: everything, or nothing.
+
+    Equal runs give equal files, bit for bit, up to the step times in ``results.json`` (and with
+    them its hash in the manifest).
+
+    Parameters
+    ----------
+    folder
+        Where to; an older bundle there is replaced.
+    run
+        The episodes, at least one.
+    content
+        What :func:`.results` returned.
+    platform
+        The fingerprint of the platform that simulated the episodes, if it is not this one.
+
+    Raises
+    ------
+    InputError
+        As :func:`.check_target`.
+    """
+    recipe = Recipe.of(run.suite)
+    traces = [episode.trace for episode in run.episodes]
+    files = {
+        RESULTS: dump_json(content),
+        EPISODES: dump_table(run.episodes),
+        TRACES: dump_arrays(dump_traces(traces, places(run))),
+    }
+    if recipe is not None and recipe.recordings is not None:
+        files[RECORDINGS] = recipe.recordings
+    logs = _logs(run.episodes)
+    if logs:
+        files[LOGS] = dump_json(logs)
+    manifest = {
+        "format": FORMAT,
+        "platform": dict(platform or fingerprint()),
+        "recipe": None if recipe is None else recipe.plain(),
+        "sha256": {name: hashlib.sha256(data).hexdigest() for name, data in files.items()},
+    }
+    write_files(folder, {**files, MANIFEST: dump_json(manifest)})
+
+
+def places(run: Run) -> list[int]:
+    """Return where in the suite each episode of a run is, counted from 0."""
+    names = [
+        (scenario.behaviour, scenario.subject.name, scenario.trial, seed)
+        for scenario in run.suite.scenarios
+        for seed in run.suite.seeds
+    ]
+    found: list[int] = []
+    for episode in run.episodes:
+        name = (episode.behaviour, episode.subject, episode.trial, episode.seed)
+        found.append(names.index(name, found[-1] + 1 if found else 0))
+    return found
+
+
+def _logs(episodes: Sequence[Episode]) -> dict[str, str]:
+    """Return what failed policies had printed, by the row of ``episodes.csv``, from 1."""
+    failed = [
+        (row, episode.log)
+        for row, episode in enumerate(episodes, 1)
+        if episode.failure is not None and episode.log
+    ]
+    return {str(row): log[-LONGEST_LOG:] for row, log in failed[:MOST_LOGS]}

@@ -1,0 +1,1 @@
+"""Hardware trials: the emulated laboratory, and a trial's scores, bundle and calibration."""

@@ -1,0 +1,70 @@
+"""The emulated laboratory: a person, a table and a NAO, one motion-capture frame at a time."""
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...agents.agent import FRAME
+from ..lift import Lift, body_parameters
+from ..scenario import Scenario
+from ..world import SERVO, Servo
+from .joint_arms import JointArms, JointWorld
+
+
+class EmulatedLift(Lift):
+    """A lift whose robot is moved by joint angles, for as many lifts as are asked for.
+
+    The person waits at rest until told to lift, carries a plan out as in simulation, and waits
+    again. In between the world goes on: nothing is put back.
+
+    Parameters
+    ----------
+    scenario
+        Who lifts how; its control period is that of the person here, a frame.
+    servo
+        The NAO's joint servos.
+    """
+
+    def __init__(self, scenario: Scenario, *, servo: Servo = SERVO) -> None:
+        super().__init__(dataclasses.replace(scenario, control_period=FRAME))
+        body = body_parameters(scenario.subject)
+        self.world.close()
+        self.world = self._world = JointWorld("nao", body, servo=servo)
+        self.lifting = False
+        self._rest()
+
+    @property
+    def arms(self) -> JointArms:
+        """The NAO's arms."""
+        return self._world.joint_arms
+
+    def _rest(self) -> None:
+        """Let the person wait at rest height."""
+        super().reset(0)
+        self.lifting = False
+        self.target = np.zeros(1)
+        self._human = self.scripted_human()
+
+    def start(self, seed: int) -> None:
+        """Let the person begin the lift ``seed``."""
+        super().reset(seed)
+        self._human = self.scripted_human()
+        self.lifting = True
+
+    def advance(self, commanded: Sequence[float], stiffness: Sequence[float]) -> None:
+        """Advance by one frame.
+
+        Parameters
+        ----------
+        commanded
+            The joints' set-points at the end of the frame [rad].
+        stiffness
+            Their stiffnesses, 0 to 1.
+        """
+        self.arms.commanded = np.array(commanded)
+        self.arms.stiffness = np.array(stiffness)
+        reference = self._human.act(self.human_observation())
+        self.step(reference, [0.0])
+        if self.lifting and self.truncated:
+            self._rest()

@@ -1,0 +1,145 @@
+"""What a trial says of a laboratory: latency, sag and noise, as numbers for the simulated world."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.errors import InputError
+from ...agents.hardware.plausibility import seen
+from ...agents.hardware.recording import Recording
+from ...robots.arm_kinematics import arm_path
+from ..world.table import WEIGHT_SHARE
+
+FEWEST: Final = 20
+"""Fewest steps and frames that an estimate is made from."""
+
+LONGEST_DELAY: Final = 0.4
+"""Longest delay of the hands that is searched for [s]."""
+
+LOWEST_MOTION: Final = 0.03
+"""Range of the commands [m] that it takes to see how the hands follow."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Estimates:
+    """Numbers of a laboratory, and which of the world's each stands for."""
+
+    capture_age: float
+    """Age of the newest frame when a step begins [s], median: the lowest ``latency`` that can be
+    simulated for this laboratory."""
+    latency: float
+    """Age of the frame that the policy was given [s], median: the ``latency`` of these trials."""
+    follow_delay: float
+    """How long the robot's table end is behind its commands [s], each a ramp over its period."""
+    servo_time: float
+    """Time constant of the arms behind their set-points [s]: ``Servo.time``."""
+    stiffness: float
+    """Torque over displacement of a joint [Nm/rad]: ``Servo.stiffness``; infinite without sag."""
+    sag: float
+    """How far the hands are below their set-points, mean [m]."""
+    capture_noise: float
+    """Standard deviation of an end's height [m]: ``MOCAP_NOISE``."""
+
+
+def estimate(recordings: Sequence[Recording]) -> Estimates:
+    """Return the numbers that some trials give.
+
+    Raises
+    ------
+    InputError
+        If they are too short, or the robot did not move.
+    """
+    records = [recording.record for recording in recordings]
+    steps = [step for record in records for step in record.steps]
+    if len(steps) < FEWEST:
+        raise InputError(f"{len(steps)} steps are too few to estimate from, {FEWEST} are needed")
+    ages = np.array([step.sensing_age for step in steps if math.isfinite(step.sensing_age)])
+    wanted = np.concatenate([np.full(len(record.steps), record.latency) for record in records])
+    stiffness, servo_time, sag = _servo(recordings)
+    return Estimates(
+        capture_age=float(np.median(ages)),
+        latency=float(np.median(np.maximum(ages, wanted[: len(ages)]))),
+        follow_delay=float(np.median([_delay(recording) for recording in recordings])),
+        servo_time=servo_time,
+        stiffness=stiffness,
+        sag=sag,
+        capture_noise=float(np.median([_noise(recording) for recording in recordings])),
+    )
+
+
+def _noise(recording: Recording) -> float:
+    """Return the noise of a height from its third differences [m], which motion hardly enters.
+
+    They have the variance 20 s^2 for white noise of the variance s^2; the median of their size is
+    0.6745 standard deviations, whatever a few jumps do.
+    """
+    frames = [sample for sample in recording.record.samples if seen(sample)]
+    if len(frames) < FEWEST:
+        raise InputError(f"{len(frames)} frames are too few to estimate from")
+    differences = np.diff(np.array(frames)[:, 1:], n=3, axis=0)
+    return float(np.median(np.abs(differences)) / 0.6745 / math.sqrt(20))
+
+
+def _ramps(recording: Recording, times: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the commanded height at some times [m]: each command a ramp over its period."""
+    period = recording.record.period
+    knots, heights = [], []
+    for step in recording.record.steps:
+        given = step.time + step.state_time + step.policy_time
+        knots += [given, given + period]
+        heights += [step.hand_command, step.command]
+    order = np.argsort(knots, kind="stable")
+    return np.interp(times, np.array(knots)[order], np.array(heights)[order])
+
+
+def _delay(recording: Recording) -> float:
+    """Return the delay [s] at which the robot's end fits its commands best, up to an offset."""
+    frames = np.array([s for s in recording.record.samples if seen(s)])
+    commands = [step.command for step in recording.record.steps]
+    if not commands or np.ptp(commands) < LOWEST_MOTION:
+        raise InputError(
+            f"the hands were told to move by less than {1000 * LOWEST_MOTION:.0f} mm: "
+            "nothing can be said of how they follow"
+        )
+    first = recording.record.start + LONGEST_DELAY
+    frames = frames[frames[:, 0] >= first]
+    delays = np.arange(0.0, LONGEST_DELAY, 0.001)
+    misfits = [
+        float(np.std(frames[:, 2] - _ramps(recording, frames[:, 0] - delay))) for delay in delays
+    ]
+    return float(delays[int(np.argmin(misfits))])
+
+
+def _servo(recordings: Sequence[Recording]) -> tuple[float, float, float]:
+    """Return stiffness [Nm/rad], time constant [s] and mean sag [m] of the arms.
+
+    A set-point s at height h, moving at v, is ahead of the hands by
+
+        s - h = C(h) / k + T v,    C(h) = sum_i J_i (J_i W / 2 - g_i),
+
+    with the levers J and gravity torques g of the arm path, and half the table's weight W: least
+    squares for 1/k and T over all steps.
+    """
+    path = arm_path()
+    rows, ahead = [], []
+    for recording in recordings:
+        steps = recording.record.steps
+        times = np.array([step.time for step in steps])
+        heights = np.array([step.hand_height for step in steps])
+        set_points = np.array([step.set_point for step in steps]) + recording.weight_offset
+        if len(steps) < FEWEST:
+            continue
+        speeds = np.gradient(heights, times)
+        for height, set_point, speed in zip(heights, set_points, speeds, strict=True):
+            lever, torque = path.lever(float(height)), path.gravity_torque(float(height))
+            rows.append((float(lever @ (lever * WEIGHT_SHARE / 2 - torque)), float(speed)))
+            ahead.append(float(set_point - height))
+    if not rows:
+        raise InputError(f"every trial has fewer than {FEWEST} steps: too few to estimate from")
+    (compliance, time), *_ = np.linalg.lstsq(np.array(rows), np.array(ahead), rcond=None)
+    stiffness = 1 / float(compliance) if compliance > 1e-6 else math.inf
+    return stiffness, float(time), float(np.mean(ahead))

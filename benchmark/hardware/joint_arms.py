@@ -1,0 +1,92 @@
+"""The NAO's arms in the world, moved joint by joint as ALMotion moves them."""
+
+from typing import ClassVar, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...robots.arm_kinematics import ARM_JOINTS, MIRROR, arm_path, gravity_torque, vertical_lever
+from ..world import World
+from ..world.bullet import pybullet
+from ..world.nao_arms import NaoArms
+from ..world.physics import Physics
+from ..world.servo import Servo
+from ..world.table import WEIGHT_SHARE
+
+_MIRROR: Final = np.array(MIRROR)
+
+
+class JointArms(NaoArms):
+    """Both arms by ten set-points and ten stiffnesses, instead of by the hands' height.
+
+    A joint gives way by its torque over the servo's stiffness, as in :class:`.NaoArms`: here joint
+    by joint, at the angles that were commanded,
+
+        q_i = c_i + (g_i - J_i F / 2) / k.
+
+    No offset makes up for the weight: that is the business of whoever sends the commands.
+    """
+
+    def __init__(self, client: int, tree: int, physics: Physics, servo: Servo) -> None:
+        self.commanded: NDArray[np.float64] = np.array(arm_path().joint_angles(0.0))
+        """Set-points at the end of the next frame [rad], in the order of ``ARM_JOINTS``."""
+        self.stiffness: NDArray[np.float64] = np.ones(len(ARM_JOINTS))
+        """Share of its torque that each motor has, 0 to 1."""
+        self._compliant = 1 / servo.stiffness
+        super().__init__(client, tree, physics, servo)
+
+    def reset(self) -> None:
+        """Hold what is commanded."""
+        self._load = WEIGHT_SHARE
+        self._from = self._to = self._set_points()
+
+    def _set_points(self) -> NDArray[np.float64]:
+        """Return the commanded angles with what the joints give way by [rad]."""
+        sides = np.stack([self.commanded[:5], self.commanded[5:] * _MIRROR])
+        sag = gravity_torque(sides) - vertical_lever(sides) * self._load / 2
+        left, right = sides + sag * self._compliant
+        return np.concatenate([left, right * _MIRROR])
+
+    def prepare(
+        self, command: float, own: list[float], other: list[float], force: list[float]
+    ) -> None:
+        """Take the commanded angles for the end of the next frame; ``command`` means nothing."""
+        self._load += self._yielding * (force[-1] - self._load)
+        self._from, self._to = self._to, self._set_points()
+
+    def drive(self, begin: float, height: float, velocity: float) -> float:
+        """Set the motors for the physics step that begins at ``begin`` of the frame."""
+        angles = self._from + (self._to - self._from) * (begin + self._ahead)
+        pybullet.setJointMotorControlArray(
+            self._body,
+            self._joints,
+            pybullet.POSITION_CONTROL,
+            angles.tolist(),
+            forces=(self.stiffness * self._efforts).tolist(),
+            positionGains=self._gains,
+            velocityGains=np.ones(len(ARM_JOINTS)).tolist(),
+            physicsClientId=self._client,
+        )
+        return 0.0
+
+    def angles(self) -> list[float]:
+        """Return the joints' angles by the encoders [rad]."""
+        states = pybullet.getJointStates(self._body, self._joints, physicsClientId=self._client)
+        return [state[0] for state in states]
+
+
+class JointWorld(World):
+    """A world whose NAO is moved joint by joint, and that nobody puts back between two lifts."""
+
+    arms: ClassVar[type[NaoArms]] = JointArms
+
+    def reset(self) -> None:
+        """Put everything to rest, once: what is real stays where it is."""
+        if not hasattr(self, "human_end"):
+            super().reset()
+
+    @property
+    def joint_arms(self) -> JointArms:
+        """The NAO's arms."""
+        assert isinstance(self._far, JointArms)
+        return self._far

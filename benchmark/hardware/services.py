@@ -1,0 +1,175 @@
+"""The NAOqi services that an adapter needs, for libqi: same names, arguments and units.
+
+libqi binds the public methods of these classes under their own names, hence the spelling.
+"""
+
+# ruff: noqa: N802, N803
+
+import threading
+import time
+from collections.abc import Callable
+from typing import Any, Final
+
+from ...robots.nao_facts import JOINTS
+from .joint_motion import BODY, TICK, JointMotion, MotionError, joint_names, spread
+
+VERSION: Final = "2.8.7-emulated"
+"""What the emulator says it is: the NAO 6's NAOqi, and that it is none."""
+
+Log = Callable[[str], None]
+
+
+class MotionService:
+    """ALMotion: the part of it that is documented in ``docs/hardware.md``."""
+
+    # libqi would else call one method at a time, and a blocking one would block them all.
+    __qi_threading__ = "multi"
+
+    def __init__(self, motion: JointMotion, log: Log) -> None:
+        self._motion = motion
+        self._log = log
+        self._awake = True
+        self._killed = threading.Event()
+        self._answering = threading.Event()
+        self._answering.set()
+
+    def _silence(self, silent: bool) -> None:
+        """Answer no call for the joints' state, or answer again: a fault."""
+        if silent:
+            self._answering.clear()
+        else:
+            self._answering.set()
+
+    def getBodyNames(self, name: str) -> list[str]:
+        """Return the joints of a chain or of ``Body``."""
+        return joint_names(name)
+
+    def getLimits(self, name: str) -> list[list[float]]:
+        """Return lowest and highest angle [rad], speed [rad/s] and torque [Nm] of each joint."""
+        joints = [JOINTS[joint] for joint in joint_names(name)]
+        return [[joint.lower, joint.upper, joint.speed, joint.effort] for joint in joints]
+
+    def getAngles(self, names: Any, useSensors: bool) -> list[float]:
+        """Return the angles by the encoders, or the set-points [rad]."""
+        self._answering.wait()
+        joints = joint_names(names)
+        return self._motion.measured(joints) if useSensors else self._motion.set_points(joints)
+
+    def getStiffnesses(self, names: Any) -> list[float]:
+        """Return the stiffnesses, 0 to 1."""
+        return self._motion.stiffness(joint_names(names))
+
+    def setAngles(self, names: Any, angles: Any, fractionMaxSpeed: float) -> None:
+        """Move joints; does not block."""
+        joints = joint_names(names)
+        values = spread(angles, len(joints), "angles")
+        self._log(f"motion setAngles {values[0]:.4f} {fractionMaxSpeed:.4f}")
+        self._motion.set_angles(joints, values, float(fractionMaxSpeed))
+
+    def angleInterpolationWithSpeed(self, names: Any, angles: Any, maxSpeedFraction: float) -> None:
+        """Move joints; blocks until they have arrived."""
+        joints = joint_names(names)
+        values = spread(angles, len(joints), "angles")
+        self._log(f"motion angleInterpolationWithSpeed {maxSpeedFraction:.4f}")
+        self._motion.set_angles(joints, values, float(maxSpeedFraction))
+        self._wait(joints)
+
+    def setStiffnesses(self, names: Any, stiffnesses: Any) -> None:
+        """Set stiffnesses; does not block."""
+        joints = joint_names(names)
+        self._motion.set_stiffness(joints, spread(stiffnesses, len(joints), "stiffnesses"), 0.0)
+
+    def stiffnessInterpolation(self, names: Any, stiffnessLists: Any, timeLists: Any) -> None:
+        """Bring joints to one stiffness each within a time [s]; blocks."""
+        if isinstance(stiffnessLists, list) or isinstance(timeLists, list):
+            raise MotionError("ALMotion (emulated): one stiffness and one time for all joints")
+        joints = joint_names(names)
+        self._log(f"stiffness {stiffnessLists:g} {timeLists:g}")
+        values = [float(stiffnessLists)] * len(joints)
+        self._motion.set_stiffness(joints, values, float(timeLists))
+        self._wait(joints)
+
+    def _wait(self, joints: list[str]) -> None:
+        """Wait until the joints are still, or all motion is killed."""
+        self._killed.clear()
+        while self._motion.moving(joints) and not self._killed.wait(TICK):
+            pass
+
+    def killAll(self) -> None:
+        """Stop everything that moves."""
+        self._log("killAll")
+        self._killed.set()
+        self._motion.kill()
+
+    def killMove(self) -> None:
+        """Stop walking: the emulated robot does not walk."""
+        self._log("killMove")
+
+    def robotIsWakeUp(self) -> bool:
+        """Return whether the motors are on."""
+        return self._awake
+
+    def wakeUp(self) -> None:
+        """Switch the motors on; the emulated robot stands at the table, and stays there."""
+        self._log("wakeUp")
+        self._awake = True
+        self._motion.set_stiffness(BODY, [1.0] * len(BODY), 0.5)
+        self._wait(list(BODY))
+
+    def rest(self) -> None:
+        """Switch the motors off."""
+        self._log("rest")
+        self._awake = False
+        self._motion.set_stiffness(BODY, [0.0] * len(BODY), 0.5)
+        self._wait(list(BODY))
+
+    def getFallManagerEnabled(self) -> bool:
+        """Return that the fall manager is on."""
+        return True
+
+    def getCollisionProtectionEnabled(self, pChainName: str) -> bool:
+        """Return that the protection of an arm from self-collision is on."""
+        if pChainName not in ("LArm", "RArm", "Arms"):
+            raise MotionError(f"ALMotion: {pChainName!r} is not LArm, RArm or Arms")
+        return True
+
+    def getSmartStiffnessEnabled(self) -> bool:
+        """Return that smart stiffness is off: the emulated motors do not save power."""
+        return False
+
+
+class PostureService:
+    """ALRobotPosture: the robot stands."""
+
+    def getPosture(self) -> str:
+        """Return the posture."""
+        return "Stand"
+
+    def getPostureFamily(self) -> str:
+        """Return the family of the posture."""
+        return "Standing"
+
+
+class SpeechService:
+    """ALTextToSpeech: what the robot says, the person hears."""
+
+    def __init__(self, heard: Callable[[str], None], log: Log) -> None:
+        self._heard, self._log = heard, log
+
+    def say(self, text: str) -> None:
+        """Say a text; as long as one takes to say it."""
+        self._log(f"say {text}")
+        time.sleep(0.05)
+        self._heard(text)
+
+
+class SystemService:
+    """ALSystem: who the robot is."""
+
+    def robotName(self) -> str:
+        """Return the robot's name."""
+        return "emulated"
+
+    def systemVersion(self) -> str:
+        """Return NAOqi's version."""
+        return VERSION

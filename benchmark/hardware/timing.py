@@ -1,0 +1,50 @@
+"""The latency report of a session: how the real-time loop kept its time."""
+
+from collections import Counter
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ...agents.hardware.record import Record
+
+
+def timing_report(records: Sequence[Record]) -> dict[str, Any]:
+    """Return percentiles over all steps of some trials, and counts.
+
+    ================= ============================================================================
+    sensing_age_ms    age of the newest motion-capture frame when a step begins
+    state_ms          what reading the robot takes
+    policy_ms         what the policy takes, where it answered
+    command_ms        what giving a command takes, where one was given
+    period_error_ms   distance of the time between two steps from the control period
+    late_steps        periods that were skipped because the loop came too late
+    held              steps without a command, by their reason
+    ================= ============================================================================
+    """
+    steps = [step for record in records for step in record.steps]
+    acted = [step for step in steps if not np.isnan(step.action)]
+    errors = [
+        abs(error)
+        for record in records
+        for error in np.diff([step.time for step in record.steps]) - record.period
+    ]
+    return {
+        "steps": len(steps),
+        "sensing_age_ms": percentiles([step.sensing_age for step in steps]),
+        "state_ms": percentiles([step.state_time for step in steps]),
+        "policy_ms": percentiles([step.policy_time for step in acted]),
+        "command_ms": percentiles([step.command_time for step in acted]),
+        "period_error_ms": percentiles(errors),
+        "late_steps": sum(record.late_steps for record in records),
+        "held": dict(Counter(step.hold for step in steps if step.hold)),
+    }
+
+
+def percentiles(times: Sequence[float]) -> dict[str, float | None]:
+    """Return median, 99th percentile and largest of some times, from s to ms."""
+    finite = [time for time in times if np.isfinite(time)]
+    if not finite:
+        return {"p50": None, "p99": None, "max": None}
+    p50, p99, largest = 1000 * np.percentile(finite, [50, 99, 100])
+    return {"p50": float(p50), "p99": float(p99), "max": float(largest)}

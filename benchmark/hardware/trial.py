@@ -1,0 +1,173 @@
+"""From the record of a trial to an episode, with the metrics of the simulated ones.
+
+Motion capture knows heights, and nothing of forces or intentions: force, work, and how far the
+person meant to go have no value. Smoothness and lag are those of the filtered heights; see
+:mod:`.strokes`.
+"""
+
+import dataclasses
+import functools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.agent import FRAME
+from ...agents.errors import InputError
+from ...agents.hardware.plausibility import seen
+from ...agents.hardware.record import Record
+from ...agents.humans import SUBJECTS, Plan, Subject
+from .. import metrics
+from ..episode import Episode
+from ..recorder import HASH_BYTES
+from ..runner import Run
+from ..scenario import Scenario
+from ..scores import Scores
+from ..smoothness import ldlj, sparc
+from ..suite import Suite
+from ..trace import Trace
+from ..world.table import TABLE_LENGTH
+from .strokes import find_strokes, smoothed
+
+HARDWARE: Final = "hardware"
+"""Name of the behaviour of whoever lifts in a laboratory."""
+
+SHORTEST: Final = 6.0
+"""What a stopped trial is taken to have lasted at least [s], so that a stop never pays."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Person:
+    """A real person, as :class:`colift.agents.humans.Behaviour`: the plan is nobody's to know."""
+
+    def plan(self, subject: Subject, seed: int) -> Plan:
+        """Raise: a person cannot be simulated."""
+        raise InputError("a trial on hardware cannot be simulated: nobody knows the person's plan")
+
+
+def hardware_suite(name: str, person: str, trials: int, *, period: float, latency: float) -> Suite:
+    """Return a suite that stands for trials in a laboratory: it can be named, and not be played.
+
+    Parameters
+    ----------
+    name
+        What was lifted with, such as a robot and its version.
+    person
+        Who lifts.
+    trials
+        How many lifts there are to be; their seeds are their numbers.
+    period, latency
+        Of the real-time loop [s].
+
+    Raises
+    ------
+    InputError
+        If a time is not a whole number of frames.
+    """
+    scenario = Scenario(
+        behaviour=HARDWARE,
+        human=Person(),
+        subject=dataclasses.replace(SUBJECTS["S1"], name=person),
+        control_period=period,
+        latency=latency,
+    )
+    return Suite(name=name, scenarios=(scenario,), seeds=tuple(range(trials)))
+
+
+def episode(record: Record, *, person: str, number: int) -> Episode:
+    """Return a trial as an episode.
+
+    Parameters
+    ----------
+    record
+        The trial. One that was stopped has failed, with the reason; as in simulation, the frames
+        that it lacks (here: up to :data:`SHORTEST`) count as the worst.
+    person
+        Who lifted.
+    number
+        Number of the lift, from 0.
+    """
+    trace = _trace(record)
+    failed = record.stop is not None
+    failure = f"{record.stop.name}: {record.reason}" if record.stop is not None else None
+    return Episode(
+        behaviour=HARDWARE,
+        subject=person,
+        trial="",
+        seed=number,
+        scores=_scores(trace, failed=failed),
+        failure=failure,
+        trace=trace,
+        step_times=tuple(step.policy_time for step in record.steps if not math.isnan(step.action)),
+    )
+
+
+def hardware_run(
+    policy: str, digest: str, suite: Suite, episodes: Sequence[Episode], isolation: str
+) -> Run:
+    """Return the trials as a run."""
+    return Run(
+        policy=policy,
+        policy_digest=digest,
+        suite=suite,
+        episodes=tuple(episodes),
+        isolation=isolation,
+    )
+
+
+def _trace(record: Record) -> Trace:
+    """Return what the motion capture and the loop saw, at 100 Hz from the first step on."""
+    steps = record.steps
+    per_step = round(record.period / FRAME)
+    stop = steps[-1].deadline + record.period if steps else record.start
+    frames = round((stop - record.start) / FRAME)
+    human_end, robot_end = _resampled(record, frames)
+    nothing = np.full(frames, math.nan)
+    return Trace(
+        human_end=human_end,
+        robot_end=robot_end,
+        human_velocity=np.gradient(smoothed(human_end), FRAME) if frames > 1 else nothing,
+        human_force=nothing,
+        robot_force=nothing,
+        target=nothing,
+        action=np.array([[step.action] for step in steps]).reshape(-1, 1),
+        human_action=np.full((len(steps), per_step), math.nan),
+        state=np.zeros((len(steps), HASH_BYTES), np.uint8),
+        internals={
+            name: np.array([getattr(step, name) for step in steps], dtype=np.float64)
+            for name in ("command", "hand_height", "sensing_age")
+        },
+    )
+
+
+def _resampled(record: Record, frames: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return both ends' heights at the ends of frames, linear between those that were captured."""
+    samples = sorted(filter(seen, record.samples))
+    if not samples or not frames:
+        return np.zeros(frames), np.zeros(frames)
+    times, human, robot = np.array(samples).T
+    wanted = record.start + FRAME * np.arange(1, frames + 1)
+    return np.interp(wanted, times, human), np.interp(wanted, times, robot)
+
+
+def _scores(trace: Trace, *, failed: bool) -> Scores:
+    human, robot = trace.human_end, trace.robot_end
+    calm_human, calm_robot = smoothed(human), smoothed(robot)
+    strokes = () if failed else find_strokes(calm_human)
+    smoothness = functools.partial(metrics.stroke_smoothness, calm_robot, calm_human, strokes)
+    empty = len(human) == 0
+    horizon = max(len(human), round(SHORTEST / FRAME)) if failed or empty else None
+    return Scores(
+        rmse_mm=metrics.rmse_mm(human, robot, horizon=horizon),
+        abs_error_mm=metrics.abs_error_mm(human, robot, horizon=horizon),
+        max_tilt_deg=math.nan if empty else metrics.max_tilt_deg(human, robot, length=TABLE_LENGTH),
+        sparc=math.nan if not strokes else smoothness(metric=sparc),
+        ldlj=math.nan if not strokes else smoothness(metric=ldlj),
+        human_force_n=math.nan,
+        human_work_j=math.nan,
+        robot_lag_ms=math.nan if failed else metrics.robot_lag_ms(calm_human, calm_robot),
+        short_of_goal_mm=math.nan,
+    )

@@ -1,0 +1,96 @@
+"""What a verification finds."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+from ..runner import Run
+
+PROVES: Final = (
+    "This proves that the scores follow from the logged actions, not who produced them: only a "
+    "board's own run gives a row."
+)
+
+UNPROVEN: Final = (
+    "Taken as said: the policy's name and digest, its step times, what it reports or prints of "
+    "itself, why it failed, the isolation."
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finding:
+    """Something in a bundle that is wrong."""
+
+    file: str
+    """The file that says it."""
+    message: str
+    """What is wrong, in words."""
+    episode: str = ""
+    """Such as ``pause/S3 seed 4``; empty if it is about no single episode."""
+    step: int | None = None
+    """The first step in which it shows, counted from 0."""
+
+    def __str__(self) -> str:
+        place = [self.file, self.episode, "" if self.step is None else f"step {self.step}"]
+        return f"{', '.join(filter(None, place))}: {self.message}"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Verdict:
+    """The outcome of a verification."""
+
+    findings: tuple[Finding, ...]
+    """What is wrong; empty if the bundle is verified."""
+    run: Run | None = None
+    """The episodes with the scores that the present code finds; None if a replay failed."""
+    results: dict[str, Any] | None = None
+    """The content that ``results.json`` should have; None as ``run``."""
+    bit_equal: bool = False
+    """Whether every simulated bit is the logged one."""
+    tolerance_mm: float | None = None
+    """The tolerance that was applied instead, if so."""
+    other_platform: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    """In what the platform of the bundle differs from this one: there, and here."""
+    platform: Mapping[str, str] = field(default_factory=dict)
+    """The fingerprint of the platform that the bundle comes from."""
+    scoring: tuple[int, int] | None = None
+    """The version of the scores in the bundle and here, if they differ: the bundle's scores were
+    then not compared, and ``results`` has the present ones."""
+
+    @property
+    def ok(self) -> bool:
+        """Whether the bundle is verified as it is."""
+        return not self.findings and self.run is not None and self.scoring is None
+
+    @property
+    def rescorable(self) -> bool:
+        """Whether only the code of the scores has changed: the actions are verified."""
+        return not self.findings and self.run is not None and self.scoring is not None
+
+    def plain(self) -> dict[str, Any]:
+        """Return the verdict as JSON has it."""
+        return {
+            "verified": self.ok,
+            "findings": [
+                {
+                    "file": each.file,
+                    "episode": each.episode or None,
+                    "step": each.step,
+                    "message": each.message,
+                }
+                for each in self.findings
+            ],
+            "episodes": None if self.run is None else len(self.run.episodes),
+            "bit_equal": self.bit_equal,
+            "tolerance_mm": self.tolerance_mm,
+            "other_platform": {
+                name: {"bundle": there, "here": here}
+                for name, (there, here) in self.other_platform.items()
+            },
+            "scoring": None
+            if self.scoring is None
+            else {"bundle": self.scoring[0], "here": self.scoring[1]},
+            "results": self.results,
+            "proves": PROVES,
+            "unproven": UNPROVEN,
+        }

@@ -1,0 +1,132 @@
+"""From a folder to a verdict."""
+
+import dataclasses
+import itertools
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor
+from pathlib import Path
+from typing import Any, Final
+
+from ...agents.errors import InputError
+from ..bundle import Bundle, fingerprint, one_line, parse, read_files
+from ..bundle.files import LARGEST, MANIFEST
+from ..bundle.reading import wrong_hashes
+from ..runner import Run
+from ..scores import SCORING
+from .episode_check import Checked
+from .score_check import rebuilt, score_findings
+from .simulation import simulate
+from .suite_check import episode_findings, suite_findings
+from .tolerance import HEIGHT
+from .verdict import Finding, Verdict
+
+MOST_FINDINGS: Final = 20
+"""Findings that a verdict has at most."""
+
+
+def verify(
+    folder: Path,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> Verdict:
+    """Return whether a bundle's scores follow from the actions in it.
+
+    Every file's hash is checked, the suite is made again from its recipe, every episode is
+    simulated again (:func:`.replay`) and scored again, and every number is compared. On the
+    platform that the bundle comes from every bit must be equal, on another one a tolerance holds.
+    References that are not shipped are played again.
+
+    Parameters
+    ----------
+    folder
+        The bundle. Nothing in it is trusted.
+    executor
+        Simulates the episodes; None does so in this process.
+    progress
+        Called with the number of episodes that were simulated since the last call.
+
+    Returns
+    -------
+    Verdict
+        Verified or not, and why; a bundle that cannot even be read is not verified.
+
+    Raises
+    ------
+    InputError
+        If there is no such folder.
+    EvaluatorFault
+        If a worker died.
+    """
+    if not folder.is_dir():
+        raise InputError(f"{folder}: no such folder; name that of a result bundle")
+    findings: list[Finding] = []
+    try:
+        files = read_files(folder)
+        findings += _hash_findings(wrong_hashes(files))
+        bundle = parse(files)
+        run = bundle.run()
+        findings += [*suite_findings(bundle, run.suite), *episode_findings(bundle, run.suite)]
+    except InputError as error:
+        return Verdict(findings=(*findings, _malformed(error)))
+    other = _other_platform(bundle)
+    checked = simulate(
+        bundle, run.suite, same_platform=not other, executor=executor, progress=progress
+    )
+    findings += [each.finding for each in checked if each.finding is not None]
+    bit_equal = all(each.bit_equal for each in checked)
+    scored = _rescored(run, checked)
+    content: dict[str, Any] | None = None
+    outdated = bundle.results["scoring"] != SCORING
+    if scored is not None:
+        try:
+            content = rebuilt(bundle, scored, executor)
+        except InputError as error:
+            findings.append(_malformed(error))
+        else:
+            if not outdated:
+                wrong = score_findings(bundle, scored, content, same_platform=not other)
+                findings += itertools.islice(wrong, MOST_FINDINGS)
+    return Verdict(
+        findings=tuple(findings[:MOST_FINDINGS]),
+        run=scored,
+        results=content,
+        bit_equal=bit_equal,
+        tolerance_mm=1000 * HEIGHT if other and not bit_equal else None,
+        platform=bundle.platform,
+        other_platform=other,
+        scoring=(bundle.results["scoring"], SCORING) if outdated else None,
+    )
+
+
+def _hash_findings(names: Sequence[str]) -> Iterator[Finding]:
+    for name in names:
+        yield Finding(file=name, message=f"its SHA-256 is not the one in {MANIFEST}")
+
+
+def _malformed(error: InputError) -> Finding:
+    """Return what a reader of a bundle said: mostly the file, a colon, and the reason."""
+    text = one_line(str(error))
+    file, _, message = text.partition(": ")
+    known = file.partition(",")[0] in LARGEST
+    return Finding(file=file, message=message) if known else Finding(file="bundle", message=text)
+
+
+def _other_platform(bundle: Bundle) -> dict[str, tuple[str, str]]:
+    """Return in what the bundle's platform differs from this one: there, and here."""
+    there, here = bundle.platform, fingerprint()
+    return {
+        name: (there.get(name, "unknown"), here.get(name, "unknown"))
+        for name in {**here, **there}
+        if there.get(name) != here.get(name)
+    }
+
+
+def _rescored(run: Run, checked: Sequence[Checked]) -> Run | None:
+    """Return the run with what was found to follow from its actions; None if a replay failed."""
+    episodes = []
+    for episode, each in zip(run.episodes, checked, strict=True):
+        if each.scores is None:
+            return None
+        episodes.append(dataclasses.replace(episode, scores=each.scores, failure=each.failure))
+    return dataclasses.replace(run, episodes=tuple(episodes))

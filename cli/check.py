@@ -1,0 +1,129 @@
+"""``colift check``: whether a submission works, and its score."""
+
+import dataclasses
+import json
+import textwrap
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any, Final
+
+import typer
+from rich.console import Console
+from rich.text import Text
+
+from ..agents.errors import InputError
+from ..agents.submissions.new import AUTHOR
+from ..agents.submissions.packages import undeclared
+from ..agents.submissions.submission import Submission, open_submission
+from ..benchmark.agent_spec import AgentSpec
+from ..benchmark.checking import Check, check_policy
+from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.runner import Run, run_suite
+from ..benchmark.suite import Suite
+from .policies import AUTO, NONE, usable_rung
+from .progress import progress_bar
+
+PRINTED_LINES: Final = 20
+"""Lines of a policy's output that are shown with a failure."""
+
+COLUMN: Final = 21
+"""Where the text of a check begins."""
+
+
+def check(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="The submission's folder.")],
+    isolation: Annotated[
+        str, typer.Option(help="auto, bubblewrap, landlock, limits, or none: in this process.")
+    ] = AUTO,
+    jobs: Annotated[
+        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the checks as JSON, and nothing else.")
+    ] = False,
+) -> None:
+    """Check a submission: files, interface, determinism, time a step, and its score."""
+    rung = usable_rung(isolation)
+    count = default_jobs() if jobs is None else jobs
+    console, done = Console(), []
+    for each in all_checks(folder, rung, isolation == NONE, count):
+        done.append(each)
+        if not as_json:
+            _show(console, each)
+    failed = sum(not each.ok for each in done)
+    if as_json:
+        print(json.dumps(_content(folder, done), indent=2, allow_nan=False))
+    elif failed:
+        checks = "1 check" if failed == 1 else f"{failed} checks"
+        _say(console, f"{checks} failed. Mend it, then: colift check {folder}")
+    else:
+        _say(console, f"Next: colift run {folder}, or colift submit {folder} --board PATH")
+    if failed:
+        raise typer.Exit(1)
+
+
+def all_checks(folder: Path, rung: str | None, trusted: bool, jobs: int) -> Iterator[Check]:
+    """Yield the checks of the folder, then those of the policy in it."""
+    try:
+        submission = open_submission(folder)
+    except InputError as error:
+        yield Check(name="files", ok=False, told=str(error))
+        return
+    yield from _files(submission)
+    policy: AgentSpec
+    fresh: AgentSpec
+    if trusted:
+        policy = fresh = submission.trusted()
+    else:
+        policy = submission.sandboxed(rung)
+        fresh = dataclasses.replace(policy, preload=False)
+
+    def evaluate(spec: AgentSpec, suite: Suite) -> Run:
+        with local_pool(jobs) as pool, progress_bar(suite.name, suite.size) as progress:
+            return run_suite(spec, suite, executor=pool, progress=progress)
+
+    yield from check_policy(policy, fresh, evaluate)
+
+
+def _files(submission: Submission) -> Iterator[Check]:
+    contents, manifest = submission.contents, submission.manifest
+    size = f"{contents.size / 1000:.1f} kB"
+    told = f"{len(contents.files)} files, {size}, digest {submission.digest}"
+    yield Check(name="files", ok=True, told=told)
+    told = f"{manifest.name} by {', '.join(manifest.authors)}; licence {manifest.licence}"
+    if AUTHOR in manifest.authors:
+        told += ". Say in policy.toml who wrote it"
+    yield Check(name="manifest", ok=True, told=told)
+    wrong = list(undeclared(submission.folder, contents, manifest.packages))
+    told = "; ".join(wrong) or ", ".join(manifest.packages) or "none but Python's own"
+    yield Check(name="packages", ok=not wrong, told=told)
+
+
+def _show(console: Console, check: Check) -> None:
+    mark = Text("ok    ", "green") if check.ok else Text("failed", "bold red")
+    lines = textwrap.wrap(
+        check.told, max(console.width - COLUMN, 20), break_long_words=False, break_on_hyphens=False
+    )
+    margin = "\n" + " " * COLUMN
+    text = Text.assemble(mark, f"  {check.name:<11}  ", margin.join(lines))
+    if check.printed.strip():
+        printed = check.printed.strip().splitlines()[-PRINTED_LINES:]
+        text.append(margin + "it printed:" + margin + margin.join(printed), "dim")
+    console.print(text, soft_wrap=True, highlight=False)
+
+
+def _say(console: Console, text: str) -> None:
+    console.print(Text(text), soft_wrap=True)
+
+
+def _content(folder: Path, checks: list[Check]) -> dict[str, Any]:
+    results = [each.results for each in checks if each.results is not None]
+    return {
+        "submission": str(folder),
+        "ok": all(each.ok for each in checks),
+        "checks": [
+            {"name": each.name, "ok": each.ok, "told": each.told, "printed": each.printed}
+            for each in checks
+        ],
+        "results": results[0] if results else None,
+    }

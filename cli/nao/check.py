@@ -1,0 +1,142 @@
+"""``colift nao check``: whether a robot and a motion capture can be worked with."""
+
+import time
+from collections.abc import Callable, Iterator
+from importlib.metadata import PackageNotFoundError, version
+from typing import Annotated, Any, Final
+
+import numpy as np
+import typer
+from rich.console import Console
+
+from ...agents.errors import InputError
+from ...agents.hardware.clocks import MonotonicClock
+from ...agents.hardware.lsl import LslCapture
+from ...agents.hardware.naoqi import NaoqiArm
+from ...agents.hardware.ports import RobotLostError
+from ...agents.hardware.safety import LOWEST_STIFFNESS
+from ...agents.hardware.setup import measure_rest
+from .connections import layout_of, open_capture, open_robot
+
+READINGS: Final = 50
+"""How often the robot is read to time it."""
+
+Line = tuple[bool, str, str]
+"""Whether it is well, what it is, and what was found or is missing."""
+
+
+def check(
+    robot: Annotated[
+        str, typer.Option(metavar="URL", help="Where the robot's NAOqi listens.")
+    ] = "tcp://127.0.0.1:9559",
+    mocap: Annotated[str, typer.Option(metavar="lsl:NAME", help="The motion capture.")] = (
+        "lsl:colift"
+    ),
+    human_markers: Annotated[str, typer.Option(help="Markers at the human's end.")] = "H1,H2",
+    robot_markers: Annotated[str, typer.Option(help="Markers at the robot's end.")] = "R1,R2",
+    up: Annotated[str, typer.Option(help="The stream's axis that points up.")] = "Z",
+) -> None:
+    """Find a robot and a motion capture, and say what is missing; nothing moves."""
+    layout = layout_of(human_markers, robot_markers, up)
+    console = Console()
+    well = True
+    for part, lines in (
+        ("packages", packages),
+        ("robot", lambda: robot_lines(open_robot(robot))),
+        ("motion capture", lambda: capture_lines(open_capture(mocap, layout))),
+    ):
+        for good, name, found in _reported(part, lines):
+            console.print(f"{'ok     ' if good else 'MISSING'} {name}: {found}", soft_wrap=True,
+                          highlight=False, markup=False)  # fmt: skip
+            well &= good
+    if not well:
+        raise typer.Exit(1)
+
+
+def _reported(part: str, lines: Callable[[], Iterator[Line]]) -> Iterator[Line]:
+    """Yield what is found, and at the end of it what went wrong."""
+    try:
+        yield from lines()
+    except (InputError, RobotLostError) as error:
+        yield False, part, str(error)
+
+
+def packages() -> Iterator[Line]:
+    """Yield the versions of what hardware needs."""
+    for name in ("qi", "pylsl"):
+        try:
+            yield True, name, version(name)
+        except PackageNotFoundError:
+            yield False, name, "not installed; say: pip install 'colift[nao]'"
+
+
+def robot_lines(arm: NaoqiArm) -> Iterator[Line]:
+    """Yield what the robot says of itself."""
+    session = arm.session
+    if session.has("ALSystem"):
+        name, naoqi = session.calls("ALSystem", [("robotName",), ("systemVersion",)], within=2.0)
+        yield True, "robot", f"{name} at {session.url}, NAOqi {naoqi}"
+    if session.has("ALRobotPosture"):
+        posture = session.call("ALRobotPosture", "getPosture", within=2.0)
+        yield True, "posture", str(posture)
+    limits = arm.limits
+    yield (
+        True,
+        "hands",
+        (f"{limits.low:.3f} to {limits.high:.3f} m around rest, at most {limits.speed:.2f} m/s"),
+    )
+    state = arm.state()
+    yield True, "hands now", f"{state.height:.3f} m"
+    stiff = "stiff" if state.stiffness >= LOWEST_STIFFNESS else "limp; 'colift nao run' wakes them"
+    yield True, "arms", f"stiffness {state.stiffness:.2f}, {stiff}"
+    for method, arguments, name in (
+        ("getFallManagerEnabled", (), "fall manager"),
+        ("getCollisionProtectionEnabled", ("LArm",), "collision protection, left arm"),
+        ("getCollisionProtectionEnabled", ("RArm",), "collision protection, right arm"),
+    ):
+        on = bool(arm.motion(method, *arguments, within=2.0))
+        yield on, name, "on" if on else "off: switch it on"
+    times = []
+    for _ in range(READINGS):
+        begin = time.monotonic()
+        arm.state()
+        times.append(time.monotonic() - begin)
+    yield True, "reading the robot", _milliseconds(times)
+    speech = session.has("ALTextToSpeech")
+    yield True, "speech", "says 'Go'" if speech else "none: tell the person yourself"
+
+
+def capture_lines(capture: LslCapture) -> Iterator[Line]:
+    """Yield what the motion capture sends."""
+    info: dict[str, Any] = capture.info
+    yield (
+        True,
+        "stream",
+        (
+            f"{info['name']} of {info['host']}, {info['channels']} channels at {info['rate_hz']:g} Hz, "
+            f"clock offset {1000 * info['clock_offset_s']:.3f} ms"
+        ),
+    )
+    capture.drain()
+    ages = []
+    for _ in range(READINGS):
+        time.sleep(0.02)
+        frames = capture.drain()
+        if frames:
+            ages.append(time.monotonic() - frames[-1].time)
+    if ages:
+        yield max(ages) < 0.2, "age of the newest frame", _milliseconds(ages)
+    rest = measure_rest(capture, MonotonicClock())
+    yield (
+        True,
+        "table at rest",
+        (
+            f"human's end {rest.human_end:.4f} m, robot's end {rest.robot_end:.4f} m, "
+            f"noise {1000 * rest.noise:.2f} mm, {rest.rate:.0f} frames a second"
+        ),
+    )
+
+
+def _milliseconds(times: list[float]) -> str:
+    p50, p99 = 1000 * np.percentile(times, [50, 99])
+    return f"median {p50:.1f} ms, p99 {p99:.1f} ms"

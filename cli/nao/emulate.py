@@ -1,0 +1,58 @@
+"""``colift nao emulate``: a NAO and a motion capture that are not there."""
+
+import time
+from typing import Annotated
+
+import typer
+
+from ...agents.hardware.operator import StopButton, armed
+from ...benchmark.catalogue import make_scenario
+from ...benchmark.hardware.emulator import Emulator, Laboratory
+from ...benchmark.hardware.faults import KINDS, parse_fault
+
+
+def emulate(
+    human: Annotated[
+        str, typer.Option(help="How the person lifts: a behaviour of 'colift list'.")
+    ] = "smooth",
+    subject: Annotated[str, typer.Option(help="Who lifts: S1 to S5, or draw-N.")] = "S1",
+    url: Annotated[str, typer.Option(help="Where the robot listens.")] = "tcp://127.0.0.1:9559",
+    stream: Annotated[str, typer.Option(help="Name of the motion-capture stream.")] = "colift",
+    seed: Annotated[int, typer.Option(help="Seed of the first lift.", min=0)] = 0,
+    capture_latency: Annotated[
+        float, typer.Option(metavar="S", help="From a frame to its sending.", min=0.0, max=1.0)
+    ] = 0.01,
+    fault: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="KIND@START[:DURATION[:VALUE]]",
+            help=f"What goes wrong, in seconds after the first lift began: {', '.join(KINDS)}.",
+        ),
+    ] = None,
+) -> None:
+    """Run a laboratory over the real protocols, until Ctrl-C: libqi and Lab Streaming Layer.
+
+    The person begins a lift whenever the robot says "Go".
+    """
+    faults = tuple(map(parse_fault, fault or ()))
+    laboratory = Laboratory(
+        scenario=make_scenario(human, subject),
+        url=url,
+        stream=stream,
+        seed=seed,
+        capture_latency=capture_latency,
+        faults=faults,
+    )
+    begin = time.monotonic()
+
+    def log(line: str) -> None:
+        print(f"{time.monotonic() - begin:9.3f} {line}", flush=True)
+
+    emulator = Emulator(laboratory, log)
+    button = StopButton()
+    log(f"ready: robot {url}, stream {stream}")
+    try:
+        with armed(button):
+            emulator.run(button)
+    finally:
+        emulator.close()

@@ -1,0 +1,97 @@
+"""``colift verify``: whether a bundle's scores follow from its actions."""
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..agents.errors import EvaluatorFault
+from ..benchmark.bundle import check_target, write_bundle
+from ..benchmark.executors import default_jobs, process_pool
+from ..benchmark.headline import headline
+from ..benchmark.runner import Run
+from ..benchmark.verification import PROVES, UNPROVEN, Verdict
+from ..benchmark.verification import verify as verify_bundle
+from .progress import progress_bar
+
+
+def verify(
+    bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="The folder of a bundle.")],
+    jobs: Annotated[
+        int | None,
+        typer.Option(metavar="N", min=1, help="Worker processes; default: all cores."),
+    ] = None,
+    rescore: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR", help="Write the bundle anew, with the scores of this version of colift."
+        ),
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the verdict as JSON, and nothing else.")
+    ] = False,
+) -> None:
+    """Simulate every episode of a result bundle again, and compare every number."""
+    if rescore is not None:
+        check_target(rescore)
+    try:
+        with (
+            process_pool(jobs or default_jobs()) as pool,
+            progress_bar(f"verify {bundle.name}", None) as progress,
+        ):
+            verdict = verify_bundle(bundle, executor=pool, progress=progress)
+    except EvaluatorFault as fault:
+        print(f"not verified: {fault}; this says nothing of the bundle", file=sys.stderr)
+        raise typer.Exit(1) from None
+    written = rescore is not None and (verdict.ok or verdict.rescorable)
+    if rescore is not None and written:
+        _write(rescore, verdict)
+    if as_json:
+        print(json.dumps(verdict.plain(), indent=2, allow_nan=False))
+    elif verdict.run is not None and not verdict.findings:
+        print(_good_news(bundle, verdict, verdict.run))
+        if written:
+            print(f"Rescored bundle: {rescore}")
+    if verdict.findings:
+        print(f"{bundle} is refused:", file=sys.stderr)
+        for finding in verdict.findings:
+            print(f"  {finding}", file=sys.stderr)
+    elif verdict.scoring is not None and not written:
+        print(_outdated(bundle, *verdict.scoring), file=sys.stderr)
+    if not (verdict.ok or written):
+        raise typer.Exit(1)
+
+
+def _write(folder: Path, verdict: Verdict) -> None:
+    if verdict.run is not None and verdict.results is not None:
+        write_bundle(folder, verdict.run, verdict.results, platform=verdict.platform)
+
+
+def _good_news(bundle: Path, verdict: Verdict, run: Run) -> str:
+    """Return what is proved, and how far."""
+    if verdict.bit_equal:
+        how = "equal to the bit"
+    else:
+        how = f"within {verdict.tolerance_mm} mm, since it comes from another platform"
+    lines = [
+        f"{len(run.episodes)} episodes of {run.policy} on {run.suite.name} simulated again: {how}."
+    ]
+    lines += [
+        f"  {name}: {there} there, {here} here"
+        for name, (there, here) in verdict.other_platform.items()
+    ]
+    if verdict.results is not None:
+        lines.append(headline(verdict.results["summary"]))
+    if verdict.ok:
+        lines.append(f"{bundle} is verified.")
+    return "\n".join([*lines, PROVES, UNPROVEN])
+
+
+def _outdated(bundle: Path, there: int, here: int) -> str:
+    return (
+        f"{bundle} has scores of version {there}, this colift computes version {here}: not "
+        f"compared. The actions are verified and the numbers above are the present ones; "
+        f"colift verify {bundle} --rescore DIR writes a bundle with them."
+    )

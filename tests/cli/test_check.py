@@ -1,0 +1,247 @@
+"""``colift check`` and ``colift run`` on a submission, as a user meets them: real processes."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+from colift.agents.isolation.sandboxed import close_sandboxes
+from colift.agents.submissions.new import write_template
+from colift.cli.check import all_checks
+
+HEAD = "import sys\nclass Policy:\n"
+
+
+@pytest.fixture
+def colift(tmp_path):
+    """Return the command, run in a folder of its own, with a cache of its own."""
+    environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path / "cache")}
+
+    def run(*arguments, **more):
+        return subprocess.run(
+            [sys.executable, "-m", "colift.cli", *arguments],
+            capture_output=True,
+            text=True,
+            timeout=300,
+            cwd=tmp_path,
+            env={**environment, **more},
+        )
+
+    return run
+
+
+@pytest.fixture
+def mine(tmp_path):
+    folder = tmp_path / "mine"
+    write_template(folder)
+    return folder
+
+
+@pytest.fixture
+def checked(mine, tmp_path, monkeypatch):
+    """Write a policy and return its checks by name: what the command prints, in real sandboxes."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+
+    def check(source):
+        (mine / "policy.py").write_text(source)
+        return {each.name: each for each in all_checks(mine, None, trusted=False, jobs=1)}
+
+    yield check
+    close_sandboxes()
+
+
+def checks(done):
+    return {each["name"]: each for each in json.loads(done.stdout)["checks"]}
+
+
+def test_the_life_of_a_submission(colift, tmp_path):
+    assert "colift check mine" in colift("new", "mine").stdout
+    manifest = tmp_path / "mine" / "policy.toml"
+    manifest.write_text(manifest.read_text().replace("Your Name", "Ada Lovelace"))
+    checked = colift("check", "mine")
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+    assert "mine by Ada Lovelace; licence MIT" in checked.stdout
+    assert "equal to the bit" in " ".join(checked.stdout.split())
+    assert "failed" not in checked.stdout
+    last = checked.stdout.splitlines()[-1]
+    assert last == "Next: colift run mine, or colift submit mine --board PATH"
+    ran = colift("run", "mine", "--suite", "quick-v1")
+    assert ran.returncode == 0, ran.stderr
+    (error,) = (line for line in ran.stdout.splitlines() if line.startswith("RMSE "))
+    assert error in " ".join(checked.stdout.split())
+
+
+def test_json_is_alone_on_stdout_and_has_the_results_that_run_has(colift, mine):
+    done = colift("check", "mine", "--json")
+    content = json.loads(done.stdout)
+    assert (done.returncode, content["ok"]) == (0, True)
+    assert list(checks(done)) == [
+        "files",
+        "manifest",
+        "packages",
+        "interface",
+        "lifts",
+        "determinism",
+        "score",
+        "time",
+    ]
+    run = json.loads(colift("run", "mine", "--suite", "quick-v1", "--json").stdout)
+    for each in (run, content["results"]):
+        del each["summary"]["step_ms"]
+    assert run == content["results"]
+
+
+def test_without_isolation_the_score_has_the_same_bits(colift, mine):
+    isolated, none = (
+        json.loads(colift("check", "mine", "--json", "--isolation", each).stdout)["results"]
+        for each in ("auto", "none")
+    )
+    assert none.pop("isolation") == "none"
+    assert isolated.pop("isolation") != "none"
+    for each in (isolated, none):
+        del each["summary"]["step_ms"]
+    assert isolated == none
+
+
+FAILING = {
+    "wrong syntax": ("class Policy:\n  def\n", "interface", "SyntaxError"),
+    "no class": ("class Other: pass\n", "interface", "has no class 'Policy'; it has Other"),
+    "no act": (HEAD + "    def reset(self, seed): pass\n", "interface", "no method act"),
+    "needs arguments": (
+        HEAD
+        + "    def __init__(self, size): pass\n"
+        + "    def reset(self, seed): pass\n"
+        + "    def act(self, observation): pass\n",
+        "interface",
+        "needs arguments: size",
+    ),
+    "raises on import": ("raise KeyError('gone')\n", "interface", "KeyError: 'gone'"),
+    "exits on import": ("import sys\nsys.exit(3)\n", "interface", "SystemExit: 3"),
+    "raises in reset": (
+        HEAD
+        + "    def reset(self, seed): raise RuntimeError('not ready')\n"
+        + "    def act(self, observation): return [0.0]\n",
+        "interface",
+        "RuntimeError: not ready",
+    ),
+    "two numbers": (
+        HEAD
+        + "    def reset(self, seed): pass\n"
+        + "    def act(self, observation): return [0.0, 0.0]\n",
+        "lifts",
+        "must be 1 number(s), got [0.0, 0.0]",
+    ),
+    "not a number": (
+        HEAD
+        + "    def reset(self, seed): pass\n"
+        + "    def act(self, observation): return [float('nan')]\n",
+        "lifts",
+        "must be finite",
+    ),
+    "later": (
+        HEAD
+        + "    def reset(self, seed): pass\n"
+        + "    def act(self, observation):\n"
+        + "        if observation[4] > 0.35: print('loud'); print('soft', file=sys.stderr); 1 / 0\n"
+        + "        return [0.0]\n",
+        "lifts",
+        "smooth/S1 seed 7000: step 4: ZeroDivisionError",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", FAILING)
+def test_what_fails_is_told_with_the_reason(checked, case):
+    source, name, told = FAILING[case]
+    found = checked(source)
+    assert list(found)[-1] == name
+    assert [each.name for each in found.values() if not each.ok] == [name]
+    assert told in found[name].told
+
+
+def test_a_failure_is_shown_with_what_was_printed_and_what_to_do(colift, mine):
+    (mine / "policy.py").write_text(FAILING["later"][0])
+    done = colift("check", "mine", COLUMNS="60")
+    lines = [line.strip() for line in done.stdout.splitlines()]
+    assert "loud" in lines
+    assert lines[-1] == "1 check failed. Mend it, then: colift check mine"
+    assert any(line.startswith("failed  lifts        smooth/S1 seed 7000") for line in lines)
+    assert all(len(line) <= 60 for line in done.stdout.splitlines())
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "import random\nR = random.Random()\n",
+        "import os\n"
+        "class R:\n"
+        "    random = staticmethod(lambda: int.from_bytes(os.urandom(2), 'big') / 65536)\n",
+        "import time\nclass R:\n    random = staticmethod(lambda: time.perf_counter() % 1)\n",
+    ],
+)
+def test_chance_is_found(checked, source):
+    found = checked(
+        source
+        + "class Policy:\n"
+        + "    def reset(self, seed): pass\n"
+        + "    def act(self, observation): return [R.random() / 1000]\n"
+    )
+    assert not found["determinism"].ok
+    assert "goes another way from step 0 on" in found["determinism"].told
+
+
+def test_what_is_kept_from_one_lift_to_the_next_is_found(checked, mine):
+    """Only by ``preload`` can a policy keep anything; then it is compared with fresh sandboxes."""
+    manifest = mine / "policy.toml"
+    manifest.write_text(manifest.read_text().replace("preload = false", "preload = true"))
+    found = checked(
+        "import mmap\n"
+        "KEPT = mmap.mmap(-1, 8)\n"
+        "class Policy:\n"
+        "    def reset(self, seed): KEPT[0] += 1\n"
+        "    def act(self, observation): return [KEPT[0] / 1000]\n"
+    )
+    assert not found["determinism"].ok
+    assert "changing_goal/S4" in found["determinism"].told
+
+
+def test_an_undeclared_package_fails_though_it_is_installed(checked, mine):
+    found = checked((mine / "policy.py").read_text() + "import PIL\n")
+    assert not found["packages"].ok
+    assert "policy.py imports PIL, which" in found["packages"].told
+    assert found["score"].ok
+
+
+@pytest.mark.parametrize(
+    ("spoil", "told"),
+    [
+        (lambda mine: (mine / "policy.toml").unlink(), "mine has no policy.toml; a submission is"),
+        (lambda mine: (mine / "link").symlink_to("/etc/passwd"), "mine: link: a symbolic link"),
+        (lambda mine: (mine / "policy.toml").write_text("nam = 1"), "did you mean name?"),
+        (lambda mine: (mine / "policy.py").unlink(), "entry_point 'policy:Policy' needs a file"),
+    ],
+)
+def test_a_folder_that_is_no_submission_is_refused(mine, spoil, told):
+    spoil(mine)
+    (found,) = all_checks(mine, None, trusted=False, jobs=1)
+    assert (found.name, found.ok) == ("files", False)
+    assert told in found.told
+
+
+def test_run_refuses_a_folder_that_is_no_submission(colift, mine):
+    (mine / "policy.toml").unlink()
+    done = colift("run", "mine")
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: mine has no policy.toml; a submission is a folder with")
+
+
+def test_wrong_usage_is_one_clear_line(colift, mine):
+    for arguments, told in (
+        (["check", "mine", "--isolation", "jail"], "unknown isolation 'jail'; known: auto, bubble"),
+        (["check", "mine", "--jobs", "0"], "--jobs must be at least 1"),
+    ):
+        done = colift(*arguments)
+        assert done.returncode == 2
+        assert told in done.stderr
+        assert done.stderr.count("\n") == 1

@@ -1,0 +1,179 @@
+"""``colift submit`` as a user meets it: real processes, a real board."""
+
+import contextlib
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from colift.agents.submissions.new import write_template
+
+TO_BOARD = ("--board", "board", "--suite", "quick-v1")
+
+KEEPS_STATE = """
+import mmap
+
+count = mmap.mmap(-1, 8)
+
+class Policy:
+    def reset(self, seed):
+        count[0] += 1
+
+    def act(self, observation):
+        more = 1e-9 * count[0] if count[0] > 3 else 0.0
+        return [observation[0] - observation[3] + more]
+"""
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    return tmp_path_factory.mktemp("submit")
+
+
+@pytest.fixture(scope="module")
+def begin(place):
+    """Return what starts the command in a folder of its own, with a cache of its own."""
+
+    def start(*arguments):
+        return subprocess.Popen(
+            [sys.executable, "-m", "colift.cli", *arguments],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=place,
+            env={**os.environ, "XDG_CACHE_HOME": str(place / "cache"), "COLUMNS": "100"},
+            start_new_session=True,
+        )
+
+    return start
+
+
+@pytest.fixture(scope="module")
+def colift(begin):
+    """Return what runs the command to its end."""
+
+    def run(*arguments):
+        process = begin(*arguments)
+        out, err = process.communicate(timeout=300)
+        return subprocess.CompletedProcess(arguments, process.returncode, out, err)
+
+    return run
+
+
+@pytest.fixture(scope="module")
+def make(place):
+    """Return what writes the template, with a part of the policy exchanged."""
+
+    def write(name, old="", new="", preload=False):
+        folder = place / name
+        write_template(folder)
+        policy, manifest = folder / "policy.py", folder / "policy.toml"
+        policy.write_text(
+            policy.read_text().replace(old, new) if old else new or policy.read_text()
+        )
+        if preload:
+            manifest.write_text(manifest.read_text().replace("preload = false", "preload = true"))
+        return folder
+
+    return write
+
+
+@pytest.fixture(scope="module")
+def first(colift, make):
+    """Submit the template to a new board."""
+    make("mine")
+    return colift("submit", "mine", *TO_BOARD)
+
+
+def told(done):
+    """Return what was printed, on one line."""
+    return " ".join(done.stdout.split())
+
+
+def test_a_submission_becomes_a_verified_row_whose_bundle_can_be_verified(colift, first):
+    assert (first.returncode, first.stderr) == (0, "")
+    for words in ("mine by Your Name", "public lifts", "hidden lifts", "0 of 12", "Rank 1 of 1"):
+        assert words in told(first)
+    assert re.search(r"Isolation (bubblewrap|landlock): verified", told(first))
+    next_step = first.stdout.splitlines()[-1]
+    assert next_step.startswith("Next: colift verify ")
+    verified = colift(*next_step.removeprefix("Next: colift ").split())
+    assert verified.returncode == 0, verified.stdout + verified.stderr
+
+
+def test_the_row_has_the_number_that_check_prints(colift, first):
+    (mean,) = re.findall(r"12 lifts: RMSE (\S+) mm", told(colift("check", "mine")))
+    assert re.search(rf"RMSE mm {re.escape(mean)} \(", told(first))
+
+
+def test_the_same_content_in_another_folder_is_on_the_board_already(colift, first, place):
+    (place / "mine").rename(place / "renamed")
+    second = colift("submit", "renamed", *TO_BOARD)
+    (place / "renamed").rename(place / "mine")
+    assert second.returncode == 0
+    assert "is on the board already" in second.stdout.splitlines()[0]
+    assert second.stdout.splitlines()[1:] == first.stdout.splitlines()
+
+
+def test_a_submission_that_was_killed_is_evaluated_when_it_comes_again(
+    begin, colift, first, make, place
+):
+    make("worse", "gain = 1.8", "gain = 0.1")
+    process = begin("submit", "worse", *TO_BOARD)
+    while not list(place.glob("board/private/work/*/bundle")):
+        assert process.poll() is None
+        time.sleep(0.01)
+    process.kill()
+    process.communicate()
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
+    done = colift("submit", "worse", *TO_BOARD)
+    assert done.returncode == 0, done.stderr
+    assert "already" not in done.stdout
+    assert "Rank 2 of 2" in done.stdout
+    assert list(place.glob("board/private/work/*/bundle")) == []
+
+
+def test_a_preloaded_policy_that_keeps_state_across_episodes_is_refused(colift, first, make, place):
+    make("keeping", new=KEEPS_STATE, preload=True)
+    for _ in range(2):
+        done = colift("submit", "keeping", *TO_BOARD)
+        assert done.returncode == 1
+        assert "refused" in done.stderr
+        assert "it kept something from one episode to the next" in done.stderr
+        assert "colift check keeping" in done.stderr
+    assert "Rank" not in done.stdout
+
+
+def test_what_fails_its_check_is_not_put_on_the_board(colift, first, make, place):
+    before = sorted(place.glob("board/submissions/*"))
+    make("broken", new="class Policy:\n    def reset(self, seed): pass\n")
+    done = colift("submit", "broken", *TO_BOARD)
+    assert done.returncode == 1
+    assert "its check fails" in done.stderr
+    assert "act" in done.stderr
+    assert sorted(place.glob("board/submissions/*")) == before
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("nowhere", "--board", "new"), "nowhere: no such folder"),
+        (("empty", "--board", "new"), "colift new DIR"),
+        (("mine", "--board", "mine"), "mine is no board"),
+        (("mine", "--board", "mine/policy.py"), "as a board"),
+        (("mine", "--board", "board", "--suite", "paper-v1"), "a board of quick-v1"),
+        (("mine", "--board", "new", "--jobs", "0"), "--jobs must be at least 1"),
+        (("mine",), "--board"),
+    ],
+)
+def test_what_is_wrong_is_said_in_a_line(colift, first, place, arguments, words):
+    (place / "empty").mkdir(exist_ok=True)
+    done = colift("submit", *arguments)
+    assert done.returncode == 2
+    assert words in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not (place / "new").exists()
