@@ -8,10 +8,11 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from ..agents.agent import FRAME, Action, Agent, Observation, RobotObservation
+from ..agents.agent import FRAME, Agent, RobotObservation
 from ..agents.policies.anticipation import Anticipation
 from ..agents.policies.anticipation_controller import AnticipateParameters, AnticipationController
 from ..agents.policies.extrapolate import Extrapolate
+from ..agents.policies.modes import modes, stroke_ends
 from ..agents.policies.senses import ARM_LAG, Window
 from .catalogue import make_scenario, make_subject
 from .lift import MOCAP_NOISE, Lift
@@ -53,29 +54,17 @@ class Experience:
 
     inputs: NDArray[np.float32]
     """(n, window.size) inputs of :class:`.Senses`."""
-    rises: NDArray[np.float32]
-    """(n, leads) how far the human's end then was above its newest seen height [m]."""
+    outcomes: NDArray[np.float32]
+    """(n, leads + 6) how far the human's end was above its newest seen height at each of the leads
+    [m], the mode now (:func:`.modes`), and how far it rose until the stroke's end [m]."""
 
     @classmethod
     def join(cls, parts: Sequence["Experience"]) -> "Experience":
         """Return all of it in one."""
         return cls(
             inputs=np.concatenate([part.inputs for part in parts]),
-            rises=np.concatenate([part.rises for part in parts]),
+            outcomes=np.concatenate([part.outcomes for part in parts]),
         )
-
-
-class _Anticipating:
-    """A robot that anticipates with what was learned so far."""
-
-    def __init__(self, model: Anticipation) -> None:
-        self._controller = AnticipationController(model, AnticipateParameters())
-
-    def reset(self, seed: int) -> None:
-        self._controller.reset()
-
-    def act(self, observation: Observation) -> Action:
-        return np.array([self._controller.step(observation)])
 
 
 def scenario(seed: int, behaviours: Sequence[str], timing: Timing) -> Scenario:
@@ -120,7 +109,9 @@ def experience(
     lift = Lift(scenario(seed, behaviours, timing))
     lift.reset(seed)
     human = lift.scripted_human()
-    robot: Agent = Extrapolate() if model is None else _Anticipating(model)
+    robot: Agent = Extrapolate()
+    if model is not None:
+        robot = AnticipationController(model, AnticipateParameters())
     robot.reset(0)
     rng = np.random.default_rng(derive_seed(seed, "disturbance"))
     size, persistence = DISTURBANCE
@@ -140,6 +131,7 @@ def experience(
     line = np.interp(np.arange(lift.frame + 1) / size_of_step, np.arange(len(commands)), commands)
     heights = np.array([0.0, *lift.world.since_reset(lift.world.human_end)])
     hands = np.array([0.0, *lift.world.since_reset(lift.world.robot_end)])
+    doing, ends = modes(heights), stroke_ends(heights)[:, np.newaxis]
     parts = []
     for first in range(0, size_of_step, max(size_of_step // LOOKS, 1)):
         now = np.arange(first, lift.frame, size_of_step)
@@ -151,9 +143,13 @@ def experience(
             hand = hands[now] + rng.normal(0.0, ENCODER_NOISE, len(now))
         sags = line[np.maximum(now - round(ARM_LAG / FRAME), 0)] - hand
         coming = now[:, np.newaxis] + np.round(np.array(LEADS) / FRAME).astype(int)
-        rises = heights[np.minimum(coming, lift.frame)] - human_end[:, np.newaxis]
+        rises = np.hstack((heights[np.minimum(coming, lift.frame)], ends[now]))
+        rises -= human_end[:, np.newaxis]
+        outcomes = np.hstack((rises[:, :-1], doing[now], rises[:, -1:]))
         inputs = window_inputs(human_end, line[now], sags, window)
-        parts.append(Experience(inputs=np.float32(inputs), rises=np.float32(rises)))
+        parts.append(
+            Experience(inputs=inputs.astype(np.float32), outcomes=outcomes.astype(np.float32))
+        )
     return Experience.join(parts)
 
 

@@ -8,11 +8,11 @@ the robot extrapolates, in each further one it anticipates with what was learned
 
 import importlib
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from functools import partial
 from importlib.metadata import version
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,34 +30,37 @@ FIRST_SEED: Final = 100_000
 LAST_SEED: Final = 199_999
 """Last seed to learn from: from 200000 on, policies are compared on people that none has met."""
 
-LIFTS: Final = 3000
+LIFTS: Final = 1500
 """Lifts of a round."""
 
 ROUNDS: Final = 2
 """Rounds; a third changes nothing that shows."""
 
-HIDDEN: Final = (96, 96)
+HIDDEN: Final = (64, 64, 64)
 """Units of the hidden layers."""
 
-STAGES: Final = ((2e-3, 3), (5e-4, 3), (1e-4, 2))
+STAGES: Final = ((2e-3, 6), (5e-4, 6), (1e-4, 4))
 """Learning rate and passes through the data of each stage of the fit."""
 
-BATCH: Final = 1024
+BATCH: Final = 512
 """Samples of a step of the fit."""
+
+CHUNK: Final = 100_000
+"""Most samples that are looked at in one go when the fit is judged: more would fill the memory."""
 
 
 def fit(
     data: Experience, *, hidden: Sequence[int] = HIDDEN, seed: int = 0
 ) -> tuple[Perceptron, NDArray[np.float64]]:
-    """Fit a perceptron to experience, by Adam on the mean squared error.
+    """Fit a perceptron to experience, by Adam on the mean squared error; a line, exactly.
 
-    Every lead counts alike: its errors are relative to those of the best linear function. The fit
+    Every outcome counts alike: errors are relative to those of the best linear function. The fit
     is scikit-learn's, in one thread, so that the same experience gives the same bits.
 
     Returns
     -------
     tuple
-        The perceptron, and its root mean square error at each lead [m].
+        The perceptron, and the root mean square error of each outcome.
 
     Raises
     ------
@@ -71,28 +74,34 @@ def fit(
     with threads.threadpool_limits(1), warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # Its ConvergenceWarning: stages end early.
         affine = np.hstack((inputs, np.ones((len(inputs), 1), np.float32)))
-        line = np.linalg.solve(affine.T @ affine + np.eye(affine.shape[1]), affine.T @ data.rises)
-        gain = (data.rises - affine @ line).std(axis=0, dtype=np.float64)
-        outputs = (data.rises / gain).astype(np.float32)
-        network = learner.MLPRegressor(
-            tuple(hidden),
-            batch_size=min(BATCH, len(inputs)),
-            warm_start=True,
-            random_state=seed,
-            alpha=1e-6,
+        normal = affine.T @ affine + np.eye(affine.shape[1])
+        line = np.linalg.solve(normal, affine.T @ data.outcomes)
+        gain = (data.outcomes - affine @ line).std(axis=0, dtype=np.float64) + 1e-9
+        weights, biases = [line[:-1] / gain], [line[-1] / gain]
+        if hidden:
+            network = learner.MLPRegressor(
+                hidden_layer_sizes=tuple(hidden),
+                batch_size=min(BATCH, len(inputs)),
+                warm_start=True,
+                random_state=seed,
+                alpha=1e-6,
+            )
+            for rate, passes in STAGES:
+                network.set_params(learning_rate_init=rate, max_iter=passes)
+                network.fit(inputs, (data.outcomes / gain).astype(np.float32))
+            weights, biases = network.coefs_, network.intercepts_
+        perceptron = Perceptron(
+            centre=centre,
+            spread=spread,
+            weights=tuple(weight.astype(np.float64) for weight in weights),
+            biases=tuple(bias.astype(np.float64) for bias in biases),
+            gain=gain,
         )
-        for rate, passes in STAGES:
-            network.set_params(learning_rate_init=rate, max_iter=passes)
-            network.fit(inputs, outputs)
-        squares = ((network.predict(inputs) - outputs) ** 2).mean(axis=0, dtype=np.float64)
-    perceptron = Perceptron(
-        centre=centre,
-        spread=spread,
-        weights=tuple(weight.astype(np.float64) for weight in network.coefs_),
-        biases=tuple(bias.astype(np.float64) for bias in network.intercepts_),
-        gain=gain,
-    )
-    return perceptron, gain * np.sqrt(squares)
+        squares = sum(
+            ((perceptron(data.inputs[some]) - data.outcomes[some]) ** 2).sum(axis=0)
+            for some in np.array_split(np.arange(len(inputs)), len(inputs) // CHUNK + 1)
+        )
+    return perceptron, np.sqrt(squares / len(inputs))
 
 
 def gather(
@@ -127,26 +136,40 @@ def gather(
     return Experience.join(parts)
 
 
+class Lesson(NamedTuple):
+    """What a round of learning led to."""
+
+    model: Anticipation
+    experience: Experience
+    """All that it was learned from."""
+
+
 def learn_anticipation(
     *,
     lifts: int = LIFTS,
     rounds: int = ROUNDS,
+    hidden: Sequence[int] = HIDDEN,
     timing: Timing | None = None,
     first_seed: int = FIRST_SEED,
+    partner: Anticipation | None = None,
     behaviours: Sequence[str] = (*BEHAVIOURS, "roaming"),
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
-) -> Iterator[Anticipation]:
+) -> Iterator[Lesson]:
     """Yield what was learned after each round; the last is the result.
 
     Parameters
     ----------
     lifts, rounds
         Lifts of a round, and rounds.
+    hidden
+        Units of the hidden layers.
     timing
         Latency and control period.
     first_seed
         Seed of the first lift.
+    partner
+        What the robot of the first round anticipates with; none: it extrapolates.
     behaviours
         How the people move, see :func:`.scenario`.
     executor
@@ -162,8 +185,8 @@ def learn_anticipation(
     _learner()
     timing = timing or Timing()
     window = window_for(timing)
-    model: Anticipation | None = None
-    parts: list[Experience] = []
+    model = partner
+    data: Experience | None = None
     for number in range(rounds):
         first = first_seed + number * lifts
         part = gather(
@@ -175,25 +198,39 @@ def learn_anticipation(
             executor=executor,
             progress=progress,
         )
-        parts.append(part)
-        data = Experience.join(parts)
-        perceptron, errors = fit(data)
-        model = Anticipation(
-            perceptron=perceptron,
-            window=window,
-            leads=np.array(LEADS),
-            latency=timing.latency,
-            provenance={
-                "seeds": [first_seed, first + lifts - 1],
-                "rounds": number + 1,
-                "behaviours": list(behaviours),
-                "control_period_s": timing.control_period,
-                "samples": len(data.inputs),
-                "library": f"scikit-learn {version('scikit-learn')}",
-                "rms_error_mm": [round(1000 * error, 3) for error in errors.tolist()],
-            },
-        )
-        yield model
+        data = part if data is None else Experience.join((data, part))
+        about = {
+            "seeds": [first_seed, first + lifts - 1],
+            "rounds": number + 1,
+            "behaviours": list(behaviours),
+        }
+        model = learned(data, window, timing, hidden=hidden, provenance=about)
+        yield Lesson(model, data)
+
+
+def learned(
+    data: Experience,
+    window: Window,
+    timing: Timing,
+    *,
+    hidden: Sequence[int] = HIDDEN,
+    provenance: Mapping[str, Any],
+) -> Anticipation:
+    """Return what :func:`fit` makes of experience that was gathered with a window and timing."""
+    perceptron, errors = fit(data, hidden=hidden)
+    return Anticipation(
+        perceptron=perceptron,
+        window=window,
+        leads=np.array(LEADS),
+        latency=timing.latency,
+        provenance={
+            **provenance,
+            "control_period_s": timing.control_period,
+            "samples": len(data.inputs),
+            "library": f"scikit-learn {version('scikit-learn')}",
+            "rms_error_mm": [round(1000 * e, 3) for e in errors[: len(LEADS)].tolist()],
+        },
+    )
 
 
 def window_for(timing: Timing) -> Window:

@@ -3,37 +3,44 @@
 import asyncio
 import hashlib
 import uuid
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import CancelledError, Executor, Future
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from typing import Any, Final, ParamSpec, TypeVar
 
-from ..agents.errors import EvaluatorFault, InputError, told
-from .origin import COLIFT, compare, origin
+from ..agents.errors import EvaluatorFault
 from .parcels import call, parcel
 
 P = ParamSpec("P")
 T = TypeVar("T")
-
-CONNECT_SECONDS: Final = 10.0
-"""How long a scheduler may take to answer, and a first worker to be there [s]."""
 
 LONELY_SECONDS: Final = 60.0
 """How long a cluster may be without any worker during a run [s]: one that died is started anew."""
 
 
 class Cluster(Executor):
-    """The workers of a Dask cluster; see :func:`dask_pool`.
+    """The workers of a Dask cluster; see :func:`.connecting.dask_pool`.
 
     Dask would try a task whose worker died again by itself. Here its future fails, so that the run
     knows of it and decides.
+
+    Parameters
+    ----------
+    client
+        Dask's client, connected.
+    address
+        Of its scheduler.
+    origin
+        What :func:`.origin` is on every worker.
     """
 
-    def __init__(self, client: Any, address: str) -> None:
+    def __init__(self, client: Any, address: str, origin: Mapping[str, str]) -> None:
         self._client = client
         self._address = address
-        self.origin = _agreed(client, address)
+        self.origin = origin
         """What :func:`.origin` is on every worker."""
+        self.idle_threads = sum(threads - 1 for threads in client.nthreads().values())
+        """Threads of the workers that get nothing to do: all but one of each worker."""
         self._waiting: dict[str, tuple[Any, Future[Any]]] = {}
         self._large: dict[bytes, Any] = {}
         self._workers: set[str] = set()
@@ -87,10 +94,10 @@ class Cluster(Executor):
     def _heard(self, event: tuple[float, Mapping[str, Any]]) -> None:
         """Take note of an event of the scheduler's."""
         _, said = event
-        worker = said.get("worker")
         if said.get("action") == "add-worker":
-            self._workers.add(worker)
+            self._workers.add(said["worker"])
         elif said.get("action") == "remove-worker":
+            worker = said["worker"]
             self._workers.discard(worker)
             for key in said["processing-tasks"]:
                 self._settle(key, error=EvaluatorFault(f"the worker {worker} died"))
@@ -102,58 +109,3 @@ class Cluster(Executor):
         raise EvaluatorFault(
             f"the Dask scheduler {self._address} had no worker for {LONELY_SECONDS:.0f} s"
         )
-
-
-@contextmanager
-def dask_pool(address: str) -> Iterator[Cluster]:
-    """Yield the Dask cluster of a scheduler as an executor.
-
-    Parameters
-    ----------
-    address
-        Of the scheduler, such as ``tcp://host:8786``.
-
-    Raises
-    ------
-    InputError
-        If Dask is not installed, there is no scheduler at the address, it has no worker, or
-        results would depend on who computes them: the workers' colift is not this one, or their
-        platforms are not all the same.
-    """
-    try:
-        from distributed import Client
-    except ImportError:
-        raise InputError("--dask needs Dask: pip install 'colift[cluster]'") from None
-    try:
-        client: Any = Client(address, timeout=CONNECT_SECONDS, set_as_default=False)  # type: ignore[no-untyped-call]
-    except Exception as error:
-        raise InputError(
-            f"--dask {address}: no Dask scheduler answers ({told(error)}); "
-            "it should be such as tcp://host:8786"
-        ) from error
-    with client:
-        try:
-            client.wait_for_workers(1, timeout=CONNECT_SECONDS)
-        except TimeoutError:
-            raise InputError(
-                f"--dask {address}: the scheduler has no worker; start some: "
-                f"dask worker {address} --nworkers auto --nthreads 1"
-            ) from None
-        yield Cluster(client, address)
-
-
-def _agreed(client: Any, address: str) -> dict[str, str]:
-    """Return what all workers come from, or raise an InputError that names a difference."""
-    found = client.run(origin, on_error="return")
-    agreed: dict[str, str] | None = None
-    for worker, said in found.items():
-        if isinstance(said, OSError):
-            continue  # It has just died; the next one is looked at when it works.
-        if isinstance(said, BaseException):
-            raise InputError(f"--dask {address}: worker {worker} cannot run colift: {told(said)}")
-        compare(said, {COLIFT: origin()[COLIFT]}, f"worker {worker}", "here")
-        agreed = agreed or said
-        compare(said, agreed, f"worker {worker}", "another worker")
-    if agreed is None:
-        raise InputError(f"--dask {address}: every worker has just died")
-    return agreed

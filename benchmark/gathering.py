@@ -49,9 +49,10 @@ def gather(
     Raises
     ------
     EvaluatorFault
-        If a task failed :data:`ATTEMPTS` times and it was not the policy's fault.
+        If a task failed :data:`ATTEMPTS` times and it was not the policy's fault, or the executor
+        takes no more.
     InputError
-        If a worker cannot load the policy.
+        If a worker is of another origin; see :func:`.parcels.call`.
     """
     return _alone(tasks, faults) if executor is None else _pooled(tasks, executor, faults)
 
@@ -73,8 +74,10 @@ def _alone(tasks: Sequence[Task], faults: Faults) -> Iterator[tuple[int, Episode
 def _pooled(
     tasks: Sequence[Task], executor: Executor, faults: Faults
 ) -> Iterator[tuple[int, Episode]]:
-    waiting = {_submitted(task, executor): (task, 1) for task in tasks}
+    waiting: dict[Future[list[tuple[int, Episode]]], tuple[Task, int]] = {}
     try:
+        for task in tasks:
+            waiting[_submitted(task, executor)] = task, 1
         while waiting:
             for future in wait(waiting, return_when=FIRST_COMPLETED).done:
                 task, attempt = waiting.pop(future)
@@ -84,7 +87,7 @@ def _pooled(
                     raise
                 except Exception as error:
                     faults.add(attempt, error)
-                    waiting[_submitted(task, executor)] = (task, attempt + 1)
+                    waiting[_submitted(task, executor)] = task, attempt + 1
                 else:
                     yield from played
     finally:
@@ -93,10 +96,8 @@ def _pooled(
 
 
 def _submitted(task: Task, executor: Executor) -> Future[list[tuple[int, Episode]]]:
-    """Return the future of a task; one that has failed if the executor does not take it."""
+    """Return the future of a task; an executor that does not take it is at its end."""
     try:
         return executor.submit(task)
     except Exception as error:
-        refused: Future[list[tuple[int, Episode]]] = Future()
-        refused.set_exception(error)
-        return refused
+        raise EvaluatorFault(f"cannot go on: {told(error)}") from error

@@ -36,13 +36,13 @@ def compare(found: Mapping[str, str], wanted: Mapping[str, str], where: str, oth
     found, wanted
         The origins; only what is in the second is compared.
     where, other
-        Where they are, in words.
+        Where they are, in words: ``on worker 3``, ``here``.
     """
     for name, value in wanted.items():
         if found.get(name) != value:
             raise InputError(
-                f"results would depend on who computes them: {name} is {found.get(name)!r} on "
-                f"{where} and {value!r} on {other}"
+                f"results would depend on who computes them: {name} is {found.get(name)!r} {where} "
+                f"and {value!r} {other}"
             )
 
 

@@ -55,7 +55,7 @@ def call(data: bytes, large: Mapping[str, bytes], wanted: Mapping[str, str]) -> 
     InputError
         If this worker is not of the wanted origin.
     """
-    compare(origin(), wanted, "a worker that has joined", "the others")
+    compare(origin(), wanted, "on a worker that has joined", "on the others")
 
     class Whole(pickle.Unpickler):
         def persistent_load(self, digest: str) -> bytes:

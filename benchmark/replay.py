@@ -14,30 +14,38 @@ from .scores import Scores, score
 from .trace import Trace
 
 
-class ReplayError(InputError):
-    """Actions that are not those of an episode."""
-
-    def __init__(self, step: int, message: str) -> None:
-        super().__init__(step, message)
-        self.step = step
-        """The step in which that shows."""
-        self.message = message
-
-    def __str__(self) -> str:
-        return self.message
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Replay:
-    """What follows from an episode's actions."""
+class Simulated:
+    """What happens by an episode's actions, in m steps."""
 
     trace: Trace
     """What happens, without a policy's internals."""
+    scripted: NDArray[np.float64]
+    """(m, n) what the scripted human does in each step, given what it sees in this replay [m]."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Replay(Simulated):
+    """What follows from an episode's actions."""
+
     failure: str | None
     """Why the episode ended early: a drop, or else what was claimed of the policy."""
     scores: Scores
-    scripted: NDArray[np.float64]
-    """(m, n) what the scripted human does in each step, given what it sees in this replay [m]."""
+
+
+class ReplayError(InputError):
+    """Actions that are not those of an episode."""
+
+    def __init__(self, step: int, message: str, found: Simulated) -> None:
+        super().__init__(step, message, found)
+        self.step = step
+        """The step in which that shows."""
+        self.message = message
+        self.found = found
+        """What happens up to that step."""
+
+    def __str__(self) -> str:
+        return self.message
 
 
 def replay(
@@ -77,18 +85,24 @@ def replay(
     lift.reset(seed)
     scripted_human, recorder = lift.scripted_human(), Recorder(lift)
     scripted = np.empty(human.shape)
+    wrong = None
     for step, (reference, action) in enumerate(zip(human.tolist(), partner.tolist(), strict=True)):
         if lift.done:
-            raise ReplayError(step, f"there are {len(human)} actions, the episode has {step} steps")
+            wrong = f"there are {len(human)} actions, the episode has {step} steps"
+            break
         try:
             does = scripted_human.act(lift.human_observation())
             lift.step(reference, action)
         except ActionError as error:
-            raise ReplayError(step, str(error)) from None
+            wrong = str(error)
+            break
         scripted[step] = does
         recorder.step(reference, action, {})
-    failure = _failure(lift, recorder.steps, claimed)
-    trace = recorder.trace()
+    steps, trace = recorder.steps, recorder.trace()
+    wrong = wrong or _end(lift, steps, claimed)
+    if wrong is not None:
+        raise ReplayError(steps, wrong, Simulated(trace=trace, scripted=scripted[:steps]))
+    failure = lift.dropped if lift.done else claimed
     return Replay(
         trace=trace,
         failure=failure,
@@ -97,14 +111,11 @@ def replay(
     )
 
 
-def _failure(lift: Lift, step: int, claimed: str | None) -> str | None:
-    if lift.done:
-        return lift.dropped
+def _end(lift: Lift, step: int, claimed: str | None) -> str | None:
+    """Return what is wrong with actions that end before ``step``; None if nothing is."""
     begins = (f"step {step}: ", START) if step == 0 else (f"step {step}: ",)
-    if claimed is None or not claimed.startswith(begins):
-        said = "no failure" if claimed is None else repr(claimed)
-        length = lift.horizon // lift.frames_per_step
-        raise ReplayError(
-            step, f"the actions end, but the episode has {length} steps; claimed is {said}"
-        )
-    return claimed
+    if lift.done or (claimed is not None and claimed.startswith(begins)):
+        return None
+    said = "no failure" if claimed is None else repr(claimed)
+    length = lift.horizon // lift.frames_per_step
+    return f"the actions end, but the episode has {length} steps; claimed is {said}"

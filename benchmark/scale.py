@@ -16,14 +16,14 @@ from typing import Final
 from ..agents.errors import EvaluatorFault
 from ..agents.policies.loading import PolicySpec
 from .agent_spec import AgentSpec
-from .cluster import dask_pool
+from .connecting import dask_pool
 from .executors import process_pool
 from .runner import run_suite
 from .shipping import shipped
 from .suite import Suite, make_suite
 
 WORKERS: Final = 2
-START_SECONDS: Final = 60.0
+START_SECONDS: Final = 180.0
 END_SECONDS: Final = 10.0
 
 
@@ -68,6 +68,11 @@ def loopback_cluster(workers: int) -> Iterator[str]:
 
     They are started by the commands that a user starts them by.
 
+    Parameters
+    ----------
+    workers
+        Number of worker processes; 0 for the scheduler alone.
+
     Raises
     ------
     EvaluatorFault
@@ -79,10 +84,11 @@ def loopback_cluster(workers: int) -> Iterator[str]:
         own = ("--port", "0", "--scheduler-file", str(file))
         scheduler = stack.enter_context(_dask(folder, "scheduler", *own, *common))
         address = _address(file, scheduler, folder)
-        own = ("--nworkers", str(workers), "--nthreads", "1")
-        place = ("--local-directory", str(folder))
-        stack.enter_context(_dask(folder, "worker", address, *own, *place, *common))
-        _wait(address, workers, folder)
+        if workers:
+            own = ("--nworkers", str(workers), "--nthreads", "1")
+            place = ("--local-directory", str(folder))
+            stack.enter_context(_dask(folder, "worker", address, *own, *place, *common))
+            _wait(address, workers, folder)
         yield address
 
 

@@ -9,8 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+import msgpack
+
 from ..agents.agent import Agent
-from ..agents.errors import InputError
+from ..agents.errors import EvaluatorFault, InputError
 from ..agents.isolation.sandboxed import SandboxedPolicy
 from ..agents.policies.loading import PolicySpec
 from ..agents.submissions.folder import read_folder
@@ -32,8 +34,8 @@ class ShippedPolicy:
     """The policy's digest, where it comes from."""
     module_digest: str = ""
     """The digest of the installed module that it is in; empty if it comes with its files."""
-    files: tuple[tuple[str, bytes], ...] = ()
-    """Its files: where in their folder each is, and its content."""
+    files: bytes = b""
+    """Its files, as msgpack: where in their folder each is, and its content."""
     contents_digest: str = ""
     """The digest of all files; empty if there is none."""
 
@@ -50,10 +52,15 @@ class ShippedPolicy:
 
         Raises
         ------
-        InputError
+        EvaluatorFault
             If this machine has another policy of that name, or no room for the files.
         """
-        with _local(self).agent() as agent:
+        try:
+            policy = _local(self)
+        except (InputError, OSError) as error:
+            # Whoever plays an episode takes other errors for the policy's.
+            raise EvaluatorFault(str(error)) from error
+        with policy.agent() as agent:
             yield agent
 
 
@@ -75,19 +82,19 @@ def shipped(spec: AgentSpec) -> ShippedPolicy:
         spec = spec.with_rung(spec.isolation)
         if folder is None:
             module = spec.place.rpartition(":")[0]
-    contents = None if folder is None else read_folder(folder)
+    files, contents_digest = b"", ""
+    if folder is not None:
+        contents = read_folder(folder)
+        files = msgpack.packb([(path, (folder / path).read_bytes()) for path in contents.paths])
+        contents_digest = contents.digest
     return ShippedPolicy(
         spec=spec,
         name=spec.name,
         isolation=spec.isolation,
         source_digest=source_digest,
         module_digest=module_digest(module) if module else "",
-        files=tuple(
-            (path, (folder / path).read_bytes())
-            for path in (contents.paths if contents else ())
-            if folder
-        ),
-        contents_digest=contents.digest if contents else "",
+        files=files,
+        contents_digest=contents_digest,
     )
 
 
@@ -119,7 +126,7 @@ def _local(policy: ShippedPolicy) -> AgentSpec:
 def _unpacked(policy: ShippedPolicy) -> AgentSpec:
     """Return the policy with its files in a private folder of this machine."""
     with tempfile.TemporaryDirectory(prefix="colift-") as temporary:
-        for name, content in policy.files:
+        for name, content in msgpack.unpackb(policy.files):
             place = Path(temporary, name)
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(content)

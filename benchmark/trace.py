@@ -1,8 +1,10 @@
 """The trace of an episode: what happened, frame by frame."""
 
+import dataclasses
 import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +45,17 @@ class Trace:
     def series() -> tuple[str, ...]:
         """Return the names of the fields that are measured series, in order."""
         return tuple(each.name for each in fields(Trace) if each.name not in ("state", "internals"))
+
+    def until(self, step: int) -> Self:
+        """Return the trace of what happened before a step."""
+        frame = step * self.human_action.shape[1]
+        by_step = ("action", "human_action", "state")
+        cut: dict[str, Any] = {
+            name: getattr(self, name)[: step if name in by_step else frame]
+            for name in (*self.series(), "state")
+        }
+        internals = {name: series[:step] for name, series in self.internals.items()}
+        return dataclasses.replace(self, **cut, internals=internals)
 
     def digest(self) -> str:
         """Return the SHA-256 of all numbers: equal if and only if every bit is."""

@@ -15,6 +15,7 @@ from ..benchmark.convergence import REFERENCE, study
 from ..benchmark.executors import process_pool
 from ..benchmark.policy_speed import LIMIT_MS, StepTime, default_scenarios, step_time
 from ..benchmark.speed import endurance, single_process, two_workers_ratio
+from .bench_isolation import print_isolation
 from .progress import progress_bar
 
 MEANING: Final = {
@@ -38,16 +39,24 @@ def bench(
     policies: Annotated[
         bool, typer.Option("--policies", help="Time a step of every registered policy instead.")
     ] = False,
+    isolation: Annotated[
+        bool, typer.Option("--isolation", help="Time what each sandbox costs instead.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON alone.")] = False,
 ) -> None:
     """Measure the benchmark itself: speed as ratios within this run, memory, convergence."""
-    if convergence and policies:
-        raise InputError("--convergence and --policies exclude each other: name one")
+    studies = {"--convergence": convergence, "--policies": policies, "--isolation": isolation}
+    chosen = [name for name, wanted in studies.items() if wanted]
+    if len(chosen) > 1:
+        raise InputError(f"{' and '.join(chosen)} exclude each other: name one")
     if convergence:
         _convergence(as_json)
         return
     if policies:
         _policies(as_json)
+        return
+    if isolation:
+        print_isolation(as_json)
         return
     if episodes < 200:
         raise InputError(f"--episodes must be at least 200, got {episodes}")

@@ -20,6 +20,7 @@ from ..benchmark.checking import Check, check_policy
 from ..benchmark.executors import default_jobs, local_pool
 from ..benchmark.runner import Run, run_suite
 from ..benchmark.suite import Suite
+from .arguments import argument
 from .policies import AUTO, NONE, usable_rung
 from .progress import progress_bar
 
@@ -33,7 +34,11 @@ COLUMN: Final = 21
 def check(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="The submission's folder.")],
     isolation: Annotated[
-        str, typer.Option(help="auto, bubblewrap, landlock, limits, or none: in this process.")
+        str,
+        typer.Option(
+            help="What keeps the policy apart: auto (the strongest that works here), bubblewrap, "
+            "landlock, limits, or none (it acts in this process: for code that you trust)."
+        ),
     ] = AUTO,
     jobs: Annotated[
         int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
@@ -42,7 +47,11 @@ def check(
         bool, typer.Option("--json", help="Print the checks as JSON, and nothing else.")
     ] = False,
 ) -> None:
-    """Check a submission: files, interface, determinism, time a step, and its score."""
+    """Check a submission: files, interface, determinism, its score, and the time of a step.
+
+    It takes less than a minute. The score is on quick-v1, a dozen lifts, and is the very number
+    that a board with that suite prints. Exit code 1 if a check fails.
+    """
     rung = usable_rung(isolation)
     count = default_jobs() if jobs is None else jobs
     console, done = Console(), []
@@ -55,9 +64,10 @@ def check(
         print(json.dumps(_content(folder, done), indent=2, allow_nan=False))
     elif failed:
         checks = "1 check" if failed == 1 else f"{failed} checks"
-        _say(console, f"{checks} failed. Mend it, then: colift check {folder}")
+        _say(console, f"{checks} failed. Mend it, then: colift check {argument(folder)}")
     else:
-        _say(console, f"Next: colift run {folder}, or colift submit {folder} --board PATH")
+        name = argument(folder)
+        _say(console, f"Next: colift run {name}, or colift submit {name} --board PATH")
     if failed:
         raise typer.Exit(1)
 

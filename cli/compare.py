@@ -11,16 +11,18 @@ import typer
 from rich.console import Console
 
 from ..agents.errors import InputError
-from ..agents.policies.loading import PolicySpec
 from ..agents.registry import POLICIES, entries
+from ..benchmark.agent_spec import AgentSpec
+from ..benchmark.bounds.play import BOUNDS
 from ..benchmark.comparison.comparison import Comparison
 from ..benchmark.comparison.comparison import compare as compared
 from ..benchmark.comparison.content import comparison_json
-from ..benchmark.comparison.contest import amount, play_contest
+from ..benchmark.comparison.contest import Bound, amount, play_contest
 from ..benchmark.comparison.words import failures, verdict
 from ..benchmark.executors import default_jobs, local_pool
 from ..benchmark.suite import Suite
 from .compare_tables import behaviours_table, differences_table, ranks_table
+from .policies import choose_policy
 from .progress import progress_bar
 from .suites import chosen_suite
 
@@ -29,7 +31,8 @@ def compare(
     policies: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="POLICY...", help="Names of 'colift list', module:Class or file.py:Class."
+            metavar="POLICY...",
+            help="Names of 'colift list', module:Class, file.py:Class or submissions' folders.",
         ),
     ] = None,
     everything: Annotated[
@@ -43,6 +46,12 @@ def compare(
         Path | None,
         typer.Option(metavar="CSV", help="Recorded lifts (trial,t_s,z_m) instead of a suite."),
     ] = None,
+    bounds: Annotated[
+        bool,
+        typer.Option(
+            "--bounds", help="Also the oracle and the causal bound, which are no policies."
+        ),
+    ] = False,
     jobs: Annotated[
         int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
     ] = None,
@@ -64,7 +73,8 @@ def compare(
         from ..benchmark.comparison.files import check_target, write_comparison
 
         check_target(out)
-    comparison = _compare(specs, episodes, default_jobs() if jobs is None else jobs)
+    limits = BOUNDS if bounds else {}
+    comparison = _compare(specs, episodes, limits, default_jobs() if jobs is None else jobs)
     if out is not None:
         write_comparison(out, comparison)
     if as_json:
@@ -79,7 +89,7 @@ def compare(
         raise typer.Exit(1)
 
 
-def _specs(named: Sequence[str], everything: bool) -> dict[str, PolicySpec]:
+def _specs(named: Sequence[str], everything: bool) -> dict[str, AgentSpec]:
     """Return the policies by the names that tables use.
 
     Raises
@@ -94,20 +104,24 @@ def _specs(named: Sequence[str], everything: bool) -> dict[str, PolicySpec]:
     if len(texts) < 2:
         told = f"only {texts[0]}" if texts else "none"
         raise InputError(f"name at least two policies, or --all: {told} was named")
-    specs = [PolicySpec(text=text) for text in texts]
-    names = Counter(spec.name for spec in specs)
-    # Classes of one name in different files are told apart by their files.
-    return {spec.name if names[spec.name] == 1 else spec.text: spec for spec in specs}
+    specs = {text: choose_policy(text) for text in texts}
+    names = Counter(spec.name for spec in specs.values())
+    # Policies of one name are told apart by where they are.
+    return {spec.name if names[spec.name] == 1 else text: spec for text, spec in specs.items()}
 
 
-def _compare(specs: Mapping[str, PolicySpec], suite: Suite, jobs: int) -> Comparison:
+def _compare(
+    specs: Mapping[str, AgentSpec], suite: Suite, bounds: Mapping[str, Bound], jobs: int
+) -> Comparison:
     """Play the episodes and compare; after Ctrl-C say so and end."""
     try:
         with (
             local_pool(jobs) as pool,
-            progress_bar("compare", amount(len(specs), suite)) as progress,
+            progress_bar("compare", amount(len(specs) + len(bounds), suite)) as progress,
         ):
-            return compared(play_contest(specs, suite, executor=pool, progress=progress))
+            return compared(
+                play_contest(specs, suite, bounds=bounds, executor=pool, progress=progress)
+            )
     except KeyboardInterrupt:
         print("interrupted: policies are compared on all episodes or not at all", file=sys.stderr)
         raise typer.Exit(1) from None

@@ -42,9 +42,26 @@ def ranks_table(comparison: Comparison) -> Table:
     smooth = _number(team.sparc, ".2f")
     interval = _interval(rmse)
     line = ["", TEAM, f"{rmse.mean:.2f}", interval, "1", smooth, f"{team.human_force_n:.2f}", ""]
-    for _, cells, style in sorted([*rows, (rmse.mean, line, REFERENCE)], key=lambda row: row[0]):
+    rows.append((rmse.mean, line, REFERENCE))
+    for bound in comparison.contest.bounds:
+        error = bound.mean("rmse_mm") or 0.0
+        rows.append((error, _bound_row(bound, error, rmse.mean), REFERENCE))
+    for _, cells, style in sorted(rows, key=lambda row: row[0]):
         table.add_row(*cells, style=style)
     return table
+
+
+def _bound_row(bound: Entry, error: float, team: float) -> list[str]:
+    return [
+        "",
+        _name(bound.name),
+        f"{error:.2f}",
+        "",
+        f"{error / team:.2f}",
+        _number(bound.mean("sparc"), ".2f"),
+        _number(bound.mean("human_force_n"), ".2f"),
+        "",
+    ]
 
 
 def _rank_row(standing: Standing, entry: Entry) -> list[str]:
@@ -102,6 +119,9 @@ def behaviours_table(comparison: Comparison) -> Table:
         table.add_row(_name(standing.name), *(_mark(column[standing.name]) for column in columns))
     team = [f"{scope.team_rmse_mm.mean:.1f}  " for scope in comparison.behaviours]
     table.add_row(TEAM, *team, style=REFERENCE)
+    for bound in comparison.contest.bounds:
+        errors = [bound.mean("rmse_mm", scope.name) for scope in comparison.behaviours]
+        table.add_row(bound.name, *(f"{error:.1f}  " for error in errors), style=REFERENCE)
     return table
 
 

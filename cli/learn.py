@@ -25,7 +25,7 @@ from ..benchmark.task_learning import (
     require_learner,
 )
 from .demonstrate import record
-from .learn_anticipate import anticipate
+from .learn_anticipate import anticipate, causal_bound
 from .output import check_output
 from .progress import progress_bar
 
@@ -120,6 +120,7 @@ def task_model(
 
 
 app.command()(anticipate)
+app.command("causal_bound")(causal_bound)
 
 
 def _task(task: Task) -> Table:

@@ -1,5 +1,7 @@
-"""``colift learn anticipate``: learn how people move on, from lifts with simulated people."""
+"""``colift learn anticipate`` and ``causal_bound``: learn how people move on, from lifts."""
 
+import dataclasses
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -9,58 +11,101 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from ..agents.policies.anticipation import Anticipation, anticipation_json
+from ..agents.policies.anticipation import Anticipation, anticipation_json, load_anticipation
 from ..benchmark.anticipation_experience import Timing
-from ..benchmark.anticipation_learning import FIRST_SEED, LIFTS, ROUNDS, learn_anticipation
+from ..benchmark.anticipation_learning import (
+    FIRST_SEED,
+    HIDDEN,
+    LIFTS,
+    ROUNDS,
+    learn_anticipation,
+)
+from ..benchmark.bounds import causal
 from ..benchmark.executors import default_jobs, local_pool
 from ..benchmark.scenario import CONTROL_PERIOD, LATENCY
 from .output import check_output
 from .progress import progress_bar
 
+Lifts = Annotated[int, typer.Option(metavar="N", help="Lifts of a round.")]
+Rounds = Annotated[int, typer.Option(metavar="N", help="Rounds of lifting and fitting.")]
+Seed = Annotated[int, typer.Option(help="Seed of the first lift.")]
+Out = Annotated[
+    Path | None, typer.Option(metavar="FILE.json", help="Where to write what was learned.")
+]
+Jobs = Annotated[
+    int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
+]
+
 
 def anticipate(
-    lifts: Annotated[int, typer.Option(metavar="N", help="Lifts of a round.")] = LIFTS,
-    rounds: Annotated[int, typer.Option(metavar="N", help="Rounds of lifting and fitting.")] = (
-        ROUNDS
-    ),
-    seed: Annotated[int, typer.Option(help="Seed of the first lift.")] = FIRST_SEED,
+    lifts: Lifts = LIFTS,
+    rounds: Rounds = ROUNDS,
+    seed: Seed = FIRST_SEED,
     latency: Annotated[
         float, typer.Option(metavar="S", help="Age of the robot's data, in seconds.")
     ] = LATENCY,
     control_period: Annotated[
         float, typer.Option(metavar="S", help="Time between two decisions, in seconds.")
     ] = CONTROL_PERIOD,
-    out: Annotated[
-        Path | None, typer.Option(metavar="FILE.json", help="Where to write what was learned.")
-    ] = None,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    out: Out = None,
+    jobs: Jobs = None,
 ) -> None:
     """Learn to foresee people, from lifts with new ones in each, in rounds."""
+    timing = Timing(latency=latency, control_period=control_period)
+    command = f"colift learn anticipate --lifts {lifts} --rounds {rounds} --seed {seed}"
+    if timing != Timing():
+        command += f" --latency {latency:g} --control-period {control_period:g}"
+    _learn(command, lifts, rounds, seed, HIDDEN, timing, out, jobs)
+
+
+def causal_bound(
+    lifts: Annotated[int, typer.Option(metavar="N", help="Lifts.")] = causal.LIFTS,
+    seed: Seed = causal.FIRST_SEED,
+    out: Out = None,
+    jobs: Jobs = None,
+) -> None:
+    """Learn the causal bound: as anticipate, but larger, and from other lifts and people."""
+    command = f"colift learn causal_bound --lifts {lifts} --seed {seed}"
+    _learn(command, lifts, 1, seed, causal.HIDDEN, Timing(), out, jobs, load_anticipation())
+
+
+def _learn(
+    command: str,
+    lifts: int,
+    rounds: int,
+    seed: int,
+    hidden: Sequence[int],
+    timing: Timing,
+    out: Path | None,
+    jobs: int | None,
+    partner: Anticipation | None = None,
+) -> None:
     check_output(out)
-    learned: list[Anticipation] = []
+    models: list[Anticipation] = []
     with (
         local_pool(default_jobs() if jobs is None else jobs) as pool,
         progress_bar("lifting", rounds * lifts) as progress,
     ):
-        for model in learn_anticipation(
+        for lesson in learn_anticipation(
             lifts=lifts,
             rounds=rounds,
-            timing=Timing(latency=latency, control_period=control_period),
+            hidden=hidden,
+            timing=timing,
             first_seed=seed,
+            partner=partner,
             executor=pool,
             progress=progress,
         ):
-            learned.append(model)
+            models.append(lesson.model)
     console = Console()
-    console.print(_table(learned), highlight=False)
+    console.print(_table(models), highlight=False)
     if out is not None:
-        out.write_text(anticipation_json(learned[-1]))
+        provenance = {"command": command, **models[-1].provenance}
+        out.write_text(anticipation_json(dataclasses.replace(models[-1], provenance=provenance)))
         console.print(f"written: {out}", highlight=False, soft_wrap=True)
 
 
-def _table(learned: list[Anticipation]) -> Table:
+def _table(models: list[Anticipation]) -> Table:
     """Return the error of the foreseen height at each lead, after each round."""
     table = Table(
         title="Error of the foreseen height on what it was learned from, rms mm",
@@ -69,9 +114,9 @@ def _table(learned: list[Anticipation]) -> Table:
     )
     table.add_column("round", justify="right")
     table.add_column("samples", justify="right")
-    for lead in learned[-1].leads:
+    for lead in models[-1].leads:
         table.add_column(f"{1000 * np.round(lead, 3):+.0f} ms", justify="right")
-    for number, model in enumerate(learned, 1):
+    for number, model in enumerate(models, 1):
         errors = model.provenance["rms_error_mm"]
         samples = str(model.provenance["samples"])
         table.add_row(str(number), samples, *(f"{error:.2f}" for error in errors))

@@ -1,4 +1,4 @@
-"""``colift submit``: put a submission on a board, and evaluate it there at once."""
+"""``colift submit``: put a submission on a board, and see what comes of it."""
 
 import sys
 from pathlib import Path
@@ -7,22 +7,24 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from ..agents.errors import EvaluatorFault
-from ..agents.submissions.submission import Submission, open_submission
-from ..benchmark.executors import default_jobs, local_pool
-from ..leaderboard.board import Board
-from ..leaderboard.entry import Entry
-from ..leaderboard.evaluation import Watch
-from ..leaderboard.submitting import enter, work
+from ..agents.errors import InputError
+from ..agents.submissions.submission import open_submission
+from ..benchmark.executors import default_jobs
 from .check import all_checks
-from .progress import stage_bar
+from .outcome import Outcome
 from .row_table import row_table, standing
+from .submit_here import Here
+from .submit_there import There
 
 
 def submit(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="The submission's folder.")],
     board: Annotated[
-        Path, typer.Option(metavar="PATH", help="The board's folder; made if there is none.")
+        str,
+        typer.Option(
+            metavar="PATH|URL",
+            help="The board's folder, made if there is none; or its address, https://...",
+        ),
     ],
     suite: Annotated[
         str | None,
@@ -31,30 +33,31 @@ def submit(
     jobs: Annotated[
         int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
     ] = None,
+    token: Annotated[
+        str, typer.Option(envvar="COLIFT_TOKEN", help="For a board on the web: who you are.")
+    ] = "",
 ) -> None:
-    """Put a submission on a board and evaluate it there: public and hidden lifts, audit, replay."""
+    """Put a submission on a board: public and hidden lifts, audit, replay, and a row.
+
+    A board in a folder evaluates it here and at once, one on the web when its turn has come.
+    """
     count = default_jobs() if jobs is None else jobs
-    opened, place = open_submission(folder), Board.open(board, suite)
-    season, digest = place.season.name, opened.contents.digest
-    entry = place.entry(season, digest)
-    if entry is None:
+    if count < 1:
+        raise InputError(f"--jobs must be at least 1, got {jobs}")
+    opened = open_submission(folder)
+    if board.startswith(("http://", "https://")):
         _check(folder, count)
-        entry = _evaluated(place, place.keep(opened.folder), count)
-    else:
-        print(f"This content (digest {opened.digest}) is on the board already.")
-    if entry.row is None:
-        print(
-            f"refused, so there is no row: {entry.refusal}\n"
-            f"Its public run: {place.bundle(season, digest)}\n"
-            f"Mend it, then: colift check {folder}",
-            file=sys.stderr,
-        )
-        raise typer.Exit(1)
-    console = Console()
-    console.print(row_table(entry.row))
-    console.print(standing(entry.row, place.ranking(season)), highlight=False, soft_wrap=True)
-    bundle = place.bundle(season, digest)
-    print(f"Bundle of the public run: {bundle}\nNext: colift verify {bundle}")
+        _tell(There(board, token).submitted(opened), folder)
+        return
+    here = Here.open(Path(board), suite)
+    try:
+        if here.known(opened):
+            print(f"This content (digest {opened.digest}) is on the board already.")
+        else:
+            _check(folder, count)
+        _tell(here.submitted(opened, count), folder)
+    finally:
+        here.close()
 
 
 def _check(folder: Path, jobs: int) -> None:
@@ -66,16 +69,14 @@ def _check(folder: Path, jobs: int) -> None:
             raise typer.Exit(1)
 
 
-def _evaluated(board: Board, submission: Submission, jobs: int) -> Entry:
-    """Return the submission's new entry, or leave with the reason why there is none."""
-    total = work(board, board.season)
-    try:
-        with local_pool(jobs) as pool, stage_bar(submission.manifest.name, total) as (stage, done):
-            watch = Watch(stage=stage, progress=done)
-            return enter(board, submission, executor=pool, watch=watch)
-    except EvaluatorFault as fault:
-        print(f"evaluator fault, not the policy's: {fault}", file=sys.stderr)
-        print("Nothing was recorded; submit again.", file=sys.stderr)
-    except KeyboardInterrupt:
-        print("interrupted: nothing was recorded; submit again.", file=sys.stderr)
-    raise typer.Exit(1)
+def _tell(outcome: Outcome, folder: Path) -> None:
+    """Print the row, or leave with the reason why there is none."""
+    if outcome.row is None:
+        print(outcome.reason, file=sys.stderr)
+        if outcome.mend:
+            print(f"Mend it, then: colift check {folder}", file=sys.stderr)
+        raise typer.Exit(1)
+    console = Console()
+    console.print(row_table(outcome.row))
+    console.print(standing(outcome.row, outcome.ranking), highlight=False, soft_wrap=True)
+    print(outcome.next)

@@ -5,6 +5,7 @@ from typing import Any, Final
 
 from rich import box
 from rich.table import Table
+from rich.text import Text
 
 from ..benchmark.headline import error, versus_human
 
@@ -27,7 +28,7 @@ def results_table(content: dict[str, Any]) -> Table:
     """Return the table of a result: one row a behaviour, and the mean over all."""
     summary = content["summary"]
     table = Table(
-        title=f"{content['policy']['name']} on {content['suite']}",
+        title=Text(f"{content['policy']['name']} on {content['suite']}"),
         caption=f"{summary['episodes']} lifts, {summary['failed']} failed; "
         f"suite digest {content['suite_digest']}",
         title_justify="left",

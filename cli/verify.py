@@ -1,14 +1,15 @@
 """``colift verify``: whether a bundle's scores follow from its actions."""
 
+import itertools
 import json
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 import typer
 
-from ..agents.errors import EvaluatorFault
-from ..benchmark.bundle import check_target, write_bundle
+from ..agents.errors import EvaluatorFault, InputError
+from ..benchmark.bundle import check_target, one_line, write_bundle
 from ..benchmark.executors import default_jobs, process_pool
 from ..benchmark.headline import headline
 from ..benchmark.runner import Run
@@ -16,29 +17,44 @@ from ..benchmark.verification import PROVES, UNPROVEN, Verdict
 from ..benchmark.verification import verify as verify_bundle
 from .progress import progress_bar
 
+MOST_LINES: Final = 20
+"""In how many ways a bundle's platform is said to be another."""
+
 
 def verify(
-    bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="The folder of a bundle.")],
+    bundle: Annotated[
+        Path,
+        typer.Argument(
+            metavar="BUNDLE", help="A folder that colift run --out, or a board, has written."
+        ),
+    ],
     jobs: Annotated[
-        int | None,
-        typer.Option(metavar="N", min=1, help="Worker processes; default: all cores."),
+        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
     ] = None,
     rescore: Annotated[
         Path | None,
         typer.Option(
-            metavar="DIR", help="Write the bundle anew, with the scores of this version of colift."
+            metavar="DIR",
+            help="Write the bundle anew there, with the scores of this version of colift.",
         ),
     ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the verdict as JSON, and nothing else.")
     ] = False,
 ) -> None:
-    """Simulate every episode of a result bundle again, and compare every number."""
+    """Simulate every episode of a result bundle again, and compare every number.
+
+    Nothing in the bundle is trusted, and no policy is run. Exit code 0: it is verified; 1: it is
+    not, with the file, the lift and the first step in which that shows.
+    """
+    count = default_jobs() if jobs is None else jobs
+    if count < 1:
+        raise InputError(f"--jobs must be at least 1, got {jobs}")
     if rescore is not None:
         check_target(rescore)
     try:
         with (
-            process_pool(jobs or default_jobs()) as pool,
+            process_pool(count) as pool,
             progress_bar(f"verify {bundle.name}", None) as progress,
         ):
             verdict = verify_bundle(bundle, executor=pool, progress=progress)
@@ -80,16 +96,22 @@ def _good_news(bundle: Path, verdict: Verdict, run: Run) -> str:
     ]
     lines += [
         f"  {name}: {there} there, {here} here"
-        for name, (there, here) in verdict.other_platform.items()
+        for name, (there, here) in itertools.islice(verdict.other_platform.items(), MOST_LINES)
     ]
     if verdict.results is not None:
         lines.append(headline(verdict.results["summary"]))
     if verdict.ok:
         lines.append(f"{bundle} is verified.")
-    return "\n".join([*lines, PROVES, UNPROVEN])
+    # Names and versions are the bundle's: no control sequence of theirs meets a terminal.
+    return "\n".join([*map(one_line, lines), PROVES, UNPROVEN])
 
 
 def _outdated(bundle: Path, there: int, here: int) -> str:
+    if there > here:
+        return (
+            f"{bundle} has scores of version {there}, this colift computes version {here}: not "
+            "compared. The actions are verified; compare the scores with a newer colift."
+        )
     return (
         f"{bundle} has scores of version {there}, this colift computes version {here}: not "
         f"compared. The actions are verified and the numbers above are the present ones; "

@@ -1,40 +1,34 @@
-"""A board as a folder.
+"""A board: its seasons, their entries, and what has happened to them.
 
-::
-
-    board.json                         which season it is
-    submissions/DIGEST/                what was submitted, by its content
-    private/SEASON/                    the secret, and what would give hidden episodes away
-    public/SEASON/season.json          name, suite, commitment
-    public/SEASON/entries/DIGEST/      entry.json, and the bundle of the public run
-
-Only ``public`` may be shown to anybody. Entries are written once and never changed.
+What is where: :mod:`.store` for files, :mod:`.database.schema` for tables.
 """
 
-import contextlib
-import fcntl
-import re
-import shutil
-import tempfile
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Final, Self
+from typing import TYPE_CHECKING, Any, Final, Self
 
 from ..agents.errors import InputError
-from ..agents.submissions.folder import copy_folder
-from ..agents.submissions.submission import Submission, read_submission
-from ..benchmark.statistics import rank_groups
-from ..benchmark.suite import make_suite
+from ..agents.submissions.submission import Submission
+from .adoption import Practice
+from .clock import Clock, utc_now
+from .database.database import URL, Database
+from .database.reading import read_entries, read_events
+from .database.recording import record_errors, record_event
+from .database.schema import entries, events
 from .entry import Entry
-from .files import read_json, write_json
+from .event import Event, Kind
 from .row import Row
-from .season import Season
-from .vault import FOLDER, Vault
+from .season import Season, SeasonInfo
+from .season_book import SeasonBook
+from .standing import HumanTeam, Standing
+from .standings import frame, human_team, standings
+from .store import Store
 
-FORMAT: Final = 1
-"""Version of the layout."""
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 FIRST: Final = "1"
 """Name of a new board's season."""
@@ -42,11 +36,8 @@ FIRST: Final = "1"
 SUITE: Final = "standard-v1"
 """What a new board evaluates on, if nothing else is said."""
 
-PARTS: Final = ("board.json", "lock", "private", "public", "submissions")
-"""What is in a board."""
-
-NAME: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
-"""What a season may be called."""
+LOCAL: Final = "local"
+"""Who does something, if nobody says who: whoever can write to the folder."""
 
 
 @dataclass(frozen=True)
@@ -54,9 +45,18 @@ class Board:
     """A board that is there."""
 
     folder: Path
+    database: Database = field(repr=False)
+    clock: Clock = field(default=utc_now, repr=False)
 
     @classmethod
-    def open(cls, folder: Path, suite: str | None = None) -> Self:
+    def open(
+        cls,
+        folder: Path,
+        suite: str | None = None,
+        *,
+        url: str | None = None,
+        clock: Clock = utc_now,
+    ) -> Self:
         """Return the board in a folder; it is made if there is none.
 
         Parameters
@@ -65,57 +65,59 @@ class Board:
             Where it is; or where it shall be, a new or empty folder.
         suite
             Name of the suite that it must have; None takes any, and ``standard-v1`` for a new one.
+        url
+            A PostgreSQL database, ``postgresql://user@host/name``, instead of a file in the folder;
+            by default that of the environment's ``COLIFT_DATABASE_URL``, if there is one.
+        clock
+            What time it is.
 
         Raises
         ------
         InputError
-            If something else is there, it cannot be written, or it has another suite.
+            If something else is there, it cannot be written, it has another suite, or its database
+            does not answer.
         """
-        board = cls(folder.absolute())
+        store, place = Store(folder.absolute()), url or os.environ.get(URL) or None
         try:
-            if folder.is_dir():
-                others = sorted({path.name for path in folder.iterdir()} - set(PARTS))
-                if others:
-                    raise InputError(
-                        f"{folder} is no board: it holds {others[0]}; name a new folder"
-                    )
-            folder.mkdir(parents=True, exist_ok=True)
-            with board._alone("lock"):
-                if not board._file.exists():
-                    board._begin(FIRST, suite or SUITE)
+            store.prepare("PostgreSQL" if place else "SQLite")
+            with store.alone():
+                board = cls(store.folder, Database.open(store.folder, place), clock)
+                with board._closed_on_error():
+                    board._ready(suite)
         except OSError as error:
             raise InputError(f"cannot use {folder} as a board: {error.strerror}") from error
-        season = board.season
-        if suite not in (None, season.suite.name):
-            raise InputError(f"{folder} is a board of {season.suite.name}, not of {suite}")
         return board
+
+    def close(self) -> None:
+        """Close the connections to the database."""
+        self.database.close()
+
+    @property
+    def store(self) -> Store:
+        """The board's files."""
+        return Store(self.folder)
 
     @property
     def season(self) -> Season:
-        """The season that submissions are evaluated in now.
+        """The season that submissions are evaluated in now; see :meth:`season_of`."""
+        return self.season_of(self._book.current().name)
+
+    def season_of(self, name: str) -> Season:
+        """Return what submissions to a season are evaluated on.
 
         Raises
         ------
         InputError
-            If the board was made by a colift of other rules, or its files were changed.
+            If there is no such season, it is one of a colift of other rules, or its secret is not
+            the one that was committed to.
         """
-        content = self._read(self._file)
-        if content.get("format") != FORMAT:
-            raise InputError(f"{self._file}: format must be {FORMAT}, is {content.get('format')!r}")
-        name = str(content["season"])
-        told = self._read(self._public(name) / "season.json")
-        suite = make_suite(told["suite"])
-        if suite.digest != told["suite_digest"]:
-            raise InputError(
-                f"season {name} of {self.folder} is on {suite.name} of digest "
-                f"{told['suite_digest']}, this colift plays {suite.digest}: begin a new season"
-            )
-        season = Season(name=name, suite=suite, secret=self.vault(name).secret())
-        if season.commitment != told["commitment"]:
-            raise InputError(f"the secret of season {name} is not the one that was committed to")
-        return season
+        return self._book.playable(name)
 
-    def new_season(self, name: str, suite: str | None = None) -> Season:
+    def seasons(self) -> tuple[SeasonInfo, ...]:
+        """Return all seasons in the order in which they came."""
+        return self._book.read()
+
+    def new_season(self, name: str, suite: str | None = None, who: str = LOCAL) -> Season:
         """Begin a season, with a new secret; the rows so far stay, in their own table.
 
         Parameters
@@ -124,28 +126,139 @@ class Board:
             What it is called.
         suite
             Name of its suite; by default as so far.
+        who
+            Who begins it.
 
         Raises
         ------
         InputError
             If there has been a season of that name, or it is no name.
         """
-        if not NAME.fullmatch(name):
-            raise InputError(f"season {name!r} must be letters, digits, - and _, at most 40")
-        with self._alone("lock"):
-            if name in self.seasons():
-                raise InputError(f"{self.folder} has had a season {name}")
-            current = self._read(self._file)["season"]
-            self._begin(name, suite or self._read(self._public(current) / "season.json")["suite"])
+        with self.store.alone():
+            self._book.begin(name, suite or self._book.current().suite, who)
         return self.season
 
-    def seasons(self) -> tuple[str, ...]:
-        """Return the names of all seasons that have begun."""
-        return tuple(sorted(path.parent.name for path in self._public("").glob("*/season.json")))
+    def reveal(self, season: str, who: str, why: str) -> None:
+        """Publish the secret of a season, for good.
 
-    def vault(self, season: str) -> Vault:
-        """Return the private files of a season."""
-        return Vault(folder=self.folder / "private" / season)
+        Raises
+        ------
+        InputError
+            If the season still takes submissions.
+        """
+        self._book.reveal(season, who, why)
+
+    def adopt(self, practice: Practice, who: str = LOCAL, why: str = "shipped") -> None:
+        """Take over a season that was played elsewhere, with its rows; nothing if it is there.
+
+        Raises
+        ------
+        InputError
+            If its secret is not the one it is committed to.
+        """
+        with self.store.alone():
+            self._book.adopt(practice, who, why)
+
+    def standings(self, season: str | None = None) -> tuple[Standing, ...]:
+        """Return the table of a season, best first; rows out of the ranking are at the end.
+
+        Ranks follow from the hidden episodes, lift by lift; see :func:`.rank_groups`. The number
+        of queries does not depend on that of the entries.
+
+        Parameters
+        ----------
+        season
+            Its name; by default the current one.
+
+        Raises
+        ------
+        InputError
+            If there is no such season.
+        """
+        return standings(self.database, self.season_info(season).name)
+
+    def ranking(self, season: str | None = None) -> "DataFrame":
+        """Return the ranked rows of a season as a data frame, best first.
+
+        Its columns are :data:`.standings.COLUMNS`: RMSE and ratio to the human-human team are those
+        of the hidden episodes.
+
+        Raises
+        ------
+        InputError
+            If there is no such season, or pandas is not installed.
+        """
+        return frame(self.standings(season))
+
+    def team(self, season: str | None = None) -> HumanTeam | None:
+        """Return the human-human team on a season's hidden episodes; None before the first row."""
+        known = self.store.vault(self.season_info(season).name).known_team()
+        return None if known is None else human_team(known)
+
+    def entry(self, season: str, digest: str) -> Entry | None:
+        """Return what the board said of a submission, or None if it has not been evaluated."""
+        this = (entries.c.season == season, entries.c.submission == digest)
+        with self.database.reading() as connection:
+            return next(iter(read_entries(connection, *this)), None)
+
+    def entries_of(self, name: str) -> tuple[Entry, ...]:
+        """Return the entries of a policy's name over all seasons, oldest first."""
+        with self.database.reading() as connection:
+            return read_entries(connection, entries.c.name == name)
+
+    def events(self, season: str | None = None, submission: str | None = None) -> tuple[Event, ...]:
+        """Return what has happened, oldest first: to a season, to a submission, or at all."""
+        wanted = {events.c.season: season, events.c.submission: submission}
+        conditions = [column == value for column, value in wanted.items() if value is not None]
+        with self.database.reading() as connection:
+            return read_events(connection, *conditions)
+
+    def withdraw(self, season: str, digest: str, who: str, why: str) -> None:
+        """Take a row out of the ranking because who made it wants so; it stays to be seen.
+
+        Raises
+        ------
+        InputError
+            If the submission has no row in that season.
+        """
+        self._change(season, digest, "withdrawal", who, why)
+
+    def remove(self, season: str, digest: str, who: str, why: str) -> None:
+        """Take a row out of the ranking because who keeps the board wants so; as withdrawn."""
+        self._change(season, digest, "removal", who, why)
+
+    def reinstate(self, season: str, digest: str, who: str, why: str) -> None:
+        """Take a withdrawn or removed row back into the ranking."""
+        self._change(season, digest, "reinstatement", who, why)
+
+    def rescore(
+        self, season: str, row: Row, hidden_rmse_mm: tuple[float, ...], who: str, why: str
+    ) -> None:
+        """Say what a row is after a mistake in its evaluation; the entry stays as it was.
+
+        Parameters
+        ----------
+        season
+            Its season.
+        row
+            The row as it is right, of the same submission.
+        hidden_rmse_mm
+            RMSE of each hidden episode, as it is right.
+        who, why
+            Who says so, and for which reason.
+
+        Raises
+        ------
+        InputError
+            If the submission has no row in that season.
+        """
+        content = {"row": row.plain()}
+        self._change(season, row.submission, "rescore", who, why, content, hidden_rmse_mm)
+
+    def bundle(self, season: str, digest: str) -> Path | None:
+        """Return the folder of a submission's public run, or None if the board has none."""
+        place = self.store.bundle(season, digest)
+        return place if place.is_dir() else None
 
     def keep(self, folder: Path) -> Submission:
         """Copy a submission into the board, under its digest; what is there is left as it is.
@@ -155,112 +268,62 @@ class Board:
         InputError
             If it is not what a submission must be.
         """
-        store = self.folder / "submissions"
-        with tempfile.TemporaryDirectory(dir=store, prefix=".new-") as temporary:
-            made = Path(temporary) / "submission"
-            made.mkdir()
-            digest = copy_folder(folder, made).digest
-            read_submission(made)
-            place = store / digest
-            with contextlib.suppress(OSError):  # It has been submitted before.
-                made.rename(place)
-        kept = read_submission(place)
-        if kept.contents.digest != digest:
-            raise InputError(f"{place} has been changed; move it away and submit again")
-        return kept
+        return self.store.keep(folder)
 
-    def entry(self, season: str, digest: str) -> Entry | None:
-        """Return what the board says of a submission, or None if it has not been evaluated."""
-        path = self._entry(season, digest) / "entry.json"
-        return Entry.read(self._read(path)) if path.exists() else None
-
-    def bundle(self, season: str, digest: str) -> Path:
-        """Return where the bundle of a submission's public run is."""
-        return self._entry(season, digest) / "bundle"
+    def _ready(self, suite: str | None) -> None:
+        """Begin the first season, if there is none; refuse another suite than that of a board."""
+        if not self.seasons():
+            self._book.begin(FIRST, suite or SUITE, LOCAL)
+        current = self._book.current()
+        if suite not in (None, current.suite):
+            raise InputError(f"{self.folder} is a board of {current.suite}, not of {suite}")
+        self.store.vault(current.name).secret()
 
     @contextmanager
-    def evaluating(self, digest: str) -> Iterator[Path]:
-        """Hold a submission for evaluation; yield an empty folder for its files.
+    def _closed_on_error(self) -> Iterator[None]:
+        try:
+            yield
+        except BaseException:
+            self.close()
+            raise
 
-        What a process that was killed has left of it is removed.
+    @property
+    def _book(self) -> SeasonBook:
+        return SeasonBook(self.store, self.database, self.clock)
+
+    def season_info(self, season: str | None = None) -> SeasonInfo:
+        """Return what is published of a season, by default of the current one.
 
         Raises
         ------
         InputError
-            If another process holds it.
+            If there is no such season.
         """
-        work = self.folder / "private" / "work"
-        work.mkdir(mode=FOLDER, exist_ok=True)
-        with self._alone(f"private/work/{digest}.lock", wait=False):
-            files = work / digest
-            shutil.rmtree(files, ignore_errors=True)
-            files.mkdir()
-            try:
-                yield files
-            finally:
-                shutil.rmtree(files, ignore_errors=True)
+        return self._book.current() if season is None else self._book.named(season)
 
-    def record(self, season: str, entry: Entry, files: Path) -> None:
-        """Add an entry, with the files of its evaluation; it is there as a whole or not at all."""
-        write_json(files / "entry.json", entry.plain())
-        place = self._entry(season, entry.submission)
-        place.parent.mkdir(exist_ok=True)
-        files.rename(place)
-
-    def rows(self, season: str) -> list[Row]:
-        """Return the rows of a season, in the order of their hidden RMSE."""
-        found = self._public(season).glob("entries/*/entry.json")
-        entries = [Entry.read(self._read(path)) for path in found]
-        rows = [entry.row for entry in entries if entry.row is not None]
-        return sorted(rows, key=lambda row: (row.hidden.rmse_mm.mean, row.submission))
-
-    def ranking(self, season: str) -> list[tuple[int, Row]]:
-        """Return the rank group of each row, 1 the best, in that order; see :func:`.rank_groups`.
-
-        Ranks follow from the hidden episodes, lift by lift.
-        """
-        rows = {row.submission: row for row in self.rows(season)}
-        vault = self.vault(season)
-        groups = rank_groups({digest: vault.errors(digest) for digest in rows})
-        return [(rank, rows[digest]) for rank, group in enumerate(groups, 1) for digest in group]
-
-    @property
-    def _file(self) -> Path:
-        return self.folder / "board.json"
-
-    def _public(self, season: str) -> Path:
-        return self.folder / "public" / season
-
-    def _entry(self, season: str, digest: str) -> Path:
-        return self._public(season) / "entries" / digest
-
-    def _begin(self, name: str, suite: str) -> None:
-        made = make_suite(suite)
-        (self.folder / "private").mkdir(mode=FOLDER, exist_ok=True)
-        (self.folder / "submissions").mkdir(mode=FOLDER, exist_ok=True)
-        season = Season(name=name, suite=made, secret=self.vault(name).secret())
-        self._public(name).mkdir(parents=True, exist_ok=True)
-        told = {
-            "season": name,
-            "suite": made.name,
-            "suite_digest": made.digest,
-            "commitment": season.commitment,
-        }
-        write_json(self._public(name) / "season.json", told)
-        write_json(self._file, {"format": FORMAT, "season": name})
-
-    def _read(self, path: Path) -> dict[str, Any]:
-        try:
-            return read_json(path)
-        except (OSError, ValueError) as error:
-            raise InputError(f"{path} cannot be read: {error}") from error
-
-    @contextmanager
-    def _alone(self, name: str, *, wait: bool = True) -> Iterator[None]:
-        """Hold a lock of the board; it ends with this process, however that ends."""
-        with (self.folder / name).open("a") as file:
-            try:
-                fcntl.flock(file, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
-            except BlockingIOError:
-                raise InputError("this submission is being evaluated by another process") from None
-            yield
+    def _change(
+        self,
+        season: str,
+        digest: str,
+        kind: Kind,
+        who: str,
+        why: str,
+        content: dict[str, Any] | None = None,
+        hidden_rmse_mm: tuple[float, ...] = (),
+    ) -> None:
+        entry = self.entry(season, digest)
+        if entry is None or entry.row is None:
+            raise InputError(f"season {season} of {self.folder} has no row of submission {digest}")
+        event = Event(
+            at=self.clock(),
+            who=who,
+            kind=kind,
+            why=why,
+            season=season,
+            submission=digest,
+            content=content,
+        )
+        with self.database.writing() as connection:
+            record_event(connection, event)
+            if hidden_rmse_mm:
+                record_errors(connection, season, digest, hidden_rmse_mm)

@@ -84,6 +84,8 @@ class Watch:
     progress: Callable[[int], None] = lambda episodes: None
     """Called with the number of episodes that were finished since the last call; see
     :func:`amount`."""
+    total: Callable[[int], None] = lambda episodes: None
+    """Called with the number of episodes in all, by who knows it."""
 
 
 def evaluate(
@@ -240,5 +242,10 @@ def _row(
         isolation=isolation,
         verified=isolation in VERIFIABLE,
         scoring=SCORING,
-        versions={name: version(name) for name in LIBRARIES},
+        versions=versions(),
     )
+
+
+def versions() -> dict[str, str]:
+    """Return the versions of the packages that can change a number."""
+    return {name: version(name) for name in LIBRARIES}

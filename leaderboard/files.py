@@ -8,13 +8,17 @@ from pathlib import Path
 from typing import Any
 
 
-def write_json(path: Path, content: Mapping[str, Any], *, mode: int = 0o644) -> None:
+def write_json(
+    path: Path, content: Mapping[str, Any], *, mode: int = 0o644, indent: int | None = 2
+) -> None:
     """Write a JSON file; who reads it meanwhile sees the old one or the new one."""
+    separators = (",", ":") if indent is None else None
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}-")
     try:
         with os.fdopen(handle, "w") as file:
             os.fchmod(file.fileno(), mode)
-            file.write(json.dumps(content, indent=2, allow_nan=False) + "\n")
+            text = json.dumps(content, indent=indent, separators=separators, allow_nan=False)
+            file.write(text + "\n")
             file.flush()
             os.fsync(file.fileno())
         Path(temporary).replace(path)

@@ -1,6 +1,7 @@
 """A season: one suite, one secret; its rows stand in one table and in no other."""
 
 from dataclasses import dataclass, field
+from datetime import datetime
 
 from ..benchmark.hidden import commitment, hidden_suite, policy_key
 from ..benchmark.suite import Suite
@@ -30,3 +31,20 @@ class Season:
     def policy_key(self) -> bytes:
         """The key of a policy's own seed in the hidden episodes; see :func:`.policy_key`."""
         return policy_key(self.secret)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SeasonInfo:
+    """What is published of a season."""
+
+    name: str
+    suite: str
+    suite_digest: str
+    commitment: str
+    """SHA-256 of the secret."""
+    began_at: datetime
+    current: bool
+    """Whether it takes submissions; all others are frozen."""
+    revealed: str | None
+    """The secret, 64 hexadecimal digits, if it has been published: anybody can then play the
+    hidden episodes, and check the commitment."""

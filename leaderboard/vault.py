@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Final
 
 from ..agents.errors import InputError
-from ..benchmark.hidden import SECRET_BYTES, new_secret
+from ..benchmark.hidden import SECRET_BYTES
 from ..benchmark.references import Reference
 from .files import read_json, write_json
 
@@ -25,22 +25,36 @@ class Vault:
 
     folder: Path
 
+    def keep_secret(self, secret: bytes) -> None:
+        """Keep the season's secret, before anything follows from it.
+
+        Raises
+        ------
+        FileExistsError
+            If there is one.
+        """
+        self.folder.mkdir(mode=FOLDER, parents=True, exist_ok=True)
+        handle = os.open(self._secret, os.O_WRONLY | os.O_CREAT | os.O_EXCL, OWN)
+        with os.fdopen(handle, "w") as file:
+            file.write(f"{secret.hex()}\n")
+            file.flush()
+            os.fsync(file.fileno())
+
+    def forget_secret(self) -> None:
+        """Remove a secret that nothing follows from: its season did not come to begin."""
+        self._secret.unlink(missing_ok=True)
+
     def secret(self) -> bytes:
-        """Return the season's secret; it is made when it is asked for first.
+        """Return the season's secret.
 
         Raises
         ------
         InputError
-            If others may read it, or it is no secret of ours.
+            If there is none, others may read it, or it is no secret of ours.
         """
-        path = self.folder / "secret"
+        path = self._secret
         if not path.exists():
-            self.folder.mkdir(mode=FOLDER, parents=True, exist_ok=True)
-            handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, OWN)
-            with os.fdopen(handle, "w") as file:
-                file.write(f"{new_secret().hex()}\n")
-                file.flush()
-                os.fsync(file.fileno())
+            raise InputError(f"{path} is missing: is this the folder of the database's board?")
         mode = stat.S_IMODE(path.stat().st_mode)
         if mode & 0o077:
             raise InputError(f"{path} has mode {mode:o}, others may read it; it must be {OWN:o}")
@@ -54,25 +68,22 @@ class Vault:
 
     def team(self, play: Callable[[], Reference]) -> Reference:
         """Return the human-human team on the hidden episodes; it is played only once."""
+        known = self.known_team()
+        if known is None:
+            known = play()
+            self.keep_team(known)
+        return known
+
+    def known_team(self) -> Reference | None:
+        """Return what :meth:`team` has kept, or None if it was not played yet."""
         path = self.folder / "team.json"
-        if not path.exists():
-            write_json(path, play().plain(), mode=OWN)
-        return Reference.read(read_json(path))
+        return Reference.read(read_json(path)) if path.exists() else None
+
+    def keep_team(self, team: Reference) -> None:
+        """Keep the human-human team that was played elsewhere."""
+        self.folder.mkdir(mode=FOLDER, parents=True, exist_ok=True)
+        write_json(self.folder / "team.json", team.plain(), mode=OWN)
 
     @property
-    def has_team(self) -> bool:
-        """Whether :meth:`team` need not play."""
-        return (self.folder / "team.json").exists()
-
-    def keep_errors(self, submission: str, rmse_mm: tuple[float, ...]) -> None:
-        """Keep a submission's RMSE in each hidden episode [mm]."""
-        write_json(self._errors(submission), {"rmse_mm": list(rmse_mm)}, mode=OWN)
-
-    def errors(self, submission: str) -> tuple[float, ...]:
-        """Return what :meth:`keep_errors` has kept."""
-        return tuple(read_json(self._errors(submission))["rmse_mm"])
-
-    def _errors(self, submission: str) -> Path:
-        folder = self.folder / "errors"
-        folder.mkdir(mode=FOLDER, exist_ok=True)
-        return folder / f"{submission}.json"
+    def _secret(self) -> Path:
+        return self.folder / "secret"

@@ -93,6 +93,17 @@ def hand_position(joints: ArrayLike) -> Array:
     return hand
 
 
+def joint_positions(joints: ArrayLike) -> Array:
+    """Return where the left arm's five joints are in the torso's frame [m], shape (..., 5, 3).
+
+    ``joints`` are its angles [rad], shape (..., 5). Shoulder pitch and roll are in one place, elbow
+    yaw and roll in another; the last is the wrist.
+    """
+    angles = np.asarray(joints, dtype=np.float64)
+    places = [position for position, _, _ in _frames(angles)]
+    return np.stack([np.broadcast_to(at, (*angles.shape[:-1], 3)) for at in places], axis=-2)
+
+
 def vertical_lever(joints: ArrayLike) -> Array:
     """Return the hand's vertical Jacobian row dz/dq [m/rad] of the left arm, shape (..., 5).
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
-from filterpy.kalman import ExtendedKalmanFilter
 
 from ..errors import InputError
 from .minimum_jerk import Array
@@ -73,6 +72,9 @@ class MinimumJerkFilter:
         left, _ = given.process.time_to_go(given.duration)
         jerk = 60 * given.way / left**3
         spread = np.array([given.measurement_noise, *REST_SPREAD, jerk, given.duration_spread])
+        # It brings all of scipy.stats: only who filters waits for that, not every command.
+        from filterpy.kalman import ExtendedKalmanFilter
+
         self._filter = ExtendedKalmanFilter(dim_x=5, dim_z=1)
         self._filter.x = np.array([[height], [0.0], [0.0], [0.0], [given.duration]])
         self._filter.P = np.diag(spread**2)

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
-from filterpy.kalman import ExtendedKalmanFilter
 from numpy.typing import NDArray
 
 from ..calibration import CALIBRATION
@@ -106,6 +105,9 @@ class MotionFilter:
         """
         _require_finite("a measured height", height)
         spread = np.array(self._parameters.initial_spread)
+        # It brings all of scipy.stats: only who filters waits for that, not every command.
+        from filterpy.kalman import ExtendedKalmanFilter
+
         self._filter = ExtendedKalmanFilter(dim_x=3, dim_z=1)
         self._filter.x = np.array([[1000 * height], [0.0], [0.0]])
         self._filter.P = np.diag(spread**2)

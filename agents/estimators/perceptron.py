@@ -61,7 +61,7 @@ class Perceptron:
         return outputs
 
     def plain(self) -> dict[str, Any]:
-        """Return the content for JSON, in six significant digits."""
+        """Return the content for JSON, in five significant digits."""
         return {
             "centre": _rounded(self.centre),
             "spread": _rounded(self.spread),
@@ -83,7 +83,7 @@ class Perceptron:
 
 
 def _rounded(values: Array) -> Any:
-    """Return nested lists of numbers in six significant digits."""
+    """Return nested lists of numbers in five significant digits."""
     if values.ndim > 1:
         return [_rounded(row) for row in values]
-    return [float(f"{value:.6g}") for value in values.tolist()]
+    return [float(f"{value:.5g}") for value in values.tolist()]

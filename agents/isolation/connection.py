@@ -1,21 +1,25 @@
-"""This side of a cell: requests with deadlines, the output meanwhile, and why a cell ended."""
+"""The scoring side of a cell: requests with deadlines, its output, and why it ended."""
 
 import contextlib
-import math
 import re
 import select
 import signal
 import socket
+import struct
 import time
 from typing import Any, Final
 
 from ..errors import EvaluatorFault, PolicyError
 from .limits import MIB, Limits
 from .output import Output
-from .wire import Channel, Closed, WireError, packed
+from .wire import Channel, ClosedError, WireError, packed
 
 _REPORT_SECONDS: Final = 1.0
 """How long a cell that has closed the connection may take to say why [s]."""
+
+_SLICE: Final = struct.pack("ll", 0, 5000)
+"""How long to wait for an answer before the output is looked at [s, us]: a policy that prints more
+than a pipe holds waits that long. To wait for both at once would make every step longer."""
 
 _END_SECONDS: Final = 5.0
 """How long a cell may take to end its processes [s]."""
@@ -48,6 +52,8 @@ class Connection:
             Whether the cell goes on after this episode, unless it fails.
         """
         self.data = data
+        for option in (socket.SO_RCVTIMEO, socket.SO_SNDTIMEO):
+            data.setsockopt(socket.SOL_SOCKET, option, _SLICE)
         self._channel = Channel(data)
         self.output = output
         self._status = status
@@ -57,9 +63,6 @@ class Connection:
         self._failed = False
         self._serial = 0
         self._left = limits.episode_seconds
-        self._waiting = select.poll()
-        self._waiting.register(self._channel, select.POLLIN)
-        self._waiting.register(output, select.POLLIN)
 
     def request(self, content: list[Any], seconds: float) -> list[Any]:
         """Return the answer to a request, without its serial number.
@@ -76,7 +79,7 @@ class Connection:
         try:
             self._channel.send(packed([self._serial, *content]))
             answer = self._answer(begin + min(seconds, self._left))
-        except Closed as error:
+        except ClosedError as error:
             raise self._failure(str(error), _REPORT_SECONDS) from None
         except WireError as error:
             raise self._failure(str(error), 0.0) from None
@@ -91,15 +94,11 @@ class Connection:
 
     def _answer(self, end: float) -> list[Any] | None:
         """Return the next answer, None if it does not come before the time ``end``."""
-        channel, output = self._channel.fileno(), self.output.fileno()
-        while (left := end - time.monotonic()) > 0:
-            for handle, _ in self._waiting.poll(math.ceil(1000 * left)):
-                if handle == channel:
-                    answer = self._channel.fetch()
-                    if answer is not None:
-                        return answer
-                elif not self.output.drain():
-                    self._waiting.unregister(output)
+        while time.monotonic() < end:
+            answer = self._channel.fetch()
+            if answer is not None:
+                return answer
+            self.output.drain()
         return None
 
     def _late(self, seconds: float) -> str:

@@ -14,14 +14,16 @@ import signal
 import socket
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
 from . import landlock, linux
-from .cell import Ends, Walls, start
+from .cell import Ends, start
 from .preload import serve_forks
 from .probe import look
 from .server import serve
+from .walls import Walls
 
 EPISODE: Final = b"e"
 PRELOAD: Final = b"p"
@@ -70,22 +72,30 @@ def _work(kind: bytes, policy: Any) -> Callable[[int], None]:
 
 def _walls(settings: dict[str, Any]) -> Walls:
     """Return the strongest walls that can be had here."""
-    fields = {
-        "landlock": settings["landlock"] and landlock.version() > 0,
-        "seccomp": settings["seccomp"],
-        "mounted": settings["mounted"],
-        "folder": Path(settings["folder"]) if settings["folder"] else None,
-        "limits": settings["limits"],
-    }
-    if settings["namespaces"]:
-        paths = {name: tuple(map(Path, settings[name])) for name in ("readable", "hidden")}
-        for kind in ("root", "user") if os.geteuid() == 0 else ("user",):
-            walls = Walls(namespaces=kind, scratch=None, **paths, **fields)
-            if _stands(walls):
-                return walls
-    visible = tuple(map(Path, settings["visible"]))
-    scratch = None if settings["mounted"] else Path(settings["scratch"])
-    return Walls(namespaces="", scratch=scratch, readable=visible, hidden=(), **fields)
+    without = Walls(
+        namespaces="",
+        landlock=settings["landlock"] and landlock.version() > 0,
+        seccomp=settings["seccomp"],
+        readable=tuple(map(Path, settings["visible"])),
+        hidden=(),
+        mounted=settings["mounted"],
+        folder=Path(settings["folder"]) if settings["folder"] else None,
+        scratch=None if settings["mounted"] else Path(settings["scratch"]),
+        limits=settings["limits"],
+    )
+    if not settings["namespaces"]:
+        return without
+    for kind in ("root", "user") if os.geteuid() == 0 else ("user",):
+        walls = replace(
+            without,
+            namespaces=kind,
+            readable=tuple(map(Path, settings["readable"])),
+            hidden=tuple(map(Path, settings["hidden"])),
+            scratch=None,
+        )
+        if _stands(walls):
+            return walls
+    return without
 
 
 def _stands(walls: Walls) -> bool:
@@ -93,8 +103,14 @@ def _stands(walls: Walls) -> bool:
     here, there = socket.socketpair()
     watched, status = socket.socketpair()
     output = os.open("/dev/null", os.O_WRONLY)
+    ends = Ends(there.detach(), output, status.detach())
     with contextlib.closing(here), contextlib.closing(watched):
-        start(walls, Ends(there.detach(), output, status.detach()), _say_yes)
+        try:
+            start(walls, ends, _say_yes)
+        except OSError as error:
+            os.write(ends.status, str(error).encode())
+            for end in ends:
+                os.close(end)
         if select.select([here], [], [], _TRIAL_SECONDS)[0] and here.recv(1) == b"y":
             return True
         watched.setblocking(False)

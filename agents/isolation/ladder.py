@@ -71,18 +71,26 @@ def fault(name: str) -> str | None:
     """
     describe(name)
     try:
-        found = _found(name)
+        found = holes(name)
     except (EvaluatorFault, PolicyError) as error:
         return str(error)
     return "; ".join(found) if found and name in VERIFIABLE else None
 
 
-def _found(name: str) -> list[str]:
-    """Return what a policy can do on a rung that it should not."""
+def holes(name: str) -> list[str]:
+    """Return what a policy can do on a rung that it should not: a probe tries.
+
+    Raises
+    ------
+    EvaluatorFault, PolicyError
+        If the rung does not work here.
+    """
     with (
         tempfile.TemporaryDirectory(prefix="colift-probe-") as directory,
         socket.create_server(("127.0.0.1", 0)) as listening,
-        subprocess.Popen([sys.executable, "-S", "-c", "input()"], stdin=subprocess.PIPE) as other,
+        subprocess.Popen(
+            [sys.executable, "-S", "-c", "import sys; sys.stdin.read()"], stdin=subprocess.PIPE
+        ) as other,
     ):
         secret = Path(directory, "secret")
         secret.write_text("secret")

@@ -53,6 +53,11 @@ def command(rung: str, view: View, handle: int, *, superuser: bool) -> list[str]
         File descriptor of its orders.
     superuser
         Whether it will be started by the superuser.
+
+    Raises
+    ------
+    FileNotFoundError
+        If a program that the rung needs is not installed.
     """
     packages = [str(each) for each in view.packages]
     options = ["-s", "-P", "-S", "-u", "-c", _BOOTSTRAP]
@@ -75,7 +80,10 @@ def settings(rung: str, view: View) -> dict[str, Any]:
 
 
 def _bubblewrap(view: View, superuser: bool) -> Iterator[str]:
-    yield shutil.which("bwrap") or "bwrap"
+    program = shutil.which("bwrap")
+    if program is None:
+        raise FileNotFoundError("bwrap is not installed")
+    yield program
     # The superuser's fork server keeps what it needs to make namespaces of processes that then
     # are nobody outside too, which a user namespace of bubblewrap's own would not allow.
     yield from ("--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts")

@@ -27,25 +27,20 @@ class Output:
         self._handle: int | None = handle
         self._tail = b""
 
-    def fileno(self) -> int:
-        """Return the file descriptor, to wait for; -1 when it is closed."""
-        return -1 if self._handle is None else self._handle
-
-    def drain(self) -> bool:
-        """Take in what has come, without waiting; return whether more can come."""
+    def drain(self) -> None:
+        """Take in what has come, without waiting."""
         if self._handle is None:
-            return False
+            return
         with contextlib.suppress(BlockingIOError):
             for _ in range(_CHUNKS):
                 chunk = os.read(self._handle, _CHUNK)
                 if not chunk:
-                    return False
+                    return
                 # A character takes at most four bytes.
                 self._tail = (self._tail + chunk)[-4 * OUTPUT :]
-        return True
 
     def close(self) -> None:
-        """Take in what is left, and close."""
+        """Take in what has come, and close."""
         self.drain()
         if self._handle is not None:
             os.close(self._handle)
@@ -53,5 +48,6 @@ class Output:
 
     @property
     def text(self) -> str:
-        """The last characters."""
+        """The last characters of what has come."""
+        self.drain()
         return clean(self._tail.decode(errors="replace"))[-OUTPUT:]

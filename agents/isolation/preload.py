@@ -10,7 +10,7 @@ import socket
 from typing import Final
 
 from ..errors import InputError
-from .cell import DATA
+from .cell import DATA, arrange
 from .limits import REASON
 from .server import load, safely_told, serve
 from .wire import packed
@@ -22,8 +22,7 @@ def serve_forks(handle: int, place: str, parameters: str, size: int) -> None:
     """Import the policy's module, then fork a process for each order on a socket.
 
     The first message on the socket is answered by ``[1, "loaded"]``, or by why it cannot be, as in
-    :mod:`.server`. An order brings the ends of a connection and of
-    the output.
+    :mod:`.server`. An order brings the ends of a connection and of the output.
     """
     orders = socket.socket(fileno=os.dup(handle))
     os.close(handle)
@@ -44,12 +43,7 @@ def serve_forks(handle: int, place: str, parameters: str, size: int) -> None:
             return
         data, output = ends
         if os.fork() == 0:
-            orders.close()
-            os.dup2(output, 1)
-            os.dup2(output, 2)
-            if data != DATA:
-                os.dup2(data, DATA)
-            os.closerange(DATA + 1, 256)
+            arrange(data, output)
             serve(DATA, place, parameters, size, policy)
             os._exit(0)
         os.close(data)

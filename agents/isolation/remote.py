@@ -5,13 +5,37 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from ..actions import ActionError, checked_action
 from ..agent import Action, Observation
-from ..errors import EvaluatorFault, PolicyError
+from ..errors import PolicyError
 from .connection import Connection
 from .limits import REASON, Limits
 from .output import clean
+from .processor import Caller
 from .server import INTERNALS, NAME
+
+
+class UnmadeAgent:
+    """An agent whose policy could not be made: its reset says why.
+
+    Parameters
+    ----------
+    failure
+        Why.
+    printed
+        What was printed meanwhile.
+    """
+
+    def __init__(self, failure: PolicyError, printed: str) -> None:
+        self.failure = failure
+        self.printed = printed
+
+    def reset(self, seed: int) -> None:
+        """Raise the failure."""
+        raise self.failure
+
+    def act(self, observation: Observation) -> Action:
+        """Raise the failure."""
+        raise self.failure
 
 
 class RemoteAgent:
@@ -20,37 +44,29 @@ class RemoteAgent:
     Parameters
     ----------
     connection
-        Where the policy is; None if there is none.
+        Where the policy is.
     limits
         What it may take.
     size
         How many numbers its action is.
-    failure
-        Why there is none.
-    output
-        What was printed before the connection was made.
     """
 
-    def __init__(
-        self,
-        connection: Connection | None,
-        limits: Limits,
-        size: int,
-        failure: PolicyError | None = None,
-        output: str = "",
-    ) -> None:
+    def __init__(self, connection: Connection, limits: Limits, size: int) -> None:
         self._connection = connection
         self._limits = limits
         self._size = size
-        self._before = output
-        self.failure = failure
+        self._caller = Caller()
+        self.failure: PolicyError | None = None
         """Why the policy could not be made, or failed."""
 
+    def close(self) -> None:
+        """Let this thread run on any processor again."""
+        self._caller.free()
+
     @property
-    def output(self) -> str:
+    def printed(self) -> str:
         """The last 10,000 characters of what the policy has printed in this episode."""
-        printed = self._connection.output.text if self._connection else ""
-        return self._before + printed if not printed else printed
+        return self._connection.output.text
 
     def reset(self, seed: int) -> None:
         """Begin an episode.
@@ -72,24 +88,26 @@ class RemoteAgent:
         PolicyError, EvaluatorFault
             As :meth:`reset`, or if the action is not the finite numbers that it must be.
         """
-        content = self._asked(["act", observation.tolist()], "action", self._limits.step_seconds)
-        numbers, names, values = content if len(content) == 3 else (*content[:1], [], [])
-        if type(numbers) is not list or any(type(number) is not float for number in numbers):
-            self._fail("sent an action that is not a list of numbers")
-        try:
-            action = np.array(checked_action("robot", numbers, self._size))
-        except ActionError as error:
-            self._fail(str(error))
+        request = ["act", self._caller.begin(), observation.tolist()]
+        content = self._asked(request, "action", self._limits.step_seconds)
+        self._caller.end()
+        numbers, names, values = (*content, None, None, None)[:3]
+        if (
+            type(numbers) is not list
+            or len(numbers) != self._size
+            or not all(type(number) is float and math.isfinite(number) for number in numbers)
+        ):
+            self._fail(f"sent an action that is not {self._size} finite number(s)")
         self._keep(names, values)
-        return action
+        return np.array(numbers)
 
     def _keep(self, names: Any, values: Any) -> None:
         """Take in the internals behind an action; this agent has none."""
 
     def _asked(self, request: list[Any], kind: str, seconds: float) -> list[Any]:
         """Return the content of the answer to a request."""
-        if self.failure is not None or self._connection is None:
-            raise self.failure or EvaluatorFault("there is no policy")
+        if self.failure is not None:
+            raise self.failure
         try:
             told, *content = self._connection.request(request, seconds)
         except PolicyError as error:

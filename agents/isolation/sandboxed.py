@@ -1,5 +1,6 @@
 """A policy that runs in a sandbox: what a runner needs to know of it."""
 
+import contextlib
 import os
 import threading
 from collections import OrderedDict
@@ -13,7 +14,7 @@ from ..errors import InputError, PolicyError
 from .ladder import describe, strongest
 from .launch import BUBBLEWRAP
 from .limits import LIMITS, Limits
-from .remote import RemoteAgent, remote_agent
+from .remote import RemoteAgent, UnmadeAgent, remote_agent
 from .sandbox import Sandbox, Work
 from .view import AGENTS
 
@@ -91,7 +92,7 @@ class SandboxedPolicy:
                 raise InputError(f"policy {self.name}: {agent.failure}")
 
     @contextmanager
-    def agent(self) -> Iterator[RemoteAgent]:
+    def agent(self) -> Iterator[RemoteAgent | UnmadeAgent]:
         """Yield a new agent for one episode; its processes end with it.
 
         If the policy cannot be made, its ``reset`` says why.
@@ -106,12 +107,12 @@ class SandboxedPolicy:
         try:
             connection = sandbox.preloaded(work) if self.preloaded else sandbox.episode(work)
         except PolicyError as error:
-            yield RemoteAgent(None, self.limits, self.size, error, sandbox.imported)
+            yield UnmadeAgent(error, sandbox.imported)
             return
-        try:
-            yield remote_agent(connection, self.limits, self.size)
-        finally:
-            connection.close()
+        with contextlib.closing(connection):
+            agent = remote_agent(connection, self.limits, self.size)
+            with contextlib.closing(agent):
+                yield agent
 
     def _seen(self) -> tuple[Path | None, Work]:
         """Return the file or folder that the policy sees, and what is to be done with it."""

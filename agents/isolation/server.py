@@ -1,8 +1,9 @@
 """What runs in a cell: makes the policy, and answers for it, one answer to a request.
 
-Requests are ``[serial, "make"]``, ``[serial, "reset", seed]`` and ``[serial, "act", numbers]``.
-The answer is ``[serial, "made", explains]``, ``[serial, "ready"]``, ``[serial, "action", numbers]``
-(with names and values of the internals behind it if it explains) or ``[serial, "failed", reason]``.
+Requests are ``[serial, "make"]``, ``[serial, "reset", seed]`` and ``[serial, "act", processor,
+numbers]``. The answer is ``[serial, "made", explains]``, ``[serial, "ready"]``, ``[serial,
+"action", numbers]`` (with names and values of the internals behind it if it explains) or
+``[serial, "failed", reason]``.
 """
 
 import contextlib
@@ -21,7 +22,8 @@ from ..errors import InputError, told
 from ..policies.loading import PolicySpec
 from ..policies.parameters import make_with, read_values
 from .limits import REASON
-from .wire import Channel, Closed, WireError, packed
+from .processor import Answerer
+from .wire import Channel, ClosedError, WireError, packed
 
 INTERNALS: Final = 64
 """Most internals of a policy."""
@@ -52,7 +54,7 @@ def serve(
     while True:
         try:
             serial, kind, *values = channel.receive()
-        except Closed:
+        except ClosedError:
             return
         answer = server.answer(kind, values)
         try:
@@ -72,12 +74,15 @@ class _Server:
         self._policy = policy
         self._agent: Agent
         self._explains = False
+        self._answerer = Answerer()
 
     def answer(self, kind: str, values: list[Any]) -> list[Any]:
         """Return the answer to a request; whatever the policy raises is a failure."""
         try:
             if kind == "act":
-                return self._act(values[0])
+                processor, observation = values
+                self._answerer.follow(processor)
+                return self._act(observation)
             if kind == "reset":
                 self._agent.reset(values[0])
                 return ["ready"]

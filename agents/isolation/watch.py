@@ -72,17 +72,19 @@ def _excess(memory: int, processes: int) -> str:
         return f"processes {threads}"
     # Resident sizes count a shared page once for each process: only an upper bound.
     if sum(each[_RESIDENT] for each in found.values()) * _PAGE > memory:
-        used = sum(map(_proportional, found))
+        used = sum(_proportional(process, found[process]) for process in found)
         if used > memory:
             return f"memory {used}"
     return ""
 
 
-def _proportional(process: int) -> int:
+def _proportional(process: int, figures: list[int]) -> int:
     """Return the memory of a process, each page divided by how many share it [bytes]."""
     try:
         lines = Path(f"/proc/{process}/smaps_rollup").read_text().splitlines()
         return next(1024 * int(line.split()[1]) for line in lines if line.startswith("Pss:"))
+    except PermissionError:
+        return figures[_RESIDENT] * _PAGE  # Who hides from us is not believed to share anything.
     except (OSError, StopIteration):
         return 0
 

@@ -4,10 +4,8 @@ A frame is its length (4 bytes, big-endian) and a msgpack list of numbers, words
 No pickle, no arrays, no extension types; whatever arrives is a list, or an error.
 """
 
-import select
 import socket
 import struct
-import time
 from typing import Any, Final
 
 import msgpack
@@ -15,15 +13,16 @@ import msgpack
 FRAME: Final = 64 * 1024
 """Longest frame [bytes]."""
 
+_FLAGS: Final = socket.MSG_NOSIGNAL | socket.MSG_DONTWAIT
 _LENGTH: Final = struct.Struct(">I")
-_CHUNK: Final = 64 * 1024
+_CHUNK: Final = 4 * 1024
 
 
 class WireError(Exception):
     """What came is no answer; the message says why."""
 
 
-class Closed(WireError):
+class ClosedError(WireError):
     """The other side has closed."""
 
 
@@ -62,40 +61,42 @@ def unpacked(body: bytes) -> list[Any]:
 
 
 class Channel:
-    """One end of the connection. There is at most one unanswered request at a time."""
+    """One end of the connection. There is at most one unanswered request at a time.
+
+    Parameters
+    ----------
+    end
+        A stream socket. It may have a time limit for receiving (``SO_RCVTIMEO``); none is needed
+        for sending.
+    """
 
     def __init__(self, end: socket.socket) -> None:
         self._end = end
-        self._end.setblocking(False)
-        self._buffer = bytearray()
-
-    def fileno(self) -> int:
-        """Return the file descriptor, to wait for."""
-        return self._end.fileno()
+        self._buffer = b""
 
     def close(self) -> None:
         """Close this end."""
         self._end.close()
 
     def send(self, frame: bytes) -> None:
-        """Send a frame; it never waits.
+        """Send a frame; never wait.
 
         Raises
         ------
-        Closed
+        ClosedError
             If the other side has closed, or has not read what came before.
         """
         try:
-            sent = self._end.send(frame, socket.MSG_NOSIGNAL)
+            sent = self._end.send(frame, _FLAGS)
         except BlockingIOError:
             sent = 0
         except OSError:
-            raise Closed("closed the connection") from None
+            raise ClosedError("closed the connection") from None
         if sent != len(frame):
-            raise Closed("does not read what it is sent")
+            raise ClosedError("does not read what it is sent")
 
     def fetch(self) -> list[Any] | None:
-        """Return the frame that has come, or None if it is not all there; it never waits.
+        """Wait for what comes next; return the frame, or None if it is not all there yet.
 
         Raises
         ------
@@ -107,22 +108,21 @@ class Channel:
         except BlockingIOError:
             return None
         except OSError:
-            raise Closed("closed the connection") from None
+            raise ClosedError("closed the connection") from None
         if not chunk:
-            raise Closed(self.partial or "closed the connection")
+            raise ClosedError(self.partial or "closed the connection")
         self._buffer += chunk
         if len(self._buffer) < _LENGTH.size:
             return None
         (length,) = _LENGTH.unpack_from(self._buffer)
         if length > FRAME:
             raise WireError(f"a message of {length} bytes; at most {FRAME} are allowed")
-        end = _LENGTH.size + length
-        if len(self._buffer) < end:
+        left = _LENGTH.size + length - len(self._buffer)
+        if left > 0:
             return None
-        if len(self._buffer) > end:
+        if left < 0:
             raise WireError("more than one answer to a request")
-        body = bytes(memoryview(self._buffer)[_LENGTH.size : end])
-        self._buffer.clear()
+        body, self._buffer = self._buffer[_LENGTH.size :], b""
         return unpacked(body)
 
     @property
@@ -130,21 +130,14 @@ class Channel:
         """What there is of an unfinished frame, in words; empty if nothing."""
         return f"sent {len(self._buffer)} bytes of an answer, then no more" if self._buffer else ""
 
-    def receive(self, seconds: float | None = None) -> list[Any]:
-        """Return the next frame, and wait for it.
+    def receive(self) -> list[Any]:
+        """Wait for the next frame and return it.
 
         Raises
         ------
         WireError
-            As :meth:`fetch`, or if it does not come in time.
+            As :meth:`fetch`.
         """
-        end = None if seconds is None else time.monotonic() + seconds
-        waiting = select.poll()
-        waiting.register(self._end, select.POLLIN)
-        while True:
-            left = None if end is None else max(0.0, 1000 * (end - time.monotonic()))
-            if not waiting.poll(left):
-                raise WireError("no answer in time")
-            content = self.fetch()
-            if content is not None:
-                return content
+        while (content := self.fetch()) is None:
+            pass
+        return content

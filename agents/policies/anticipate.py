@@ -1,13 +1,10 @@
 """Goes where the human is about to be."""
 
-import numpy as np
-
-from ..agent import Action, Observation
 from .anticipation import load_anticipation
 from .anticipation_controller import AnticipateParameters, AnticipationController
 
 
-class Anticipate:
+class Anticipate(AnticipationController):
     """Foresees the human's next half second, and commands what keeps the table level in it (ours).
 
     Three parts, each with the reason why it is there (``docs/anticipate.md`` shows what is lost
@@ -37,24 +34,16 @@ class Anticipate:
 
     def __init__(self, *, parameters: AnticipateParameters | None = None) -> None:
         parameters = parameters or AnticipateParameters()
-        self._controller = AnticipationController(load_anticipation(parameters.model), parameters)
-
-    def reset(self, seed: int) -> None:
-        """Begin an episode."""
-        self._controller.reset()
-
-    def act(self, observation: Observation) -> Action:
-        """Return the change of the command [m]."""
-        return np.array([self._controller.step(observation)])
+        super().__init__(load_anticipation(parameters.model), parameters)
 
     def internals(self) -> dict[str, float]:
         """Return what the last action was based on.
 
         Prediction of the human's end at the end of the period [m], and its velocity there [m/s];
-        how far the human is to rise from where it was seen last until the farthest lead [m]; the
-        sag that is made up for [m]. Confidence t^2 / (t^2 + s^2), with s^2 the mean squared error
-        of the latest predictions and t the tolerance. Role, the share of foresight in the change of
-        the command: what it would not be, were the human to stay where it was seen last; 0 follows,
-        1 leads.
+        ``predicted_end``, the height at which the stroke in progress ends [m]; the probabilities of
+        rest, onset, stroke, pause and reversal (:data:`.MODES`); the sag that is made up for [m].
+        Confidence t^2 / (t^2 + s^2), with s^2 the mean squared error of the latest predictions and
+        t the tolerance. Role, the share of foresight in the change of the command: what it would
+        not be, were the human to stay where it was seen last; 0 follows, 1 leads.
         """
-        return self._controller.internals
+        return super().internals()

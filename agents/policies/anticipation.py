@@ -5,16 +5,28 @@ from dataclasses import asdict, dataclass, field
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..estimators.perceptron import Perceptron
+from .modes import MODES
 from .senses import Window
 
 Array = NDArray[np.float64]
+
+
+class Foresight(NamedTuple):
+    """What is expected of the human from now on, on the mean."""
+
+    rises: Array
+    """(m,) rise of the human's end from its newest seen height, at each of the leads [m]."""
+    modes: Array
+    """(5,) probabilities of the :data:`.MODES`."""
+    stroke_rise: float
+    """Rise from the newest seen height to where the stroke in progress ends [m]."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -28,8 +40,8 @@ class Anticipation:
     """
 
     perceptron: Perceptron
-    """From the inputs of :class:`.Senses` to the rise of the human's end [m], from its newest seen
-    height to each of the leads."""
+    """From the inputs of :class:`.Senses` to rises at the leads [m], probabilities of the modes and
+    the rise of the stroke [m], in this order; see :class:`Foresight`."""
     window: Window
     """What it sees."""
     leads: Array
@@ -42,13 +54,25 @@ class Anticipation:
     def __post_init__(self) -> None:
         """Check that the parts fit together."""
         sizes = len(self.perceptron.centre), len(self.perceptron.gain)
-        if sizes != (self.window.size, len(self.leads)):
+        wanted = self.window.size, len(self.leads) + len(MODES) + 1
+        if sizes != wanted:
             raise InputError(
-                f"a perceptron for {self.window.size} inputs and {len(self.leads)} leads is "
-                f"needed, got {sizes[0]} and {sizes[1]}"
+                f"a perceptron of {wanted[0]} inputs and {wanted[1]} outputs is needed for the "
+                f"window and {len(self.leads)} leads, got {sizes[0]} and {sizes[1]}"
             )
         if len(self.leads) < 2 or not (np.diff(self.leads) > 0).all():
             raise InputError(f"leads must increase, got {self.leads.tolist()}")
+
+    def foresee(self, inputs: Array) -> Foresight:
+        """Return what is expected after the inputs of :class:`.Senses`.
+
+        The modes were learned by least squares on ones and zeros, whose mean is a probability; what
+        a perceptron puts outside of [0, 1] is cut off, and the rest scaled to a sum of one.
+        """
+        outputs = self.perceptron(inputs)
+        count = len(self.leads)
+        shares = np.clip(outputs[count:-1], 1e-6, 1.0)
+        return Foresight(outputs[:count], shares / shares.sum(), float(outputs[-1]))
 
 
 def anticipation_json(anticipation: Anticipation) -> str:

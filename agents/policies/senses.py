@@ -22,7 +22,7 @@ class Window:
     Raises
     ------
     InputError
-        If there is no velocity or no command, or a number is out of range.
+        If there is no velocity, or a number is out of range.
     """
 
     interval: float = 0.1
@@ -38,8 +38,8 @@ class Window:
         """Check the ranges."""
         if not 0 < self.interval < np.inf:
             raise InputError(f"interval must be a positive time, got {self.interval}")
-        if min(self.velocities, self.commands) < 1 or self.sags < 0:
-            raise InputError(f"a window needs a velocity and a command, got {self}")
+        if self.velocities < 1 or min(self.commands, self.sags) < 0:
+            raise InputError(f"a window needs a velocity and no negative number, got {self}")
 
     @property
     def size(self) -> int:

@@ -109,10 +109,8 @@ def oracle_run(
         for seed in suite.seeds
     ]
     episodes: list[Episode] = []
-    played = map(Rehearsed.__call__, tasks)
-    if executor is not None:
-        played = executor.map(Rehearsed.__call__, tasks, chunksize=5)
-    for some in played:
+    play = Rehearsed.__call__
+    for some in map(play, tasks) if executor is None else executor.map(play, tasks, chunksize=5):
         episodes += some
         progress(len(some))
     return Run(

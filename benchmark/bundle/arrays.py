@@ -89,6 +89,8 @@ def _array(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, file: str) -> NDArr
             raise InputError(f"{what} is of type {dtype.str}, must be one of {', '.join(DTYPES)}")
         if len(shape) > 2 or min(shape, default=0) < 0:
             raise InputError(f"{what} has the shape {shape}, must have one or two dimensions")
-        if math.prod(shape) * dtype.itemsize != entry.file_size - stream.tell():
+        size = math.prod(shape) * dtype.itemsize
+        if size != entry.file_size - stream.tell():
             raise InputError(f"{what} claims the shape {shape}, but has another size")
-        return np.frombuffer(stream.read(), dtype).reshape(shape)
+        # Without a size, zipfile would unpack first and see afterwards how much was claimed.
+        return np.frombuffer(stream.read(size), dtype).reshape(shape)

@@ -61,13 +61,13 @@ def read_bundle(folder: Path) -> Bundle:
     """
     files = read_files(folder)
     bundle = parse(files)
-    for name in wrong_hashes(files):
-        raise InputError(f"{name}: its SHA-256 is not the one in {MANIFEST}")
+    for name, reason in wrong_hashes(files):
+        raise InputError(f"{name}: {reason}")
     return bundle
 
 
-def wrong_hashes(files: Mapping[str, bytes]) -> list[str]:
-    """Return the files whose hash is not in the manifest, and those it names but are missing.
+def wrong_hashes(files: Mapping[str, bytes]) -> list[tuple[str, str]]:
+    """Return each file whose hash is not as the manifest has it, with the reason.
 
     Raises
     ------
@@ -78,7 +78,15 @@ def wrong_hashes(files: Mapping[str, bytes]) -> list[str]:
     true = {
         name: hashlib.sha256(data).hexdigest() for name, data in files.items() if name != MANIFEST
     }
-    return [name for name in sorted({*true, *claimed}) if claimed.get(name) != true.get(name)]
+    wrong = []
+    for name in sorted({*true, *claimed}):
+        if name not in true:
+            wrong.append((MANIFEST, f"it has the SHA-256 of {name!r:.80}, which is not there"))
+        elif name not in claimed:
+            wrong.append((name, f"{MANIFEST} does not have its SHA-256"))
+        elif claimed[name] != true[name]:
+            wrong.append((name, f"its SHA-256 is not the one in {MANIFEST}"))
+    return wrong
 
 
 def parse(files: Mapping[str, bytes]) -> Bundle:

@@ -8,6 +8,7 @@ from importlib.metadata import version
 from typing import Any
 
 from .comparison import Comparison
+from .contest import Entry
 from .standing import Scope, Standing
 
 
@@ -41,10 +42,16 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
             "sparc": {"mean": team.sparc},
             "human_force_n": {"mean": team.human_force_n},
         },
+        "bounds": [_bound(bound) for bound in comparison.contest.bounds],
         "policies": policies,
         "behaviours": [_part(scope) for scope in comparison.behaviours],
         "subjects": [_part(scope) for scope in comparison.subjects],
     }
+
+
+def _bound(bound: Entry) -> dict[str, Any]:
+    means = {name: bound.mean(name) for name in ("rmse_mm", "sparc", "human_force_n")}
+    return {"name": bound.name, **{name: {"mean": mean} for name, mean in means.items()}}
 
 
 def _part(scope: Scope) -> dict[str, Any]:

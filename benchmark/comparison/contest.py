@@ -1,8 +1,10 @@
 """Policies on the same episodes, and what remains of their runs."""
 
+import math
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -43,6 +45,25 @@ class Entry:
             step_ms=(float(p50), float(p99)) if times else None,
         )
 
+    def mean(self, metric: str, behaviour: str | None = None) -> float | None:
+        """Return the mean of a score, over the lifts (of a behaviour) that have one."""
+        values = [
+            getattr(scores, metric)
+            for scores, (kind, _) in zip(self.scores, self.cells, strict=True)
+            if behaviour in (None, kind)
+        ]
+        found = [value for value in values if not math.isnan(value)]
+        return float(np.mean(found)) if found else None
+
+
+class Bound(Protocol):
+    """Plays a suite with a robot that is no policy, as far as such a robot can come."""
+
+    def __call__(
+        self, suite: Suite, *, executor: Executor | None, progress: Callable[[int], None]
+    ) -> Run:
+        """Return its run; arguments as for :func:`.run_suite`."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Contest:
@@ -52,10 +73,12 @@ class Contest:
     entries: tuple[Entry, ...]
     team: Reference
     """The human-human team."""
+    bounds: tuple[Entry, ...] = ()
+    """What no policy is expected to beat; they have no rank."""
 
 
 def amount(policies: int, suite: Suite) -> int:
-    """Return how many episodes :func:`play_contest` will play."""
+    """Return how many episodes :func:`play_contest` will play; a bound counts as a policy."""
     return suite.size * (policies + (shipped_references(suite) is None))
 
 
@@ -63,6 +86,7 @@ def play_contest(
     policies: Mapping[str, AgentSpec],
     suite: Suite,
     *,
+    bounds: Mapping[str, Bound] | None = None,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> Contest:
@@ -74,6 +98,8 @@ def play_contest(
         Where each policy is, by the name that tables use.
     suite, executor, progress
         As for :func:`.run_suite`.
+    bounds
+        Bounds to play as well, by name.
 
     Raises
     ------
@@ -86,12 +112,16 @@ def play_contest(
         Entry.of(name, _complete(run_suite(spec, suite, executor=executor, progress=progress)))
         for name, spec in policies.items()
     ]
+    bounding = [
+        Entry.of(name, _complete(play(suite, executor=executor, progress=progress)))
+        for name, play in (bounds or {}).items()
+    ]
     shipped = shipped_references(suite)
     if shipped is None:
         team = Reference.of(_complete(human_team_run(suite, executor=executor, progress=progress)))
     else:
         team = shipped[HUMAN_HUMAN]
-    return Contest(suite=suite, entries=tuple(entries), team=team)
+    return Contest(suite=suite, entries=tuple(entries), team=team, bounds=tuple(bounding))
 
 
 def _complete(run: Run) -> Run:

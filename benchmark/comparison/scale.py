@@ -9,6 +9,7 @@ import numpy as np
 from ..rendering.palette import FAINT, HUMAN, ROBOT
 from ..statistics import Interval
 from .comparison import Comparison
+from .contest import Entry
 from .standing import Standing
 
 FAR: Final = 3.0
@@ -86,7 +87,7 @@ class Scale:
 
 
 def spots(comparison: Comparison) -> list[Spot]:
-    """Return the policies, the most level first, then the human-human team."""
+    """Return the policies, the most level first, then the human-human team and the bounds."""
     team = comparison.overall.team_rmse_mm
     return [
         *(_spot(standing, comparison.front) for standing in comparison.overall.standings),
@@ -99,7 +100,22 @@ def spots(comparison: Comparison) -> list[Spot]:
             colour=HUMAN,
             marker="D",
         ),
+        *(_bound(bound) for bound in comparison.contest.bounds),
     ]
+
+
+def _bound(bound: Entry) -> Spot:
+    error = bound.mean("rmse_mm") or 0.0
+    return Spot(
+        name=bound.name,
+        x=error,
+        x_bar=(error, error),
+        y=bound.mean("sparc"),
+        y_bar=None,
+        colour=HUMAN,
+        marker="s",
+        filled=False,
+    )
 
 
 def _spot(standing: Standing, front: Sequence[str]) -> Spot:

@@ -26,7 +26,7 @@ HOW_TO_READ: Final = (
 PICTURE_CAPTION: Final = (
     "The higher and the further left, the better. Bars are 95 % intervals. The line joins the "
     "policies than which no other is, by its means, both more level and smoother; the diamond is "
-    f"the {TEAM}."
+    f"the {TEAM}, a square is a bound: no policy, but how far one might come."
 )
 
 RANKS_CAPTION: Final = (

@@ -47,4 +47,4 @@ def records(data: bytes) -> Iterator[tuple[Any, int]]:
 
 def _checksum(payload: bytes) -> int:
     # With the length, since zeros, which a crash can leave, must not be a record.
-    return zlib.crc32(payload, len(payload))
+    return zlib.crc32(payload, zlib.crc32(len(payload).to_bytes(4, "little")))

@@ -120,6 +120,9 @@ def _write_png(path: Path, pictures: Iterable[Picture], fps: float) -> None:
 
 _WRITERS: Final = {".gif": _write_gif, ".mp4": _write_mp4, ".png": _write_png}
 
+SUFFIXES: Final = tuple(_WRITERS)
+"""Of the files that pictures can be written to."""
+
 
 def _writer(path: Path) -> Callable[[Path, Iterable[Picture], float], None]:
     if path.suffix not in _WRITERS:

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ..replay import Replay
+from ..replay import Simulated
 from ..trace import Trace
 
 Place = tuple[int, str]
@@ -13,16 +13,17 @@ BY_FRAME = tuple(name for name in Trace.series() if name not in ("action", "huma
 """The series of a trace that have a number a frame."""
 
 
-def first_difference(logged: Trace, found: Replay) -> Place | None:
+def first_difference(logged: Trace, found: Simulated) -> Place | None:
     """Return the first step in which a log differs from its replay, and how; None if in no bit.
 
-    The human's action comes first within a step, for the rest follows from it.
+    The human's action comes first within a step, for the rest follows from it. Both are of equally
+    many steps.
     """
     differing = [_human(logged, found), *_frames(logged, found.trace), _state(logged, found.trace)]
     return min((each for each in differing if each), key=lambda each: each[0], default=None)
 
 
-def _human(logged: Trace, found: Replay) -> Place | None:
+def _human(logged: Trace, found: Simulated) -> Place | None:
     unequal = _unequal(logged.human_action, found.scripted)
     if not unequal.any():
         return None

@@ -12,7 +12,8 @@ from ..lift import Lift
 from ..replay import ReplayError, replay
 from ..scenario import Scenario
 from ..scores import Scores, score
-from .bits import first_difference
+from ..trace import Trace
+from .bits import Place, first_difference
 from .tolerance import beyond_tolerance
 from .verdict import Finding
 
@@ -66,7 +67,8 @@ def _check(lift: Lift, place: int, seed: int, claim: Episode, *, same_platform: 
     try:
         found = replay(lift, seed, logged.human_action, logged.action, claim.failure)
     except ReplayError as error:
-        return Checked(place=place, finding=finding(str(error), step=error.step))
+        step, message = _first(logged, error, same_platform=same_platform)
+        return Checked(place=place, finding=finding(message, step=step))
     except InputError as error:
         return Checked(place=place, finding=finding(str(error), file=MANIFEST))
     difference = first_difference(logged, found)
@@ -86,3 +88,9 @@ def _check(lift: Lift, place: int, seed: int, claim: Episode, *, same_platform: 
     return Checked(
         place=place, scores=scores, failure=found.failure, bit_equal=bit_equal, finding=wrong
     )
+
+
+def _first(logged: Trace, error: ReplayError, *, same_platform: bool) -> Place:
+    """Return where actions that cannot be replayed to the end are wrong first, and how."""
+    differs = first_difference if same_platform else beyond_tolerance
+    return differs(logged.until(error.step), error.found) or (error.step, error.message)

@@ -10,7 +10,7 @@ from ...agents.errors import InputError
 from ..bundle import Bundle, Difference, differences, results
 from ..bundle.content import with_circumstances
 from ..bundle.files import EPISODES, RESULTS
-from ..references import Reference, play_references, shipped_references
+from ..references import SPECS, Reference, play_references, shipped_references
 from ..runner import Run
 from .suite_check import episode_name
 from .tolerance import REFERENCES, SCORES
@@ -39,10 +39,10 @@ def _references(bundle: Bundle, run: Run, executor: Executor | None) -> dict[str
     wanted = bundle.results["references"]
     if not wanted:
         return {}
-    known = shipped_references(run.suite) or play_references(run.suite, executor=executor)
     for name in wanted:
-        if name not in known:
+        if name not in SPECS:
             raise InputError(f"{RESULTS}: there is no reference {name!r:.80}")
+    known = shipped_references(run.suite) or play_references(run.suite, executor=executor)
     return {name: known[name] for name in wanted}
 
 

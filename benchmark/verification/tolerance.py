@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from ..replay import Replay
+from ..replay import Simulated
 from ..trace import Trace
 from .bits import Place
 
@@ -33,13 +33,13 @@ REFERENCES: Final = 0.01
 """Relative tolerance of the scores of references that another platform has played."""
 
 
-def beyond_tolerance(logged: Trace, found: Replay) -> Place | None:
+def beyond_tolerance(logged: Trace, found: Simulated) -> Place | None:
     """Return the first step in which a log is too far from its replay, and how; None if nowhere."""
     with np.errstate(over="ignore"):  # A forged log may have any number.
         return _human(logged, found) or _series(logged, found.trace)
 
 
-def _human(logged: Trace, found: Replay) -> Place | None:
+def _human(logged: Trace, found: Simulated) -> Place | None:
     gap = np.abs(logged.human_action - found.scripted).max(axis=1, initial=0.0)
     if not (gap > HEIGHT).any():
         return None

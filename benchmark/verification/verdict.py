@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final
 
+from ..bundle import one_line
 from ..runner import Run
 
 PROVES: Final = (
@@ -32,7 +33,8 @@ class Finding:
 
     def __str__(self) -> str:
         place = [self.file, self.episode, "" if self.step is None else f"step {self.step}"]
-        return f"{', '.join(filter(None, place))}: {self.message}"
+        # Names and values in it are the bundle's: no control sequence of theirs meets a terminal.
+        return one_line(f"{', '.join(filter(None, place))}: {self.message}")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -2,14 +2,14 @@
 
 import dataclasses
 import itertools
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any, Final
 
 from ...agents.errors import InputError
 from ..bundle import Bundle, fingerprint, one_line, parse, read_files
-from ..bundle.files import LARGEST, MANIFEST
+from ..bundle.files import LARGEST
 from ..bundle.reading import wrong_hashes
 from ..runner import Run
 from ..scores import SCORING
@@ -63,12 +63,12 @@ def verify(
     findings: list[Finding] = []
     try:
         files = read_files(folder)
-        findings += _hash_findings(wrong_hashes(files))
+        findings += [Finding(file=name, message=told) for name, told in wrong_hashes(files)]
         bundle = parse(files)
         run = bundle.run()
         findings += [*suite_findings(bundle, run.suite), *episode_findings(bundle, run.suite)]
     except InputError as error:
-        return Verdict(findings=(*findings, _malformed(error)))
+        return Verdict(findings=(*findings[: MOST_FINDINGS - 1], _malformed(error)))
     other = _other_platform(bundle)
     checked = simulate(
         bundle, run.suite, same_platform=not other, executor=executor, progress=progress
@@ -97,11 +97,6 @@ def verify(
         other_platform=other,
         scoring=(bundle.results["scoring"], SCORING) if outdated else None,
     )
-
-
-def _hash_findings(names: Sequence[str]) -> Iterator[Finding]:
-    for name in names:
-        yield Finding(file=name, message=f"its SHA-256 is not the one in {MANIFEST}")
 
 
 def _malformed(error: InputError) -> Finding:

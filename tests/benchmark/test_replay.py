@@ -137,6 +137,8 @@ def test_actions_after_the_end_are_refused(lift):
     with pytest.raises(ReplayError, match=f"the episode has {len(trace.action)} steps") as caught:
         replay(lift, 4, human, robot, None)
     assert caught.value.step == len(trace.action)
+    assert caught.value.found.trace.digest() == trace.digest()
+    assert caught.value.found.scripted.tobytes() == trace.human_action.tobytes()
 
 
 def test_another_human_is_obeyed_and_told_apart(lift):
@@ -157,5 +159,7 @@ def test_an_action_that_is_none_is_refused_with_its_step(lift, end):
     with pytest.raises(ReplayError, match=f"{end}'s action must be finite") as caught:
         replay(lift, 4, actions["human"], actions["robot"], None)
     assert caught.value.step == 12
+    assert caught.value.found.trace.digest() == trace.until(12).digest()
+    assert len(caught.value.found.scripted) == 12
     with pytest.raises(ReplayError, match="must be 10 number"):
         replay(lift, 4, actions["human"][:, :9], actions["robot"], None)

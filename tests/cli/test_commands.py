@@ -2,12 +2,16 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
 
 import pytest
+from colift.cli.commands import COMMANDS
+from colift.cli.main import app, main
+from typer.main import get_command
 
 GOOD_CSV = "trial,t_s,z_m\n" + "".join(
     f"a,{k / 50:.2f},{0.3 * min(k, 60 - k) / 30:.3f}\n" for k in range(61)
@@ -112,7 +116,7 @@ def test_list_names_everything():
         (["run", "/nowhere.py:Class"], "no such file"),
         (["run", "colift.agents.agent:FRAME"], "not a class"),
         (["run", "colift.agents.humans:Subject"], "no method reset"),
-        (["render", "copy", "--out", "lift.bmp"], ".gif, .mp4, .png"),
+        (["render", "copy", "--out", "lift.bmp"], ".gif, .mp4, .png, .html"),
         (["render", "copy", "--scenario", "nonesuch", "--out", "lift.png"], "smooth"),
         (["render", "copy", "--subject", "S9", "--out", "lift.png"], "S1, S2, S3, S4, S5"),
         (["bench", "--episodes", "1"], "at least 200"),
@@ -230,8 +234,46 @@ def test_render_draws_a_picture(tmp_path):
     assert "pause/S1 seed 0" in done.stdout
 
 
-def test_every_command_explains_itself():
-    for command in ("run", "list", "paper", "render", "learn", "calibrate", "bench"):
-        done = colift(command, "--help")
-        assert done.returncode == 0
-        assert command in done.stdout
+def test_render_writes_a_page_that_plays_the_lift(tmp_path):
+    lift = ("render", "copy", "--scenario", "pause", "--seed", "2", "--out", "lift.html")
+    done = colift(*lift, cwd=tmp_path)
+    assert done.returncode == 0
+    page = (tmp_path / "lift.html").read_text()
+    data = re.search('id="replay-data">(.*?)</script>', page)
+    (shown,) = json.loads(data[1])["replays"]
+    assert (shown["policy"], shown["behaviour"], shown["seed"]) == ("copy", "pause", 2)
+    assert f"RMSE {shown['scores']['rmse_mm']:.1f} mm" in done.stdout
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_explains_itself_and_each_of_its_options(name, monkeypatch, capsys):
+    monkeypatch.setattr("sys.argv", ["colift", name, "--help"])
+    with pytest.raises(SystemExit) as end:
+        main()
+    assert end.value.code in (0, None)
+    assert f"Usage: colift {name}" in " ".join(capsys.readouterr().out.split())
+    command = get_command(app).commands[name]
+    for each in getattr(command, "commands", {name: command}).values():
+        assert each.help
+        assert [option.name for option in each.params if not option.help] == []
+
+
+def test_help_names_every_command():
+    done = colift("--help")
+    assert done.returncode == 0
+    assert [name for name in COMMANDS if f" {name} " not in done.stdout] == []
+
+
+def test_a_command_that_is_spelt_wrong_is_guessed():
+    done = colift("verfy")
+    assert done.returncode == 2
+    assert "Did you mean 'verify'?" in done.stderr
+
+
+def test_a_command_waits_for_no_library_of_another():
+    code = (
+        "import sys; from colift.cli.main import app; app(['new', '--help'], standalone_mode=False)"
+        "; print(*{'matplotlib', 'pybullet', 'scipy', 'sqlalchemy'} & {*sys.modules}, 'none')"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300)
+    assert done.stdout.splitlines()[-1] == "none", done.stderr

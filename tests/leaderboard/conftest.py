@@ -1,18 +1,40 @@
-"""A season on a few lifts, entrants, and submissions in folders."""
+"""A season on a few lifts, entrants, submissions in folders, and boards on two databases."""
 
-from collections.abc import Callable
+import itertools
+import os
+from collections.abc import Callable, Iterator
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
+import psycopg
 import pytest
 from colift.agents.policies.loading import PolicySpec
 from colift.agents.submissions.new import write_template
 from colift.benchmark.references import Reference
 from colift.benchmark.suite import make_suite
+from colift.leaderboard.board import Board
 from colift.leaderboard.evaluation import Entrant, play_team
 from colift.leaderboard.season import Season
 
+from .postgresql import WITHOUT, server
+
 SECRET = bytes(range(32))
 WriteSubmission = Callable[..., Path]
+OpenBoard = Callable[..., Board]
+schemas = itertools.count()
+
+
+class Clock:
+    """A clock that a test turns."""
+
+    def __init__(self) -> None:
+        self.now = datetime(2027, 3, 1, 12, tzinfo=UTC)
+
+    def __call__(self) -> datetime:
+        return self.now
+
+    def turn(self, **more: float) -> None:
+        self.now += timedelta(**more)
 
 
 def make_season(secret: bytes = SECRET) -> Season:
@@ -60,3 +82,51 @@ def write_submission(tmp_path: Path) -> WriteSubmission:
         return folder
 
     return write
+
+
+@pytest.fixture(scope="session")
+def postgresql() -> Iterator[str]:
+    """Start a PostgreSQL server, and return its URL."""
+    if os.environ.get(WITHOUT):
+        pytest.skip(f"{WITHOUT} is set")
+    with server() as url:
+        yield url
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def database(request: pytest.FixtureRequest) -> str | None:
+    """Return the URL of an empty database; None is the file in a board's folder."""
+    return None if request.param == "sqlite" else new_schema(request.getfixturevalue("postgresql"))
+
+
+def new_schema(url: str) -> str:
+    """Return the URL of a new schema on a server: as good as a new database, and quicker."""
+    name = f"test{next(schemas)}"
+    with psycopg.connect(url) as connection:
+        connection.execute(f"CREATE SCHEMA {name}")
+    return f"{url}&options=-csearch_path%3D{name}"
+
+
+@pytest.fixture
+def clock() -> Clock:
+    return Clock()
+
+
+@pytest.fixture
+def open_board(tmp_path: Path, database: str | None, clock: Clock) -> Iterator[OpenBoard]:
+    """Return what opens the board of this test, on either database."""
+    opened = []
+
+    def make(name: str = "board", suite: str | None = None) -> Board:
+        board = Board.open(tmp_path / name, suite, url=database, clock=clock)
+        opened.append(board)
+        return board
+
+    yield make
+    for board in opened:
+        board.close()
+
+
+@pytest.fixture
+def board(open_board: OpenBoard) -> Board:
+    return open_board(suite="quick-v1")

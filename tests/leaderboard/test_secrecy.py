@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from colift.benchmark.runner import run_suite
 from colift.leaderboard.board import Board
-from colift.leaderboard.submitting import enter
+from colift.leaderboard.database.reading import read_error_numbers, read_errors
+from colift.leaderboard.queue import Queue
+from colift.leaderboard.worker import Worker
 
 TELLTALE = """
 import sys
@@ -41,13 +43,22 @@ def published(tmp_path_factory):
     source = TELLTALE.replace("PUBLIC", str(policy_seed()))
     (folder / "telltale" / "policy.py").write_text(source)
     board = Board.open(folder / "board", "quick-v1")
-    return board, enter(board, board.keep(folder / "telltale"))
+    queue = Queue(board)
+    queue.enqueue(board.keep(folder / "telltale"))
+    job = Worker(queue).once()
+    yield board, board.entry("1", job.submission)
+    board.close()
 
 
 def contents(board):
     """Return all bytes that may be published, and those within archives; names too."""
-    found = []
-    for path in (board.folder / "public").rglob("*"):
+    season = board.seasons()[0]
+    (standing,), (entry,) = board.standings(), board.entries_of("telltale")
+    (job,) = Queue(board).jobs()
+    told = [vars(season), standing.row.plain(), entry.plain(), job.plain(), vars(board.team())]
+    told += [event.plain() for event in board.events()]
+    found = [repr(told).encode(), job.log.encode(), board.ranking().to_csv().encode()]
+    for path in (*(board.folder / "public").rglob("*"), *(board.folder / "logs").iterdir()):
         found.append(str(path.relative_to(board.folder)).encode())
         if path.is_file():
             found.append(path.read_bytes())
@@ -55,6 +66,13 @@ def contents(board):
                 with zipfile.ZipFile(path) as archive:
                     found += [archive.read(name) for name in archive.namelist()]
     return found
+
+
+def hidden_errors(board, submission):
+    """Return the RMSE of the hidden episodes, as the database keeps them."""
+    with board.database.reading() as connection:
+        numbers = read_error_numbers(connection, "1")
+        return [float(each) for each in read_errors(connection, "1", numbers)[submission]]
 
 
 def spellings(number, size):
@@ -104,7 +122,7 @@ def test_no_word_of_the_policy_from_hidden_episodes_is_in_what_is_published(publ
 def test_no_trace_or_score_of_a_hidden_episode_is_in_what_is_published(published):
     board, entry = published
     everything = b"\n".join(contents(board))
-    errors = board.vault("1").errors(entry.submission)
+    errors = hidden_errors(board, entry.submission)
     assert len(errors) == 12
     assert [each for each in errors if repr(each).encode() in everything] == []
     from colift.agents.policies.loading import PolicySpec
@@ -116,7 +134,8 @@ def test_no_trace_or_score_of_a_hidden_episode_is_in_what_is_published(published
 
 def test_only_the_owner_can_read_what_is_private(published):
     board, _ = published
-    for path in (board.folder / "private").rglob("*"):
+    private = (board.folder / "private").rglob("*")
+    for path in (*private, *board.folder.glob("board.sqlite*")):
         assert path.stat().st_mode & 0o077 == 0, path
 
 

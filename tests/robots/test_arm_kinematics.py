@@ -23,6 +23,20 @@ def test_arm_stretched_forward_is_as_long_as_its_links() -> None:
     np.testing.assert_allclose(hand, [0.105 + 0.05595 + 0.05775, 0.098 + 0.015, 0.1 - 0.01231])
 
 
+def test_joints_are_as_far_apart_as_the_links_are_long() -> None:
+    arms = random_arms(50)
+    shoulder, roll, elbow, elbow_roll, wrist = np.moveaxis(arm.joint_positions(arms), -2, 0)
+    np.testing.assert_allclose(shoulder, np.broadcast_to([0.0, 0.098, 0.1], (50, 3)), atol=1e-12)
+    np.testing.assert_array_equal(shoulder, roll)
+    np.testing.assert_array_equal(elbow, elbow_roll)
+    for start, stop, length in (
+        (shoulder, elbow, np.hypot(0.105, 0.015)),
+        (elbow, wrist, 0.05595),
+        (wrist, arm.hand_position(arms), np.hypot(0.05775, 0.01231)),
+    ):
+        np.testing.assert_allclose(np.linalg.norm(stop - start, axis=1), length, atol=1e-12)
+
+
 def test_hand_goes_straight_up() -> None:
     hands = arm.hand_position(JOINT_ROWS[:, :5])
     assert np.ptp(PATH.heights) == pytest.approx(0.32)

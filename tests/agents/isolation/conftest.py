@@ -1,9 +1,13 @@
+import contextlib
 import os
+import sys
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from colift.agents.isolation import process
 from colift.agents.isolation.ladder import rungs
+from colift.agents.isolation.launch import command
 from colift.agents.isolation.limits import MIB, Limits
 from colift.agents.isolation.sandboxed import close_sandboxes
 
@@ -23,12 +27,46 @@ HURRIED = replace(PATIENT, start_seconds=2.0, step_seconds=0.3, episode_seconds=
 """For policies that a budget of time must stop."""
 
 
-@pytest.fixture(scope="module", params=["bubblewrap", "landlock", "limits"])
-def rung(request):
-    """Each rung that works here."""
-    if request.param not in rungs():
-        pytest.skip(f"{request.param} does not work here")
-    return request.param
+ALONE = "landlock alone"
+"""Landlock where namespaces cannot be had, as in most containers."""
+
+_CONFINED = """
+import os, sys
+from colift.agents.isolation import linux, seccomp
+linux.forbid_new_privileges()
+assert seccomp.install()
+os.execv(sys.argv[1], sys.argv[1:])
+"""
+"""Starts a program that may not make namespaces or mounts: the policies' own filter, one above."""
+
+
+@contextlib.contextmanager
+def without_namespaces():
+    """Start fork servers that cannot make namespaces."""
+
+    def confined(*arguments, **keywords):
+        return [sys.executable, "-c", _CONFINED, *command(*arguments, **keywords)]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(process, "command", confined)
+        yield
+
+
+@pytest.fixture(scope="module", params=["bubblewrap", "landlock", ALONE, "limits"])
+def way(request):
+    """Each way to isolate that works here: the rungs, and Landlock alone."""
+    rung = request.param.split()[0]
+    if rung not in rungs():
+        pytest.skip(f"{rung} does not work here")
+    with without_namespaces() if request.param == ALONE else contextlib.nullcontext():
+        yield request.param
+    close_sandboxes()
+
+
+@pytest.fixture(scope="module")
+def rung(way):
+    """The rung of the way."""
+    return way.split()[0]
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -56,4 +94,4 @@ def children():
 
 def handles():
     """Return how many files this process has open."""
-    return len(os.listdir("/proc/self/fd"))
+    return len(list(Path("/proc/self/fd").iterdir()))

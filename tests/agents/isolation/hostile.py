@@ -70,6 +70,19 @@ class Hostile:
     """Regular expression that is found in the output."""
     needs_walls: str = ""
     """Why resource limits alone cannot contain it."""
+    needs_namespaces: str = ""
+    """Why Landlock alone cannot contain it either."""
+
+    @property
+    def escapes(self):
+        """The ways of isolation that cannot contain it."""
+        both = ("limits", "landlock alone")
+        return both if self.needs_namespaces else both[:1] if self.needs_walls else ()
+
+    @property
+    def needs(self):
+        """Why they cannot."""
+        return self.needs_namespaces or self.needs_walls
 
     @property
     def hurried(self):
@@ -97,6 +110,7 @@ ENDED = r"ended its process \(exit code \d+\)"
 LATE = r"no answer within 0.3 s"
 MANY = r"had more than 24 processes and threads"
 MEMORY = r"used more than 150 MiB of memory"
+NO_ACTION = r"sent an action that is not 1 finite number\(s\)"
 NUMBERS = r"robot's action must be 1 number\(s\), got "
 
 TIME = [
@@ -150,6 +164,18 @@ RESOURCES = [
         reason=MEMORY,
     ),
     Hostile(
+        name="memory that hides",
+        act="""
+        for _ in range(4):
+            if os.fork() == 0:
+                libc().prctl(4, 0, 0, 0, 0)
+                kept = b"x" * (60 << 20)
+                time.sleep(60)
+        time.sleep(60)
+        """,
+        reason=MEMORY,
+    ),
+    Hostile(
         name="shared memory",
         act="""
         import mmap
@@ -179,7 +205,7 @@ RESOURCES = [
                 pass
         """,
         reason=f"{LATE}|{MANY}|more than one answer to a request",
-        needs_walls=NO_COUNT,
+        needs_namespaces=NO_COUNT,
     ),
     Hostile(
         name="thread bomb",
@@ -214,7 +240,7 @@ RESOURCES = [
                 file.write(bytes(1 << 16))
         """,
         reason=r"OSError: \[Errno 28\].*",
-        needs_walls="without a private /tmp only the size of each file is limited",
+        needs_namespaces="without a private /tmp only the size of each file is limited",
     ),
     Hostile(
         name="many open files",
@@ -481,7 +507,21 @@ FRAMES = [
     Hostile(
         name="words instead of numbers",
         act="os.write(end(), frame([3, 'action', ['up']])); time.sleep(60)",
-        reason="sent an action that is not a list of numbers",
+        reason=NO_ACTION,
+    ),
+    Hostile(
+        name="answer without numbers",
+        act="os.write(end(), frame([3, 'action'])); time.sleep(60)",
+        reason=NO_ACTION,
+    ),
+    Hostile(
+        name="answer in drops",
+        act="""
+        for byte in struct.pack(">I", 60_000) + bytes(60_000):
+            os.write(end(), bytes([byte]))
+            time.sleep(0.01)
+        """,
+        reason=r"sent \d+ bytes of an answer, then no more within 0.3 s",
     ),
     Hostile(
         name="another answer",
@@ -507,7 +547,7 @@ FRAMES = [
         name="check taken out",
         top="import colift.agents.isolation.server as server",
         act="server.checked_action = lambda *arguments: [float('nan')]; return [0.0]",
-        reason="robot's action must be finite, .*",
+        reason=NO_ACTION,
     ),
 ]
 
@@ -529,6 +569,21 @@ SECRETS = [
     Hostile(name="disk", reset="denied(lambda: os.listdir('/var'))"),
     Hostile(name="write beside", reset="denied(lambda: touch('@board@/written'))"),
     Hostile(name="write into its folder", reset="denied(lambda: touch('written'))"),
+    Hostile(name="write into the system", reset="denied(lambda: touch('/usr/lib/written'))"),
+    Hostile(
+        name="link out of its folder",
+        reset="""
+        link = os.environ["TMPDIR"] + "/link"
+        os.symlink("@secret@", link)
+        denied(lambda: open(link).read())
+        denied(lambda: open("../secret").read())
+        denied(lambda: open("../other/policy.py").read())
+        """,
+    ),
+    Hostile(
+        name="folder of who scores",
+        reset="denied(lambda: os.listdir('/proc/@process@/cwd'))",
+    ),
     Hostile(name="write into packages", reset="denied(lambda: touch(np.__file__))"),
     Hostile(name="change itself", reset="denied(lambda: open(__file__, 'a'))"),
     Hostile(
@@ -548,6 +603,27 @@ OTHERS = [
         name="memory of others",
         reset="denied(lambda: open('/proc/@process@/mem', 'rb').read(1))",
         needs_walls=NO_PROCESSES,
+    ),
+    Hostile(
+        name="environment of who watches",
+        reset="""
+        denied(lambda: open(f'/proc/{os.getppid()}/environ').read())
+        denied(lambda: open(f'/proc/{os.getppid()}/mem', 'rb').read(1))
+        for number in range(16):
+            denied(lambda: os.readlink(f'/proc/{os.getppid()}/fd/{number}'))
+            denied(lambda: open(f'/proc/{os.getppid()}/fd/{number}', 'wb'))
+        """,
+        needs_walls=NO_PROCESSES,
+    ),
+    Hostile(
+        name="memory through the kernel",
+        top="""
+        def peek():
+            size = libc().process_vm_readv(os.getppid(), None, 0, None, 0, 0)
+            zero(min(size, 0))
+        """,
+        reset="denied(peek)",
+        needs_walls=NO_FILTER,
     ),
     Hostile(
         name="environment",
@@ -635,6 +711,24 @@ OTHERS = [
         """,
     ),
     Hostile(
+        name="imports the scenario's seeds",
+        reset="denied(lambda: __import__('colift.benchmark.seeding'))",
+    ),
+    Hostile(
+        name="finds colift's sources",
+        reset="""
+        import colift.agents
+        root = os.path.dirname(os.path.dirname(colift.agents.__file__))
+        for place in ("benchmark", "leaderboard", "cli", "agents/humans"):
+            try:
+                seen = os.listdir(f"{root}/{place}")
+            except OSError:
+                continue
+            if seen: raise Through(f"{place}: {seen}")
+        """,
+        needs_walls=NO_WALLS,
+    ),
+    Hostile(
         name="more rights to itself",
         top="""
         import resource
@@ -686,7 +780,10 @@ STATE = [
         name="state in shared memory",
         reset="""
         if os.path.exists("/dev/shm/kept"): raise Through("kept")
-        touch("/dev/shm/kept")
+        try:
+            touch("/dev/shm/kept")
+        except PermissionError:
+            pass
         """,
         needs_walls=NO_WALLS,
     ),
@@ -747,4 +844,8 @@ STATE = [
     ),
 ]
 
-HOSTILE = [*TIME, *RESOURCES, *ENDS, *ACTIONS, *FRAMES, *SECRETS, *OTHERS, *STATE]
+WALLED = [*TIME, *RESOURCES, *ENDS, *SECRETS, *OTHERS, *STATE]
+"""What the walls must contain."""
+
+ANSWERS = [*ACTIONS, *FRAMES]
+"""What the scoring side must refuse, whatever the walls."""

@@ -1,7 +1,6 @@
 import importlib.util
 import os
 import re
-import signal
 import socket
 import sys
 import time
@@ -11,7 +10,7 @@ import numpy as np
 import pytest
 from colift.agents.agent import Explaining
 from colift.agents.errors import PolicyError
-from colift.agents.isolation.ladder import VERIFIABLE
+from colift.agents.isolation.ladder import strongest
 from colift.agents.isolation.sandboxed import SandboxedPolicy
 
 _here = Path(__file__).parent
@@ -25,7 +24,8 @@ def _beside(name):
     return module
 
 
-HOSTILE = _beside("hostile").HOSTILE
+hostile = _beside("hostile")
+WALLED, ANSWERS = hostile.WALLED, hostile.ANSWERS
 from_conftest = _beside("conftest")
 PATIENT, HURRIED = from_conftest.PATIENT, from_conftest.HURRIED
 children, handles = from_conftest.children, from_conftest.handles
@@ -95,8 +95,8 @@ def board(tmp_path_factory):
             "port": listening.getsockname()[1],
             "abstract": abstract,
         }
-        for number, hostile in enumerate(HOSTILE):
-            (folder / f"p{number}.py").write_text(hostile.source(**values))
+        for each in (*WALLED, *ANSWERS):
+            (folder / file_of(each)).write_text(each.source(**values))
         yield board
 
 
@@ -113,43 +113,51 @@ def sandboxed(board, rung, place, limits=PATIENT):
     return SandboxedPolicy(name=place, place=place, folder=board / "mine", rung=rung, limits=limits)
 
 
-@pytest.fixture(scope="module")
-def warm(board, rung):
-    """The sandboxes of a rung, running before anything is counted."""
-    for limits in (PATIENT, HURRIED):
-        with sandboxed(board, rung, "good.py:Good", limits).agent():
-            pass
-
-
 def content(board):
     return {path: path.read_bytes() for path in sorted(board.rglob("*")) if path.is_file()}
 
 
-@pytest.mark.parametrize("number", range(len(HOSTILE)), ids=[each.name for each in HOSTILE])
-def test_is_contained(board, expected, warm, rung, number):
-    hostile = HOSTILE[number]
-    if hostile.needs_walls and rung not in VERIFIABLE:
-        pytest.skip(hostile.needs_walls)
-    limits = HURRIED if hostile.hurried else PATIENT
-    policy = sandboxed(board, rung, f"p{number}.py:Policy", limits)
+@pytest.mark.parametrize("policy", WALLED, ids=lambda policy: policy.name)
+def test_is_contained(board, expected, way, rung, policy):
+    if way in policy.escapes:
+        pytest.skip(policy.needs)
+    contained(board, expected, rung, policy)
+
+
+@pytest.mark.parametrize("policy", ANSWERS, ids=lambda policy: policy.name)
+def test_an_answer_that_is_none_is_refused(board, expected, policy):
+    contained(board, expected, strongest(), policy)
+
+
+def contained(board, expected, rung, policy):
+    """Fail unless a policy ends as it must, and leaves all else as it was."""
+    limits = HURRIED if policy.hurried else PATIENT
+    good = sandboxed(board, rung, "good.py:Good")
+    bad = sandboxed(board, rung, f"{file_of(policy)}:Policy", limits)
+    for each in (good, sandboxed(board, rung, "good.py:Good", limits)):
+        assert drive_in(each) == (expected, None)  # Their sandboxes run before we count.
     files, before, opened = content(board), children(), handles()
-    for _ in range(2 if "state" in hostile.name else 1):
-        with policy.agent() as agent:
+    for _ in range(2 if "state" in policy.name else 1):
+        with bad.agent() as agent:
             actions, failure = drive(agent)
-            during = agent.output
-        output = agent.output
-        if hostile.reason:
+        output = agent.printed
+        if policy.reason:
             assert failure is not None, "it was not stopped"
-            assert re.fullmatch(hostile.reason, failure, re.DOTALL), (failure, output)
+            assert re.fullmatch(policy.reason, failure, re.DOTALL), (failure, output)
         else:
             assert failure is None, output
             assert actions == STEPS * [[0.0]]
-        assert re.search(hostile.output, output), during
+        assert re.search(policy.output, output), output
         assert len(output) <= 10_000
-    assert drive_in(sandboxed(board, rung, "good.py:Good")) == (expected, None)
+    assert drive_in(good) == (expected, None)
     assert content(board) == files
     assert settled(before)
     assert handles() == opened
+
+
+def file_of(policy):
+    """Return the name of a policy's file."""
+    return re.sub(r"\W+", "_", policy.name) + ".py"
 
 
 def settled(before, seconds=5.0):
@@ -167,6 +175,5 @@ def drive_in(policy):
 
 
 def test_names_are_distinct():
-    names = [each.name for each in HOSTILE]
-    assert len(set(names)) == len(names)
-    assert signal.SIGKILL
+    files = [file_of(each) for each in (*WALLED, *ANSWERS)]
+    assert len(set(files)) == len(files)

@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import tracemalloc
 import zipfile
 
 import numpy as np
@@ -119,3 +120,17 @@ def test_a_bomb_is_not_unpacked(monkeypatch):
     assert len(data) < 2000
     with pytest.raises(InputError, match="claims 800128 bytes"):
         parse_arrays(data, "x.npz")
+
+
+def test_a_bomb_that_claims_to_be_small_is_not_unpacked_either():
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as file:
+        small = npy((100_000,), data=bytes(800_000))
+        file.writestr("a.npy", small + bytes(2**26))
+        file.infolist()[0].file_size = len(small)  # It is written to the directory at the end.
+    tracemalloc.start()
+    with pytest.raises(InputError, match="damaged"):
+        parse_arrays(data.getvalue(), "x.npz")
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 2**23

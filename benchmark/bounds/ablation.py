@@ -1,0 +1,140 @@
+"""What each part of `anticipate` is worth: the policy without it, on lifts with new people."""
+
+import dataclasses
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+import numpy as np
+
+from ...agents.policies.anticipation_controller import AnticipateParameters
+from ...agents.policies.senses import Window
+from ..anticipation_experience import Experience, Timing
+from ..anticipation_learning import HIDDEN, Lesson, learned
+from ..runner import Run, run_suite
+from ..scenario import CONTROL_PERIOD
+from ..statistics import PairedDifference, paired_difference
+from ..suite import Suite
+from ..summary import cell
+from .foreseer import Foreseer
+
+WHOLE: Final = "whole"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Variant:
+    """The policy without one of its parts."""
+
+    name: str
+    """What it lacks."""
+    window: dict[str, int] = field(default_factory=dict)
+    """What differs in the window of its inputs."""
+    hidden: Sequence[int] = HIDDEN
+    """Units of its hidden layers."""
+    first_round: bool = False
+    """Whether it learns from the first round only."""
+    parameters: dict[str, Any] = field(default_factory=dict)
+    """What differs in its parameters."""
+
+    @property
+    def learns(self) -> bool:
+        """Whether it has to be learned anew."""
+        return bool(self.window) or self.hidden != HIDDEN or self.first_round
+
+
+VARIANTS: Final = (
+    Variant(name="the curve: a linear map instead of the perceptron", hidden=()),
+    Variant(name="the far past: 0.4 s instead of 2 s", window={"velocities": 4}),
+    Variant(name="the own commands as inputs", window={"commands": 0}),
+    Variant(name="the sag as an input", window={"sags": 0}),
+    Variant(name="the second round of learning", first_round=True),
+    Variant(name="the arm's lag", parameters={"arm_lag": 0.0}),
+    Variant(name="making up for the sag", parameters={"sag_memory": 1e9}),
+    Variant(name="foresight beyond the period", parameters={"foresight": CONTROL_PERIOD}),
+    Variant(name="the cost of bends", parameters={"smoothness": 0.0}),
+)
+"""Each lacks one part."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ablation:
+    """How a variant does, and what it loses against the whole."""
+
+    name: str
+    rmse_mm: float
+    sparc: float
+    worse_mm: PairedDifference | None
+    """RMSE minus that of the whole, lift by lift; none for the whole itself."""
+    rougher: PairedDifference | None
+    """SPARC of the whole minus its own, lift by lift."""
+
+
+def variants(first: Lesson, last: Lesson, *, seed: int = 0) -> Iterator[Foreseer]:
+    """Yield the whole and then each of the :data:`VARIANTS`.
+
+    Parameters
+    ----------
+    first, last
+        What the first and the last round of learning led to.
+    seed
+        Seed of the fits.
+    """
+    whole = Foreseer(name=WHOLE, model=last.model)
+    yield whole
+    window = last.model.window
+    for variant in VARIANTS:
+        parameters = AnticipateParameters(**variant.parameters)
+        model = last.model
+        if variant.first_round:
+            model = first.model
+        elif variant.learns:
+            narrow = dataclasses.replace(window, **variant.window)
+            data = narrowed(last.experience, window, narrow)
+            model = learned(data, narrow, Timing(), hidden=variant.hidden, provenance={})
+        yield Foreseer(name=variant.name, model=model, parameters=parameters)
+
+
+def narrowed(data: Experience, wide: Window, narrow: Window) -> Experience:
+    """Return experience as it would be with a narrower window: some of its inputs."""
+    starts = np.cumsum([0, 1, wide.velocities, wide.commands])
+    counts = (1, narrow.velocities, narrow.commands, narrow.sags)
+    chosen = [start + np.arange(count) for start, count in zip(starts, counts, strict=True)]
+    return Experience(inputs=data.inputs[:, np.concatenate(chosen)], outcomes=data.outcomes)
+
+
+def ablate(
+    robots: Iterator[Foreseer],
+    suite: Suite,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> list[Ablation]:
+    """Return how the robots do on a suite; the first is the whole, which others are set against."""
+    found: list[Ablation] = []
+    whole: Run | None = None
+    for robot in robots:
+        run = run_suite(robot, suite, executor=executor, progress=progress)
+        whole = whole or run
+        found.append(_against(robot.name, run, whole))
+    return found
+
+
+def _against(name: str, run: Run, whole: Run) -> Ablation:
+    rmse, sparc = _values(run, "rmse_mm"), _values(run, "sparc")
+    worse = rougher = None
+    if run is not whole:
+        cells = [cell(episode) for episode in run.episodes]
+        worse = paired_difference(rmse, _values(whole, "rmse_mm"), cells)
+        rougher = paired_difference(_values(whole, "sparc"), sparc, cells)
+    return Ablation(
+        name=name,
+        rmse_mm=float(rmse.mean()),
+        sparc=float(sparc.mean()),
+        worse_mm=worse,
+        rougher=rougher,
+    )
+
+
+def _values(run: Run, metric: str) -> np.ndarray[Any, np.dtype[np.float64]]:
+    return np.array([getattr(episode.scores, metric) for episode in run.episodes])

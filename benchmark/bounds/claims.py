@@ -1,0 +1,122 @@
+"""What is claimed of `anticipate`, measured."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..catalogue import RECORDED
+from ..comparison.contest import Contest, Entry
+from ..statistics import FloatArray, Interval, paired_difference, ratio_of_means_ci, share_better
+from .causal import CAUSAL_BOUND
+
+POLICY: Final = "anticipate"
+RIVALS: Final = ("blend", "reactive")
+"""The paper's policies that it is set against."""
+
+TO_TEAM: Final = {"smooth": 0.70, "pause": 0.70, "jerky": 1.15, "changing_goal": 0.70}
+TO_TEAM_OVER_ALL: Final = 0.75
+"""Largest RMSE over the human-human team's, on each behaviour and over all."""
+
+TO_BOUND: Final = 1.15
+"""Largest RMSE over the causal bound's, on each behaviour."""
+
+TO_BLEND: Final = 0.35
+"""Largest RMSE over that of `blend`, on smooth and on recorded lifts."""
+
+WINS: Final = 0.98
+"""Smallest share of the recorded lifts in which it is more level than `blend`."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Claim:
+    """A number, and what it has to be."""
+
+    text: str
+    value: float
+    ci95: Interval | None
+    limit: float
+    least: bool = False
+    """Whether the limit is the least the value may be; else the most."""
+
+    @property
+    def holds(self) -> bool:
+        """Whether the value is within its limit."""
+        return self.value >= self.limit if self.least else self.value <= self.limit
+
+
+def claims(contest: Contest) -> tuple[Claim, ...]:
+    """Return what a contest of the policy, its rivals and the bounds says to each claim.
+
+    The causal bound and the rivals are needed, and the human-human team is always there. On
+    recorded lifts the team and the bound are no limits: people are no plan.
+    """
+    entries = {entry.name: entry for entry in (*contest.entries, *contest.bounds)}
+    cells = contest.team.cells
+    behaviours = np.array([behaviour for behaviour, _ in cells])
+    mine, blend = (_values(entries[name], "rmse_mm") for name in (POLICY, "blend"))
+    bound = _values(entries[CAUSAL_BOUND], "rmse_mm")
+    team = np.array(contest.team.rmse_mm)
+    found: list[Claim] = []
+
+    def ratio(text: str, other: FloatArray, chosen: FloatArray, limit: float) -> None:
+        some = [cell for cell, taken in zip(cells, chosen, strict=True) if taken]
+        found.append(
+            Claim(
+                text=f"RMSE over that of {text}",
+                value=float(mine[chosen].mean() / other[chosen].mean()),
+                ci95=ratio_of_means_ci(mine[chosen], other[chosen], some),
+                limit=limit,
+            )
+        )
+
+    everything = np.full(len(cells), True)
+    for behaviour in dict.fromkeys(behaviours.tolist()):
+        chosen = behaviours == behaviour
+        if behaviour in TO_TEAM:
+            ratio(f"the human-human team, {behaviour}", team, chosen, TO_TEAM[behaviour])
+            ratio(f"the causal bound, {behaviour}", bound, chosen, TO_BOUND)
+        if behaviour in ("smooth", RECORDED):
+            ratio(f"blend, {behaviour}", blend, chosen, TO_BLEND)
+        if behaviour == RECORDED:
+            found.append(
+                Claim(
+                    text="share of the recorded lifts more level than with blend",
+                    value=share_better(mine[chosen], blend[chosen]),
+                    ci95=None,
+                    limit=WINS,
+                    least=True,
+                )
+            )
+    if set(behaviours.tolist()) == set(TO_TEAM):
+        ratio("the human-human team, over all", team, everything, TO_TEAM_OVER_ALL)
+    return (*found, *_kinder(entries, contest))
+
+
+def _kinder(entries: dict[str, Entry], contest: Contest) -> Iterator[Claim]:
+    """Yield the claims that it moves more smoothly, and is no harder on the human's hands."""
+    for name in RIVALS:
+        smoother = [_values(entries[other], "sparc") for other in (POLICY, name)]
+        moved = ~(np.isnan(smoother[0]) | np.isnan(smoother[1]))
+        cells = [cell for cell, taken in zip(contest.team.cells, moved, strict=True) if taken]
+        difference = paired_difference(smoother[0][moved], smoother[1][moved], cells)
+        yield Claim(
+            text=f"SPARC minus that of {name}, paired",
+            value=difference.mean,
+            ci95=difference.ci95,
+            limit=0.0,
+            least=True,
+        )
+    force = [_values(entries[other], "human_force_n") for other in (POLICY, "blend")]
+    difference = paired_difference(force[0], force[1], contest.team.cells)
+    yield Claim(
+        text="rms force at the human's hands minus that with blend [N], paired",
+        value=difference.mean,
+        ci95=difference.ci95,
+        limit=0.0,
+    )
+
+
+def _values(entry: Entry, metric: str) -> FloatArray:
+    return np.array([getattr(scores, metric) for scores in entry.scores])

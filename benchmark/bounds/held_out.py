@@ -1,0 +1,44 @@
+"""Lifts with people that nothing was learned from or tuned on."""
+
+from typing import Final
+
+from ...agents.errors import InputError
+from ..anticipation_learning import LAST_SEED
+from ..catalogue import make_scenario
+from ..suite import BEHAVIOURS, Suite
+
+FIRST_SEED: Final = LAST_SEED + 1
+"""Seed of the first person and of the first lift: no learning takes seeds from here on."""
+
+
+def held_out_suite(people: int, lifts: int, first_seed: int = FIRST_SEED) -> Suite:
+    """Return the suite of every behaviour with new people.
+
+    Parameters
+    ----------
+    people
+        How many: ``Subject.draw`` of the seeds from ``first_seed`` on.
+    lifts
+        Lifts with each on each behaviour, on the seeds from ``first_seed`` on.
+    first_seed
+        From :data:`FIRST_SEED` on.
+
+    Raises
+    ------
+    InputError
+        If there is nobody, no lift, or the seed is one to learn from.
+    """
+    if people < 1 or lifts < 1:
+        raise InputError(f"at least 1 person and 1 lift are needed, got {people} and {lifts}")
+    if first_seed < FIRST_SEED:
+        raise InputError(
+            f"seeds of new people start at {FIRST_SEED}, those below are learned from; "
+            f"got {first_seed}"
+        )
+    scenarios = tuple(
+        make_scenario(behaviour, f"draw-{seed}")
+        for behaviour in BEHAVIOURS
+        for seed in range(first_seed, first_seed + people)
+    )
+    name = f"{people} new people x {len(BEHAVIOURS)} behaviours x {lifts} lifts"
+    return Suite(name=name, scenarios=scenarios, seeds=tuple(range(first_seed, first_seed + lifts)))

@@ -1,0 +1,75 @@
+"""The sweep as a picture: error over latency, and over control period."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Final
+
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from ..rendering.axes import plain
+from ..rendering.palette import FAINT, HUMAN, INK, PAPER, ROBOT
+from ..scenario import CONTROL_PERIOD, LATENCY
+from .causal import CAUSAL_BOUND
+from .oracle import ORACLE
+from .sweep import Swept
+
+LOOKS: Final = {
+    "reactive": (FAINT, "-", "o"),
+    "blend": ("#8A4F9E", "-", "o"),
+    "anticipate": (ROBOT, "-", "o"),
+    CAUSAL_BOUND: (INK, "--", "s"),
+    ORACLE: (INK, ":", "s"),
+}
+"""Colour, line and marker; the bounds are black."""
+
+
+def sweep_json(swept: Sequence[Swept], team: float) -> str:
+    """Return the numbers of the picture; ``team`` is the human-human team's RMSE [mm]."""
+    content = {"human_human_rmse_mm": team, "swept": [asdict(each) for each in swept]}
+    return json.dumps(content, indent=1) + "\n"
+
+
+def sweep_figure(swept: Sequence[Swept], team: float, title: str) -> Figure:
+    """Return the picture: on the left other latencies, on the right other control periods.
+
+    Parameters
+    ----------
+    swept
+        The scores.
+    team
+        Mean RMSE of the human-human team [mm], a line.
+    title
+        What stands above.
+    """
+    figure = Figure(figsize=(8.0, 4.2), dpi=130, facecolor=PAPER, layout="constrained")
+    FigureCanvasAgg(figure)
+    figure.suptitle(title, fontsize=11, color=INK, x=0.01, ha="left", weight="bold")
+    left, right = figure.subplots(1, 2, sharey=True)
+    _panel(left, [s for s in swept if s.control_period == CONTROL_PERIOD], "latency", team)
+    _panel(right, [s for s in swept if s.latency == LATENCY], "control_period", team)
+    left.set_xlabel(f"latency [ms], control period {1000 * CONTROL_PERIOD:.0f} ms", color=INK)
+    right.set_xlabel(f"control period [ms], latency {1000 * LATENCY:.0f} ms", color=INK)
+    left.set_ylabel("RMSE of the height difference [mm]", color=INK)
+    left.legend(fontsize=8.5, labelcolor=INK, frameon=False, loc="upper left")
+    left.set_ylim(bottom=0)
+    return figure
+
+
+def _panel(axes: Axes, swept: Sequence[Swept], along: str, team: float) -> None:
+    plain(axes)
+    axes.axhline(team, color=HUMAN, lw=1.2, ls=(0, (4, 3)), label="human-human team")
+    for name, (colour, line, marker) in LOOKS.items():
+        points = sorted((1000 * getattr(s, along), s.rmse_mm) for s in swept if s.policy == name)
+        axes.plot(
+            [x for x, _ in points],
+            [y for _, y in points],
+            color=colour,
+            ls=line,
+            marker=marker,
+            ms=4,
+            lw=1.8,
+            label=name,
+        )

@@ -1,0 +1,68 @@
+"""``colift ablate``: what each part of `anticipate` is worth."""
+
+from typing import Annotated
+
+import typer
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from ..benchmark.anticipation_learning import LIFTS, ROUNDS, learn_anticipation
+from ..benchmark.bounds import ablation
+from ..benchmark.bounds.ablation import VARIANTS, Ablation, variants
+from ..benchmark.bounds.held_out import held_out_suite
+from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.statistics import PairedDifference
+from .progress import progress_bar
+
+
+def ablate(
+    lifts: Annotated[int, typer.Option(metavar="N", help="Lifts of a round of learning.")] = LIFTS,
+    people: Annotated[int, typer.Option(metavar="N", help="New people to lift with.")] = 20,
+    each: Annotated[
+        int, typer.Option(metavar="N", help="Lifts with each, in each way to move.")
+    ] = 3,
+    jobs: Annotated[
+        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
+    ] = None,
+) -> None:
+    """Take anticipate apart: learn it without each of its parts, and lift with new people."""
+    suite = held_out_suite(people, each)
+    total = ROUNDS * lifts + (1 + len(VARIANTS)) * suite.size
+    with (
+        local_pool(default_jobs() if jobs is None else jobs) as pool,
+        progress_bar("ablation", total) as progress,
+    ):
+        first, *_, last = learn_anticipation(lifts=lifts, executor=pool, progress=progress)
+        found = ablation.ablate(variants(first, last), suite, executor=pool, progress=progress)
+    Console().print(_table(found, suite.name), highlight=False)
+
+
+def _table(found: list[Ablation], suite: str) -> Table:
+    table = Table(
+        title=f"Without each part, on {suite}",
+        caption="RMSE in mm, SPARC (closer to 0 is smoother); in brackets the 95 % interval of the "
+        "paired difference to the whole.",
+        title_justify="left",
+        caption_justify="left",
+        box=box.SIMPLE_HEAD,
+    )
+    table.add_column("without")
+    for name in ("RMSE", "more", "SPARC", "rougher by"):
+        table.add_column(name, justify="right")
+    for each in found:
+        table.add_row(
+            each.name,
+            f"{each.rmse_mm:.2f}",
+            _told(each.worse_mm),
+            f"{each.sparc:.3f}",
+            _told(each.rougher, 3),
+        )
+    return table
+
+
+def _told(difference: PairedDifference | None, digits: int = 2) -> str:
+    if difference is None:
+        return ""
+    low, high = difference.ci95
+    return f"{difference.mean:+.{digits}f} ({low:+.{digits}f} to {high:+.{digits}f})"

@@ -1,0 +1,68 @@
+"""``colift bounds``: whether `anticipate` keeps what is claimed of it, on people it never met."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from ..agents.policies.loading import PolicySpec
+from ..benchmark.bounds.claims import POLICY, RIVALS, Claim, claims
+from ..benchmark.bounds.held_out import FIRST_SEED, held_out_suite
+from ..benchmark.bounds.play import BOUNDS
+from ..benchmark.comparison.comparison import compare
+from ..benchmark.comparison.contest import amount, play_contest
+from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.suite import recorded_suite
+from .compare_tables import behaviours_table, ranks_table
+from .progress import progress_bar
+
+
+def bounds(
+    people: Annotated[int, typer.Option(metavar="N", help="New people to lift with.")] = 20,
+    each: Annotated[
+        int, typer.Option(metavar="N", help="Lifts with each, in each way to move.")
+    ] = 5,
+    seed: Annotated[int, typer.Option(help="Seed of the first of them.")] = FIRST_SEED,
+    recordings: Annotated[
+        Path | None,
+        typer.Option(metavar="CSV", help="Recorded lifts (trial,t_s,z_m) instead."),
+    ] = None,
+    jobs: Annotated[
+        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
+    ] = None,
+) -> None:
+    """Measure anticipate against people, the paper's policies and the bounds, with new people."""
+    suite = held_out_suite(people, each, seed) if recordings is None else recorded_suite(recordings)
+    specs = {name: PolicySpec(text=name) for name in (POLICY, *RIVALS)}
+    total = amount(len(specs) + len(BOUNDS), suite)
+    with (
+        local_pool(default_jobs() if jobs is None else jobs) as pool,
+        progress_bar("bounds", total) as progress,
+    ):
+        contest = play_contest(specs, suite, bounds=BOUNDS, executor=pool, progress=progress)
+    comparison = compare(contest)
+    console = Console()
+    console.print(ranks_table(comparison))
+    if recordings is None:
+        console.print(behaviours_table(comparison))
+    found = claims(contest)
+    console.print(_table(found), highlight=False)
+    if not all(claim.holds for claim in found):
+        raise typer.Exit(1)
+
+
+def _table(found: tuple[Claim, ...]) -> Table:
+    table = Table(title=f"Claims of {POLICY}", title_justify="left", box=box.SIMPLE_HEAD)
+    table.add_column("what")
+    for name in ("value", "95 %", "limit", "holds"):
+        table.add_column(name, justify="right")
+    for claim in found:
+        interval = "" if claim.ci95 is None else f"{claim.ci95[0]:.3f} to {claim.ci95[1]:.3f}"
+        limit = f"{'at least' if claim.least else 'at most'} {claim.limit:g}"
+        table.add_row(
+            claim.text, f"{claim.value:.3f}", interval, limit, "yes" if claim.holds else "NO"
+        )
+    return table

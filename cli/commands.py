@@ -1,0 +1,68 @@
+"""The commands, each imported when it is called."""
+
+import importlib
+from collections.abc import Iterator, Mapping
+from typing import Any, Final
+
+import typer
+from typer.core import TyperGroup
+
+COMMANDS: Final[Mapping[str, str]] = {
+    "run": "run:run",
+    "list": "listing:list_all",
+    "new": "new:new",
+    "check": "check:check",
+    "submit": "submit:submit",
+    "verify": "verify:verify",
+    "board": "board:board",
+    "serve": "serve:serve",
+    "worker": "worker:worker",
+    "token": "token:app",
+    "compare": "compare:compare",
+    "bounds": "bounds:bounds",
+    "ablate": "ablate:ablate",
+    "sweep": "sweep:sweep",
+    "paper": "paper:paper",
+    "render": "render:render",
+    "demonstrate": "demonstrate:demonstrate",
+    "learn": "learn:app",
+    "calibrate": "calibrate:calibrate",
+    "references": "references:references",
+    "practice": "practice:practice",
+    "bench": "bench:bench",
+}
+"""Where each command is: a function, or an app with commands of its own, of a module beside this
+one. ``colift --help`` shows them in this order."""
+
+
+class Commands(TyperGroup):
+    """The commands of :data:`COMMANDS`.
+
+    Together they need libraries that take seconds to load; each waits for its own alone.
+    """
+
+    def __init__(self, **attributes: Any) -> None:
+        super().__init__(**{**attributes, "commands": _Loaded()})
+
+
+class _Loaded(Mapping[str, Any]):
+    """What Typer runs, by name: loaded when it is looked up, not when names are listed."""
+
+    def __getitem__(self, name: str) -> Any:
+        module, _, attribute = COMMANDS[name].partition(":")
+        found = getattr(importlib.import_module(f".{module}", __package__), attribute)
+        command: Any
+        if isinstance(found, typer.Typer):
+            command = typer.main.get_group(found)
+        else:
+            app = typer.Typer(add_completion=False)
+            app.command()(found)
+            command = typer.main.get_command(app)
+        command.name = name
+        return command
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(COMMANDS)
+
+    def __len__(self) -> int:
+        return len(COMMANDS)

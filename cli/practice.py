@@ -1,0 +1,122 @@
+"""``colift practice``: evaluate the project's policies for the board that is shipped."""
+
+import sys
+from concurrent.futures import Executor
+from datetime import UTC, datetime
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from ..agents.errors import EvaluatorFault, InputError
+from ..leaderboard.evaluation import Watch, amount, play_team
+from ..leaderboard.own import own_names
+from ..leaderboard.practice import SUITES, is_current, play_policy, practice_season
+from ..leaderboard.season import Season
+from ..leaderboard.shipped import Shipped
+from .executors import executor
+from .progress import job_bar
+
+
+def practice(
+    out: Annotated[
+        Path,
+        typer.Option(metavar="DIR", help="Where the files are; in a clone, leaderboard/data."),
+    ],
+    suite: Annotated[
+        list[str] | None, typer.Option(help="A suite; may be repeated. Default: all public ones.")
+    ] = None,
+    policy: Annotated[
+        list[str] | None,
+        typer.Option(help="A policy of the project; may be repeated. Default: all."),
+    ] = None,
+    fresh: Annotated[
+        bool, typer.Option("--fresh", help="Evaluate also what is there and current.")
+    ] = False,
+    jobs: Annotated[
+        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
+    ] = None,
+    dask: Annotated[
+        str | None,
+        typer.Option(metavar="URL", help="Use the Dask cluster of this scheduler: tcp://host:8786"),
+    ] = None,
+) -> None:
+    """Evaluate the project's policies in the practice season, whose secret is public.
+
+    A policy is written as soon as it is finished: what is interrupted goes on by the same command.
+    """
+    if not out.is_dir():
+        raise InputError(f"cannot write to {out}: there is no such folder")
+    names = policy or list(own_names())
+    unknown = [name for name in names if name not in own_names()]
+    if unknown:
+        known = ", ".join(own_names())
+        raise InputError(f"colift has no policy {unknown[0]!r} of its own; it has {known}")
+    refused = False
+    with executor(jobs, dask) as pool:
+        for season in [practice_season(name) for name in suite or SUITES]:
+            try:
+                shipped, faults = _season(season, names, out, pool, fresh)
+            except KeyboardInterrupt:
+                print("interrupted: go on by the same command", file=sys.stderr)
+                raise typer.Exit(1) from None
+            refused |= bool(faults)
+            Console().print(_table(season, shipped))
+            for fault in faults:
+                print(f"error: {fault}", file=sys.stderr)
+    if refused:
+        raise typer.Exit(1)
+
+
+def _season(
+    season: Season, names: list[str], out: Path, pool: Executor | None, fresh: bool
+) -> tuple[Shipped, list[EvaluatorFault]]:
+    """Evaluate what is not there yet; return all that is, and what could not be evaluated."""
+    there = Shipped.read(season.suite.name, out)
+    if there is None or there.suite_digest != season.suite.digest:
+        there = None
+    done = [] if there is None or fresh else [p for p in there.played if is_current(p, season)]
+    todo = [name for name in names if name not in {each.entry.name for each in done}]
+    total = len(todo) * amount(season) + (season.suite.size if there is None else 0)
+    faults = []
+    with job_bar(season.name, total) as bar:
+
+        def stage(policy: str, name: str) -> None:
+            bar.stage(f"{season.name}: {policy}, {name}")
+
+        if there is None:
+            watch = Watch(stage=partial(stage, "all"), progress=bar.advance)
+            team = play_team(season, executor=pool, watch=watch)
+            there = Shipped(
+                suite=season.suite.name,
+                suite_digest=season.suite.digest,
+                began_at=datetime.now(UTC),
+                team=team,
+                played=(),
+            )
+        for name in todo:
+            watch = Watch(stage=partial(stage, name), progress=bar.advance)
+            try:
+                now = datetime.now(UTC)
+                new = play_policy(name, season, there.team, now, executor=pool, watch=watch)
+            except EvaluatorFault as fault:
+                faults.append(fault)
+                continue
+            there = there.with_played(new)
+            there.write(out)
+    return there, faults
+
+
+def _table(season: Season, shipped: Shipped) -> Table:
+    table = Table(title=f"Season {season.name} on {season.suite.name}", box=None)
+    table.add_column("policy")
+    for title in ("public RMSE mm", "hidden RMSE mm", "hidden vs human"):
+        table.add_column(title, justify="right")
+    rows = [each.entry.row for each in shipped.played if each.entry.row is not None]
+    for row in sorted(rows, key=lambda row: row.hidden.rmse_mm.mean):
+        numbers = (row.public.rmse_mm.mean, row.hidden.rmse_mm.mean, row.hidden.vs_human.mean)
+        table.add_row(row.name, *(f"{number:.2f}" for number in numbers))
+    return table

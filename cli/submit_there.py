@@ -1,0 +1,79 @@
+"""Submissions to a board on the web: uploaded, and followed until they have ended."""
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ..agents.errors import InputError
+from ..agents.submissions.submission import Submission
+from ..leaderboard.client import API, RemoteBoard
+from ..leaderboard.row import Row
+from .outcome import Outcome
+from .progress import job_bar
+
+LOOK_S = 1.0
+"""How often a job is looked at [s]."""
+
+
+@dataclass(frozen=True)
+class There:
+    """A board on the web."""
+
+    url: str
+    token: str
+
+    def submitted(self, submission: Submission) -> Outcome:
+        """Return what comes of a submission.
+
+        Raises
+        ------
+        InputError
+            If there is no token, or the board does not answer or refuses.
+        """
+        if not self.token:
+            raise InputError(
+                f"board {self.url} needs a token: --token or COLIFT_TOKEN; who runs the board "
+                "makes one by: colift token add NAME"
+            )
+        board = RemoteBoard(self.url, self.token)
+        job = board.submit(submission.folder)
+        print(f"submitted; job {self._place(job)}", flush=True)
+        try:
+            return self._outcome(board, _ended(board, job))
+        except KeyboardInterrupt:
+            return Outcome(reason=f"the board goes on without you: {self._place(job)}")
+
+    def _outcome(self, board: RemoteBoard, job: Mapping[str, Any]) -> Outcome:
+        if job["state"] == "evaluator fault":
+            told = f"evaluator fault, not the policy's: {job['reason']}\nSubmit again."
+            return Outcome(reason=told)
+        if job["state"] == "failed":
+            told = f"refused, so there is no row: {job['reason']}\nIts log: {self._place(job)}"
+            return Outcome(reason=told, mend=True)
+        table = board.standings(job["season"])
+        rows = [(each["group"], Row.read(each["row"])) for each in table]
+        row = next(row for _, row in rows if row.submission == job["submission"])
+        bundle = f"{self._api}/entries/{job['season']}/{job['submission']}/bundle.zip"
+        return Outcome(
+            row=row,
+            ranking=tuple((group, row) for group, row in rows if group),
+            next=f"Bundle of the public run: {bundle}",
+        )
+
+    def _place(self, job: Mapping[str, Any]) -> str:
+        return f"{self._api}/jobs/{job['id']}"
+
+    @property
+    def _api(self) -> str:
+        return self.url.rstrip("/") + API
+
+
+def _ended(board: RemoteBoard, job: dict[str, Any]) -> dict[str, Any]:
+    """Return a job when it has ended; show until then how far it is."""
+    with job_bar(job["name"], job["total"]) as bar:
+        while job["ended_at"] is None:
+            bar.at(job["stage"] or job["state"], job["done"], job["total"])
+            time.sleep(LOOK_S)
+            job = board.job(job["id"])
+    return job

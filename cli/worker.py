@@ -1,0 +1,61 @@
+"""``colift worker``: evaluate what is submitted to a board."""
+
+import signal
+import sys
+from pathlib import Path
+from types import FrameType
+from typing import Annotated
+
+import typer
+
+from ..leaderboard.board import Board
+from ..leaderboard.job import Job
+from ..leaderboard.queue import Queue
+from ..leaderboard.worker import Worker
+from .executors import executor
+
+
+def worker(
+    board: Annotated[
+        Path, typer.Option(metavar="PATH", help="The board's folder; made if there is none.")
+    ] = Path("board"),
+    jobs: Annotated[
+        int | None,
+        typer.Option(metavar="N", help="Processes for episodes; default: all cores."),
+    ] = None,
+    dask: Annotated[
+        str | None,
+        typer.Option(metavar="URL", help="Use the Dask cluster of this scheduler: tcp://host:8786"),
+    ] = None,
+    once: Annotated[
+        bool, typer.Option("--once", help="End when nothing waits, instead of waiting for more.")
+    ] = False,
+) -> None:
+    """Take submissions out of a board's queue and evaluate them, one after the other.
+
+    Any number of workers may share a board. One that is killed loses nothing: another begins anew.
+    """
+    signal.signal(signal.SIGTERM, _stop)
+    place = Board.open(board)
+    try:
+        with executor(jobs, dask) as workers:
+            here = Worker(Queue(place), workers)
+            if once:
+                while (job := here.once()) is not None:
+                    _tell(job)
+            else:
+                print(f"working for {place.folder}; Ctrl-C ends it", file=sys.stderr, flush=True)
+                here.run(ended=_tell)
+    except KeyboardInterrupt:
+        print("ended; what was being evaluated is in the queue again", file=sys.stderr)
+    finally:
+        place.close()
+
+
+def _tell(job: Job) -> None:
+    reason = "" if job.reason is None else f": {job.reason.splitlines()[0]}"
+    print(f"{job.name} ({job.submission[:16]}) {job.state}{reason}", flush=True)
+
+
+def _stop(number: int, frame: FrameType | None) -> None:
+    raise KeyboardInterrupt

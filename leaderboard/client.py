@@ -1,0 +1,125 @@
+"""A board on the web, as whoever submits to it meets it."""
+
+import json
+import tempfile
+import time
+import urllib.error
+import urllib.request
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO, Any, Final
+
+from ..agents.errors import InputError
+from .archive import pack
+
+API: Final = "/api/v1"
+
+TIMEOUT_S: Final = 120.0
+"""How long the board may take to answer [s]."""
+
+PATIENCE: Final = 30
+"""How often a question is asked again that the board has no time for."""
+
+BUSY: Final = (429, 502, 503, 504)
+"""What a board, or a server before it, answers then."""
+
+
+class _NoRedirect(urllib.request.HTTPRedirectHandler):
+    """Goes nowhere else: the token is for this board alone."""
+
+    def redirect_request(self, *arguments: Any) -> None:
+        """Return nothing to go to."""
+
+
+@dataclass(frozen=True)
+class RemoteBoard:
+    """A board behind a URL."""
+
+    url: str
+    """Such as ``https://board.example.org``."""
+    token: str = field(default="", repr=False)
+
+    def submit(self, folder: Path) -> dict[str, Any]:
+        """Return the job of a submission, as the board's API tells it.
+
+        Parameters
+        ----------
+        folder
+            The submission's files, and nothing else.
+
+        Raises
+        ------
+        InputError
+            If the board does not answer or refuses it; the message is the board's.
+        """
+        with tempfile.TemporaryFile() as file:
+            pack(folder, file)
+            size = file.tell()
+            file.seek(0)
+            headers = {
+                "Authorization": f"Bearer {self.token}",
+                "Content-Type": "application/zip",
+                "Content-Length": str(size),
+            }
+            answer: dict[str, Any] = self._ask("/submissions", file, headers)
+        return answer
+
+    def job(self, id: str) -> dict[str, Any]:  # noqa: A002
+        """Return how far a job is; :class:`.InputError` as :meth:`submit`."""
+        answer: dict[str, Any] = self._read(f"/jobs/{id}")
+        return answer
+
+    def standings(self, season: str) -> list[dict[str, Any]]:
+        """Return a season's table, best first; :class:`.InputError` as :meth:`submit`."""
+        answer: list[dict[str, Any]] = self._read(f"/standings?season={season}")
+        return answer
+
+    def _read(self, path: str) -> Any:
+        """Return an answer; wait a little when the board has no time."""
+        for _ in range(PATIENCE):
+            try:
+                return self._ask(path)
+            except _BusyError as busy:
+                time.sleep(busy.seconds)
+                last = busy
+        raise last
+
+    def _ask(
+        self, path: str, body: IO[bytes] | None = None, headers: dict[str, str] | None = None
+    ) -> Any:
+        address = self.url.rstrip("/") + API + path
+        request = urllib.request.Request(address, data=body, headers=headers or {})
+        opener = urllib.request.build_opener(_NoRedirect)
+        try:
+            with opener.open(request, timeout=TIMEOUT_S) as answer:
+                return json.load(answer)
+        except urllib.error.HTTPError as error:
+            raise _refusal(self.url, error) from error
+        except (OSError, urllib.error.URLError) as error:
+            reason = getattr(error, "reason", error)
+            raise InputError(f"board {self.url} does not answer: {reason}") from error
+        except ValueError as error:
+            raise InputError(f"{address} is not a board of colift: {error}") from error
+
+
+class _BusyError(InputError):
+    """The board has no time now."""
+
+    def __init__(self, told: str, seconds: float) -> None:
+        super().__init__(told)
+        self.seconds = seconds
+
+
+def _refusal(url: str, error: urllib.error.HTTPError) -> InputError:
+    """Return what the board says of a request that it does not fulfil."""
+    with error:
+        body = error.read(100_000)
+        wait = error.headers.get("Retry-After", "")
+    try:
+        told = str(json.loads(body)["error"])
+    except (ValueError, KeyError, TypeError):
+        told = f"it answers {error.code} {error.reason}; is it a board of colift?"
+    told = f"board {url}: {told}"
+    if error.code in BUSY:
+        return _BusyError(told, min(float(wait), 60.0) if wait.isdecimal() else 2.0)
+    return InputError(told)

@@ -1,0 +1,75 @@
+"""Transactions that mean the same in SQLite and in PostgreSQL."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, Final
+
+import sqlalchemy as sa
+
+WAIT_S: Final = 60
+"""How long a writer waits for the others [s], and how long one may do nothing."""
+
+_LOCK: Final = 0x636F6C696674
+"""Key of the lock that PostgreSQL's writers hold."""
+
+_SQLITE: Final = (
+    "PRAGMA journal_mode = WAL",
+    "PRAGMA synchronous = FULL",
+    "PRAGMA foreign_keys = ON",
+    "PRAGMA recursive_triggers = ON",
+)
+
+_POSTGRESQL: Final = (
+    f"SET lock_timeout = '{WAIT_S}s'",
+    # A writer that was frozen, or whose machine is gone, must not hold up all others.
+    f"SET idle_in_transaction_session_timeout = '{WAIT_S}s'",
+)
+
+
+def make_engine(url: sa.URL) -> sa.Engine:
+    """Return the engine of a database; nothing is connected yet."""
+    if url.get_backend_name() == "sqlite":
+        engine = sa.create_engine(url, connect_args={"timeout": WAIT_S})
+        sa.event.listen(engine, "connect", _prepare_sqlite)
+        sa.event.listen(engine, "begin", _begin_sqlite)
+    else:
+        engine = sa.create_engine(url, pool_pre_ping=True)
+        sa.event.listen(engine, "connect", _prepare_postgresql)
+    return engine
+
+
+@contextmanager
+def reading(engine: sa.Engine) -> Iterator[sa.Connection]:
+    """Yield a connection that sees one state of the database."""
+    with engine.connect() as connection:
+        if connection.dialect.name == "postgresql":
+            connection.execution_options(isolation_level="REPEATABLE READ")
+        with connection.begin():
+            yield connection
+
+
+@contextmanager
+def writing(engine: sa.Engine) -> Iterator[sa.Connection]:
+    """Yield a connection whose changes are made as a whole or not at all, one at a time."""
+    with engine.connect().execution_options(writing=True) as connection, connection.begin():
+        if connection.dialect.name == "postgresql":
+            connection.exec_driver_sql(f"SELECT pg_advisory_xact_lock({_LOCK})")
+        yield connection
+
+
+def _prepare_sqlite(connection: Any, record: object) -> None:
+    connection.isolation_level = None  # The driver would begin transactions when it likes.
+    for pragma in _SQLITE:
+        connection.execute(pragma).close()
+
+
+def _begin_sqlite(connection: sa.Connection) -> None:
+    # Who reads first and writes later could find that another has written in between.
+    wants = connection.get_execution_options().get("writing")
+    connection.exec_driver_sql("BEGIN IMMEDIATE" if wants else "BEGIN")
+
+
+def _prepare_postgresql(connection: Any, record: object) -> None:
+    for setting in _POSTGRESQL:
+        connection.execute(setting).close()
+    connection.commit()

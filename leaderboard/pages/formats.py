@@ -1,0 +1,63 @@
+"""How numbers and times are written on the pages."""
+
+from datetime import UTC, datetime
+from typing import Final
+
+from ...benchmark.comparison.standing import Estimate
+
+NONE: Final = "\N{EN DASH}"
+"""Stands for a number that is not there."""
+
+MINUS: Final = "\N{MINUS SIGN}"
+
+
+def number(value: float | None, places: int = 1) -> str:
+    """Return a number with so many decimals."""
+    if value is None:
+        return NONE
+    text = f"{value:.{places}f}"
+    return text.lstrip("-") if float(text) == 0 else text.replace("-", MINUS)
+
+
+def signed(value: float | None, places: int = 1) -> str:
+    """Return a number with its sign."""
+    text = number(value, places)
+    return f"+{text}" if value is not None and float(f"{value:.{places}f}") > 0 else text
+
+
+def interval(estimate: Estimate, places: int = 1) -> str:
+    """Return a 95 % interval in words; nothing if it has no width."""
+    low, high = estimate.ci95
+    return f"{number(low, places)} to {number(high, places)}" if high > low else ""
+
+
+def p_value(p: float) -> str:
+    """Return a p value; small ones as a bound."""
+    return "< 0.001" if p < 0.001 else f"{p:.3f}"
+
+
+def percent(share: float) -> str:
+    """Return a share in per cent."""
+    return f"{100 * share:.0f} %"
+
+
+def day(at: datetime) -> str:
+    """Return a day, such as 20 Nov 2026, in universal time."""
+    utc = at.astimezone(UTC)
+    return f"{utc.day} {utc:%b %Y}"
+
+
+def minute(at: datetime) -> str:
+    """Return a day and a time of day, in universal time."""
+    return f"{day(at)}, {at.astimezone(UTC):%H:%M} UTC"
+
+
+def words(name: str) -> str:
+    """Return a name of the code, such as ``changing_goal``, as words."""
+    return name.replace("_", " ")
+
+
+FILTERS: Final = {
+    each.__name__: each for each in (number, signed, interval, p_value, percent, day, minute, words)
+}
+"""The formats by name, for templates."""

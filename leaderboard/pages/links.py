@@ -1,0 +1,196 @@
+"""Where each page is: at the service, and in a folder of files."""
+
+from dataclasses import dataclass
+from typing import Protocol
+from urllib.parse import quote
+
+
+class Links(Protocol):
+    """The address of each page, as another page writes it."""
+
+    @property
+    def live(self) -> bool:
+        """Whether there is a service, which takes submissions."""
+
+    def board(self, season: str | None = None) -> str:
+        """Return where the table of a season is, by default that of the current one."""
+
+    def policy(self, season: str, digest: str) -> str:
+        """Return where the page of a submission is."""
+
+    def replays(self, season: str, digest: str) -> str:
+        """Return where the replays of a submission are."""
+
+    def replay(self, season: str, digest: str, name: str) -> str:
+        """Return where one of them is as a file of its own; see :func:`.replay_files`."""
+
+    def compare(self, season: str) -> str:
+        """Return where policies are compared; ``?p=DIGEST`` is added for each of them."""
+
+    def scenarios(self, season: str) -> str:
+        """Return where the list of the scenarios is."""
+
+    def scenario(self, season: str, behaviour: str, subject: str) -> str:
+        """Return where the page of a scenario is."""
+
+    def method(self) -> str:
+        """Return where the numbers are explained."""
+
+    def submit(self) -> str:
+        """Return where one submits."""
+
+    def job(self, job: str) -> str:
+        """Return where the page of a job is."""
+
+    def csv(self, season: str) -> str:
+        """Return where the table is as CSV."""
+
+    def json(self, season: str) -> str:
+        """Return where the table is as JSON."""
+
+    def bundle(self, season: str, digest: str) -> str:
+        """Return where the bundle of a public run is, as a zip archive."""
+
+    def asset(self, name: str) -> str:
+        """Return where a style, script or picture is."""
+
+
+@dataclass(frozen=True)
+class ServiceLinks:
+    """The addresses of the service."""
+
+    root: str = ""
+    """Path below which it is served, without a slash at its end."""
+
+    @property
+    def live(self) -> bool:
+        """It takes submissions."""
+        return True
+
+    def board(self, season: str | None = None) -> str:
+        """Return ``/`` or ``/seasons/SEASON``."""
+        return f"{self.root}/" if season is None else self._season(season)
+
+    def policy(self, season: str, digest: str) -> str:
+        """Return ``/seasons/SEASON/policies/DIGEST``."""
+        return f"{self._season(season)}/policies/{quote(digest)}"
+
+    def replays(self, season: str, digest: str) -> str:
+        """Return ``/seasons/SEASON/policies/DIGEST/replays``."""
+        return f"{self.policy(season, digest)}/replays"
+
+    def replay(self, season: str, digest: str, name: str) -> str:
+        """Return ``/seasons/SEASON/policies/DIGEST/replays/NAME.html``."""
+        return f"{self.replays(season, digest)}/{quote(name)}.html"
+
+    def compare(self, season: str) -> str:
+        """Return ``/seasons/SEASON/compare``."""
+        return f"{self._season(season)}/compare"
+
+    def scenarios(self, season: str) -> str:
+        """Return ``/seasons/SEASON/scenarios``."""
+        return f"{self._season(season)}/scenarios"
+
+    def scenario(self, season: str, behaviour: str, subject: str) -> str:
+        """Return ``/seasons/SEASON/scenarios/BEHAVIOUR/SUBJECT``."""
+        return f"{self.scenarios(season)}/{quote(behaviour)}/{quote(subject)}"
+
+    def method(self) -> str:
+        """Return ``/method``."""
+        return f"{self.root}/method"
+
+    def submit(self) -> str:
+        """Return ``/submit``."""
+        return f"{self.root}/submit"
+
+    def job(self, job: str) -> str:
+        """Return ``/jobs/JOB``."""
+        return f"{self.root}/jobs/{quote(job)}"
+
+    def csv(self, season: str) -> str:
+        """Return the API's CSV."""
+        return f"{self.root}/api/v1/standings.csv?season={quote(season)}"
+
+    def json(self, season: str) -> str:
+        """Return the API's JSON."""
+        return f"{self.root}/api/v1/standings?season={quote(season)}"
+
+    def bundle(self, season: str, digest: str) -> str:
+        """Return the API's archive."""
+        return f"{self.root}/api/v1/entries/{quote(season)}/{quote(digest)}/bundle.zip"
+
+    def asset(self, name: str) -> str:
+        """Return ``/static/NAME``."""
+        return f"{self.root}/static/{name}"
+
+    def _season(self, season: str) -> str:
+        return f"{self.root}/seasons/{quote(season)}"
+
+
+@dataclass(frozen=True)
+class SiteLinks:
+    """The names of files, all in one folder but for styles, scripts and data."""
+
+    current: str
+    """Name of the season whose table is ``index.html``."""
+
+    @property
+    def live(self) -> bool:
+        """Files take no submissions."""
+        return False
+
+    def board(self, season: str | None = None) -> str:
+        """Return ``index.html`` or ``season-SEASON.html``."""
+        return "index.html" if season in (None, self.current) else f"season-{season}.html"
+
+    def policy(self, season: str, digest: str) -> str:
+        """Return ``policy-SEASON-DIGEST.html``."""
+        return f"policy-{season}-{digest[:16]}.html"
+
+    def replays(self, season: str, digest: str) -> str:
+        """Return ``replays-SEASON-DIGEST.html``."""
+        return f"replays-{season}-{digest[:16]}.html"
+
+    def replay(self, season: str, digest: str, name: str) -> str:
+        """Return ``replay-SEASON-DIGEST-NAME.html``."""
+        return f"replay-{season}-{digest[:16]}-{name}.html"
+
+    def compare(self, season: str) -> str:
+        """Return ``compare-SEASON.html``."""
+        return f"compare-{season}.html"
+
+    def scenarios(self, season: str) -> str:
+        """Return ``scenarios-SEASON.html``."""
+        return f"scenarios-{season}.html"
+
+    def scenario(self, season: str, behaviour: str, subject: str) -> str:
+        """Return ``scenario-SEASON-BEHAVIOUR-SUBJECT.html``."""
+        return f"scenario-{season}-{behaviour}-{subject}.html"
+
+    def method(self) -> str:
+        """Return ``method.html``."""
+        return "method.html"
+
+    def submit(self) -> str:
+        """Return ``submit.html``."""
+        return "submit.html"
+
+    def job(self, job: str) -> str:
+        """Return the page on submitting: there are no jobs without a service."""
+        return self.submit()
+
+    def csv(self, season: str) -> str:
+        """Return ``data/SEASON.csv``."""
+        return f"data/{season}.csv"
+
+    def json(self, season: str) -> str:
+        """Return ``data/SEASON.json``."""
+        return f"data/{season}.json"
+
+    def bundle(self, season: str, digest: str) -> str:
+        """Return ``data/SEASON-DIGEST.zip``."""
+        return f"data/{season}-{digest[:16]}.zip"
+
+    def asset(self, name: str) -> str:
+        """Return ``static/NAME``."""
+        return f"static/{name}"

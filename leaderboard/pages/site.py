@@ -1,0 +1,125 @@
+"""The pages as files: they open from a disk, and from any host of static files."""
+
+import contextlib
+import shutil
+import tempfile
+from collections.abc import Iterator
+from importlib.resources import as_file, files
+from pathlib import Path
+from typing import Any, Final
+
+from ...agents.errors import InputError
+from ..archive import pack
+from ..board import Board
+from ..replays.chosen import replays_of
+from ..replays.html import replay_files, replay_page
+from ..season import SeasonInfo
+from ..views.board import board_view, ordered_seasons
+from ..views.compare import compare_view
+from ..views.lifts import is_whole
+from ..views.method import method_view
+from ..views.policy import PolicyView, policy_view
+from ..views.scenario import scenario_view, scenarios_view
+from ..views.table import standings_csv, standings_json
+from .links import SiteLinks
+from .rendering import render
+
+MARK: Final = "colift-site.txt"
+"""Says that a folder holds a site, and may be replaced by another one."""
+
+Page = tuple[str, str]
+"""Name and content of a file."""
+
+
+def write_site(board: Board, folder: Path) -> None:
+    """Write the pages of a board into a folder; an older site there is replaced.
+
+    Whoever reads the folder meanwhile sees the older one, until the new one is complete.
+
+    Raises
+    ------
+    InputError
+        If something else is in the folder, it cannot be written, or a library is missing.
+    """
+    if folder.exists() and not (folder / MARK).is_file() and any(folder.iterdir()):
+        raise InputError(f"{folder} holds something else; name a new folder for the site")
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".site-") as temporary:
+            made = Path(temporary) / "site"
+            _write(board, made)
+            if folder.exists():
+                folder.rename(Path(temporary) / "older")
+            made.rename(folder)
+    except OSError as error:
+        raise InputError(f"cannot write {folder}: {error.strerror}") from error
+
+
+def _write(board: Board, folder: Path) -> None:
+    (folder / "data").mkdir(parents=True)
+    (folder / MARK).write_text("The pages of a colift board.\n", encoding="utf-8")
+    with as_file(files(__package__) / "static") as static:
+        shutil.copytree(static, folder / "static")
+    seasons = ordered_seasons(board)
+    links = SiteLinks(seasons[0].name)
+    for info in seasons:
+        for name, content in _season(board, info, links):
+            (folder / name).write_text(content, encoding="utf-8")
+        _write_bundles(board, info, links, folder)
+    view = method_view(board)
+    for name, content in (
+        (links.method(), render("method.html", links, view=view)),
+        (links.submit(), render("submit.html", links, season=view.season, lifts=view.lifts)),
+    ):
+        (folder / name).write_text(content, encoding="utf-8")
+
+
+def _season(board: Board, info: SeasonInfo, links: SiteLinks) -> Iterator[Page]:
+    """Yield the pages and the data of a season."""
+    season = info.name
+    yield links.board(season), render("board.html", links, view=board_view(board, season))
+    yield links.csv(season), standings_csv(board, season)
+    yield links.json(season), standings_json(board, season)
+    yield links.compare(season), render("compare.html", links, view=compare_view(board, season))
+    yield from _scenarios(board, info, links)
+    for each in board.standings(season):
+        digest = each.row.submission
+        bundle = board.bundle(season, digest)
+        found = [] if bundle is None else _replays(bundle, each.row.name)
+        view = policy_view(board, season, digest)
+        if isinstance(view, PolicyView):
+            told = render("policy.html", links, view=view, has_replays=bool(found))
+            yield links.policy(season, digest), told
+        if found:
+            yield links.replays(season, digest), replay_page(found)
+        for name, replay in replay_files(found).items():
+            yield links.replay(season, digest, name), replay_page([replay])
+
+
+def _replays(bundle: Path, policy: str) -> list[dict[str, Any]]:
+    """Return the replays of a bundle, if its suite is one that this colift still plays."""
+    with contextlib.suppress(InputError):
+        return replays_of(bundle, policy)
+    return []
+
+
+def _scenarios(board: Board, info: SeasonInfo, links: SiteLinks) -> Iterator[Page]:
+    view = scenarios_view(board, info.name)
+    if view is None:
+        told = f"This colift does not play the suite of season {info.name}."
+        yield links.scenarios(info.name), render("missing.html", links, season=info, told=told)
+        return
+    yield links.scenarios(info.name), render("scenarios.html", links, view=view)
+    for behaviour, subject in view.cells:
+        name = links.scenario(info.name, behaviour, subject)
+        one = scenario_view(board, info.name, behaviour, subject)
+        yield name, render("scenario.html", links, view=one)
+
+
+def _write_bundles(board: Board, info: SeasonInfo, links: SiteLinks, folder: Path) -> None:
+    for each in board.standings(info.name):
+        digest = each.row.submission
+        bundle = board.bundle(info.name, digest)
+        if bundle is not None and is_whole(bundle):
+            with (folder / links.bundle(info.name, digest)).open("w+b") as file:
+                pack(bundle, file)

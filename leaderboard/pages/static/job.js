@@ -1,0 +1,34 @@
+// Follows a job: asks every second how far it is, and shows its end.
+"use strict";
+(() => {
+  const box = document.getElementById("job");
+  const bar = document.getElementById("bar"), told = document.getElementById("told");
+  let pause = 1000, last = told.textContent;
+
+  function show(job) {
+    if (job.total) bar.value = Math.min(job.done / job.total, 1);
+    // A screen reader is told when the stage changes, not each lift.
+    const text = job.state === "queued" ? "Waiting." : `${job.stage || job.state}: ${job.done} of ${job.total} lifts.`;
+    told.setAttribute("aria-live", text.split(":")[0] === last.split(":")[0] ? "off" : "polite");
+    if (job.state !== "queued" || last.split(/[.,]/)[0] !== "Waiting") told.textContent = text;
+    last = text;
+    for (const step of document.querySelectorAll("[data-stage]")) {
+      if (step.dataset.stage === job.stage) step.setAttribute("aria-current", "step");
+      else step.removeAttribute("aria-current");
+    }
+  }
+
+  async function follow() {
+    try {
+      const answer = await fetch(box.dataset.api, { cache: "no-store" });
+      if (answer.ok) {
+        const job = await answer.json();
+        if (job.ended_at) return location.reload();
+        show(job);
+        pause = 1000;
+      } else pause = Math.min(2 * pause, 30000);
+    } catch { pause = Math.min(2 * pause, 30000); }  // The service restarts; the job is not lost.
+    setTimeout(follow, pause);
+  }
+  setTimeout(follow, pause);
+})();

@@ -1,0 +1,159 @@
+"""A replay: one lift as JSON that is small enough to be mailed.
+
+======================== =========================================================================
+key                      content
+======================== =========================================================================
+format                   version of this table
+policy, suite,           whose lift it is
+suite_digest
+behaviour, subject,      which episode it is; ``trial`` is the name of a recording, or empty
+trial, seed
+which                    ``best``, ``median`` or ``worst`` of its behaviour; null if not chosen
+failure                  why it ended early, or null
+scores                   the metrics of the episode; null where there is none
+frame_s, period_s,       time of a frame and of a step, and the age of what the robot sees [s]
+latency_s
+horizon                  frames that the whole episode has, failed or not
+human, robot, target     height of the human's end, of the robot's end and as intended by the human:
+                         the first, then the changes from frame to frame [0.1 mm]
+command                  where the policy sends the hands by the end of each step [0.1 mm]
+prediction               where it predicted the human's end to be, step by step [0.1 mm]; or null
+confidence, role         what else it says of itself, step by step [1/1000]; or null
+events                   what the human meant to do, and from which frame on
+ghost                    ``human`` and ``robot`` as above, and ``rmse_mm``, of two people instead
+======================== =========================================================================
+
+Heights are within int16: 3.2 m. A number that a policy did not report is null.
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import asdict
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...agents.agent import FRAME
+from ...benchmark.bundle import one_line
+from ...benchmark.episode import Episode
+from ...benchmark.lift import HAND_SPEED
+from ...benchmark.scenario import Scenario
+from ...robots.arm_kinematics import STROKE
+from .choice import Which
+from .ghost import Ghost
+
+FORMAT: Final = 1
+
+UNIT: Final = 1e-4
+"""What heights are rounded to [m]: below the noise of motion capture."""
+
+LARGEST: Final = 2**15 - 1
+
+PLACES: Final = 4
+"""Decimals of the scores."""
+
+
+def replay(
+    episode: Episode,
+    scenario: Scenario,
+    ghost: Ghost,
+    *,
+    policy: str,
+    suite: str = "",
+    suite_digest: str = "",
+    which: Which | None = None,
+) -> dict[str, Any]:
+    """Return a lift as JSON has it; see the table above.
+
+    Parameters
+    ----------
+    episode
+        The lift; it may have failed, even before its first frame.
+    scenario
+        Its scenario.
+    ghost
+        The human-human team in the same episode.
+    policy
+        The policy's name.
+    suite, suite_digest
+        Of which suite the episode is, if it is of one.
+    which
+        What it was chosen as.
+    """
+    trace = episode.trace
+    internals = trace.internals
+    team = ghost.episode
+    return {
+        "format": FORMAT,
+        "policy": policy,
+        "suite": suite,
+        "suite_digest": suite_digest,
+        "behaviour": episode.behaviour,
+        "subject": episode.subject,
+        "trial": episode.trial,
+        "seed": episode.seed,
+        "which": which,
+        "failure": None if episode.failure is None else one_line(episode.failure),
+        "scores": {name: _score(value) for name, value in asdict(episode.scores).items()},
+        "frame_s": FRAME,
+        "period_s": scenario.control_period,
+        "latency_s": scenario.latency,
+        "horizon": ghost.horizon,
+        "human": changes(trace.human_end),
+        "robot": changes(trace.robot_end),
+        "target": changes(trace.target),
+        "command": _units(commands(trace.action, scenario.control_period), UNIT),
+        "prediction": _said(internals.get("prediction"), UNIT),
+        "confidence": _said(internals.get("confidence"), 1e-3),
+        "role": _said(internals.get("role"), 1e-3),
+        "events": [[name, frame] for name, frame in ghost.plan.events],
+        "ghost": {
+            "human": changes(team.trace.human_end),
+            "robot": changes(team.trace.robot_end),
+            "rmse_mm": _score(team.scores.rmse_mm),
+        },
+    }
+
+
+def commands(actions: ArrayLike, control_period: float) -> NDArray[np.float64]:
+    """Return the hand command at the end of each step [m], shape (m,).
+
+    Parameters
+    ----------
+    actions
+        Changes of the command [m] as the policy gave them, shape (m, 1); they are held to the
+        hand's speed and stroke, as in the episode.
+    control_period
+        Time of a step [s].
+    """
+    limit, (low, high) = HAND_SPEED * control_period, STROKE
+    command, found = 0.0, []
+    for change in np.asarray(actions, dtype=np.float64).ravel().tolist():
+        command = min(max(command + min(max(change, -limit), limit), low), high)
+        found.append(command)
+    return np.array(found)
+
+
+def changes(heights: ArrayLike) -> list[int]:
+    """Return heights [m] as a first one and changes [0.1 mm]; their running sum has no drift."""
+    values = _units(heights, UNIT)
+    return [now - before for before, now in zip([0, *values], values, strict=False)]
+
+
+def _units(values: ArrayLike, unit: float) -> list[int]:
+    """Return finite numbers in whole units, within int16."""
+    whole = np.rint(np.asarray(values, dtype=np.float64) / unit)
+    return [int(value) for value in np.clip(whole, -LARGEST, LARGEST)]
+
+
+def _said(values: Iterable[float] | None, unit: float) -> list[int | None] | None:
+    """Return what a policy says of itself: anything at all, so that some numbers may be none."""
+    if values is None:
+        return None
+    found = [_units([value], unit)[0] if math.isfinite(value) else None for value in values]
+    return found if any(value is not None for value in found) else None
+
+
+def _score(value: float) -> float | None:
+    return round(value, PLACES) if math.isfinite(value) else None

@@ -1,0 +1,1 @@
+"""The board on the web: a JSON interface, uploads, and the pages."""

@@ -1,0 +1,142 @@
+"""What a client is told when something is wrong: one line, what would be right, no traceback."""
+
+import asyncio
+import contextlib
+import errno
+import logging
+import secrets
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from pydantic import BaseModel, Field
+from starlette.exceptions import HTTPException
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from ...agents.errors import InputError
+from ..queue import QuotaError
+
+log: Final = logging.getLogger("colift.service")
+
+REQUEST_ID: Final = "X-Request-ID"
+"""Header of every answer; the log names what failed by it."""
+
+CLOSE: Final = {"Connection": "close"}
+"""Header of an answer to a request of which the rest is not read."""
+
+LINGER_S: Final = 10.0
+"""How long the rest is thrown away [s]."""
+
+FULL: Final = {errno.ENOSPC, errno.EDQUOT}
+"""What the system says when a disk is full."""
+
+
+class Problem(BaseModel):
+    """The answer to a request that could not be fulfilled."""
+
+    error: str = Field(description="What was wrong, and what would be right.")
+
+
+def problem(status: int, error: str, headers: Mapping[str, str] | None = None) -> HTTPException:
+    """Return what a route raises to answer with an error."""
+    return HTTPException(status, error, headers)
+
+
+def answer_errors(app: FastAPI) -> None:
+    """Have an application tell every error as a :class:`Problem`."""
+
+    @app.exception_handler(HTTPException)
+    async def refused(request: Request, error: HTTPException) -> JSONResponse:
+        told = error.detail
+        if told == "Not Found":
+            told = f"there is no {_shown(request.url.path)} here; the API is described at /api"
+        elif told == "Method Not Allowed":
+            allowed = (error.headers or {}).get("Allow", "GET")
+            told = f"{request.method} is not possible here; {allowed} is"
+        kind = LastAnswer if CLOSE.items() <= (error.headers or {}).items() else JSONResponse
+        return kind({"error": told}, error.status_code, error.headers)
+
+    @app.exception_handler(RequestValidationError)
+    async def invalid(request: Request, error: RequestValidationError) -> JSONResponse:
+        return JSONResponse({"error": _first(error.errors())}, 422)
+
+    @app.exception_handler(InputError)
+    async def wrong(request: Request, error: InputError) -> JSONResponse:
+        # What is wrong on our side is told with our paths; they are nobody's business.
+        told = str(error).replace(str(request.app.state.folder), "the board")
+        return JSONResponse({"error": told}, 429 if isinstance(error, QuotaError) else 422)
+
+
+class LastAnswer(JSONResponse):
+    """An answer before the request was read: it is sent at once, then the connection ends.
+
+    What still comes is thrown away for a while: who is sending hears nothing, and would lose the
+    answer if the connection was cut.
+    """
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Send the answer."""
+        headers = self.raw_headers
+        await send({"type": "http.response.start", "status": self.status_code, "headers": headers})
+        await send({"type": "http.response.body", "body": self.body, "more_body": True})
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(LINGER_S):
+                while (await receive()).get("more_body"):
+                    pass
+        await send({"type": "http.response.body", "body": b""})
+
+
+class Faults:
+    """ASGI middleware: names every request; what nobody expected is logged, and told as 500."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request."""
+        if scope["type"] != "http":
+            await self.app(scope, receive, send)
+            return
+        name = secrets.token_hex(8)
+        started = False
+
+        async def named(message: Message) -> None:
+            nonlocal started
+            if message["type"] == "http.response.start":
+                started = True
+                message["headers"] = [
+                    *message["headers"],
+                    (REQUEST_ID.lower().encode(), name.encode()),
+                ]
+            await send(message)
+
+        try:
+            await self.app(scope, receive, named)
+        except Exception as error:
+            log.exception("request %s: %s %s failed", name, scope["method"], ascii(scope["path"]))
+            if started:
+                raise  # The answer has begun: all that can be done is to break it off.
+            await _fault(error, name)(scope, receive, named)
+
+
+def _fault(error: Exception, name: str) -> JSONResponse:
+    if isinstance(error, OSError) and error.errno in FULL:
+        return JSONResponse({"error": "the board has no room left; tell who runs it"}, 507)
+    told = f"this is our fault; tell who runs the board that request {name} failed"
+    return JSONResponse({"error": told}, 500)
+
+
+def _first(errors: Sequence[Any]) -> str:
+    """Return the first of pydantic's errors as a line: where, what, and what was given."""
+    error = errors[0]
+    where = " ".join(map(str, error["loc"])) or "request"
+    told = f"{where}: {error['msg']}"
+    given = error.get("input")
+    return f"{told}; got {_shown(given)}" if isinstance(given, str | int | float) else told
+
+
+def _shown(value: object) -> str:
+    text = str(value)
+    return ascii(text if len(text) <= 60 else f"{text[:60]}...")

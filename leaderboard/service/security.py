@@ -1,0 +1,109 @@
+"""Who may do what how often, and what a browser is told to trust."""
+
+import ipaddress
+import math
+import time
+from collections import OrderedDict
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Final
+
+from fastapi.responses import JSONResponse
+from starlette.datastructures import MutableHeaders
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+HEADERS: Final[Mapping[str, str]] = {
+    # Nothing is loaded from anywhere else, nothing inline is run, nobody frames us.
+    "Content-Security-Policy": (
+        "default-src 'self'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'; "
+        "object-src 'none'"
+    ),
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Permissions-Policy": "camera=(), geolocation=(), microphone=()",
+    "Cache-Control": "no-cache",
+}
+"""Headers of every answer that does not set them itself."""
+
+IPV6_NETWORK: Final = 64
+"""Bits of an IPv6 address that are one subscriber's."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rate:
+    """How often somebody may do something."""
+
+    per_second: float
+    """In the long run [1/s]."""
+    burst: int
+    """At once, after a pause."""
+
+
+@dataclass(kw_only=True)
+class RateLimit:
+    """A token bucket for each of many clients; the least recent is forgotten."""
+
+    rate: Rate
+    most: int = 10_000
+    """How many clients are remembered."""
+    clock: Callable[[], float] = time.monotonic
+    _buckets: OrderedDict[str, tuple[float, float]] = field(default_factory=OrderedDict)
+
+    def wait(self, client: str) -> float:
+        """Return 0 and count the request, or how long the client has to wait [s]."""
+        now = self.clock()
+        level, since = self._buckets.pop(client, (float(self.rate.burst), now))
+        level = min(level + (now - since) * self.rate.per_second, self.rate.burst)
+        missing = max(1 - level, 0.0)
+        self._buckets[client] = (level if missing else level - 1, now)
+        if len(self._buckets) > self.most:
+            self._buckets.popitem(last=False)
+        return missing / self.rate.per_second
+
+
+class Guard:
+    """ASGI middleware: the headers of every answer, and the rate of an address."""
+
+    def __init__(self, app: ASGIApp, rate: Rate) -> None:
+        self.app = app
+        self.limit = RateLimit(rate=rate)
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request, or say when it may be repeated."""
+        if scope["type"] != "http":
+            await self.app(scope, receive, send)
+            return
+
+        async def guarded(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                headers = MutableHeaders(scope=message)
+                for name, value in HEADERS.items():
+                    headers.setdefault(name, value)
+            await send(message)
+
+        wait = self.limit.wait(network(scope["client"][0] if scope["client"] else ""))
+        if wait:
+            told = f"too many requests from your address; try again in {seconds(wait)} s"
+            answer = JSONResponse({"error": told}, 429, {"Retry-After": seconds(wait)})
+            await answer(scope, receive, guarded)
+            return
+        await self.app(scope, receive, guarded)
+
+
+def network(address: str) -> str:
+    """Return what addresses of one subscriber have in common."""
+    try:
+        parsed = ipaddress.ip_address(address)
+    except ValueError:
+        return address
+    if parsed.version == 4:
+        return address
+    return str(ipaddress.ip_network((parsed, IPV6_NETWORK), strict=False))
+
+
+def seconds(wait: float) -> str:
+    """Return whole seconds that are not less."""
+    return str(math.ceil(wait))

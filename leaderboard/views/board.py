@@ -1,0 +1,144 @@
+"""The board page: a season's table, and its picture."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from ..board import Board
+from ..event import Event
+from ..season import SeasonInfo
+from ..standing import HumanTeam, Standing
+from .axis import Axis, make_axis
+from .lifts import CellScore, cell_scores
+from .parts import team_rmse
+from .picture import Picture, make_picture
+
+WIDE: Final = (920, 440)
+NARROW: Final = (390, 380)
+"""Sizes of the picture [px], for a screen and for a telephone."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoardRow:
+    """A line of the table."""
+
+    standing: Standing
+    cells: tuple[CellScore, ...]
+    """Its public lifts, cell by cell; nothing if its bundle is gone."""
+    shared: int
+    """How many policies are in its rank group."""
+    leads: bool
+    """Whether it is the first of its group."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoardView:
+    """What the board page shows."""
+
+    season: SeasonInfo
+    seasons: tuple[SeasonInfo, ...]
+    """All of them, the current one first: the tabs."""
+    rows: tuple[BoardRow, ...]
+    out: tuple[Standing, ...]
+    """Withdrawn or removed."""
+    team: HumanTeam | None
+    """The human-human team on the hidden lifts."""
+    axis: Axis
+    events: tuple[Event, ...]
+    """What has been done to the season and its rows, newest first."""
+    names: dict[str, str]
+    """What the submissions of the events are called."""
+    wide: Picture | None
+    narrow: Picture | None
+
+    @property
+    def behaviours(self) -> tuple[str, ...]:
+        """The behaviours of the suite, in its order."""
+        return tuple(dict.fromkeys(cell.behaviour for cell in self._cells))
+
+    @property
+    def subjects(self) -> tuple[str, ...]:
+        """The subjects of the suite, in its order."""
+        return tuple(dict.fromkeys(cell.subject for cell in self._cells))
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """What the page's script filters by: each row's public lifts, cell by cell.
+
+        ``cells`` has behaviour, subject, episodes and the human-human RMSE [mm]; ``rows`` has for
+        each row of the table, in its order, and each cell: RMSE [mm], SPARC, lifts without
+        smoothness, human force [N].
+        """
+        return {
+            "top": self.axis.top,
+            "cells": [[c.behaviour, c.subject, c.episodes, c.team_rmse_mm] for c in self._cells],
+            "rows": [[_numbers(cell) for cell in row.cells] for row in self.rows],
+        }
+
+    @property
+    def _cells(self) -> tuple[CellScore, ...]:
+        return next((row.cells for row in self.rows if row.cells), ())
+
+
+def board_view(board: Board, season: str | None = None) -> BoardView | None:
+    """Return the page of a season, by default of the current one; None if there is no such season.
+
+    The database is asked a fixed number of times, however many rows there are.
+    """
+    seasons = ordered_seasons(board)
+    info = find_season(seasons, season)
+    if info is None:
+        return None
+    standings = board.standings(info.name)
+    ranked = [each for each in standings if each.ranked]
+    sizes: dict[int, int] = {}
+    for each in ranked:
+        sizes[each.group] = sizes.get(each.group, 0) + 1
+    rows = tuple(
+        BoardRow(
+            standing=each,
+            cells=_cells_of(board.bundle(info.name, each.row.submission)),
+            shared=sizes[each.group],
+            leads=i == 0 or ranked[i - 1].group != each.group,
+        )
+        for i, each in enumerate(ranked)
+    )
+    team = board.team(info.name)
+    hidden = [each.row.hidden.rmse_mm for each in ranked]
+    public_team = team_rmse(rows[0].cells) if rows else None
+    pictured = [each.row for each in ranked]
+    return BoardView(
+        season=info,
+        seasons=seasons,
+        rows=rows,
+        out=tuple(each for each in standings if not each.ranked),
+        team=team,
+        axis=make_axis(hidden, () if team is None else (team.rmse_mm.ci95[1],)),
+        events=tuple(reversed(board.events(season=info.name))),
+        names={each.row.submission: each.row.name for each in standings},
+        wide=make_picture(pictured, public_team, width=WIDE[0], height=WIDE[1]),
+        narrow=make_picture(pictured, public_team, width=NARROW[0], height=NARROW[1]),
+    )
+
+
+def ordered_seasons(board: Board) -> tuple[SeasonInfo, ...]:
+    """Return the seasons, the current one first, then the newest."""
+    by_age = sorted(board.seasons(), key=lambda info: info.began_at, reverse=True)
+    return tuple(sorted(by_age, key=lambda info: not info.current))
+
+
+def find_season(seasons: Sequence[SeasonInfo], name: str | None) -> SeasonInfo | None:
+    """Return the season of that name, or the first if no name is given."""
+    return next((info for info in seasons if name in (None, info.name)), None)
+
+
+def _cells_of(bundle: Path | None) -> tuple[CellScore, ...]:
+    return () if bundle is None else cell_scores(bundle)
+
+
+def _numbers(cell: CellScore) -> list[float | None]:
+    def short(value: float | None) -> float | None:
+        return None if value is None else round(value, 4)
+
+    return [short(cell.rmse_mm), short(cell.sparc), cell.sparc_missing, short(cell.human_force_n)]

@@ -1,0 +1,47 @@
+"""The method page: the facts behind every number of a board."""
+
+from dataclasses import dataclass
+
+from ...agents.isolation.ladder import DESCRIPTIONS, VERIFIABLE
+from ...agents.isolation.limits import LIMITS, Limits
+from ...benchmark.metrics import FAILED_FRAME_MM
+from ..board import Board
+from ..season import SeasonInfo
+from ..standing import HumanTeam
+from .board import find_season, ordered_seasons
+
+
+@dataclass(frozen=True, kw_only=True)
+class MethodView:
+    """What the method page shows."""
+
+    season: SeasonInfo
+    seasons: tuple[SeasonInfo, ...]
+    lifts: int | None
+    """Public lifts of an evaluation; as many are hidden. None as long as there is no row."""
+    team: HumanTeam | None
+    failed_frame_mm: float
+    limits: Limits
+    isolation: dict[str, str]
+    """The ways to keep a policy apart, strongest first."""
+    verifiable: frozenset[str]
+    """Those that a verified row needs."""
+
+
+def method_view(board: Board) -> MethodView:
+    """Return the method page, with the numbers of the current season."""
+    seasons = ordered_seasons(board)
+    info = find_season(seasons, None)
+    if info is None:
+        raise ValueError("a board has a season from the moment it is made")
+    standings = board.standings(info.name)
+    return MethodView(
+        season=info,
+        seasons=seasons,
+        lifts=standings[0].row.public.episodes if standings else None,
+        team=board.team(info.name),
+        failed_frame_mm=FAILED_FRAME_MM,
+        limits=LIMITS,
+        isolation=dict(DESCRIPTIONS),
+        verifiable=VERIFIABLE,
+    )

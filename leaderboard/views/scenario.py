@@ -1,0 +1,196 @@
+"""The page of a scenario, one behaviour with one subject: who lifts how, and who is good at it."""
+
+import contextlib
+import functools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from ...agents.errors import InputError
+from ...agents.humans import Subject
+from ...benchmark.comparison.standing import Estimate
+from ...benchmark.lift import Lift
+from ...benchmark.scenario import Scenario
+from ...benchmark.suite import Suite, make_suite
+from ..board import Board
+from ..season import SeasonInfo
+from ..standing import Standing
+from .axis import Axis, make_axis
+from .board import find_season, ordered_seasons
+from .lifts import CellScore, cell_scores
+from .parts import Part, estimate, known
+
+CURVES: Final = 5
+"""Lifts whose intended heights are drawn."""
+
+BEST: Final = 20
+"""Policies that have their interval drawn, from the best; the others have their mean."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Curve:
+    """What a person means to do in one lift."""
+
+    seed: int
+    heights: tuple[float, ...]
+    """Intended height [mm], every 50 ms."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CellRow:
+    """A policy on the lifts of a scenario."""
+
+    standing: Standing
+    score: CellScore
+    rmse_mm: Estimate
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScenarioView:
+    """What the page of a scenario shows."""
+
+    season: SeasonInfo
+    behaviour: str
+    told: str
+    """What the behaviour is, in a line."""
+    subject: Subject
+    curves: tuple[Curve, ...]
+    rows: tuple[CellRow, ...]
+    """Best first."""
+    team_mm: float | None
+    axis: Axis
+
+
+@dataclass(frozen=True, kw_only=True)
+class CellLine:
+    """A scenario among the others."""
+
+    behaviour: str
+    subject: str
+    team_mm: float | None
+    best_mm: float | None
+    """Mean RMSE [mm] of the policy that is best there."""
+    best: Standing | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScenariosView:
+    """What the list of the scenarios shows."""
+
+    season: SeasonInfo
+    behaviours: tuple[str, ...]
+    subjects: tuple[str, ...]
+    told: dict[str, str]
+    """What each behaviour is, in a line."""
+    cells: dict[tuple[str, str], CellLine]
+    """By behaviour and subject, those that the suite has."""
+
+
+def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | None:
+    """Return the list of a season's scenarios.
+
+    None if there is no such season, or its suite is not what this colift plays.
+    """
+    info = find_season(ordered_seasons(board), season)
+    suite = None if info is None else _suite(info)
+    if info is None or suite is None:
+        return None
+    scored = _scored(board, info)
+    cells = {}
+    for scenario in suite.scenarios:
+        key = (scenario.behaviour, scenario.subject.name)
+        there = [(score, row) for row, scores in scored if (score := _score(scores, key))]
+        best = min(there, key=lambda each: each[0].rmse_mm, default=None)
+        cells[key] = CellLine(
+            behaviour=key[0],
+            subject=key[1],
+            team_mm=None if best is None else best[0].team_rmse_mm,
+            best_mm=None if best is None else best[0].rmse_mm,
+            best=None if best is None else best[1],
+        )
+    return ScenariosView(
+        season=info,
+        behaviours=tuple(dict.fromkeys(behaviour for behaviour, _ in cells)),
+        subjects=tuple(dict.fromkeys(subject for _, subject in cells)),
+        told={each.behaviour: _told(each) for each in suite.scenarios},
+        cells=cells,
+    )
+
+
+def scenario_view(board: Board, season: str, behaviour: str, subject: str) -> ScenarioView | None:
+    """Return the page of a scenario; None if the season has none of that name."""
+    info = find_season(ordered_seasons(board), season)
+    suite = None if info is None else _suite(info)
+    if info is None or suite is None:
+        return None
+    scenario = next(
+        (s for s in suite.scenarios if (s.behaviour, s.subject.name) == (behaviour, subject)), None
+    )
+    if scenario is None:
+        return None
+    key = (behaviour, subject)
+    scored = [
+        (each, score) for each, cells in _scored(board, info) if (score := _score(cells, key))
+    ]
+    scored.sort(key=lambda each: each[1].rmse_mm)
+    part = Part(behaviour=behaviour, subject=subject)
+    rows = tuple(
+        CellRow(standing=each, score=score, rmse_mm=_estimate(board, each, score, part, i < BEST))
+        for i, (each, score) in enumerate(scored)
+    )
+    team = rows[0].score.team_rmse_mm if rows else None
+    return ScenarioView(
+        season=info,
+        behaviour=behaviour,
+        told=_told(scenario),
+        subject=scenario.subject,
+        curves=_curves(scenario, suite.seeds[:CURVES]),
+        rows=rows,
+        team_mm=team,
+        axis=make_axis([row.rmse_mm for row in rows], () if team is None else (team,)),
+    )
+
+
+def _suite(info: SeasonInfo) -> Suite | None:
+    """Return the season's suite, if it is still what this colift plays."""
+    try:
+        suite = make_suite(info.suite)
+    except InputError:
+        return None
+    return suite if suite.digest == info.suite_digest else None
+
+
+def _scored(board: Board, info: SeasonInfo) -> list[tuple[Standing, tuple[CellScore, ...]]]:
+    """Return the ranked rows that have a bundle, with their cells."""
+    found = []
+    for each in board.standings(info.name):
+        bundle = board.bundle(info.name, each.row.submission)
+        if each.ranked and bundle is not None:
+            found.append((each, cell_scores(bundle)))
+    return found
+
+
+def _score(cells: Sequence[CellScore], key: tuple[str, str]) -> CellScore | None:
+    return next((cell for cell in cells if (cell.behaviour, cell.subject) == key), None)
+
+
+def _estimate(
+    board: Board, standing: Standing, score: CellScore, part: Part, interval: bool
+) -> Estimate:
+    bundle = board.bundle(standing.row.season, standing.row.submission)
+    return estimate(bundle, part) if interval and bundle else known(score.rmse_mm)
+
+
+def _told(scenario: Scenario) -> str:
+    return (type(scenario.human).__doc__ or "").partition("\n")[0].strip()
+
+
+@functools.lru_cache(maxsize=256)
+def _curves(scenario: Scenario, seeds: tuple[int, ...]) -> tuple[Curve, ...]:
+    curves = []
+    with contextlib.closing(Lift(scenario)) as lift:
+        for seed in seeds:
+            lift.reset(seed)
+            heights = tuple(round(1000 * float(height), 1) for height in lift.target[::5])
+            curves.append(Curve(seed=seed, heights=heights))
+    return tuple(curves)

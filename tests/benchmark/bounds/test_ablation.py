@@ -1,0 +1,71 @@
+import dataclasses
+
+import numpy as np
+import pytest
+from colift.agents.policies.anticipation import load_anticipation
+from colift.agents.policies.anticipation_controller import AnticipateParameters
+from colift.agents.policies.senses import Window
+from colift.benchmark.anticipation_experience import Experience, window_inputs
+from colift.benchmark.anticipation_learning import Lesson, learn_anticipation
+from colift.benchmark.bounds.ablation import VARIANTS, ablate, narrowed, variants
+from colift.benchmark.bounds.foreseer import Foreseer
+from colift.benchmark.bounds.held_out import held_out_suite
+from colift.benchmark.catalogue import make_scenario
+from colift.benchmark.suite import Suite
+
+
+def test_narrower_experience_is_what_a_narrower_window_sees():
+    rng = np.random.default_rng(0)
+    human, commands, sags = rng.normal(0.0, 0.1, (3, 40))
+    wide, narrow = Window(), Window(velocities=4, commands=0, sags=1)
+    outcomes = np.zeros((40, 2), np.float32)
+    data = Experience(inputs=window_inputs(human, commands, sags, wide), outcomes=outcomes)
+    wanted = window_inputs(human, commands, sags, narrow)
+    assert narrowed(data, wide, narrow).inputs == pytest.approx(wanted)
+    assert narrowed(data, wide, wide).inputs == pytest.approx(data.inputs)
+
+
+def test_each_variant_lacks_one_part():
+    for variant in VARIANTS:
+        lacks = [bool(variant.window), bool(variant.parameters), variant.first_round]
+        assert sum(lacks) + (variant.hidden == ()) == 1, variant
+        AnticipateParameters(**variant.parameters)
+        dataclasses.replace(Window(), **variant.window)
+    assert len({variant.name for variant in VARIANTS}) == len(VARIANTS)
+
+
+def test_variants_are_learned_from_what_the_whole_was_learned_from():
+    pytest.importorskip("sklearn")
+    first, last = learn_anticipation(lifts=3, rounds=2, first_seed=100_300)
+    whole, *others = variants(first, last)
+    assert whole.model is last.model
+    found = dict(zip((variant.name for variant in VARIANTS), others, strict=True))
+    assert found["the sag as an input"].model.window.sags == 0
+    assert found["the own commands as inputs"].model.window.commands == 0
+    assert found["the second round of learning"].model is first.model
+    assert found["the cost of bends"].parameters.smoothness == 0.0
+    line = next(robot for name, robot in found.items() if "linear" in name)
+    assert len(line.model.perceptron.weights) == 1
+    assert isinstance(last, Lesson)
+
+
+def test_what_a_part_is_worth_is_a_paired_difference():
+    suite = Suite(
+        name="few",
+        scenarios=(make_scenario("smooth", "draw-200003"),),
+        seeds=held_out_suite(1, 3).seeds,
+    )
+    model = load_anticipation()
+    robots = (
+        Foreseer(name="whole", model=model),
+        Foreseer(name="late", model=model, parameters=AnticipateParameters(arm_lag=0.0)),
+        Foreseer(name="rough", model=model, parameters=AnticipateParameters(smoothness=0.0)),
+        Foreseer(name="same", model=model),
+    )
+    whole, late, rough, same = ablate(iter(robots), suite)
+    assert whole.worse_mm is None
+    assert late.worse_mm.mean == pytest.approx(late.rmse_mm - whole.rmse_mm)
+    assert late.worse_mm.mean > 0.0
+    assert rough.rougher.mean == pytest.approx(whole.sparc - rough.sparc)
+    assert rough.rougher.mean > 0.0
+    assert same.worse_mm.mean == same.rougher.mean == 0.0

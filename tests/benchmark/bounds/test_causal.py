@@ -1,0 +1,36 @@
+import numpy as np
+from colift.agents.policies.anticipation import load_anticipation
+from colift.agents.policies.loading import PolicySpec
+from colift.benchmark.bounds import held_out
+from colift.benchmark.bounds.causal import CAUSAL_BOUND, causal_bound
+from colift.benchmark.bounds.play import BOUNDS
+from colift.benchmark.catalogue import make_scenario
+from colift.benchmark.comparison.contest import play_contest
+from colift.benchmark.suite import Suite
+
+
+def seeds(model):
+    first, last = model.provenance["seeds"]
+    return range(first, last + 1)
+
+
+def test_it_learned_from_other_people_than_the_policy_and_than_the_tests():
+    bound, policy = causal_bound().model, load_anticipation()
+    assert seeds(bound)[-1] < held_out.FIRST_SEED
+    assert seeds(policy)[-1] < seeds(bound)[0]
+    assert len(seeds(bound)) > len(seeds(policy))
+    weights = [sum(w.size for w in model.perceptron.weights) for model in (bound, policy)]
+    assert weights[0] > 3 * weights[1]
+
+
+def test_the_bounds_stand_in_the_right_order():
+    """The oracle knows most, then the causal bound; both are kept apart from the policies."""
+    scenarios = tuple(make_scenario(name, "draw-200002") for name in ("jerky", "pause"))
+    suite = Suite(name="few", scenarios=scenarios, seeds=(200_000, 200_001, 200_002))
+    contest = play_contest({"blend": PolicySpec(text="blend")}, suite, bounds=BOUNDS)
+    assert [entry.name for entry in contest.entries] == ["blend"]
+    errors = {entry.name: entry.mean("rmse_mm") for entry in contest.bounds}
+    assert 10 * errors["oracle"] < errors[CAUSAL_BOUND] < 0.6 * contest.entries[0].mean("rmse_mm")
+    jerky = contest.bounds[0].mean("rmse_mm", "jerky")
+    told = [score.rmse_mm for score in contest.bounds[0].scores]
+    assert jerky == np.mean(told[:3])

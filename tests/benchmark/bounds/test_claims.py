@@ -1,0 +1,85 @@
+"""The claims of scores of which the answer is known."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from colift.benchmark.bounds.claims import claims
+from colift.benchmark.comparison.contest import Contest, Entry
+from colift.benchmark.references import Reference
+from colift.benchmark.scores import Scores
+from colift.benchmark.suite import BEHAVIOURS, make_suite
+
+CELLS = tuple(
+    (behaviour, subject) for behaviour in BEHAVIOURS for subject in "AB" for _ in range(4)
+)
+
+
+def entry(name, rmse, sparc=-2.0, force=0.1, cells=CELLS):
+    errors = np.broadcast_to(rmse, len(cells))
+    blank = dict.fromkeys((field.name for field in dataclasses.fields(Scores)), 0.0)
+    scores = tuple(
+        Scores(**{**blank, "rmse_mm": float(e), "sparc": sparc, "human_force_n": force})
+        for e in errors
+    )
+    return Entry(
+        name=name,
+        digest="",
+        cells=cells,
+        scores=scores,
+        failures=(None,) * len(cells),
+        step_ms=None,
+    )
+
+
+def contest(mine, *, bound=4.0, blend=16.0, team=8.0, sparc=-2.0, force=0.1, cells=CELLS):
+    return Contest(
+        suite=make_suite("quick-v1"),
+        entries=(
+            entry("anticipate", mine, sparc, force, cells),
+            entry("blend", blend, -2.3, 0.2, cells),
+            entry("reactive", 20.0, -2.9, 0.3, cells),
+        ),
+        bounds=(entry("causal_bound", bound, cells=cells),),
+        team=Reference(cells=cells, rmse_mm=(team,) * len(cells), sparc=-2.5, human_force_n=0.4),
+    )
+
+
+def told(found):
+    return {claim.text: claim for claim in found}
+
+
+def test_ratios_are_of_the_means_on_each_behaviour():
+    mine = np.where([behaviour == "jerky" for behaviour, _ in CELLS], 9.6, 4.4)
+    found = told(claims(contest(mine)))
+    team = found["RMSE over that of the human-human team, jerky"]
+    assert (team.value, team.holds) == (pytest.approx(1.2), False)
+    assert found["RMSE over that of the human-human team, smooth"].value == pytest.approx(0.55)
+    assert found["RMSE over that of the human-human team, over all"].value == pytest.approx(
+        (3 * 4.4 + 9.6) / 32
+    )
+    bound = found["RMSE over that of the causal bound, pause"]
+    assert (bound.value, bound.holds) == (pytest.approx(1.1), True)
+    assert not found["RMSE over that of the causal bound, jerky"].holds
+    assert found["RMSE over that of blend, smooth"].value == pytest.approx(4.4 / 16)
+    assert "RMSE over that of blend, pause" not in found
+
+
+def test_smoother_and_gentler_are_paired_differences():
+    found = told(claims(contest(4.0, sparc=-2.5, force=0.25)))
+    smooth = found["SPARC minus that of blend, paired"]
+    assert (smooth.value, smooth.holds) == (pytest.approx(-0.2), False)
+    assert found["SPARC minus that of reactive, paired"].holds
+    force = found["rms force at the human's hands minus that with blend [N], paired"]
+    assert (force.value, force.holds) == (pytest.approx(0.05), False)
+
+
+def test_recorded_lifts_are_set_against_blend_alone():
+    cells = tuple(("recorded", subject) for subject in "AB" for _ in range(25))
+    mine = np.full(50, 4.0)
+    mine[:2] = 17.0
+    found = told(claims(contest(mine, cells=cells)))
+    assert found["RMSE over that of blend, recorded"].value == pytest.approx(mine.mean() / 16)
+    wins = found["share of the recorded lifts more level than with blend"]
+    assert (wins.value, wins.holds) == (pytest.approx(0.96), False)
+    assert not any("team" in text or "bound" in text for text in found)

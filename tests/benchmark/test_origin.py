@@ -1,0 +1,23 @@
+"""What results come from: named, compared, and found to differ."""
+
+import pytest
+from colift.agents.errors import InputError
+from colift.benchmark.bundle import fingerprint
+from colift.benchmark.origin import compare, origin, platform
+
+
+def test_an_origin_is_the_platform_and_colift():
+    assert platform(origin()) == fingerprint()
+    assert set(origin()) == {*fingerprint(), "colift"}
+
+
+def test_equal_origins_pass_and_only_what_is_wanted_is_compared():
+    compare(origin(), origin(), "here", "here")
+    compare(origin(), {"python": origin()["python"]}, "here", "there")
+
+
+@pytest.mark.parametrize("found", [{"numpy": "2", "libc": "b"}, {"numpy": "2"}])
+def test_the_first_difference_is_named(found):
+    told = f"libc is {found.get('libc')!r} on worker 3 and 'a' here"
+    with pytest.raises(InputError, match=told):
+        compare(found, {"numpy": "2", "libc": "a"}, "on worker 3", "here")

@@ -1,0 +1,70 @@
+"""What a forger does to a bundle, and what a test asks of its verification."""
+
+import csv
+import hashlib
+import io
+import json
+
+import numpy as np
+from colift.benchmark.bundle import read_bundle
+from colift.benchmark.bundle.arrays import dump_arrays, parse_arrays
+from colift.benchmark.suite import make_suite
+from colift.benchmark.verification import verify
+
+SUITE = make_suite("quick-v1").with_seeds(3, 5)
+
+
+def mend(folder):
+    """Do as a clever forger does: put the files' true hashes into the manifest."""
+
+    def change(manifest):
+        for name in manifest["sha256"]:
+            data = (folder / name).read_bytes()
+            manifest["sha256"][name] = hashlib.sha256(data).hexdigest()
+
+    edit_json(folder, "manifest.json", change)
+
+
+def edit_json(folder, name, change):
+    content = json.loads((folder / name).read_text())
+    change(content)
+    (folder / name).write_text(json.dumps(content, indent=2) + "\n")
+
+
+def edit_rows(folder, change):
+    path = folder / "episodes.csv"
+    rows = list(csv.DictReader(io.StringIO(path.read_bytes().decode(), newline="")))
+    rows = change(rows) or rows
+    text = io.StringIO()
+    writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    path.write_bytes(text.getvalue().encode())
+
+
+def edit_arrays(folder, change):
+    path = folder / "traces.npz"
+    arrays = {name: a.copy() for name, a in parse_arrays(path.read_bytes(), "traces.npz").items()}
+    change(arrays)
+    path.write_bytes(dump_arrays(arrays))
+
+
+def flip(array, index):
+    """Change the last bit of one number."""
+    array.view(np.uint64)[index] ^= 1
+
+
+def refused(folder, **place):
+    """Assert that a bundle is refused for a place, and return what is wrong there."""
+    verdict = verify(folder)
+    assert not verdict.ok
+    for finding in verdict.findings:
+        if all(getattr(finding, name) == value for name, value in place.items()):
+            return finding.message
+    raise AssertionError([str(finding) for finding in verdict.findings])
+
+
+def first_row(folder, place):
+    """Return the row of the arrays with the first step of the episode at a place."""
+    bundle = read_bundle(folder)
+    return sum(len(episode.trace.action) for episode in bundle.episodes[:place])

@@ -1,0 +1,103 @@
+"""A true bundle is verified, and what cannot be known of it is not claimed."""
+
+import dataclasses
+import json
+
+import pytest
+from colift.agents.policies.loading import PolicySpec
+from colift.benchmark.bundle import read_bundle, results, write_bundle
+from colift.benchmark.executors import process_pool
+from colift.benchmark.references import play_references, shipped_references
+from colift.benchmark.runner import run_suite
+from colift.benchmark.suite import make_suite, recorded_suite
+from colift.benchmark.verification import verify
+
+from .forging import SUITE, edit_arrays, edit_json, mend, refused
+
+
+class TestTrue:
+    @pytest.mark.parametrize("name", ["copy", "giving"])
+    def test_a_true_bundle_is_verified_to_the_bit(self, made, name):
+        counted = []
+        verdict = verify(made / name, progress=counted.append)
+        assert verdict.findings == ()
+        assert verdict.ok
+        assert verdict.bit_equal
+        assert verdict.tolerance_mm is None
+        assert not verdict.other_platform
+        assert sum(counted) == SUITE.size
+        assert verdict.results == json.loads((made / name / "results.json").read_text())
+        json.dumps(verdict.plain(), allow_nan=False)
+
+    def test_failures_were_among_them(self, made):
+        assert read_bundle(made / "giving").results["summary"]["failed"] == SUITE.size
+
+    def test_fresh_processes_find_the_same(self, made):
+        with process_pool(2) as pool:
+            verdict = verify(made / "copy", executor=pool)
+        assert verdict.ok
+        assert verdict.plain() == verify(made / "copy").plain()
+
+    def test_a_recorded_run_is_verified_without_the_recordings_file(self, tmp_path):
+        path = tmp_path / "lifts.csv"
+        samples = ((trial, k / 50, 0.3 * min(k, 60 - k) / 30) for trial in "ab" for k in range(61))
+        path.write_text("trial,t_s,z_m\n" + "".join(f"{a},{b},{c}\n" for a, b, c in samples))
+        run = run_suite(PolicySpec(text="copy"), recorded_suite(path).with_timing(0.05, 0.05))
+        write_bundle(tmp_path / "recorded", run, results(run, {}))
+        path.unlink()
+        assert verify(tmp_path / "recorded").ok
+        edited = tmp_path / "recorded" / "recordings.csv"
+        edited.write_text(edited.read_text().replace("0.3", "0.31", 1))
+        mend(tmp_path / "recorded")
+        assert "other episodes" in refused(tmp_path / "recorded", file="results.json")
+
+    def test_a_human_team_is_verified(self, tmp_path):
+        suite = make_suite("quick-v1").with_seeds(0, 1).with_partner("human")
+        from colift.benchmark.references import HumanTeam
+
+        run = run_suite(HumanTeam(), suite)
+        write_bundle(tmp_path / "team", run, results(run, {}))
+        assert verify(tmp_path / "team").ok
+
+    def test_the_policys_own_words_are_not_verified(self, giving):
+        edit_arrays(giving, lambda arrays: arrays["internals/prediction"].fill(7.0))
+        edit_json(giving, "results.json", lambda r: r["policy"].update(name="someone else"))
+        mend(giving)
+        verdict = verify(giving)
+        assert verdict.ok
+        assert "name" in verdict.plain()["unproven"]
+
+
+class TestReferences:
+    def test_shipped_ones_are_compared(self, tmp_path):
+        suite = make_suite("quick-v1")
+        run = run_suite(PolicySpec(text="hold"), suite)
+        folder = tmp_path / "hold"
+        write_bundle(folder, run, results(run, shipped_references(suite)))
+        assert verify(folder).ok
+
+        def better(content):
+            content["summary"]["vs_human"]["mean"] /= 2
+
+        edit_json(folder, "results.json", better)
+        mend(folder)
+        assert "summary.vs_human.mean says" in refused(folder, file="results.json")
+
+    def test_others_are_played_again(self, tmp_path):
+        suite = dataclasses.replace(SUITE, name="one", scenarios=SUITE.scenarios[:1])
+        run, folder = run_suite(PolicySpec(text="copy"), suite), tmp_path / "copy"
+        write_bundle(folder, run, results(run, play_references(suite)))
+        assert verify(folder).ok
+
+        def worse(content):
+            content["references"]["human_human"]["rmse_mm"]["mean"] *= 2
+
+        edit_json(folder, "results.json", worse)
+        mend(folder)
+        message = refused(folder, file="results.json")
+        assert message.startswith("references.human_human.rmse_mm.mean says")
+
+    def test_unknown_ones_are_refused(self, bundle):
+        edit_json(bundle, "results.json", lambda r: r["references"].update(rival={}))
+        mend(bundle)
+        assert refused(bundle, file="results.json") == "there is no reference 'rival'"

@@ -1,0 +1,65 @@
+"""The commands around `anticipate` as a user meets them."""
+
+import json
+
+import pytest
+from colift.agents.policies.anticipation import read_anticipation
+from colift.cli.main import main
+
+
+@pytest.fixture
+def colift(monkeypatch, capsys, tmp_path):
+    """Return what runs the command, and returns exit code, output and errors."""
+
+    def run(*arguments):
+        monkeypatch.chdir(tmp_path)
+        monkeypatch.setattr("sys.argv", ["colift", *arguments])
+        with pytest.raises(SystemExit) as end:
+            main()
+        return end.value.code, *capsys.readouterr()
+
+    return run
+
+
+def test_what_is_learned_can_be_run_and_says_where_it_came_from(colift, tmp_path):
+    pytest.importorskip("sklearn")
+    options = ("--lifts", "3", "--rounds", "1", "--seed", "100500", "--jobs", "1")
+    code, told, errors = colift("learn", "anticipate", *options, "--out", "model.json")
+    assert (code, errors) == (0, "")
+    assert "+100 ms" in told
+    text = (tmp_path / "model.json").read_text()
+    assert read_anticipation(text).provenance["command"] == (
+        "colift learn anticipate --lifts 3 --rounds 1 --seed 100500"
+    )
+    policy = "anticipate,model=model.json"
+    options = ("--suite", "quick-v1", "--seeds", "40:41", "--jobs", "1", "--json")
+    code, told, _ = colift("run", policy, *options)
+    assert code == json.loads(told)["summary"]["failed"] == 0
+
+
+def test_bounds_tell_claims_and_whether_they_hold(colift):
+    code, told, errors = colift("bounds", "--people", "1", "--each", "1", "--jobs", "1")
+    assert code in (0, 1)
+    assert errors == ""
+    for name in ("anticipate", "causal_bound", "oracle", "human-human team", "Claims"):
+        assert name in told
+    assert ("NO" in told) == (code == 1)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("bounds", "--seed", "5"), "seeds of new people start at 200000"),
+        (("bounds", "--people", "0"), "at least 1 person"),
+        (("ablate", "--each", "0"), "at least 1 person"),
+        (("sweep", "--out", "sweep.txt"), "--out must end in .png"),
+        (("learn", "anticipate", "--seed", "5", "--lifts", "1"), "seeds to learn from are 100000"),
+        (("run", "oracle"), "unknown policy 'oracle'"),
+    ],
+)
+def test_what_a_user_gets_wrong_is_told_in_a_line(colift, arguments, told):
+    pytest.importorskip("sklearn")
+    code, _, errors = colift(*arguments)
+    assert code == 2
+    assert told in errors
+    assert errors.count("\n") == 1

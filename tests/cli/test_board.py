@@ -1,0 +1,131 @@
+"""``colift board``, ``token`` and ``worker`` as a user meets them."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+from colift.agents.submissions.new import write_template
+from colift.benchmark.references import Reference
+from colift.cli.board_table import board_table
+from colift.leaderboard.board import Board
+from colift.leaderboard.queue import Queue
+from colift.leaderboard.tokens import Tokens
+from rich.console import Console
+
+from ..leaderboard.rows import add, digest
+
+LONG = "a-policy-with-a-rather-long-name-indeed-so-long-that-it-is-cut"
+
+
+@pytest.fixture
+def board(tmp_path):
+    board = Board.open(tmp_path / "board", "quick-v1")
+    yield board
+    board.close()
+
+
+@pytest.fixture
+def colift(tmp_path):
+    def run(*arguments, columns=100):
+        return subprocess.run(
+            [sys.executable, "-m", "colift.cli", *arguments],
+            capture_output=True,
+            text=True,
+            cwd=tmp_path,
+            env={**os.environ, "COLUMNS": str(columns), "XDG_CACHE_HOME": str(tmp_path / "cache")},
+            timeout=300,
+        )
+
+    return run
+
+
+@pytest.fixture
+def filled(board):
+    """Return a board of three rows, one taken out, and a human-human team between them."""
+    for name, mean in ((LONG, 9.8), ("blend", 16.27), ("cheat", 1.2)):
+        add(board, name, mean)
+    board.withdraw("1", digest("cheat"), "Ada", "it read the [bold]clock[/bold]")
+    cells = (("pause", "S1"),) * 4
+    team = Reference(cells=cells, rmse_mm=(9.9, 10.5, 11.0, 10.8), sparc=-2.79, human_force_n=0.37)
+    board.store.vault("1").keep_team(team)
+    return board
+
+
+def shown(board, width):
+    console = Console(width=width, record=True, file=open(os.devnull, "w"))  # noqa: PTH123, SIM115
+    with console.file:
+        table = board_table(board.season_info(), board.standings(), board.team(), width)
+        console.print(table)
+    return console.export_text().splitlines()
+
+
+@pytest.mark.parametrize("width", [80, 120])
+def test_the_table_fits_and_cuts_only_names(filled, width):
+    lines = shown(filled, width)
+    assert max(map(len, lines)) <= width
+    assert [line for line in lines if "…" in line] == [line for line in lines if LONG[:8] in line]
+    rows = [line.split() for line in lines if " to " in line]
+    assert [row[0] for row in rows] == ["1", "human-human", "2", "out"]
+    assert rows[0][2:6] == ["9.80", "8.80", "to", "10.80"]
+    assert rows[1][2:4] == ["10.55", "9.90"]
+    assert ("0.200" in " ".join(rows[2])) == (width == 120)
+    assert rows[2][-1] == "yes"
+
+
+def test_the_command_shows_what_happened_and_what_waits(filled, colift, tmp_path):
+    write_template(tmp_path / "mine")
+    Queue(filled).enqueue(filled.keep(tmp_path / "mine"), "Ada")
+    done = colift("board", "--board", "board")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "withdrawal of 6368656174636865 by Ada: it read the [bold]clock[/bold]" in done.stdout
+    assert "1 in the queue: mine (queued)" in done.stdout
+
+
+def test_json_is_alone_on_stdout(filled, colift):
+    told = json.loads(colift("board", "--board", "board", "--json").stdout)
+    assert [(each["group"], each["row"]["name"]) for each in told["rows"]] == [
+        (1, LONG),
+        (2, "blend"),
+        (0, "cheat"),
+    ]
+    assert told["human_human"]["rmse_mm"]["mean"] == 10.55
+    assert (told["season"]["name"], told["season"]["revealed"]) == ("1", None)
+
+
+def test_a_token_is_made_listed_and_revoked(board, colift):
+    made = colift("token", "add", "ada", "--board", "board")
+    assert Tokens(board).submitter(made.stdout.strip()) == "ada"
+    assert "ada" in colift("token", "list", "--board", "board").stdout
+    assert "counts no more" in colift("token", "revoke", "ada", "--board", "board").stdout
+    assert Tokens(board).submitter(made.stdout.strip()) is None
+
+
+def test_a_worker_does_what_waits_and_ends(board, colift, tmp_path):
+    write_template(tmp_path / "mine")
+    Queue(board).enqueue(board.keep(tmp_path / "mine"), "Ada")
+    done = colift("worker", "--board", "board", "--once")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split()[0] == "mine"
+    assert done.stdout.split()[-1] == "done"
+    assert board.standings()[0].row.verified
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("board", "--board", "board", "--season", "9"), "no season '9'; it has 1"),
+        (("token", "revoke", "ada", "--board", "board"), "'ada' has no token"),
+        (("worker", "--board", "board", "--jobs", "0"), "--jobs must be at least 1"),
+        (("worker", "--board", "board", "--jobs", "1", "--dask", "tcp://x:1"), "exclude each other"),
+        (("submit", "mine", "--board", "http://127.0.0.1:9"), "needs a token"),
+        (("submit", "mine", "--board", "http://127.0.0.1:9", "--token", "x"), "does not answer"),
+    ],
+)
+def test_what_is_wrong_is_said_in_a_line(board, colift, tmp_path, arguments, words):
+    write_template(tmp_path / "mine")
+    done = colift(*arguments)
+    assert done.returncode == 2
+    assert words in done.stderr
+    assert "Traceback" not in done.stderr

@@ -1,0 +1,259 @@
+"""``colift run`` that is killed, goes on, or runs on a cluster: always the same bundle."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from colift.benchmark.journal import journal_path
+from colift.benchmark.journal.records import records
+from colift.benchmark.origin import ROOT
+from colift.benchmark.scale import loopback_cluster
+from distributed import Client
+
+SLOW = """
+import time
+import numpy as np
+
+class Slow:
+    def reset(self, seed): pass
+    def act(self, observation):
+        time.sleep(0.002)
+        return np.array([observation[0] - observation[3]])
+"""
+
+DYING = """
+import os
+from pathlib import Path
+from colift.agents.policies.copy import Copy
+
+class Dying(Copy):
+    def act(self, observation):
+        once = Path({once!r})
+        if observation[0] > 0.05 and not once.exists():
+            once.touch()
+            os.kill(os.getpid(), 9)
+        return super().act(observation)
+"""
+
+WITHOUT_DASK = """
+import sys
+sys.modules["distributed"] = None
+from colift.cli.main import main
+main()
+"""
+
+
+def begin(*arguments, start=("-m", "colift.cli"), **environment):
+    """Start the command, in a group of processes of its own."""
+    return subprocess.Popen(
+        [sys.executable, *start, "run", *map(str, arguments)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        env={**os.environ, **environment},
+    )
+
+
+def run(*arguments, **more):
+    """Run the command; return its exit code, and what it said on stderr."""
+    process = begin(*arguments, **more)
+    _, told = process.communicate(timeout=300)
+    return process.returncode, told
+
+
+def wait_for_episodes(bundle, count, process):
+    """Wait until so many episodes of a run are in its journal."""
+    path, end = journal_path(bundle), time.monotonic() + 240
+    while not path.exists() or len(list(records(path.read_bytes()))) <= count:
+        assert process.poll() is None
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+def timeless(bundle):
+    """Return a bundle's content without the policy's times, and their hash."""
+    files = {path.name: path.read_bytes() for path in bundle.iterdir()}
+    results, manifest = (
+        json.loads(files.pop("results.json")),
+        json.loads(files.pop("manifest.json")),
+    )
+    for name in ("step_ms", "real_time"):
+        del results["summary"][name]
+    del manifest["sha256"]["results.json"]
+    return files, results, manifest
+
+
+@pytest.fixture(scope="module")
+def slow(tmp_path_factory):
+    path = tmp_path_factory.mktemp("policy") / "slow.py"
+    path.write_text(SLOW)
+    return f"{path}:Slow"
+
+
+@pytest.fixture(scope="module")
+def whole(slow, tmp_path_factory):
+    """The bundle of a run that nothing disturbs, in one process."""
+    bundle = tmp_path_factory.mktemp("whole") / "bundle"
+    assert run(slow, "--suite", "quick-v1", "--jobs", 1, "--out", bundle) == (0, "")
+    return timeless(bundle)
+
+
+@pytest.fixture(scope="module")
+def killed(slow, tmp_path_factory):
+    """The journal of a run with two workers that was killed in the middle."""
+    bundle = tmp_path_factory.mktemp("killed") / "bundle"
+    process = begin(slow, "--suite", "quick-v1", "--jobs", 2, "--out", bundle)
+    wait_for_episodes(bundle, 1, process)
+    process.kill()
+    process.communicate()
+    assert process.returncode == -signal.SIGKILL
+    assert not bundle.exists()
+    return journal_path(bundle)
+
+
+@pytest.fixture
+def interrupted(killed, tmp_path):
+    """A bundle whose run was killed in the middle."""
+    shutil.copy(killed, journal_path(tmp_path / "bundle"))
+    return tmp_path / "bundle"
+
+
+@pytest.mark.parametrize("torn", [0, 10])
+def test_a_killed_run_goes_on_to_the_same_bundle(slow, whole, interrupted, torn):
+    path = journal_path(interrupted)
+    os.truncate(path, path.stat().st_size - torn)
+    assert 1 < len(list(records(path.read_bytes()))) < 13
+    told = run(slow, "--suite", "quick-v1", "--jobs", 2, "--out", interrupted, "--resume")
+    assert told == (0, "")
+    assert timeless(interrupted) == whole
+    assert not path.exists()
+
+
+@pytest.mark.parametrize(
+    ("policy", "options", "difference"),
+    [
+        ("copy", (), "policy 'Slow', this one has 'copy'"),
+        (None, ("--seeds", "0:2"), "suite 'quick-v1', this one has 'quick-v1[0:2]'"),
+        (None, ("--latency", "0.05"), "this one has 'quick-v1 (latency 0.05 s)'"),
+        (None, ("--isolation", "none"), "', this one has 'none'"),
+    ],
+)
+def test_another_run_does_not_go_on(slow, interrupted, policy, options, difference):
+    before = journal_path(interrupted).read_bytes()
+    suite = ("--suite", "quick-v1", *options)
+    code, told = run(policy or slow, *suite, "--out", interrupted, "--resume")
+    assert code == 2
+    assert "--resume: the interrupted run had " in told
+    assert difference in told
+    assert told.count("\n") == 1
+    assert journal_path(interrupted).read_bytes() == before
+
+
+def test_another_version_does_not_go_on(slow, interrupted, tmp_path):
+    for path in ROOT.iterdir():
+        if (path / "py.typed").exists() and path.name != "agents":
+            (tmp_path / "colift").mkdir(exist_ok=True)
+            (tmp_path / "colift" / path.name).symlink_to(path)
+    shutil.copytree(ROOT / "agents", tmp_path / "colift" / "agents")
+    with (tmp_path / "colift" / "agents" / "policies" / "hold.py").open("a") as file:
+        file.write("# another version\n")
+    options = ("--suite", "quick-v1", "--out", interrupted, "--resume")
+    code, told = run(slow, *options, PYTHONPATH=str(tmp_path))
+    assert code == 2
+    assert "the interrupted run had colift '" in told
+
+
+def test_an_interrupted_run_is_not_begun_anew(slow, interrupted):
+    code, told = run(slow, "--suite", "quick-v1", "--out", interrupted)
+    assert code == 2
+    assert "episodes of an interrupted run: go on with it by --resume" in told
+
+
+def test_ctrl_c_in_the_references_keeps_the_run(tmp_path):
+    bundle = tmp_path / "bundle"
+    options = ("copy", "--suite", "quick-v1", "--seeds", "0:2", "--jobs", 1, "--out", bundle)
+    process = begin(*options)
+    wait_for_episodes(bundle, 8, process)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGINT)
+    _, told = process.communicate(timeout=300)
+    assert process.returncode == 1
+    assert told.startswith("interrupted before the references were played")
+    assert "--resume" in told
+    assert json.loads((bundle / "results.json").read_text())["complete"]
+    assert run(*options, "--resume") == (0, "")
+    assert set(json.loads((bundle / "results.json").read_text())["references"]) == {
+        "human_human",
+        "hold",
+        "copy",
+    }
+
+
+def test_a_cluster_gives_the_same_bundle(slow, whole, dask_address, tmp_path):
+    bundle = tmp_path / "bundle"
+    options = ("--suite", "quick-v1", "--dask", dask_address, "--out", bundle)
+    assert run(slow, *options) == (0, "")
+    assert timeless(bundle) == whole
+
+
+@pytest.mark.parametrize("where", ["pool", "cluster"])
+def test_a_worker_that_dies_is_said_and_not_charged(where, tmp_path, request):
+    path = tmp_path / "dying.py"
+    path.write_text(DYING.format(once=str(tmp_path / "once")))
+    options = ["--suite", "quick-v1", "--isolation", "none", "--out", tmp_path / "bundle"]
+    if where == "pool":
+        options += ["--jobs", 2]
+    else:
+        options += ["--dask", request.getfixturevalue("dask_address")]
+    code, told = run(f"{path}:Dying", *options)
+    assert (code, told.count("\n")) == (0, 1)
+    assert "played again because a worker died" in told
+    results = json.loads((tmp_path / "bundle" / "results.json").read_text())
+    assert results["evaluator_faults"] >= 1
+    assert results["summary"]["failed"] == 0
+
+
+def test_a_run_whose_scheduler_dies_goes_on_elsewhere(slow, whole, tmp_path):
+    bundle = tmp_path / "bundle"
+    options = (slow, "--suite", "quick-v1", "--out", bundle)
+    with loopback_cluster(1) as address:
+        with Client(address, set_as_default=False) as client:
+            pid = client.run_on_scheduler(os.getpid)
+        process = begin(*options, "--dask", address)
+        wait_for_episodes(bundle, 1, process)
+        os.kill(pid, signal.SIGKILL)
+        _, told = process.communicate(timeout=300)
+    assert process.returncode == 1
+    assert told.startswith("error: ")
+    assert f"lost the Dask scheduler {address}" in told
+    assert told.endswith("go on by the same command with --resume\n")
+    assert told.count("\n") == 1
+    assert run(*options, "--resume") == (0, "")
+    assert timeless(bundle) == whole
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--resume",), "--resume needs the --out of the run"),
+        (("--resume", "--out", "new"), "there is no interrupted run of new"),
+        (("--dask", "tcp://127.0.0.1:1", "--jobs", "2"), "--jobs and --dask exclude each other"),
+        (("--dask", "nonsense"), "should be such as tcp://host:8786"),
+    ],
+)
+def test_what_is_wrong_is_said_in_a_line(options, words):
+    code, told = run("copy", "--suite", "quick-v1", *options)
+    assert code == 2
+    assert words in told
+    assert told.count("\n") == 1
+
+
+def test_a_missing_dask_names_the_extra():
+    code, told = run("copy", "--dask", "tcp://127.0.0.1:1", start=("-c", WITHOUT_DASK))
+    assert (code, told) == (2, "error: --dask needs Dask: pip install 'colift[cluster]'\n")

@@ -1,0 +1,123 @@
+"""``colift serve`` as a user meets it: a process, an address, an end."""
+
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import httpx
+import pytest
+from colift.leaderboard.board import Board
+
+
+def parent(process):
+    """Return the id of a process's parent, and whether it is still there."""
+    try:
+        return int(Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[1])
+    except (FileNotFoundError, ProcessLookupError):
+        return None
+
+
+def children(process):
+    everybody = [int(path.name) for path in Path("/proc").glob("[0-9]*")]
+    return [each for each in everybody if parent(each) == process]
+
+
+def until(condition, seconds=60):
+    """Wait for something that must come."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "it has not come"
+        time.sleep(0.05)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    Board.open(tmp_path / "board", "quick-v1").close()
+    return tmp_path / "board"
+
+
+@pytest.fixture
+def serve(folder):
+    """Return what starts the command and waits for what it says."""
+    started = []
+
+    def run(*arguments):
+        process = subprocess.Popen(
+            [sys.executable, "-m", "colift.cli", "serve", "--board", str(folder), *arguments],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        started.append(process)
+        return process, process.stdout.readline()
+
+    yield run
+    for process in started:
+        if process.poll() is None:
+            process.terminate()
+        process.communicate(timeout=60)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_it_tells_its_address_and_ends_with_its_workers(serve, folder, number):
+    process, line = serve("--port", "0", "--workers", "2")
+    url = re.search(r"http://127\.0\.0\.1:\d+", line)[0]
+    assert str(folder) in line
+    assert httpx.get(f"{url}/healthz", timeout=30).json() == {"status": "ok", "season": "1"}
+    until(lambda: len(children(process.pid)) == 2)
+    workers = children(process.pid)
+    process.send_signal(number)
+    _, err = process.communicate(timeout=60)
+    assert process.returncode == 0
+    assert "Traceback" not in err
+    assert [parent(worker) for worker in workers] == [None, None]
+    with pytest.raises(httpx.ConnectError):
+        httpx.get(url)
+
+
+def test_workers_are_started_again_and_do_not_outlive_a_service_that_is_killed(serve):
+    process, _ = serve("--port", "0", "--workers", "1")
+    until(lambda: children(process.pid))
+    (first,) = children(process.pid)
+    os.kill(first, signal.SIGKILL)
+    until(lambda: children(process.pid) not in ([], [first]))
+    (second,) = children(process.pid)
+    process.kill()
+    until(lambda: parent(second) is None)
+
+
+def test_a_port_that_is_taken_is_named(serve):
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        process, line = serve("--port", str(port), "--workers", "0")
+        _, err = process.communicate(timeout=60)
+    assert (process.returncode, line) == (2, "")
+    assert f"cannot listen at 127.0.0.1:{port}: port {port} is taken" in err
+    assert "--port" in err
+
+
+def test_an_address_that_is_not_here_is_named(serve):
+    process, _ = serve("--host", "192.0.2.1", "--workers", "0")
+    _, err = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert err.startswith(
+        "error: cannot listen at 192.0.2.1:8000: this machine has no such address"
+    )
+    assert len(err.splitlines()) == 1
+
+
+def test_without_its_libraries_it_says_how_to_get_them(folder):
+    code = (
+        "import sys; sys.modules['fastapi'] = None\n"
+        f"sys.argv = ['colift', 'serve', '--board', {str(folder)!r}]\n"
+        "from colift.cli.main import main; main()"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2
+    assert "pip install 'colift[board]'" in done.stderr
+    assert "Traceback" not in done.stderr

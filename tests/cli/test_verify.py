@@ -1,0 +1,147 @@
+"""``colift verify`` as a user meets it."""
+
+import dataclasses
+import hashlib
+import json
+import shutil
+
+import pytest
+from colift.agents.policies.loading import PolicySpec
+from colift.benchmark.bundle import results, write_bundle
+from colift.benchmark.runner import run_suite
+from colift.benchmark.scores import SCORING
+from colift.benchmark.suite import make_suite
+from colift.cli.main import main
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """Return the bundle of a true run of two lifts."""
+    suite = make_suite("quick-v1")
+    suite = dataclasses.replace(suite, name="two", scenarios=suite.scenarios[:1], seeds=(3, 4))
+    run = run_suite(PolicySpec(text="copy"), suite)
+    folder = tmp_path_factory.mktemp("made") / "bundle"
+    write_bundle(folder, run, results(run, {}))
+    return folder
+
+
+@pytest.fixture
+def folder(made, tmp_path, monkeypatch):
+    """Return a folder to work in, with a bundle that may be changed."""
+    shutil.copytree(made, tmp_path / "bundle")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def colift(monkeypatch, capsys):
+    """Return what runs the command, and returns exit code, output and errors."""
+
+    def run(*arguments):
+        monkeypatch.setattr("sys.argv", ["colift", *arguments])
+        with pytest.raises(SystemExit) as end:
+            main()
+        return end.value.code, *capsys.readouterr()
+
+    return run
+
+
+def edit(folder, name, change):
+    """Change a JSON file of the bundle, and mend its hash."""
+    path, manifest = folder / "bundle" / name, folder / "bundle" / "manifest.json"
+    content = json.loads(path.read_text())
+    change(content)
+    path.write_text(json.dumps(content))
+    if path != manifest:
+        told = json.loads(manifest.read_text())
+        told["sha256"][name] = hashlib.sha256(path.read_bytes()).hexdigest()
+        manifest.write_text(json.dumps(told))
+
+
+def test_a_true_bundle_is_verified_and_said_to_prove_what_it_does(colift, folder):
+    code, told, errors = colift("verify", "bundle")
+    assert (code, errors) == (0, "")
+    first, score, verdict, proves, unproven = told.splitlines()
+    assert first == "2 episodes of copy on two simulated again: equal to the bit."
+    assert score.startswith("RMSE ")
+    assert verdict == "bundle is verified."
+    assert "not who produced them" in proves
+    assert "name and digest" in unproven
+
+
+def test_json_is_alone_on_stdout(colift, folder):
+    code, told, errors = colift("verify", "bundle", "--json", "--jobs", "1")
+    content = json.loads(told)
+    assert (code, errors) == (0, "")
+    assert (content["verified"], content["bit_equal"], content["findings"]) == (True, True, [])
+
+
+def test_a_refused_bundle_is_told_with_file_lift_and_step(colift, folder):
+    path = folder / "bundle" / "episodes.csv"
+    path.write_text(path.read_text().replace("smooth,S1,,3,", "smooth,S1,,4,", 1))
+    code, told, errors = colift("verify", "bundle")
+    assert (code, told) == (1, "")
+    heading, *findings = errors.splitlines()
+    assert heading == "bundle is refused:"
+    assert "  episodes.csv: its SHA-256 is not the one in manifest.json" in findings
+    assert "  episodes.csv, smooth/S1 seed 3: row 1 is smooth/S1 seed 4 instead" in findings
+
+
+def test_a_refused_bundle_is_no_verified_json(colift, folder):
+    edit(folder, "results.json", lambda r: r["summary"]["rmse_mm"].update(mean=1.0))
+    code, told, errors = colift("verify", "bundle", "--json")
+    content = json.loads(told)
+    assert (code, content["verified"]) == (1, False)
+    (finding,) = content["findings"]
+    assert finding["file"] == "results.json"
+    assert finding["message"].startswith("summary.rmse_mm.mean says 1.0, should be ")
+    assert finding["message"] in errors
+
+
+def test_another_platform_is_shown_and_nothing_of_the_bundle_moves_the_cursor(colift, folder):
+    def move(manifest):
+        manifest["platform"].update({"libc": "musl\x1b[2J 9", "\x1b]0;mine\x07": "x"})
+
+    edit(folder, "manifest.json", move)
+    edit(folder, "results.json", lambda r: r["policy"].update(name="best\x1b[1A\rpolicy"))
+    code, told, _ = colift("verify", "bundle")
+    assert code == 0
+    assert "  libc: musl\\x1b[2J 9 there, " in told
+    assert all(line.isprintable() for line in told.splitlines())
+
+
+def test_scores_of_an_older_version_are_computed_anew_on_demand(colift, folder):
+    edit(folder, "results.json", lambda r: r.update(scoring=SCORING - 1))
+    code, told, errors = colift("verify", "bundle")
+    assert code == 1
+    assert "is verified" not in told
+    assert f"scores of version {SCORING - 1}" in errors
+    assert "--rescore DIR" in errors
+    code, told, errors = colift("verify", "bundle", "--rescore", "new")
+    assert (code, errors) == (0, "")
+    assert told.splitlines()[-1] == "Rescored bundle: new"
+    assert colift("verify", "new")[0] == 0
+
+
+def test_scores_of_a_newer_version_are_for_a_newer_colift(colift, folder):
+    edit(folder, "results.json", lambda r: r.update(scoring=SCORING + 1))
+    code, _, errors = colift("verify", "bundle")
+    assert code == 1
+    assert "newer colift" in errors
+    assert "--rescore" not in errors
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["nowhere"], "nowhere: no such folder; name that of a result bundle"),
+        (["bundle/results.json"], "no such folder"),
+        (["bundle", "--jobs", "0"], "--jobs must be at least 1, got 0"),
+        (["bundle", "--rescore", "."], "holds other things (bundle)"),
+    ],
+)
+def test_wrong_usage_is_one_clear_line(colift, folder, arguments, told):
+    code, output, errors = colift("verify", *arguments)
+    assert (code, output) == (2, "")
+    assert told in errors
+    assert errors.count("\n") == 1

@@ -1,0 +1,102 @@
+"""Boards with rows of real runs, played on quick-v1."""
+
+import dataclasses
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+from colift.agents.policies.loading import PolicySpec
+from colift.benchmark.bundle import results, write_bundle
+from colift.benchmark.hidden import commitment
+from colift.benchmark.references import Reference, shipped_references
+from colift.benchmark.runner import run_suite
+from colift.benchmark.suite import make_suite
+from colift.leaderboard.adoption import Adopted, Practice
+from colift.leaderboard.entry import Entry
+from colift.leaderboard.evaluation import play_team
+from colift.leaderboard.row import Row
+from colift.leaderboard.scoring import gap, hidden_scores, public_scores
+from colift.leaderboard.season import Season, SeasonInfo
+
+SECRET = bytes(range(32))
+BEGAN = datetime(2026, 11, 20, 9, tzinfo=UTC)
+POLICIES = {
+    "copy": ("copy", "Follows the human's end as it was seen last."),
+    "blend": ("blend", "The paper's method."),
+    "hold": ("hold", "Never moves."),
+    "<b>sly</b>": ("proportional", "<script>document.title = 'stolen'</script>"),
+}
+"""The name, what it plays, and its description."""
+
+
+def practice(folder: Path, season: str, names: tuple[str, ...] = tuple(POLICIES)) -> Practice:
+    """Play some policies, and return them as a season that a board can take over."""
+    played = Season(name=season, suite=make_suite("quick-v1"), secret=SECRET)
+    team = play_team(played)
+    info = SeasonInfo(
+        name=season,
+        suite=played.suite.name,
+        suite_digest=played.suite.digest,
+        commitment=commitment(SECRET),
+        began_at=BEGAN,
+        current=True,
+        revealed=SECRET.hex(),
+    )
+    adopted = [_adopted(folder, played, team, name, i) for i, name in enumerate(names)]
+    return Practice(info=info, entries=adopted, team=team)
+
+
+def renamed(season: Practice, name: str, began_at: datetime) -> Practice:
+    """Return the same rows as another season."""
+    info = dataclasses.replace(season.info, name=name, began_at=began_at)
+    entries = [
+        dataclasses.replace(
+            each,
+            entry=dataclasses.replace(
+                each.entry, season=name, row=dataclasses.replace(each.entry.row, season=name)
+            ),
+        )
+        for each in season.entries
+    ]
+    return dataclasses.replace(season, info=info, entries=entries)
+
+
+def digest(name: str) -> str:
+    return (name.encode().hex() * 64)[:64]
+
+
+def _adopted(folder: Path, season: Season, team: Reference, name: str, number: int) -> Adopted:
+    text, description = POLICIES[name]
+    policy, bundle = PolicySpec(text=text), folder / str(number)
+    public = run_suite(policy, season.suite)
+    hidden = run_suite(policy, season.hidden, key=season.policy_key)
+    content = results(public, shipped_references(season.suite))
+    write_bundle(bundle, public, content)
+    row = Row(
+        season=season.name,
+        commitment=season.commitment,
+        suite=season.suite.name,
+        suite_digest=season.suite.digest,
+        name=name,
+        authors=("Ada Lovelace",) if number % 2 else ("Grace Hopper", "Ada Lovelace"),
+        description=description,
+        link="https://example.org/lift",
+        submission=digest(name),
+        public=public_scores(content),
+        hidden=hidden_scores(hidden, team),
+        gap_mm=gap(hidden, public),
+        isolation="bubblewrap" if name != "hold" else "limits",
+        verified=name != "hold",
+        scoring=1,
+        versions={"colift": "0.1.0"},
+    )
+    entry = Entry(
+        season=season.name,
+        submission=row.submission,
+        name=name,
+        submitter="ada",
+        at=BEGAN + timedelta(hours=number),
+        row=row,
+        refusal=None,
+    )
+    errors = tuple(episode.scores.rmse_mm for episode in hidden.episodes)
+    return Adopted(entry=entry, hidden_rmse_mm=errors, bundle=bundle)

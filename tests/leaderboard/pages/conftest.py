@@ -1,0 +1,112 @@
+"""A board of real rows, its service, its site, and a browser that looks at them."""
+
+import re
+import socket
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from datetime import timedelta
+from pathlib import Path
+
+import pytest
+from colift.leaderboard.adoption import Practice
+from colift.leaderboard.board import Board
+from colift.leaderboard.pages.site import write_site
+from colift.leaderboard.service.app import create_app
+from colift.leaderboard.service.server import make_server
+from playwright.sync_api import Browser, Page
+
+from .boards import BEGAN, digest, practice, renamed
+from .browser import browser
+
+
+@contextmanager
+def running(folder: Path) -> Iterator[str]:
+    """Serve a board from a thread of this process; yield its URL."""
+    listener = socket.create_server(("127.0.0.1", 0))
+    server = make_server(create_app(folder))
+    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
+    thread.start()
+    try:
+        yield "http://{}:{}".format(*listener.getsockname())
+    finally:
+        server.should_exit = True
+        thread.join()
+        listener.close()
+
+
+@pytest.fixture(scope="session")
+def played(tmp_path_factory: pytest.TempPathFactory) -> Practice:
+    return practice(tmp_path_factory.mktemp("played"), "2026")
+
+
+@pytest.fixture(scope="session")
+def folder(played: Practice, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A board with a frozen and a current season, a withdrawal and a rescore."""
+    place = tmp_path_factory.mktemp("pages") / "board"
+    board = Board.open(place, "quick-v1")
+    board.adopt(renamed(played, "2025", BEGAN - timedelta(days=300)))
+    board.adopt(played)
+    board.withdraw("2025", digest("hold"), "Ada", "it <i>never</i> moved")
+    board.close()
+    return place
+
+
+@pytest.fixture(scope="session")
+def url(folder: Path) -> Iterator[str]:
+    with running(folder) as address:
+        yield address
+
+
+@pytest.fixture(scope="session")
+def site(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> str:
+    """The address of the pages as files."""
+    place = tmp_path_factory.mktemp("site") / "site"
+    board = Board.open(folder)
+    write_site(board, place)
+    board.close()
+    return place.as_uri()
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Browser]:
+    with browser() as opened:
+        yield opened
+
+
+@pytest.fixture
+def page(chromium: Browser) -> Iterator[Page]:
+    """A page that fails the test by an error of its scripts, or a request to another host."""
+    wrong: list[str] = []
+    context = chromium.new_context(viewport={"width": 1280, "height": 900})
+    opened = context.new_page()
+    opened.set_default_timeout(10_000)
+    opened.on("pageerror", lambda error: wrong.append(str(error)))
+    opened.on("console", lambda told: wrong.append(told.text) if _bad(told) else None)
+    opened.on("request", lambda asked: wrong.append(asked.url) if _abroad(asked.url) else None)
+    yield opened
+    context.close()
+    assert wrong == []
+
+
+def _bad(told) -> bool:
+    # That an upload was refused is shown on the page; the browser writes it down, too.
+    return told.type == "error" and "the server responded with a status of 4" not in told.text
+
+
+def _abroad(url: str) -> bool:
+    return re.match(r"(http://127\.0\.0\.1:\d+/|file:|data:|about:|blob:)", url) is None
+
+
+@pytest.fixture(params=["service", "files"])
+def front(request: pytest.FixtureRequest) -> str:
+    """The address of the board's page: of the service, and as a file."""
+    if request.param == "service":
+        return str(request.getfixturevalue("url")) + "/"
+    return str(request.getfixturevalue("site")) + "/index.html"
+
+
+@pytest.fixture
+def names() -> Callable[[Page], list[str]]:
+    """Return what reads the policies of the table that are shown, from the top."""
+    return lambda page: page.locator("table.board tbody tr:visible th a").all_text_contents()

@@ -1,0 +1,75 @@
+"""Every page: with axe-core, in light and dark, on a telephone, and without inline code."""
+
+import re
+
+import pytest
+from axe_core_python.sync_playwright import Axe
+from colift.agents.submissions.new import write_template
+from colift.leaderboard.board import Board
+from colift.leaderboard.queue import Queue
+
+from .boards import digest
+
+PAGES = (
+    "/",
+    "/seasons/2025",
+    "/seasons/1",
+    f"/seasons/2026/policies/{digest('copy')}",
+    f"/seasons/2026/policies/{digest('<b>sly</b>')}",
+    f"/seasons/2026/compare?p={digest('copy')}&p={digest('blend')}",
+    "/seasons/2026/compare",
+    "/seasons/2026/scenarios",
+    "/seasons/2026/scenarios/changing_goal/S5",
+    "/method",
+    "/submit",
+    "/job",
+    f"/seasons/2026/policies/{digest('copy')}/replays",
+    "/seasons/9",
+)
+
+
+@pytest.fixture(scope="module")
+def job(folder, tmp_path_factory):
+    """The page of a job that has failed, with a log."""
+    place = tmp_path_factory.mktemp("job") / "mine"
+    write_template(place)
+    board = Board.open(folder)
+    queue = Queue(board)
+    queued = queue.enqueue(board.keep(place), "ada")
+    queue.fail(queue.claim("here"), "it did not start", "line\n" * 100)
+    board.close()
+    return f"/jobs/{queued.id}"
+
+
+@pytest.fixture(params=PAGES)
+def path(request, job):
+    return job if request.param == "/job" else request.param
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing_serious(page, url, path, scheme):
+    page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+    page.goto(url + path)
+    found = Axe().run(page)["violations"]
+    told = [
+        (each["id"], node["html"][:200])
+        for each in found
+        if each["impact"] in ("serious", "critical")
+        for node in each["nodes"][:3]
+    ]
+    assert told == []
+
+
+def test_a_telephone_is_wide_enough(page, url, path):
+    page.set_viewport_size({"width": 390, "height": 800})
+    page.goto(url + path)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def test_nothing_in_a_page_is_inline(page, url, path):
+    """The service's content security policy would leave it out."""
+    text = page.request.get(url + path).text()
+    assert "<style" not in text
+    assert not re.search(r"<[^>]*\s(style|on\w+)=", text)
+    for attributes, _ in re.findall(r"<script([^>]*)>(.*?)</script>", text, re.DOTALL):
+        assert "src=" in attributes or 'type="application/json"' in attributes

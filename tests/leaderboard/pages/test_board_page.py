@@ -1,0 +1,158 @@
+"""The board's page, in a browser: from the service, and from the disk."""
+
+import csv
+import io
+import json
+
+import pytest
+from colift.benchmark.bundle.files import RESULTS
+from colift.leaderboard.board import Board
+from playwright.sync_api import expect
+
+from .boards import digest
+
+
+def numbers(page, column):
+    """Return what stands first in the cells of a column."""
+    cells = page.locator(f"table.board tbody tr:visible td.{column}")
+    shown = cells.evaluate_all("cells => cells.map((cell) => cell.firstChild.textContent)")
+    return [float(text.replace("\N{MINUS SIGN}", "-")) for text in shown]
+
+
+def test_rows_stand_in_the_order_of_the_ranking(page, front, names, folder):
+    page.goto(front)
+    board = Board.open(folder)
+    assert names(page) == [each.row.name for each in board.standings() if each.ranked]
+    groups = [str(each.group) for each in board.standings()]
+    board.close()
+    assert page.locator("tbody td.rank").all_text_contents() == groups
+    assert numbers(page, "rmse") == sorted(numbers(page, "rmse"))
+    assert page.get_by_text("not verified").count() == 1  # hold: it was not isolated.
+
+
+@pytest.mark.parametrize("column", ["rmse", "ratio", "force", "step", "gap"])
+def test_a_click_sorts_by_a_column_and_another_one_the_other_way(page, front, column):
+    page.goto(front)
+    button = page.locator(f"button[data-sort={column}]")
+    button.click()
+    assert numbers(page, column) == sorted(numbers(page, column))
+    expect(button.locator("xpath=..")).to_have_attribute("aria-sort", "ascending")
+    button.click()
+    assert numbers(page, column) == sorted(numbers(page, column), reverse=True)
+    expect(button.locator("xpath=..")).to_have_attribute("aria-sort", "descending")
+    assert page.url.endswith(f"#sort=-{column}")
+
+
+def test_who_has_no_smoothness_is_last_either_way(page, front, names):
+    page.goto(front)
+    for _ in range(2):
+        page.locator("button[data-sort=sparc]").click()
+        assert names(page)[-1] == "hold"
+
+
+def test_a_filter_shows_the_means_of_the_public_lifts_of_that_part(page, front, played):
+    page.goto(front)
+    page.get_by_label("Behaviour").select_option("jerky")
+    for each in played.entries:
+        groups = json.loads((each.bundle / RESULTS).read_text())["groups"]
+        group = next(group for group in groups if group["behaviour"] == "jerky")
+        row = page.locator("tbody tr").filter(has=page.get_by_label(f"Compare {each.entry.name}"))
+        rmse = group["rmse_mm"]["mean"]
+        assert row.locator(".rmse").text_content() == f"{rmse:.1f}"
+        ratio = rmse / group["human_human_rmse_mm"]["mean"]
+        assert row.locator(".ratio").text_content() == f"{ratio:.2f}"
+    expect(page.locator("#told")).to_contain_text("public lifts of jerky")
+    before = page.locator("tbody .dot").first.get_attribute("cx")
+    page.get_by_label("Behaviour").select_option("")
+    assert page.locator("tbody .dot").first.get_attribute("cx") != before
+    expect(page.locator("#told")).to_have_text("4 policies, scored on hidden lifts.")
+
+
+def test_the_line_of_two_people_goes_where_they_are_on_the_part(page, front):
+    page.goto(front)
+    line = page.locator("tbody line.team").first
+    whole = float(line.get_attribute("x1").rstrip("%"))
+    page.get_by_label("Subject").select_option("S3")  # jerky: two people are no good at it either.
+    assert float(line.get_attribute("x1").rstrip("%")) > 1.3 * whole
+
+
+def test_a_part_that_the_suite_does_not_have_shows_no_numbers(page, front):
+    page.goto(front)
+    page.get_by_label("Behaviour").select_option("smooth")
+    page.get_by_label("Subject").select_option("S3")
+    assert set(page.locator("tbody .rmse").all_text_contents()) == {"–"}
+    expect(page.locator("#told")).to_contain_text("The suite has no such lifts.")
+
+
+def test_search_finds_policies_and_authors(page, front, names):
+    page.goto(front)
+    page.get_by_label("Search").fill("GRACE co")
+    assert names(page) == ["copy"]
+    expect(page.locator("#told")).to_contain_text("1 of 4 policies")
+
+
+def test_the_state_is_in_the_address(page, front, names):
+    page.goto(front)
+    page.get_by_label("Behaviour").select_option("pause")
+    page.get_by_label("Search").fill("ada")
+    page.locator("button[data-sort=force]").click()
+    shown, address = names(page), page.url
+    rmse = page.locator("tbody .rmse").all_text_contents()
+    page.goto("about:blank")
+    page.goto(address)
+    assert names(page) == shown
+    assert page.locator("tbody .rmse").all_text_contents() == rmse
+    assert page.get_by_label("Behaviour").input_value() == "pause"
+    page.evaluate("location.hash = '#behaviour=nonsense&sort=nonsense'")
+    expect(page.locator("#told")).to_have_text("4 policies, scored on hidden lifts.")
+
+
+def test_a_keyboard_is_enough(page, front, names):
+    page.goto(front)
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.textContent") == "Skip to the content"
+    page.locator("button[data-sort=name]").focus()
+    page.keyboard.press("Enter")
+    assert names(page) == sorted(names(page), key=str.lower)
+
+
+def test_what_a_submission_says_is_text_and_nothing_else(page, front):
+    page.goto(front)
+    page.get_by_role("link", name="<b>sly</b>").first.click()
+    expect(page.get_by_role("heading", level=1)).to_have_text("<b>sly</b>")
+    expect(page.locator(".lead")).to_contain_text("<script>document.title")
+    assert "stolen" not in page.title()
+
+
+def test_another_season_is_a_frozen_tab_with_what_has_been_done_to_it(page, front, names):
+    page.goto(front)
+    page.get_by_role("link", name="Season 2025").click()
+    assert "hold" not in names(page)
+    expect(page.get_by_text("Season 2025 is over")).to_be_visible()
+    gone = page.get_by_role("region", name="Out of the ranking")
+    expect(gone).to_contain_text("hold")
+    expect(page.get_by_role("region", name="Changes")).to_contain_text("it <i>never</i> moved")
+    gone.get_by_role("link", name="hold").click()
+    expect(page.get_by_text("This row is out of the ranking")).to_contain_text("by Ada")
+
+
+def test_the_table_can_be_had_as_csv_and_json(page, url, folder):
+    page.goto(url)
+    with page.expect_download() as saved:
+        page.get_by_role("link", name="CSV").click()
+    rows = list(csv.DictReader(io.StringIO(saved.value.path().read_text())))
+    assert [row["submission"] for row in rows][0] in {digest("copy"), digest("<b>sly</b>")}
+    with page.expect_download() as saved:
+        page.get_by_role("link", name="JSON").click()
+    table = json.loads(saved.value.path().read_text())
+    assert [each["row"]["submission"] for each in table] == [row["submission"] for row in rows]
+
+
+def test_the_picture_names_the_front(page, front):
+    page.goto(front)
+    told = page.locator("svg.wide").get_attribute("aria-label")
+    assert told.startswith("4 policies")
+    best = told.rpartition(": ")[2].rstrip(".").split(", ")
+    assert page.locator("svg.wide text.best").all_text_contents() == best
+    assert page.locator("svg.wide .dot.best").count() == len(best)
+    assert "hold" not in best

@@ -1,0 +1,196 @@
+"""The player in a real browser, from a file."""
+
+import re
+from pathlib import Path
+
+import pytest
+from colift.leaderboard.replays.chosen import chosen_replays
+from colift.leaderboard.replays.html import replay_page
+
+playwright = pytest.importorskip("playwright.sync_api")
+CHROMIUM = Path("/usr/bin/chromium")
+pytestmark = pytest.mark.skipif(not CHROMIUM.exists(), reason="no Chromium here")
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with playwright.sync_playwright() as started:
+        found = started.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield found
+        found.close()
+
+
+@pytest.fixture(scope="module")
+def file(bundle, tmp_path_factory) -> Path:
+    path = tmp_path_factory.mktemp("pages") / "replay.html"
+    path.write_text(replay_page(chosen_replays(bundle, "blend")), encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def open_page(browser, file):
+    """Return what opens the file; at the end, nothing was asked for and nothing went wrong."""
+    contexts, troubles = [], []
+
+    def opened(place="", motion="reduce", **options):
+        context = browser.new_context(reduced_motion=motion, **options)
+        contexts.append(context)
+        page = context.new_page()
+        page.on("pageerror", lambda error: troubles.append(str(error)))
+        page.on("console", lambda told: troubles.append(told.text))
+        page.on("request", lambda asked: asked.url == file.as_uri() or troubles.append(asked.url))
+        page.goto(file.as_uri() + place)
+        return page
+
+    yield opened
+    for context in contexts:
+        context.close()
+    assert not troubles
+
+
+def slider(page):
+    return page.get_by_role("slider", name="Time in the lift")
+
+
+def wait_until_past(page, time):
+    # The page's policy forbids what Playwright's own wait_for_function does.
+    for _ in range(200):
+        if float(slider(page).input_value()) > time:
+            return
+        page.wait_for_timeout(50)
+    raise AssertionError("it does not play")
+
+
+def difference(page):
+    text = page.locator(".row-error dd").inner_text()
+    return float(text.replace("\N{MINUS SIGN}", "-").removesuffix(" mm"))
+
+
+def bubble(page):
+    return float(page.locator(".bubble.real").get_attribute("cx"))
+
+
+def test_scrubbing_shows_the_lift_at_that_time(open_page, bundle):
+    page = open_page("#pause-median")
+    shown = page.locator(".replay-about").inner_text()
+    seed = int(re.search(r"seed (\d+)", shown)[1])
+    (episode,) = [e for e in bundle.episodes if (e.behaviour, e.seed) == ("pause", seed)]
+    rest = bubble(page)
+    for time in (1.4, 2.0, 4.2):
+        slider(page).fill(str(time))
+        frame = round(100 * time) - 1
+        human, robot = episode.trace.human_end[frame], episode.trace.robot_end[frame]
+        assert difference(page) == pytest.approx(1000 * (robot - human), abs=0.11)
+        told = page.locator("dt", has_text="human's end").locator("xpath=../dd").inner_text()
+        assert int(told.removesuffix(" mm")) == pytest.approx(1000 * human, abs=0.6)
+        # The bubble goes to the higher end; the robot is on the left.
+        if abs(robot - human) > 0.005:
+            assert (bubble(page) < rest) == (robot > human)
+
+
+def test_the_table_is_drawn_as_it_is_inclined(open_page):
+    page = open_page("#pause-median")
+    slider(page).fill("1.4")
+    table = page.locator(".replay-table.real").get_attribute("transform")
+    turn = float(re.search(r"rotate\((.*)\)", table)[1])
+    # The human's end, on the right, is higher: the picture turns against the clock.
+    assert difference(page) < -5
+    sine = difference(page) / 800
+    assert turn == pytest.approx(57.3 * sine, abs=0.02)
+
+
+def test_keys_play_pause_and_go_by_a_step(open_page):
+    page = open_page()
+    now = lambda: float(slider(page).input_value())  # noqa: E731
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowRight")
+    assert now() == pytest.approx(0.2)
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.press("Shift+ArrowRight")
+    assert now() == pytest.approx(1.1)
+    page.keyboard.press(".")
+    assert now() == pytest.approx(1.11)
+    page.keyboard.press(",")
+    page.keyboard.press("Space")
+    wait_until_past(page, 1.3)
+    page.keyboard.press("Space")
+    stood = now()
+    page.wait_for_timeout(120)
+    assert now() == stood
+    page.keyboard.press("End")
+    assert now() == pytest.approx(float(slider(page).get_attribute("max")))
+    page.keyboard.press("Home")
+    assert now() == 0.0
+
+
+def test_the_scrubber_itself_takes_the_arrows(open_page):
+    page = open_page()
+    slider(page).focus()
+    page.keyboard.press("ArrowRight")
+    assert float(slider(page).input_value()) == pytest.approx(0.1)
+    assert "0.10 s" in slider(page).get_attribute("aria-valuetext")
+
+
+def test_space_on_a_button_presses_it_once(open_page):
+    page = open_page()
+    page.get_by_role("button", name="Play").focus()
+    page.keyboard.press("Space")
+    assert page.get_by_role("button", name="Pause").count() == 1
+
+
+def test_it_plays_at_the_chosen_speed_to_the_end(open_page):
+    page = open_page()
+    page.get_by_label("Speed").select_option("4")
+    slider(page).fill(str(float(slider(page).get_attribute("max")) - 0.4))
+    page.get_by_role("button", name="Play").click()
+    page.get_by_role("button", name="Play").wait_for()
+    assert slider(page).input_value() == slider(page).get_attribute("max")
+
+
+def test_it_moves_by_itself_only_where_motion_is_welcome(open_page):
+    still = open_page()
+    moving = open_page(motion="no-preference")
+    wait_until_past(moving, 0.2)
+    assert float(slider(still).input_value()) == 0.0
+
+
+def test_a_drag_on_the_curves_goes_there(open_page):
+    page = open_page()
+    chart = page.locator(".replay-chart > svg").first
+    chart.scroll_into_view_if_needed()
+    box = chart.bounding_box()
+    y = box["y"] + 60
+    page.mouse.move(box["x"] + 200, y)
+    page.mouse.down()
+    first = float(slider(page).input_value())
+    page.mouse.move(box["x"] + 400, y)
+    page.mouse.up()
+    assert float(slider(page).input_value()) > first > 0.5
+    page.mouse.move(box["x"] + 100, y)
+    assert float(slider(page).input_value()) > first
+
+
+def test_the_team_can_be_hidden(open_page):
+    page = open_page()
+    ghost = page.locator(".replay-ghost").first
+    assert ghost.is_visible()
+    page.get_by_label("two people").uncheck()
+    assert not ghost.is_visible()
+    page.keyboard.press("g")
+    assert ghost.is_visible()
+
+
+def test_the_address_says_which_lift_is_shown(open_page, file):
+    page = open_page("#jerky-worst")
+    assert "jerks" in page.locator(".replay-about").inner_text()
+    assert page.get_by_role("button", name="worst").get_attribute("aria-pressed") == "true"
+    page.get_by_label("How the human lifts").select_option("changing_goal")
+    assert "#changing_goal-worst" in page.url
+    page.get_by_role("button", name="best").click()
+    assert "#changing_goal-best" in page.url
+
+
+@pytest.mark.parametrize("width", [360, 1280])
+def test_nothing_is_wider_than_the_screen(open_page, width):
+    page = open_page(viewport={"width": width, "height": 800})
+    assert page.evaluate("document.documentElement.scrollWidth") <= width

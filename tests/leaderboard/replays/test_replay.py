@@ -1,0 +1,123 @@
+import dataclasses
+import itertools
+import json
+import math
+
+import numpy as np
+import pytest
+from colift.agents.policies.loading import PolicySpec
+from colift.benchmark.catalogue import make_scenario
+from colift.benchmark.lift import Lift
+from colift.benchmark.references import human_team_run
+from colift.benchmark.suite import make_suite
+from colift.benchmark.tasks import play
+from colift.benchmark.trace import Trace
+from colift.leaderboard.replays.ghost import play_ghost
+from colift.leaderboard.replays.replay import changes, commands, replay
+
+SCENARIO = make_scenario("pause", "S2")
+
+
+@pytest.fixture(scope="module")
+def episode():
+    return next(play(PolicySpec(text="blend"), SCENARIO, (3,)))
+
+
+@pytest.fixture(scope="module")
+def ghost():
+    return play_ghost(SCENARIO, 3)
+
+
+@pytest.fixture(scope="module")
+def made(episode, ghost):
+    return replay(episode, SCENARIO, ghost, policy="blend")
+
+
+def heights(series):
+    return 1e-4 * np.array(list(itertools.accumulate(series)))
+
+
+def test_heights_are_the_trace_to_a_twentieth_of_a_millimetre(made, episode):
+    for name, series in (
+        ("human", episode.trace.human_end),
+        ("robot", episode.trace.robot_end),
+        ("target", episode.trace.target),
+    ):
+        assert np.abs(heights(made[name]) - series).max() <= 0.5e-4 + 1e-12
+
+
+def test_the_error_follows_from_the_drawn_heights(made, episode):
+    drawn = 1000 * (heights(made["human"]) - heights(made["robot"]))
+    assert np.sqrt(np.mean(drawn**2)) == pytest.approx(episode.scores.rmse_mm, abs=0.05)
+    assert made["scores"]["rmse_mm"] == round(episode.scores.rmse_mm, 4)
+
+
+def test_commands_are_those_of_the_episode():
+    with_wild_actions = [0.03, 0.5, -9.0, 0.02, *[0.04] * 12, -0.01]
+    lift = Lift(SCENARIO)
+    lift.reset(0)
+    seen = []
+    for action in with_wild_actions:
+        lift.step(np.zeros(10), np.array([action]))
+        seen.append(lift.command)
+    lift.close()
+    assert commands(with_wild_actions, SCENARIO.control_period) == pytest.approx(seen, abs=1e-12)
+
+
+def test_it_says_what_the_policy_said(made, episode):
+    said = episode.trace.internals
+    assert np.allclose(1e-4 * np.array(made["prediction"]), said["prediction"], atol=0.5e-4)
+    assert np.allclose(1e-3 * np.array(made["confidence"]), said["confidence"], atol=0.5e-3)
+    assert len(made["command"]) == len(made["confidence"]) == len(episode.trace.action)
+
+
+def test_a_policy_that_says_nothing_or_nonsense_is_replayed(episode, ghost):
+    steps = len(episode.trace.action)
+    strange = np.full(steps, np.nan)
+    strange[1], strange[2] = 1e300, -np.inf
+    internals = {"prediction": strange, "confidence": np.full(steps, np.nan)}
+    trace = dataclasses.replace(episode.trace, internals=internals)
+    made = replay(dataclasses.replace(episode, trace=trace), SCENARIO, ghost, policy="odd")
+    assert made["prediction"][:4] == [None, 2**15 - 1, None, None]
+    assert made["confidence"] is made["role"] is None
+    json.dumps(made, allow_nan=False)
+
+
+def test_the_ghost_is_the_human_team_in_the_same_episode(made, episode, ghost):
+    suite = dataclasses.replace(make_suite("quick-v1"), scenarios=(SCENARIO,), seeds=(3,))
+    (team,) = human_team_run(suite).episodes
+    assert ghost.episode.trace.digest() == team.trace.digest()
+    assert np.array_equal(ghost.episode.trace.target, episode.trace.target)
+    assert made["ghost"]["rmse_mm"] == round(team.scores.rmse_mm, 4)
+    assert heights(made["ghost"]["robot"]) == pytest.approx(team.trace.robot_end, abs=0.51e-4)
+
+
+def test_events_say_when_the_human_pauses(made, episode):
+    events = dict(made["events"])
+    still = slice(events["pause"], events["resume"])
+    assert np.ptp(episode.trace.target[still]) == 0.0
+    assert np.ptp(episode.trace.target[: events["pause"]]) > 0.05
+
+
+def test_a_lift_that_failed_before_it_began_has_no_heights(episode, ghost):
+    empty = np.zeros(0)
+    steps = np.zeros((0, 1))
+    trace = Trace(
+        **dict.fromkeys(set(Trace.series()) - {"action", "human_action"}, empty),
+        action=steps,
+        human_action=np.zeros((0, 10)),
+        state=np.zeros((0, 16), np.uint8),
+    )
+    scores = dataclasses.replace(episode.scores, rmse_mm=250.0, sparc=math.nan)
+    failed = dataclasses.replace(
+        episode, trace=trace, scores=scores, failure="start: \x1b[31m</script>\n!"
+    )
+    made = replay(failed, SCENARIO, ghost, policy="bad")
+    assert (made["human"], made["command"], made["scores"]["sparc"]) == ([], [], None)
+    assert made["failure"].isprintable()
+    assert made["horizon"] == len(ghost.episode.trace.human_end)
+
+
+def test_changes_do_not_drift():
+    series = np.cumsum(np.full(5000, 0.33e-4))
+    assert np.abs(heights(changes(series)) - series).max() <= 0.5e-4 + 1e-9

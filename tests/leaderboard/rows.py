@@ -1,0 +1,88 @@
+"""Entries and rows with made-up numbers, for tests of what is done with them."""
+
+import dataclasses
+
+import numpy as np
+from colift.benchmark.comparison.standing import Estimate
+from colift.leaderboard.entry import Entry
+from colift.leaderboard.row import HiddenScores, PublicScores, Row
+
+
+def digest(name):
+    return (name.encode().hex() * 64)[:64]
+
+
+def make_row(name="mine", mean=10.0, season="1"):
+    estimate = Estimate(mean=mean, ci95=(mean - 1.0, mean + 1.0))
+    ratio = Estimate(mean=mean / 10, ci95=(mean / 10 - 0.1, mean / 10 + 0.1))
+    public = PublicScores(
+        episodes=12,
+        failed=0,
+        rmse_mm=estimate,
+        vs_human=ratio,
+        sparc=-1.9,
+        sparc_missing=0,
+        human_force_n=0.3,
+        step_ms_p50=0.2,
+        step_ms_p99=0.5,
+        real_time=True,
+    )
+    hidden = HiddenScores(
+        episodes=12,
+        failed=0,
+        failures={},
+        rmse_mm=estimate,
+        vs_human=ratio,
+        better_than_human=0.5,
+    )
+    return Row(
+        season=season,
+        commitment="c" * 64,
+        suite="quick-v1",
+        suite_digest="s" * 16,
+        name=name,
+        authors=("Ada Lovelace", "Grace Höpper"),
+        description="Lifts.",
+        link="",
+        submission=digest(name),
+        public=public,
+        hidden=hidden,
+        gap_mm=Estimate(mean=0.1, ci95=(-0.5, 0.7)),
+        isolation="bubblewrap",
+        verified=True,
+        scoring=1,
+        versions={"colift": "0.1.0"},
+    )
+
+
+def make_entry(board, name="mine", mean=10.0, season="1", refusal=None):
+    row = None if refusal else make_row(name, mean, season)
+    return Entry(
+        season=season,
+        submission=digest(name),
+        name=name,
+        submitter="Ada",
+        at=board.clock(),
+        row=row,
+        refusal=refusal,
+    )
+
+
+def make_errors(mean, episodes=12):
+    """Return the RMSE of hidden episodes: the same ups and downs for everybody, as on a suite."""
+    return tuple(mean + np.random.default_rng(0).normal(0.0, 0.3, episodes))
+
+
+def add(board, name, mean, season="1", episodes=12):
+    """Put a row on a board, as the queue does."""
+    from colift.leaderboard.database.recording import record_entry
+
+    entry = make_entry(board, name, mean, season)
+    with board.database.writing() as connection:
+        record_entry(connection, entry, make_errors(mean, episodes))
+    return entry
+
+
+def rescored(row, mean):
+    estimate = Estimate(mean=mean, ci95=(mean - 1.0, mean + 1.0))
+    return dataclasses.replace(row, hidden=dataclasses.replace(row.hidden, rmse_mm=estimate))

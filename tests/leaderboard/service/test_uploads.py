@@ -1,0 +1,249 @@
+"""Uploads by strangers: who may, what is refused, and that nothing of it is left."""
+
+import io
+import os
+import select
+import socket
+import stat
+import time
+import zipfile
+
+import httpx
+import pytest
+from colift.leaderboard.queue import Queue
+from colift.leaderboard.service import uploads
+from colift.leaderboard.service.uploads import BODY, PREFIX, sweep
+from colift.leaderboard.tokens import Tokens
+
+SUBMIT = "/api/v1/submissions"
+MANY = 2**30
+
+
+def packed(*entries):
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in entries:
+            archive.writestr(name, content)
+    return file.getvalue()
+
+
+def left_over(folder):
+    return list((folder / "submissions").glob(".*"))
+
+
+@pytest.fixture(autouse=True)
+def _nothing_is_left(folder):
+    yield
+    assert left_over(folder) == []
+
+
+def test_a_submission_is_taken_and_its_job_can_be_asked_for(client, ada, zipped):
+    answer = client.post(SUBMIT, headers=ada, content=zipped("first"))
+    assert answer.status_code == 202
+    job = answer.json()
+    assert (job["name"], job["submitter"], job["state"]) == ("first", "ada", "queued")
+    assert answer.headers["Location"] == f"/api/v1/jobs/{job['id']}"
+    assert client.get(answer.headers["Location"]).json() == job
+    assert "worker" not in job
+    again = client.post(SUBMIT, headers=ada, content=zipped("first"))
+    assert again.json()["id"] == job["id"]
+
+
+@pytest.mark.parametrize(
+    "authorization",
+    [
+        None,
+        "",
+        "Bearer",
+        "Bearer wrong",
+        "Bearer ' OR 1=1 --",
+        "Basic YTpi",
+        "Bearer \xff",
+    ],
+)
+def test_without_a_token_that_counts_nothing_is_taken(client, folder, zipped, authorization):
+    headers = {"Content-Type": "application/zip"}
+    if authorization is not None:
+        headers["Authorization"] = authorization.encode("latin-1")
+    answer = client.post(SUBMIT, headers=headers, content=zipped("nobody"))
+    assert answer.status_code == 401
+    assert answer.headers["WWW-Authenticate"] == "Bearer"
+    assert "colift token add" in answer.json()["error"]
+
+
+def test_a_revoked_token_does_not_count_any_more(client, folder, opening, add_token, zipped):
+    headers = {"Authorization": f"Bearer {add_token('eve')}", "Content-Type": "application/zip"}
+    assert client.post(SUBMIT, headers=headers, content=b"no zip").status_code == 422
+    with opening(folder) as board:
+        Tokens(board).revoke("eve")
+    answer = client.post(SUBMIT, headers=headers, content=zipped("eves"))
+    assert answer.status_code == 401
+    assert "revoked" in answer.json()["error"]
+
+
+@pytest.mark.parametrize("kind", ["text/html", "multipart/form-data; boundary=x", "", "a" * 500])
+def test_another_kind_of_body_is_refused(client, ada, zipped, kind):
+    answer = client.post(SUBMIT, headers={**ada, "Content-Type": kind}, content=zipped())
+    assert answer.status_code == 415
+    assert "application/zip" in answer.json()["error"]
+
+
+def symlink(name, target):
+    entry = zipfile.ZipInfo(name)
+    entry.create_system, entry.external_attr = 3, (stat.S_IFLNK | 0o777) << 16
+    return entry, target
+
+
+@pytest.mark.parametrize(
+    ("entries", "message"),
+    [
+        ([("../policy.py", "x")], "zip entry ../policy.py: "),
+        ([("policy.py", "x"), ("../../../../tmp/x", "x")], "zip entry ../../../../tmp/x: "),
+        ([("/etc/cron.d/x", "x")], "zip entry /etc/cron.d/x: "),
+        ([symlink("policy.py", "/etc/passwd")], "zip entry policy.py: a symbolic link"),
+        ([("a", bytes(30 * 2**20))], "zip entry a: it would become more than 200 times larger"),
+        ([(f"f{i}", "x") for i in range(501)], "holds more than 500 files and folders"),
+        ([("policy.py", "x")], "the zip archive has no policy.toml"),
+        ([("policy.toml", "name = 1"), ("policy.py", "")], "policy.toml: "),
+        ([("policy.toml", "\xff\x00".encode("latin-1")), ("policy.py", "")], "policy.toml: "),
+        ([("policy.toml", "a = " + "[" * 5000), ("policy.py", "")], "policy.toml: "),
+    ],
+)
+def test_a_bad_archive_is_refused_with_the_reason(client, folder, ada, entries, message):
+    answer = client.post(SUBMIT, headers=ada, content=packed(*entries))
+    assert answer.status_code == 422
+    assert message in answer.json()["error"]
+    assert str(folder) not in answer.text
+    assert PREFIX not in answer.text
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ('authors = ["Your Name"]', """authors = ["'); DROP TABLE jobs; --"]"""),
+        ('authors = ["Your Name"]', 'authors = ["<script>alert(1)</script>", "=1+1"]'),
+        ('trained_on = "nothing"', 'trained_on = "<img src=x onerror=alert(1)>"'),
+        ('licence = "MIT"', """licence = "' OR '1'='1" """),
+        ('link = ""', 'link = "https://example.org/?q=\'><script>"'),
+    ],
+)
+def test_texts_that_mean_something_elsewhere_are_texts_here(client, add_token, zipped, key, value):
+    name = f"t{abs(hash((key, value)))}"
+    headers = {"Authorization": f"Bearer {add_token(name)}", "Content-Type": "application/zip"}
+    answer = client.post(SUBMIT, headers=headers, content=zipped(name, manifest=(key, value)))
+    assert answer.status_code == 202
+    assert client.get(answer.headers["Location"]).json()["state"] == "queued"
+
+
+@pytest.mark.parametrize("name", ["<b>x</b>", "x'; DROP TABLE jobs", "../x", "x\\u0000", "blend"])
+def test_a_name_that_means_something_elsewhere_is_refused(client, ada, zipped, name):
+    answer = client.post(SUBMIT, headers=ada, content=zipped(name))
+    assert answer.status_code == 422
+    assert "policy.toml: name must be" in answer.json()["error"]
+
+
+def test_a_body_that_says_it_is_too_large_is_refused_unread(url, ada):
+    """As curl sends it: it waits for the permission to go on."""
+    host, port = url.removeprefix("http://").split(":")
+    head = "".join(f"{name}: {value}\r\n" for name, value in ada.items())
+    with socket.create_connection((host, int(port)), timeout=20) as connection:
+        connection.sendall(
+            f"POST {SUBMIT} HTTP/1.1\r\nHost: x\r\n{head}Content-Length: {MANY}\r\n"
+            "Expect: 100-continue\r\n\r\n".encode()
+        )
+        answer = b""
+        while b"}" not in answer:
+            answer += connection.recv(65536)
+    assert answer.startswith(b"HTTP/1.1 413 ")
+    assert b"a zip archive may have 64 MiB" in answer
+
+
+def test_a_body_without_end_is_refused_early_and_not_kept(url, folder, ada):
+    """A gigabyte in chunks, without a length, by a client that listens while it sends."""
+    host, port = url.removeprefix("http://").split(":")
+    head = "".join(f"{name}: {value}\r\n" for name, value in ada.items())
+    chunk = b"100000\r\n" + bytes(2**20) + b"\r\n"
+    sent, most = 0, 0
+    with socket.create_connection((host, int(port)), timeout=20) as connection:
+        connection.sendall(
+            f"POST {SUBMIT} HTTP/1.1\r\nHost: x\r\n{head}"
+            "Transfer-Encoding: chunked\r\n\r\n".encode()
+        )
+        while sent < MANY and not select.select([connection], [], [], 0)[0]:
+            connection.sendall(chunk)
+            sent += 2**20
+            used = [path.stat().st_size for path in folder.glob(f"submissions/{PREFIX}*/*")]
+            most = max(most, *used, 0)
+        answer = connection.recv(65536)
+        while b"}" not in answer:
+            answer += connection.recv(65536)
+    assert answer.startswith(b"HTTP/1.1 413 ")
+    assert answer.endswith(b'{"error":"a zip archive may have 64 MiB"}')
+    assert BODY < sent < 2 * BODY
+    assert 0 < most <= BODY
+
+
+def test_who_does_not_listen_while_sending_gets_the_answer_as_well(client, ada):
+    def large():
+        for _ in range(BODY // 2**20 + 40):
+            yield bytes(2**20)
+
+    answer = client.post(SUBMIT, headers=ada, content=large())
+    assert answer.status_code == 413
+    assert answer.json() == {"error": "a zip archive may have 64 MiB"}
+
+
+def test_a_client_that_goes_away_leaves_nothing(client, url, folder, ada, zipped):
+    host, port = url.removeprefix("http://").split(":")
+    head = "".join(f"{name}: {value}\r\n" for name, value in ada.items())
+    with socket.create_connection((host, int(port))) as connection:
+        connection.sendall(
+            f"POST {SUBMIT} HTTP/1.1\r\nHost: x\r\n{head}Content-Length: 9999\r\n\r\nPK".encode()
+        )
+        while not left_over(folder):
+            time.sleep(0.01)
+    while left_over(folder):
+        time.sleep(0.01)
+
+
+def test_a_client_that_falls_silent_is_told_so(client, folder, ada, monkeypatch):
+    monkeypatch.setattr(uploads, "IDLE_S", 0.2)
+
+    def silent():
+        yield b"PK"
+        time.sleep(1)
+        yield b""
+
+    answer = client.post(SUBMIT, headers=ada, content=silent())
+    assert answer.status_code == 408
+    assert "too slow" in answer.json()["error"]
+
+
+def test_what_killed_uploads_have_left_is_swept_away(folder, opening):
+    old, young = (folder / "submissions" / f"{PREFIX}{name}" for name in ("old", "young"))
+    for place in (old, young):
+        place.mkdir()
+        (place / "upload.zip").write_bytes(b"PK")
+    os.utime(old, (1e9, 1e9))
+    with opening(folder) as board:
+        sweep(board)
+    assert (old.exists(), young.exists()) == (False, True)
+    (young / "upload.zip").unlink()
+    young.rmdir()
+
+
+def test_who_has_too_much_in_the_queue_is_told_so(client, folder, opening, add_token, zipped):
+    headers = {"Authorization": f"Bearer {add_token('max')}", "Content-Type": "application/zip"}
+    answers = [client.post(SUBMIT, headers=headers, content=zipped(f"max{i}")) for i in range(6)]
+    assert [answer.status_code for answer in answers] == [202] * 5 + [429]
+    assert "max has 5 submissions in the queue" in answers[-1].json()["error"]
+    with opening(folder) as board:
+        assert sum(job.submitter == "max" for job in Queue(board).jobs(limit=1000)) == 5
+
+
+def test_every_answer_to_an_upload_is_json(client, ada):
+    for content in (b"", b"\0" * 100, b"PK\x05\x06" + bytes(18)):
+        answer = client.post(SUBMIT, headers=ada, content=content)
+        assert answer.status_code == 422
+        assert list(answer.json()) == ["error"]
+    assert isinstance(answer, httpx.Response)

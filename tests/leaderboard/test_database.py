@@ -1,0 +1,139 @@
+"""The tables: how they come to be, and that what was said stays said."""
+
+import pytest
+import sqlalchemy as sa
+from alembic.autogenerate import compare_metadata
+from alembic.migration import MigrationContext
+from colift.agents.errors import InputError
+from colift.leaderboard.board import Board
+from colift.leaderboard.database.database import Database
+from colift.leaderboard.database.migration import HEAD, upgrade
+from colift.leaderboard.database.schema import APPEND_ONLY, metadata
+from colift.leaderboard.database.transactions import make_engine
+
+from .rows import add
+
+
+@pytest.fixture
+def engine(tmp_path, database):
+    """Yield the engine of an empty database."""
+    url = (database or f"sqlite:///{tmp_path}/board.sqlite").replace("sql://", "sql+psycopg://")
+    engine = make_engine(sa.make_url(url))
+    yield engine
+    engine.dispose()
+
+
+def differences(engine):
+    with engine.connect() as connection:
+        return compare_metadata(MigrationContext.configure(connection), metadata)
+
+
+def revision(engine):
+    with engine.connect() as connection:
+        return connection.scalar(sa.text("SELECT version_num FROM alembic_version"))
+
+
+def test_an_empty_database_gets_the_tables_that_the_schema_says(engine):
+    upgrade(engine, "it")
+    assert revision(engine) == HEAD
+    assert [each for each in differences(engine) if "alembic_version" not in str(each)] == []
+
+
+def test_a_database_of_an_earlier_revision_keeps_what_is_in_it(engine):
+    upgrade(engine, "it", "0001")
+    season = {
+        "name": "1", "suite": "quick-v1", "suite_digest": "d", "commitment": "c",
+        "began_at": "2027-01-01 00:00:00", "taking": True,
+    }  # fmt: skip
+    columns = ", ".join(season)
+    values = ", ".join(f":{name}" for name in season)
+    with engine.begin() as connection:
+        connection.execute(sa.text(f"INSERT INTO seasons ({columns}) VALUES ({values})"), season)
+    for step in ("0002", "0003"):
+        upgrade(engine, "it", step)
+        assert revision(engine) == step
+    assert [each for each in differences(engine) if "alembic_version" not in str(each)] == []
+    with engine.connect() as connection:
+        assert connection.scalar(sa.text("SELECT name FROM seasons")) == "1"
+    with pytest.raises(sa.exc.DBAPIError, match="append-only"), engine.begin() as connection:
+        connection.execute(sa.text("DELETE FROM seasons"))
+
+
+def test_a_migration_that_fails_leaves_what_was_there(engine, monkeypatch):
+    upgrade(engine, "it", "0001")
+    monkeypatch.setattr("alembic.op.create_table", None)
+    with pytest.raises(TypeError):
+        upgrade(engine, "it")
+    monkeypatch.undo()
+    assert revision(engine) == "0001"
+    upgrade(engine, "it")
+    assert revision(engine) == HEAD
+
+
+def test_a_database_of_a_later_colift_is_refused(engine):
+    upgrade(engine, "it")
+    with engine.begin() as connection:
+        connection.execute(sa.text("UPDATE alembic_version SET version_num = '9999'"))
+    with pytest.raises(InputError, match="it has revision 9999, this colift knows up to"):
+        upgrade(engine, "it")
+
+
+@pytest.mark.parametrize("table", APPEND_ONLY)
+@pytest.mark.parametrize("what", ["UPDATE {0} SET season_or_name = 'x'", "DELETE FROM {0}"])
+def test_what_was_said_cannot_be_changed_by_anybody(board, table, what):
+    add(board, "mine", 10.0)
+    statement = what.format(table).replace(
+        "season_or_name", "name" if table == "seasons" else "season"
+    )
+    before = contents(board, table)
+    assert before
+    with pytest.raises(sa.exc.DBAPIError, match=f"{table} is append-only"):
+        with board.database.writing() as connection:
+            connection.execute(sa.text(statement))
+    assert contents(board, table) == before
+
+
+def test_what_was_said_cannot_be_replaced_or_truncated(board):
+    add(board, "mine", 10.0)
+    statement = "TRUNCATE entries"
+    if board.database.engine.dialect.name == "sqlite":
+        statement = "REPLACE INTO entries SELECT * FROM entries"
+    with pytest.raises(sa.exc.DBAPIError, match="entries is append-only"):
+        with board.database.writing() as connection:
+            connection.execute(sa.text(statement))
+
+
+def contents(board, table):
+    with board.database.reading() as connection:
+        return connection.execute(sa.select(metadata.tables[table])).all()
+
+
+def test_a_change_that_fails_leaves_nothing(board):
+    before = contents(board, "events")
+    with pytest.raises(KeyboardInterrupt), board.database.writing() as connection:
+        connection.execute(metadata.tables["tokens"].insert().values(
+            name="x", sha256="y", added_at=board.clock()
+        ))  # fmt: skip
+        raise KeyboardInterrupt
+    assert contents(board, "tokens") == []
+    assert contents(board, "events") == before
+
+
+@pytest.mark.parametrize(
+    ("url", "told"),
+    [
+        ("mysql://here/x", "begins with mysql://; it must be postgresql://"),
+        ("nonsense", "is no URL of a database"),
+        ("postgresql://ada:geheim@127.0.0.1:1/x", "cannot be opened"),
+    ],
+)
+def test_a_database_that_is_none_is_told_without_its_password(tmp_path, url, told):
+    with pytest.raises(InputError, match=told) as caught:
+        Database.open(tmp_path, url)
+    assert "geheim" not in str(caught.value)
+
+
+def test_a_file_that_is_no_database_is_told(tmp_path):
+    (tmp_path / "board.sqlite").write_text("no database at all, whatever its name says" * 100)
+    with pytest.raises(InputError, match="cannot be opened: file is not a database"):
+        Board.open(tmp_path)
