@@ -1,141 +1,76 @@
-"""What a Dask cluster costs, against the local pool of processes."""
+"""What many processes cost and bring: a Dask cluster, and verification, against the local pool."""
 
-import contextlib
-import json
 import statistics
-import subprocess
-import sys
 import tempfile
 import time
-from collections.abc import Iterator
-from concurrent.futures import Executor
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
-from ..agents.errors import EvaluatorFault
 from ..agents.policies.loading import PolicySpec
-from .agent_spec import AgentSpec
+from .bundle import results, write_bundle
 from .connecting import dask_pool
 from .executors import process_pool
+from .loopback import loopback_cluster
+from .references import shipped_references
 from .runner import run_suite
 from .shipping import shipped
-from .suite import Suite, make_suite
+from .suite import make_suite
+from .verification import verify
 
 WORKERS: Final = 2
-START_SECONDS: Final = 180.0
-END_SECONDS: Final = 10.0
 
 
-def dask_over_local(rounds: int = 3, suite: str = "standard-v1") -> dict[str, float]:
-    """Measure the throughput of Dask on this machine over that of the local pool.
+def scale(
+    suite: str = "standard-v1",
+    rounds: int = 3,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> dict[str, float]:
+    """Measure throughputs over that of a run in the local pool, all with two worker processes.
 
-    Both have two worker processes; Dask's are behind a scheduler, also a process. They take turns,
-    and the median ratio of the rounds counts.
+    They take turns, and the median of the rounds counts. The policy is ``copy``, which takes next
+    to no time of its own.
 
     Parameters
     ----------
-    rounds
-        Pairs of runs.
     suite
-        What is run.
+        What is run: a suite with shipped references.
+    rounds
+        How often each is run.
+    progress
+        Called with the number of episodes that were finished since the last call; in all they are
+        three times the suite's a round.
+
+    Returns
+    -------
+    dict
+        ``dask_ratio`` of a run on a Dask cluster of this machine, whose scheduler is a process of
+        its own; ``verify_ratio`` of the verification of the run's bundle.
     """
     policy, episodes = PolicySpec(text="copy"), make_suite(suite)
-    ratios = []
+    sent = shipped(policy)
+    ratios: dict[str, list[float]] = {"dask_ratio": [], "verify_ratio": []}
     with (
+        tempfile.TemporaryDirectory(prefix="colift-") as folder,
         process_pool(WORKERS) as local,
         loopback_cluster(WORKERS) as address,
         dask_pool(address) as cluster,
     ):
-        for executor in (local, cluster):
-            _seconds(policy, make_suite("quick-v1"), executor)
+        bundle = Path(folder, "bundle")
+        run = run_suite(policy, episodes, executor=local)
+        write_bundle(bundle, run, results(run, shipped_references(episodes) or {}))
+        run_suite(sent, make_suite("quick-v1"), executor=cluster)
         for _ in range(rounds):
-            alone = _seconds(policy, episodes, local)
-            ratios.append(alone / _seconds(shipped(policy), episodes, cluster))
-    return {"dask_ratio": statistics.median(ratios)}
+            alone = _seconds(lambda: run_suite(policy, episodes, executor=local, progress=progress))
+            far = _seconds(lambda: run_suite(sent, episodes, executor=cluster, progress=progress))
+            again = _seconds(lambda: verify(bundle, executor=local, progress=progress))
+            ratios["dask_ratio"].append(alone / far)
+            ratios["verify_ratio"].append(alone / again)
+    return {name: statistics.median(values) for name, values in ratios.items()}
 
 
-def _seconds(policy: AgentSpec, suite: Suite, executor: Executor) -> float:
-    """Return the wall time of a run [s]."""
+def _seconds(action: Callable[[], object]) -> float:
+    """Return the wall time of an action [s]."""
     begin = time.perf_counter()
-    run_suite(policy, suite, executor=executor)
+    action()
     return time.perf_counter() - begin
-
-
-@contextmanager
-def loopback_cluster(workers: int) -> Iterator[str]:
-    """Yield the address of a Dask scheduler on this machine that has so many worker processes.
-
-    They are started by the commands that a user starts them by.
-
-    Parameters
-    ----------
-    workers
-        Number of worker processes; 0 for the scheduler alone.
-
-    Raises
-    ------
-    EvaluatorFault
-        If they do not start.
-    """
-    with contextlib.ExitStack() as stack:
-        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="colift-")))
-        file, common = folder / "scheduler.json", ("--host", "127.0.0.1", "--no-dashboard")
-        own = ("--port", "0", "--scheduler-file", str(file))
-        scheduler = stack.enter_context(_dask(folder, "scheduler", *own, *common))
-        address = _address(file, scheduler, folder)
-        if workers:
-            own = ("--nworkers", str(workers), "--nthreads", "1")
-            place = ("--local-directory", str(folder))
-            stack.enter_context(_dask(folder, "worker", address, *own, *place, *common))
-            _wait(address, workers, folder)
-        yield address
-
-
-@contextmanager
-def _dask(folder: Path, command: str, *options: str) -> Iterator["subprocess.Popen[bytes]"]:
-    """Run a command of Dask's; it ends with the context."""
-    with (folder / f"{command}.log").open("wb") as log:
-        process = subprocess.Popen(
-            [sys.executable, "-m", "dask", command, *options],
-            stdin=subprocess.DEVNULL,
-            stdout=log,
-            stderr=log,
-            # Ctrl-C is for the one who measures.
-            start_new_session=True,
-        )
-    try:
-        yield process
-    finally:
-        process.terminate()
-        try:
-            process.wait(END_SECONDS)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-
-
-def _address(file: Path, scheduler: "subprocess.Popen[bytes]", folder: Path) -> str:
-    """Return the address that a scheduler writes to a file once it listens."""
-    end = time.monotonic() + START_SECONDS
-    while time.monotonic() < end and scheduler.poll() is None:
-        with contextlib.suppress(OSError, json.JSONDecodeError):
-            return str(json.loads(file.read_text())["address"])
-        time.sleep(0.05)
-    raise EvaluatorFault(f"the Dask scheduler does not start: {_last(folder / 'scheduler.log')}")
-
-
-def _wait(address: str, workers: int, folder: Path) -> None:
-    from distributed import Client
-
-    with Client(address, set_as_default=False) as client:  # type: ignore[no-untyped-call]
-        try:
-            client.wait_for_workers(workers, timeout=START_SECONDS)
-        except TimeoutError:
-            told = _last(folder / "worker.log")
-            raise EvaluatorFault(f"the Dask workers do not start: {told}") from None
-
-
-def _last(log: Path) -> str:
-    """Return the last line of a log."""
-    return (log.read_text(errors="replace").strip().splitlines() or ["no word"])[-1]

@@ -1,7 +1,7 @@
 """What the tests of several packages share."""
 
 import pytest
-from colift.benchmark.scale import loopback_cluster
+from colift.benchmark.loopback import loopback_cluster
 
 
 @pytest.fixture(scope="session")

@@ -19,9 +19,9 @@ from colift.benchmark import cluster as cluster_module
 from colift.benchmark import connecting
 from colift.benchmark.connecting import dask_pool
 from colift.benchmark.executors import process_pool
+from colift.benchmark.loopback import loopback_cluster
 from colift.benchmark.origin import ROOT, origin
 from colift.benchmark.runner import run_suite
-from colift.benchmark.scale import loopback_cluster
 from colift.benchmark.shipping import shipped
 from colift.benchmark.suite import make_suite
 from distributed import Client

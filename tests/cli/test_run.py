@@ -11,8 +11,8 @@ import time
 import pytest
 from colift.benchmark.journal import journal_path
 from colift.benchmark.journal.records import records
+from colift.benchmark.loopback import loopback_cluster
 from colift.benchmark.origin import ROOT
-from colift.benchmark.scale import loopback_cluster
 from distributed import Client
 
 SLOW = """

@@ -145,7 +145,12 @@ def test_entry_bundle_and_state_come_together(submit, queue, board, tmp_path, cl
     entry = outcome(job)
     queue.finish(job, entry, make_errors(10.0), bundle)
     now = queue.job(job.id)
-    assert (now.state, now.done, now.total, now.ended_at) == ("done", now.total, now.total, clock.now)
+    assert (now.state, now.done, now.total, now.ended_at) == (
+        "done",
+        now.total,
+        now.total,
+        clock.now,
+    )
     assert board.entry("1", job.submission) == entry
     assert (board.bundle("1", job.submission) / "results.json").read_text() == "mine"
     assert queue.claim("two") is None

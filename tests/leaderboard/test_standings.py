@@ -47,7 +47,9 @@ def test_who_cannot_be_told_apart_shares_a_rank(board, clock):
         from colift.leaderboard.database.recording import record_errors
 
         errors = make_errors(10.0)
-        record_errors(connection, "1", digest("b"), [e + 0.5 * (-1) ** i for i, e in enumerate(errors)])
+        record_errors(
+            connection, "1", digest("b"), [e + 0.5 * (-1) ** i for i, e in enumerate(errors)]
+        )
     assert ranks(board) == [(1, "a"), (1, "b"), (2, "c")]
 
 
@@ -182,7 +184,10 @@ def test_a_season_from_elsewhere_is_taken_over_with_its_rows(board, team, tmp_pa
     board.adopt(told)
     board.adopt(told)
     assert ranks(board, "practice") == [(1, "proactive"), (2, "blend")]
-    assert [(each.name, each.current) for each in board.seasons()] == [("1", True), ("practice", False)]
+    assert [(each.name, each.current) for each in board.seasons()] == [
+        ("1", True),
+        ("practice", False),
+    ]
     assert board.seasons()[1] == told.info
     assert board.team("practice").rmse_mm.mean == round(team.mean, 2)
     assert (board.bundle("practice", digest("blend")) / "results.json").read_text() == "{}"

@@ -1,7 +1,7 @@
 "use strict";
 // Curves over the time of a lift, all with one cursor; a press or a drag on them goes there.
 (function () {
-  const MARGIN = { left: 54, right: 12, top: 10, bottom: 8, axis: 30 };
+  const MARGIN = { left: 54, right: 22, top: 10, bottom: 8, axis: 30 };
 
   const { make } = window.coliftReplay;
 

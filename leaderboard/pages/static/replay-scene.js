@@ -187,6 +187,7 @@
         class: "replay-scene",
         viewBox: `${left} ${-top} ${right - left} ${top - bottom}`,
         role: "img",
+        "aria-label": "The robot, the table and the person from the side",
       });
       host.appendChild(this.svg);
       const svg = this.svg;
@@ -225,12 +226,12 @@
       this.labels = [];
       const group = make("g", { class: "replay-ruler" }, svg);
       for (const [x, way] of [[robotX + 0.07, 1], [humanX - 0.07, -1]]) {
-        make("line", { x1: x, x2: x, y1: -rest, y2: -rest - 0.25, class: "pole" }, group);
-        for (const mm of [0, 50, 100, 150, 200, 250]) {
+        make("line", { x1: x, x2: x, y1: -rest, y2: -rest - 0.3, class: "pole" }, group);
+        for (const mm of [0, 50, 100, 150, 200, 250, 300]) {
           const y = -rest - mm / 1000;
           const long = mm % 100 === 0;
           make("line", { x1: x, x2: x + way * (long ? 0.03 : 0.018), y1: y, y2: y }, group);
-          if (mm % 200) continue;
+          if (mm % 300) continue;
           const anchor = way > 0 ? "start" : "end";
           const text = make("text", { x: x + way * 0.04, y, "text-anchor": anchor }, group);
           text.textContent = mm ? `${mm} mm` : "rest";

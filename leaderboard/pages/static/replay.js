@@ -155,7 +155,7 @@
         this.pause();
         this.seek(time);
       });
-      this.clock = element("output", { class: "replay-clock" });
+      this.clock = element("span", { class: "replay-clock" });
       const speed = element("select", { "aria-label": "Speed" });
       for (const each of SPEEDS) speed.append(element("option", { value: each }, `${each} ×`));
       speed.value = "1";
@@ -241,7 +241,7 @@
         keys.push(["prediction", "prediction of the human, drawn when it was made"]);
       }
       // A wild prediction must not flatten the lift.
-      const [least, most] = span(mm(now.human), mm(now.robot), mm(now.target));
+      const [least, most] = span(mm(now.human), mm(now.robot), mm(now.target), mm(now.ghost.robot));
       const room = most - least;
       const within = (value) => value !== null && value > least - 0.15 * room && value < most + 0.15 * room;
       if (now.prediction) {

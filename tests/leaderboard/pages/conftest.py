@@ -80,7 +80,7 @@ def page(chromium: Browser) -> Iterator[Page]:
     wrong: list[str] = []
     context = chromium.new_context(viewport={"width": 1280, "height": 900})
     opened = context.new_page()
-    opened.set_default_timeout(10_000)
+    opened.set_default_timeout(60_000)  # A machine may be busy; no test is about time.
     opened.on("pageerror", lambda error: wrong.append(str(error)))
     opened.on("console", lambda told: wrong.append(told.text) if _bad(told) else None)
     opened.on("request", lambda asked: wrong.append(asked.url) if _abroad(asked.url) else None)
