@@ -25,6 +25,9 @@ Array = NDArray[np.float64]
 LEADS: Final = tuple(round(0.05 * i, 2) for i in range(10))
 """Times from now that are foreseen [s]: the foresight of the policy, and a little."""
 
+ROAMING: Final = "roaming"
+"""Name of the way of :class:`.Roaming`, which is in no registry."""
+
 LOOKS: Final = 5
 """Times at which each period of a lift is looked at, as if the robot had decided then."""
 
@@ -58,12 +61,16 @@ class Experience:
     """(n, leads + 6) how far the human's end was above its newest seen height at each of the leads
     [m], the mode now (:func:`.modes`), and how far it rose until the stroke's end [m]."""
 
+    seeds: NDArray[np.int64]
+    """(n,) the lift that it was."""
+
     @classmethod
     def join(cls, parts: Sequence["Experience"]) -> "Experience":
         """Return all of it in one."""
         return cls(
             inputs=np.concatenate([part.inputs for part in parts]),
             outcomes=np.concatenate([part.outcomes for part in parts]),
+            seeds=np.concatenate([part.seeds for part in parts]),
         )
 
 
@@ -81,7 +88,7 @@ def scenario(seed: int, behaviours: Sequence[str], timing: Timing) -> Scenario:
     """
     behaviour, subject = behaviours[seed % len(behaviours)], f"draw-{seed}"
     latency, period = timing.latency, timing.control_period
-    if behaviour != "roaming":
+    if behaviour != ROAMING:
         return make_scenario(behaviour, subject, control_period=period, latency=latency)
     return Scenario(
         behaviour=behaviour,
@@ -148,7 +155,11 @@ def experience(
         outcomes = np.hstack((rises[:, :-1], doing[now], rises[:, -1:]))
         inputs = window_inputs(human_end, line[now], sags, window)
         parts.append(
-            Experience(inputs=inputs.astype(np.float32), outcomes=outcomes.astype(np.float32))
+            Experience(
+                inputs=inputs.astype(np.float32),
+                outcomes=outcomes.astype(np.float32),
+                seeds=np.full(len(inputs), seed),
+            )
         )
     return Experience.join(parts)
 

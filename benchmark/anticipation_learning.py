@@ -21,8 +21,11 @@ from ..agents.errors import InputError
 from ..agents.estimators.perceptron import Perceptron
 from ..agents.policies.anticipation import Anticipation
 from ..agents.policies.senses import Window
-from .anticipation_experience import LEADS, Experience, Timing, experience
+from .anticipation_experience import LEADS, ROAMING, Experience, Timing, experience
 from .suite import BEHAVIOURS
+
+WAYS: Final = (*BEHAVIOURS, ROAMING)
+"""How the people move that are learned from, in turn."""
 
 FIRST_SEED: Final = 100_000
 """Seed of the first lift, far from those of the suites, the calibration and the demonstrations."""
@@ -152,7 +155,7 @@ def learn_anticipation(
     timing: Timing | None = None,
     first_seed: int = FIRST_SEED,
     partner: Anticipation | None = None,
-    behaviours: Sequence[str] = (*BEHAVIOURS, "roaming"),
+    behaviours: Sequence[str] = WAYS,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
 ) -> Iterator[Lesson]:

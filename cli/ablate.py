@@ -1,5 +1,6 @@
 """``colift ablate``: what each part of `anticipate` is worth."""
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -13,6 +14,7 @@ from ..benchmark.bounds.ablation import VARIANTS, Ablation, variants
 from ..benchmark.bounds.held_out import held_out_suite
 from ..benchmark.executors import default_jobs, local_pool
 from ..benchmark.statistics import PairedDifference
+from ..benchmark.suite import recorded_suite
 from .progress import progress_bar
 
 
@@ -22,12 +24,16 @@ def ablate(
     each: Annotated[
         int, typer.Option(metavar="N", help="Lifts with each, in each way to move.")
     ] = 3,
+    recordings: Annotated[
+        Path | None,
+        typer.Option(metavar="CSV", help="Recorded lifts (trial,t_s,z_m) instead of new people."),
+    ] = None,
     jobs: Annotated[
         int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
     ] = None,
 ) -> None:
     """Take anticipate apart: learn it without each of its parts, and lift with new people."""
-    suite = held_out_suite(people, each)
+    suite = held_out_suite(people, each) if recordings is None else recorded_suite(recordings)
     total = ROUNDS * lifts + (1 + len(VARIANTS)) * suite.size
     with (
         local_pool(default_jobs() if jobs is None else jobs) as pool,

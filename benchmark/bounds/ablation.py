@@ -11,11 +11,11 @@ import numpy as np
 from ...agents.policies.anticipation_controller import AnticipateParameters
 from ...agents.policies.senses import Window
 from ..anticipation_experience import Experience, Timing
-from ..anticipation_learning import HIDDEN, Lesson, learned
+from ..anticipation_learning import HIDDEN, WAYS, Lesson, learned
 from ..runner import Run, run_suite
 from ..scenario import CONTROL_PERIOD
 from ..statistics import PairedDifference, paired_difference
-from ..suite import Suite
+from ..suite import BEHAVIOURS, Suite
 from ..summary import cell
 from .foreseer import Foreseer
 
@@ -34,13 +34,15 @@ class Variant:
     """Units of its hidden layers."""
     first_round: bool = False
     """Whether it learns from the first round only."""
+    only: Sequence[str] = WAYS
+    """Ways to move of the people that it learns from."""
     parameters: dict[str, Any] = field(default_factory=dict)
     """What differs in its parameters."""
 
     @property
     def learns(self) -> bool:
-        """Whether it has to be learned anew."""
-        return bool(self.window) or self.hidden != HIDDEN or self.first_round
+        """Whether it has to be fitted anew."""
+        return bool(self.window) or self.hidden != HIDDEN or self.only != WAYS
 
 
 VARIANTS: Final = (
@@ -49,6 +51,7 @@ VARIANTS: Final = (
     Variant(name="the own commands as inputs", window={"commands": 0}),
     Variant(name="the sag as an input", window={"sags": 0}),
     Variant(name="the second round of learning", first_round=True),
+    Variant(name="people who roam among those it learned from", only=BEHAVIOURS),
     Variant(name="the arm's lag", parameters={"arm_lag": 0.0}),
     Variant(name="making up for the sag", parameters={"sag_memory": 1e9}),
     Variant(name="foresight beyond the period", parameters={"foresight": CONTROL_PERIOD}),
@@ -90,7 +93,7 @@ def variants(first: Lesson, last: Lesson, *, seed: int = 0) -> Iterator[Foreseer
             model = first.model
         elif variant.learns:
             narrow = dataclasses.replace(window, **variant.window)
-            data = narrowed(last.experience, window, narrow)
+            data = narrowed(moving(last.experience, variant.only), window, narrow)
             model = learned(data, narrow, Timing(), hidden=variant.hidden, provenance={})
         yield Foreseer(name=variant.name, model=model, parameters=parameters)
 
@@ -100,7 +103,17 @@ def narrowed(data: Experience, wide: Window, narrow: Window) -> Experience:
     starts = np.cumsum([0, 1, wide.velocities, wide.commands])
     counts = (1, narrow.velocities, narrow.commands, narrow.sags)
     chosen = [start + np.arange(count) for start, count in zip(starts, counts, strict=True)]
-    return Experience(inputs=data.inputs[:, np.concatenate(chosen)], outcomes=data.outcomes)
+    return dataclasses.replace(data, inputs=data.inputs[:, np.concatenate(chosen)])
+
+
+def moving(data: Experience, ways: Sequence[str]) -> Experience:
+    """Return the part of experience of :data:`.WAYS` in which people move in some of them."""
+    if ways == WAYS:
+        return data
+    chosen = np.isin(data.seeds % len(WAYS), [WAYS.index(way) for way in ways])
+    return Experience(
+        inputs=data.inputs[chosen], outcomes=data.outcomes[chosen], seeds=data.seeds[chosen]
+    )
 
 
 def ablate(

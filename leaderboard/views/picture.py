@@ -21,6 +21,9 @@ LINE: Final = 15
 RADIUS: Final = 5
 """Of a dot [px]."""
 
+NAMED: Final = 40
+"""Dots that get their name, at most: the front, then the best."""
+
 Box = tuple[float, float, float, float]
 """Left, top, right, bottom [px]."""
 
@@ -207,7 +210,7 @@ def _labels(dots: Sequence[Dot], plot: Box) -> tuple[Label, ...]:
     """Return names where there is room: first on the front, then in the order of the table."""
     taken = [_around(dot) for dot in dots]
     labels = []
-    for dot in sorted(dots, key=lambda dot: not dot.front):
+    for dot in sorted(dots, key=lambda dot: not dot.front)[:NAMED]:
         for label, box in _candidates(dot):
             inside = plot[0] <= box[0] and box[2] <= plot[2] and plot[1] <= box[1]
             if inside and box[3] <= plot[3] and not any(_overlap(box, each) for each in taken):

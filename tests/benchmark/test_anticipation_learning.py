@@ -17,7 +17,7 @@ def known(count, seed=0):
     straight = inputs @ np.array([[1.0], [0.5], [-2.0]], np.float32)
     bent = 3.0 * np.abs(inputs[:, :1]) + straight
     outcomes = np.hstack((straight, bent)) + rng.normal(0.0, NOISE, (count, 2)).astype(np.float32)
-    return Experience(inputs=inputs, outcomes=outcomes)
+    return Experience(inputs=inputs, outcomes=outcomes, seeds=np.arange(count))
 
 
 def test_the_fit_finds_the_function_in_the_experience():

@@ -19,7 +19,7 @@ from colift.leaderboard.evaluation import Watch
 from colift.leaderboard.queue import NO_QUOTA, Queue
 from colift.leaderboard.worker import Worker
 
-from . import tiny  # noqa: F401 (it adds the suite)
+from . import tiny
 
 REFUSED = """
 import os

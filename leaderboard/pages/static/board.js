@@ -24,10 +24,10 @@
     }
     row.at = row.dot && row.dot.getAttribute("cx");
   }
-  const teams = [...table.querySelectorAll(".team")].map((line) => ({
+  const teams = [...document.querySelectorAll("#backdrop .team, .scale .team")].map((line) => ({
     line, at: line.getAttribute("x1") || line.getAttribute("x"),
   }));
-  const bands = [...table.querySelectorAll(".band")];
+  const bands = [...document.querySelectorAll("#backdrop .band")];
   const field = (id) => document.getElementById(id);
   const [query, behaviour, subject, order, told] = ["q", "behaviour", "subject", "sort", "told"].map(field);
   const whole = told.textContent;
@@ -90,7 +90,10 @@
       show(row.cell.sparc, found.sparc === null ? null : found.missing * 1000 - found.sparc, write(found.sparc, 2),
         found.sparc !== null && found.missing ? "none in " + found.missing : "");
       show(row.cell.force, found.force, write(found.force, 2));
-      if (row.dot) row.dot.setAttribute("cx", found.rmse === null ? "-99%" : at(found.rmse));
+      if (row.dot) {
+        row.dot.setAttribute("cx", at(found.rmse || 0));
+        row.dot.classList.toggle("away", found.rmse === null);
+      }
     }
     moveTeam(team);
     return chosen;
@@ -104,7 +107,10 @@
         row.cell[name].dataset.value = value;
         row.cell[name].replaceChildren(...html);
       }
-      if (row.dot) row.dot.setAttribute("cx", row.at);
+      if (row.dot) {
+        row.dot.setAttribute("cx", row.at);
+        row.dot.classList.remove("away");
+      }
     }
     moveTeam(null);
   }

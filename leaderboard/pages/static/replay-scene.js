@@ -169,14 +169,15 @@
       this.text = make("text", { x, y: -z - height / 2 - 0.03, "text-anchor": "middle" }, group);
     }
 
-    pose(difference, ghost) {
+    pose(difference, ghost, over) {
       const at = (mm) => {
         const share = Math.min(Math.max(-mm / LEVEL.full, -1), 1);
         return LEVEL.x + share * (LEVEL.half - LEVEL.height / 2 - 0.01);
       };
       this.real.setAttribute("cx", at(difference));
       this.ghost.setAttribute("cx", at(ghost));
-      this.text.textContent = coliftReplay.differenceWords(difference);
+      this.real.classList.toggle("none", over);
+      this.text.textContent = over ? "the lift is over" : coliftReplay.differenceWords(difference);
     }
   }
 
@@ -265,7 +266,8 @@
       this.arm.pose(now.robot);
       this.ghostTable.pose(now.ghostHuman, now.ghostRobot);
       this.partner.pose(now.ghostRobot);
-      this.level.pose(1000 * (now.robot - now.human), 1000 * (now.ghostRobot - now.ghostHuman));
+      const team = now.ghostRobot - now.ghostHuman;
+      this.level.pose(1000 * (now.robot - now.human), 1000 * team, now.over);
       const put = (node, x, height) =>
         node.setAttribute("transform", `translate(${x} ${-(this.rest + height)})`);
       put(this.intention, this.humanX + 0.035, now.target);

@@ -300,7 +300,7 @@
         });
       }
       this.drawn = charts.map((options) => new colift.Chart(this.charts, options, this));
-      if (!now.prediction && !now.confidence && !now.role) {
+      if (this.frames && !now.prediction && !now.confidence && !now.role) {
         this.charts.append(element("p", { class: "replay-note" }, "This policy reports neither predictions nor confidence."));
       }
     }
@@ -338,6 +338,7 @@
         confidence: said(now.confidence),
         role: said(now.role),
         command: said(now.command),
+        over: this.frames < now.horizon && this.time > this.frames * now.frame_s,
       };
     }
 
@@ -351,13 +352,13 @@
       this.slider.value = this.time;
       this.clock.textContent = `${this.time.toFixed(2)} / ${this.duration.toFixed(1)} s`;
       const event = now.events.filter(([, frame]) => frame * now.frame_s <= this.time + 1e-9).pop();
-      const over = this.frames < now.horizon && this.time > this.frames * now.frame_s;
+      const { over } = state;
       const difference = 1000 * (state.robot - state.human);
       const rows = [
         ["human", "the human", over ? "the lift is over" : event ? EVENTS[event[0]] || words(event[0]) : "waits"],
         ["human", "human's end", `${number(1000 * state.human, 0)} mm`],
         ["robot", "robot's end", `${number(1000 * state.robot, 0)} mm`],
-        ["error", "difference", `${number(difference, 1)} mm`],
+        ["error", "difference", over ? "counts as 250 mm" : `${number(difference, 1)} mm`],
         ["team", "two people", `${number(1000 * (state.ghostRobot - state.ghostHuman), 1)} mm`],
         ["target", "human's intention", `${number(1000 * state.target, 0)} mm`],
         ["command", "robot's command", state.command === null ? "none" : `${number(1000 * state.command, 0)} mm`],

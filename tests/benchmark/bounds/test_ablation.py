@@ -6,28 +6,33 @@ from colift.agents.policies.anticipation import load_anticipation
 from colift.agents.policies.anticipation_controller import AnticipateParameters
 from colift.agents.policies.senses import Window
 from colift.benchmark.anticipation_experience import Experience, window_inputs
-from colift.benchmark.anticipation_learning import Lesson, learn_anticipation
-from colift.benchmark.bounds.ablation import VARIANTS, ablate, narrowed, variants
+from colift.benchmark.anticipation_learning import WAYS, Lesson, learn_anticipation
+from colift.benchmark.bounds.ablation import VARIANTS, ablate, moving, narrowed, variants
 from colift.benchmark.bounds.foreseer import Foreseer
 from colift.benchmark.bounds.held_out import held_out_suite
 from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.suite import Suite
+from colift.benchmark.suite import BEHAVIOURS, Suite
 
 
 def test_narrower_experience_is_what_a_narrower_window_sees():
     rng = np.random.default_rng(0)
     human, commands, sags = rng.normal(0.0, 0.1, (3, 40))
     wide, narrow = Window(), Window(velocities=4, commands=0, sags=1)
-    outcomes = np.zeros((40, 2), np.float32)
-    data = Experience(inputs=window_inputs(human, commands, sags, wide), outcomes=outcomes)
+    data = Experience(
+        inputs=window_inputs(human, commands, sags, wide),
+        outcomes=np.zeros((40, 2), np.float32),
+        seeds=np.arange(40),
+    )
     wanted = window_inputs(human, commands, sags, narrow)
     assert narrowed(data, wide, narrow).inputs == pytest.approx(wanted)
     assert narrowed(data, wide, wide).inputs == pytest.approx(data.inputs)
+    assert moving(data, BEHAVIOURS).seeds.tolist() == [i for i in range(40) if i % 5 != 4]
 
 
 def test_each_variant_lacks_one_part():
     for variant in VARIANTS:
         lacks = [bool(variant.window), bool(variant.parameters), variant.first_round]
+        lacks.append(variant.only != WAYS)
         assert sum(lacks) + (variant.hidden == ()) == 1, variant
         AnticipateParameters(**variant.parameters)
         dataclasses.replace(Window(), **variant.window)

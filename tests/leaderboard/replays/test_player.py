@@ -1,11 +1,12 @@
 """The player in a real browser, from a file."""
 
+import json
 import re
 from pathlib import Path
 
 import pytest
 from colift.leaderboard.replays.chosen import chosen_replays
-from colift.leaderboard.replays.html import replay_page
+from colift.leaderboard.replays.html import replay_page, script_json
 
 playwright = pytest.importorskip("playwright.sync_api")
 CHROMIUM = Path("/usr/bin/chromium")
@@ -188,6 +189,28 @@ def test_the_address_says_which_lift_is_shown(open_page, file):
     assert "#changing_goal-worst" in page.url
     page.get_by_role("button", name="best").click()
     assert "#changing_goal-best" in page.url
+
+
+def test_a_lift_that_failed_says_so_from_then_on(open_page, file):
+    page = open_page()
+    text = file.read_text()
+    data = re.search('id="replay-data">(.*?)</script>', text)[1]
+    content = json.loads(data)
+    first = content["replays"][0]
+    first["failure"] = "step 20: <b>it fell</b>"
+    for name in ("human", "robot", "target"):
+        first[name] = first[name][:200]
+    broken = file.with_name("broken.html")
+    broken.write_text(text.replace(data, script_json({**content, "replays": [first]})))
+    page = page.context.new_page()
+    page.goto(broken.as_uri())
+    assert "The lift failed: step 20: <b>it fell</b>" in page.locator(".replay-about").inner_text()
+    slider(page).fill("1.9")
+    assert "mm" in page.locator(".replay-level text").text_content()
+    slider(page).fill("2.5")
+    assert page.locator(".replay-level text").text_content() == "the lift is over"
+    assert page.locator(".row-error dd").inner_text() == "counts as 250 mm"
+    assert not page.locator(".bubble.real").is_visible()
 
 
 @pytest.mark.parametrize("width", [360, 1280])
