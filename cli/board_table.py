@@ -31,9 +31,9 @@ def board_table(
         Columns of the terminal.
     """
     wide = width >= NARROW
-    titles = ("rank", "policy", "RMSE mm", "95 % interval", "vs human", "SPARC")
-    titles += ("force N", "ms/step", "gap mm") if wide else ()
-    titles += ("verified",)
+    titles = ["rank", "policy", "RMSE mm", "95 % interval", "vs human", "SPARC"]
+    titles += ["force N", "ms/step", "gap mm"] if wide else []
+    titles += ["verified"]
     lines = list(_lines(standings, team, wide))
     table = Table(
         title=Text(f"Season {season.name} on {season.suite}"),

@@ -29,6 +29,7 @@ COMMANDS: Final[Mapping[str, str]] = {
     "calibrate": "calibrate:calibrate",
     "references": "references:references",
     "practice": "practice:practice",
+    "nao": "nao:app",
     "bench": "bench:bench",
 }
 """Where each command is: a function, or an app with commands of its own, of a module beside this

@@ -47,7 +47,7 @@ def worker(
                 print(f"working for {place.folder}; Ctrl-C ends it", file=sys.stderr, flush=True)
                 here.run(ended=_tell)
     except KeyboardInterrupt:
-        print("ended; what was being evaluated is in the queue again", file=sys.stderr)
+        print("ended; an unfinished evaluation is in the queue again", file=sys.stderr)
     finally:
         place.close()
 

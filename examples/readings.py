@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from colift.agents.estimators.motion_filter import MotionFilterParameters
 from colift.agents.policies.blend import Blend
+from colift.agents.policies.in_process import InProcess
 from colift.agents.policies.loading import source_digest
 from colift.agents.policies.predictor import PredictorParameters
 from colift.benchmark.runner import run_suite
@@ -12,7 +13,7 @@ from colift.benchmark.suite import make_suite
 
 
 @dataclass(frozen=True, kw_only=True)
-class Reading:
+class Reading(InProcess):
     """The paper's policy, read in another way."""
 
     name: str

@@ -15,6 +15,14 @@ from .database.schema import rank_groups
 METHOD: Final = 1
 """Number of the method; it is raised by every change that moves a rank."""
 
+LEAST: Final = 10_000
+"""Sign flips of a test, at least."""
+
+FLIPS: Final = 40
+"""Sign flips for each policy. Corrected for n tests (Holm), the smallest p value that m flips can
+give is n / (m + 1): with m = 40 n that is half of the level, with too few nobody could be told from
+anybody."""
+
 
 def ranks(database: Database, season: str, scored: Mapping[str, int]) -> dict[str, int]:
     """Return the rank group of each submission, 1 the best, in that order.
@@ -39,7 +47,7 @@ def ranks(database: Database, season: str, scored: Mapping[str, int]) -> dict[st
     if known is None:
         with database.reading() as connection:
             errors = read_errors(connection, season, scored)
-        known = grouped(errors)
+        known = grouped(errors, resamples=max(LEAST, FLIPS * len(errors)))
         _keep(database, {"season": season, "fingerprint": mark, "groups": known})
     return {digest: rank for rank, group in enumerate(known, 1) for digest in group}
 

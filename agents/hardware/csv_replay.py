@@ -24,6 +24,7 @@ class Replay:
     def __init__(self, recording: Recording) -> None:
         record = recording.record
         self._limits = recording.limits
+        self._dry = recording.dry
         self._record = record
         self._groups: list[list[Sample]] = [[]]
         for event in record.events:
@@ -34,7 +35,6 @@ class Replay:
         self._steps = record.steps
         self._next = 0
         self._command = 0.0
-        self._begun = False
 
     @property
     def limits(self) -> HandLimits:
@@ -61,7 +61,7 @@ class Replay:
         """Return the frames that came before the recorded step."""
         if self._next > len(self._steps) and self._record.stop is Stop.CAPTURE_LOST:
             raise CaptureLostError(self._record.reason)
-        group = self._groups[min(self._next, len(self._groups) - 1)]
+        group = self._groups[max(self._next - 1, 0)]
         taken, group[:] = list(group), []
         return taken
 
@@ -73,9 +73,8 @@ class Replay:
 
     def command(self, height: float, duration: float) -> float:
         """Return what the robot would have been told."""
-        self._command = next_command(
-            height, self._command, self.step.set_point, duration, self._limits
-        )
+        set_point = self._command if self._dry else self.step.set_point
+        self._command = next_command(height, self._command, set_point, duration, self._limits)
         return self._command
 
     def stop(self) -> None:

@@ -18,7 +18,7 @@ from .stops import Stop
 
 _TRIAL: Final = (
     "policy", "period", "latency", "begin", "late_steps", "low", "high", "speed", "weight_offset",
-    "stop", "reason",
+    "dry", "stop", "reason",
 )  # fmt: skip
 COLUMNS: Final = ("event", *dict.fromkeys((*_TRIAL, *Sample._fields, *Step._fields)))
 """The columns; times in s, heights in m, speed in m/s."""
@@ -34,6 +34,8 @@ class Recording:
     """What the robot held its commands to."""
     weight_offset: float
     """What was added to every command for the sag under the table [m]."""
+    dry: bool = False
+    """Whether the commands went nowhere, and the set-points did not follow them."""
     record: Record
     """The trial."""
 
@@ -44,6 +46,7 @@ def write_recording(path: Path, recording: Recording) -> None:
     head = {
         "policy": recording.policy,
         "weight_offset": recording.weight_offset,
+        "dry": int(recording.dry),
         **dataclasses.asdict(recording.limits),
         **{name: getattr(record, name) for name in ("period", "latency", "begin", "late_steps")},
         "stop": "" if record.stop is None else record.stop.name,
@@ -94,6 +97,7 @@ def _recording(rows: list[dict[str, str]]) -> Recording:
         policy=head["policy"],
         limits=limits,
         weight_offset=float(head["weight_offset"]),
+        dry=bool(int(head["dry"])),
         record=record,
     )
 

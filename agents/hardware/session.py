@@ -17,6 +17,7 @@ from .loop import LoopSettings, run_trial
 from .lsl import LslCapture
 from .naoqi import NaoqiArm
 from .operator import StopButton, key_stops
+from .plausibility import seen
 from .ports import Clock, RobotArm, RobotLostError
 from .record import Record
 from .stops import Stop, StopTrialError
@@ -112,7 +113,7 @@ class Session:
             setup.move_to(self.arm, self.clock, 0.0)
         for _ in range(100):
             setup.wait(self.clock, 0.2)
-            frames = [sample for sample in setup.drained(self.capture) if setup.seen(sample)]
+            frames = [sample for sample in setup.drained(self.capture) if seen(sample)]
             if frames and max(map(abs, frames[-1][1:])) < READY:
                 return
         raise InputError(

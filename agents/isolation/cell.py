@@ -20,7 +20,7 @@ from .rights import NOBODY, give_up
 from .walls import Walls
 from .watch import watch
 
-DATA: Final = 3
+_DATA: Final = 3
 """File descriptor of the policy's end of the connection."""
 
 _NAMESPACES: Final = (
@@ -138,18 +138,18 @@ def _serve(
     if walls.scratch:
         os.environ["HOME"] = os.environ["TMPDIR"] = str(walls.scratch)
     give_up(walls)
-    arrange(ends.data, ends.output)
+    _arrange(ends)
     try:
-        serve(DATA)
+        serve(_DATA)
     finally:
         os._exit(0)
 
 
-def arrange(data: int, output: int) -> None:
-    """Keep a connection's end as :data:`DATA` and the output, and close every other file."""
+def _arrange(ends: Ends) -> None:
+    """Keep the connection and the output, and close every other file."""
     nothing = os.open("/dev/null", os.O_RDONLY)
     os.dup2(nothing, 0)
-    os.dup2(output, 1)
-    os.dup2(output, 2)
-    os.dup2(data, DATA)
-    os.closerange(DATA + 1, resource.getrlimit(resource.RLIMIT_NOFILE)[1])
+    os.dup2(ends.output, 1)
+    os.dup2(ends.output, 2)
+    os.dup2(ends.data, _DATA)
+    os.closerange(_DATA + 1, resource.getrlimit(resource.RLIMIT_NOFILE)[1])

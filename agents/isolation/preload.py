@@ -10,7 +10,6 @@ import socket
 from typing import Final
 
 from ..errors import InputError
-from .cell import DATA, arrange
 from .limits import REASON
 from .server import load, safely_told, serve
 from .wire import packed
@@ -24,8 +23,7 @@ def serve_forks(handle: int, place: str, parameters: str, size: int) -> None:
     The first message on the socket is answered by ``[1, "loaded"]``, or by why it cannot be, as in
     :mod:`.server`. An order brings the ends of a connection and of the output.
     """
-    orders = socket.socket(fileno=os.dup(handle))
-    os.close(handle)
+    orders = socket.socket(fileno=handle)
     orders.recv(_ORDER)
     try:
         policy = load(place)
@@ -43,8 +41,12 @@ def serve_forks(handle: int, place: str, parameters: str, size: int) -> None:
             return
         data, output = ends
         if os.fork() == 0:
-            arrange(data, output)
-            serve(DATA, place, parameters, size, policy)
+            orders.detach()  # The connection takes its place; what the module has opened stays.
+            for end, number in ((output, 1), (output, 2), (data, handle)):
+                os.dup2(end, number)
+            os.close(data)
+            os.close(output)
+            serve(handle, place, parameters, size, policy)
             os._exit(0)
         os.close(data)
         os.close(output)

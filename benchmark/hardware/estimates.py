@@ -93,7 +93,8 @@ def _ramps(recording: Recording, times: NDArray[np.float64]) -> NDArray[np.float
         knots += [given, given + period]
         heights += [step.hand_command, step.command]
     order = np.argsort(knots, kind="stable")
-    return np.interp(times, np.array(knots)[order], np.array(heights)[order])
+    at: NDArray[np.float64] = np.interp(times, np.array(knots)[order], np.array(heights)[order])
+    return at
 
 
 def _delay(recording: Recording) -> float:

@@ -1,6 +1,7 @@
 """What can go wrong in the emulated laboratory, on request."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Final
 
 from ...agents.errors import InputError
@@ -15,7 +16,7 @@ KINDS: Final = {
     "disconnect": "the robot's connection is closed, for good",
     "silence": "the robot answers no call",
     "stream-end": "the stream is closed, for good",
-    "motor-off": "the robot's motors lose their stiffness, for good",
+    "motor-off": "the robot's motors have no stiffness",
 }
 """The faults by name: what each does."""
 
@@ -29,14 +30,14 @@ class Fault:
 
     kind: str
     start: float
-    """When it begins, after the first lift was begun [s]."""
+    """When it begins [s], after the first lift or the request."""
     duration: float
     """How long it lasts [s]."""
     value: float
     """How large it is; 0 for those that have no size."""
 
     def active(self, time: float) -> bool:
-        """Return whether it goes wrong at a time after the first lift was begun [s]."""
+        """Return whether it goes wrong at a time [s]."""
         return self.start <= time < self.start + self.duration
 
 
@@ -60,3 +61,37 @@ def parse_fault(text: str) -> Fault:
     defaults = [0.0, 1e6, DEFAULTS.get(kind, 0.0)]
     start, duration, value = numbers + defaults[len(numbers) :]
     return Fault(kind=kind, start=start, duration=duration, value=value)
+
+
+class Schedule:
+    """When what goes wrong: what was planned from the first lift on, and what is asked for since.
+
+    Parameters
+    ----------
+    planned
+        Their times count from the first lift.
+    """
+
+    def __init__(self, planned: Sequence[Fault] = ()) -> None:
+        self._planned = tuple(planned)
+        self._faults: list[Fault] = []
+
+    def lift_begins(self, now: float) -> None:
+        """Let the planned faults come, if this is the first lift."""
+        self._faults += [replace(fault, start=now + fault.start) for fault in self._planned]
+        self._planned = ()
+
+    def request(self, text: str, now: float) -> None:
+        """Let a fault come, whose time counts from now.
+
+        Raises
+        ------
+        InputError
+            As :func:`parse_fault`.
+        """
+        fault = parse_fault(text)
+        self._faults.append(replace(fault, start=now + fault.start))
+
+    def active(self, now: float) -> list[Fault]:
+        """Return what goes wrong now; their ``start`` is on the same clock."""
+        return [fault for fault in self._faults if fault.active(now)]

@@ -148,10 +148,10 @@ class JointMotion:
         with self._lock:
             self._moves.clear()
 
-    def motors_off(self) -> None:
-        """Switch every motor off, for good: a fault."""
+    def motors_off(self, off: bool) -> None:
+        """Take every motor's stiffness, or give it back: a fault."""
         with self._lock:
-            self._off = True
+            self._off = off
 
     def moving(self, names: Sequence[str]) -> bool:
         """Return whether one of the joints is on its way, or its stiffness is."""

@@ -6,7 +6,6 @@ libqi binds the public methods of these classes under their own names, hence the
 # ruff: noqa: N802, N803
 
 import threading
-import time
 from collections.abc import Callable
 from typing import Any, Final
 
@@ -16,7 +15,14 @@ from .joint_motion import BODY, TICK, JointMotion, MotionError, joint_names, spr
 VERSION: Final = "2.8.7-emulated"
 """What the emulator says it is: the NAO 6's NAOqi, and that it is none."""
 
+SPEAKING: Final = 0.05
+"""How long the emulator takes to say a text [s]."""
+
 Log = Callable[[str], None]
+"""Takes a line for each thing that happens."""
+
+Pause = Callable[[float], None]
+"""Lets a time pass [s]."""
 
 
 class MotionService:
@@ -25,15 +31,15 @@ class MotionService:
     # libqi would else call one method at a time, and a blocking one would block them all.
     __qi_threading__ = "multi"
 
-    def __init__(self, motion: JointMotion, log: Log) -> None:
+    def __init__(self, motion: JointMotion, log: Log, pause: Pause) -> None:
         self._motion = motion
-        self._log = log
+        self._log, self._pause = log, pause
         self._awake = True
         self._killed = threading.Event()
         self._answering = threading.Event()
         self._answering.set()
 
-    def _silence(self, silent: bool) -> None:
+    def silence(self, silent: bool) -> None:
         """Answer no call for the joints' state, or answer again: a fault."""
         if silent:
             self._answering.clear()
@@ -92,8 +98,8 @@ class MotionService:
     def _wait(self, joints: list[str]) -> None:
         """Wait until the joints are still, or all motion is killed."""
         self._killed.clear()
-        while self._motion.moving(joints) and not self._killed.wait(TICK):
-            pass
+        while self._motion.moving(joints) and not self._killed.is_set():
+            self._pause(TICK)
 
     def killAll(self) -> None:
         """Stop everything that moves."""
@@ -153,14 +159,25 @@ class PostureService:
 class SpeechService:
     """ALTextToSpeech: what the robot says, the person hears."""
 
-    def __init__(self, heard: Callable[[str], None], log: Log) -> None:
-        self._heard, self._log = heard, log
+    def __init__(self, heard: Callable[[str], None], log: Log, pause: Pause) -> None:
+        self._heard, self._log, self._pause = heard, log, pause
 
     def say(self, text: str) -> None:
         """Say a text; as long as one takes to say it."""
         self._log(f"say {text}")
-        time.sleep(0.05)
+        self._pause(SPEAKING)
         self._heard(text)
+
+
+class FaultService:
+    """ColiftFaults: lets something go wrong; a real robot has none such."""
+
+    def __init__(self, request: Callable[[str], float]) -> None:
+        self._request = request
+
+    def request(self, fault: str) -> float:
+        """Let a fault ``KIND@START[:DURATION[:VALUE]]`` come; return the emulator's time [s]."""
+        return self._request(fault)
 
 
 class SystemService:

@@ -44,9 +44,12 @@ def stratified_bootstrap(
     for n episodes in c cells of two or more. Resampling m episodes understates their variance by
     (m - 1) / m; the factor corrects that exactly for the mean over cells of one size or one
     variance. In simulations of 4 to 20 cells of 3 to 15 episodes, 95 % intervals of the mean
-    covered 94 to 96 % for normal and 93 to 94 % for moderately skewed values (log-normal, sigma
-    0.5), but 89 to 93 % for strongly skewed ones (sigma 1) and 84 to 88 % in five cells of two.
-    The plain percentile interval covers 86 to 88 % in cells of three.
+    covered 94 to 96 % for normal values. For moderately skewed ones (log-normal, sigma 0.5) they
+    covered 93 to 94 %, but 90 to 92 % in four or five cells of three; for strongly skewed ones
+    (sigma 1) 89 to 93 %, and 84 to 88 % in five cells of two. With the errors that the
+    human-human team and ``copy`` make on the standard suite, 94 to 95 %; drawn as ``quick-v1``
+    has them, three in each of four cells of which one varies most, 89 to 93 %. The plain
+    percentile interval covers 86 to 88 % in cells of three.
 
     A cell of one episode cannot vary: it is kept as it is and adds no width, so the interval of a
     suite with one seed has no width and means nothing.

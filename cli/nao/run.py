@@ -115,6 +115,7 @@ def run(
                             policy=policy,
                             limits=arm.limits,
                             weight_offset=arm.weight_offset,
+                            dry=dry_run,
                             record=played,
                         ),
                     )

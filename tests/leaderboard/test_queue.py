@@ -315,7 +315,7 @@ def test_each_of_many_is_queued_once_and_taken_once_whoever_asks(board, write_su
         ids = list(pool.map(enqueue, range(120)))
     jobs = queue.jobs(limit=1000)
     assert len(jobs) == 4 * 8
-    assert {id for id in ids if id} == {job.id for job in jobs}
+    assert set(ids) - {None} == {job.id for job in jobs}
     assert len({job.submission for job in jobs}) == len(jobs)
     start, taken = threading.Barrier(8), []
 

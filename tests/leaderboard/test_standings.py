@@ -141,11 +141,20 @@ def test_the_number_of_queries_does_not_grow_with_the_entries(board):
     assert counts[0] == counts[1]
 
 
+def test_the_last_of_very_many_can_still_be_told_from_the_first(board):
+    for number in range(600):
+        add(board, f"policy {number}", 10.0 if number else 5.0)
+    first, second, *_ = ranks(board)
+    assert (first, second[0]) == ((1, "policy 0"), 2)
+
+
 def test_ranks_are_computed_once_for_each_state_of_the_board(board, monkeypatch):
     from colift.leaderboard import ranks as module
 
     grouped, calls = module.grouped, []
-    monkeypatch.setattr(module, "grouped", lambda errors: calls.append(1) or grouped(errors))
+    monkeypatch.setattr(
+        module, "grouped", lambda errors, **more: calls.append(1) or grouped(errors, **more)
+    )
     add(board, "a", 10.0)
     assert board.standings() == board.standings()
     assert len(calls) == 1

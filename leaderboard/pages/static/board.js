@@ -12,7 +12,6 @@
       ["rank", "rmse", "ratio", "sparc", "force", "step", "gap"].map((name) => [name, tr.querySelector("td." + name)])),
     name: tr.querySelector("th a").textContent,
     dot: tr.querySelector(".dot"),
-    interval: tr.querySelector(".ci"),
     off: tr.querySelector(".off"),
     index: Number(tr.dataset.row),
   }));
@@ -22,17 +21,18 @@
       const cell = row.cell[name];
       row.whole[name] = { value: cell.dataset.value, html: [...cell.childNodes] };
     }
-    row.at = row.dot && row.dot.getAttribute("cx");
+    row.at = row.dot.getAttribute("cx");
   }
   const teams = [...document.querySelectorAll("#backdrop .team, .scale .team")].map((line) => ({
     line, at: line.getAttribute("x1") || line.getAttribute("x"),
   }));
   const bands = [...document.querySelectorAll("#backdrop .band")];
   const field = (id) => document.getElementById(id);
-  const [query, behaviour, subject, order, told] = ["q", "behaviour", "subject", "sort", "told"].map(field);
+  const [query, behaviour, subject, choice, told, more] =
+    ["q", "behaviour", "subject", "sort", "told", "more"].map(field);
   const whole = told.textContent;
   const filters = { q: query, behaviour, subject };
-  let sort = "rank";
+  let sort = "rank", order = rows, limit = 200;  // So many rows are laid out at once.
 
   const write = (value, places) => (value === null ? "–" : value.toFixed(places).replace("-", "−"));
   const at = (mm) => (100 * Math.min(mm / data.top, 1)).toFixed(2) + "%";
@@ -67,6 +67,12 @@
     }
   }
 
+  function draw(row, rmse, place) {
+    row.dot.setAttribute("cx", place);
+    row.dot.classList.toggle("away", rmse === null || rmse > data.top);
+    row.off.classList.toggle("away", rmse === null || rmse <= data.top);
+  }
+
   function moveTeam(mm) {
     for (const { line, at: usual } of teams) {
       const x = mm === null ? usual : at(mm);
@@ -90,10 +96,7 @@
       show(row.cell.sparc, found.sparc === null ? null : found.missing * 1000 - found.sparc, write(found.sparc, 2),
         found.sparc !== null && found.missing ? "none in " + found.missing : "");
       show(row.cell.force, found.force, write(found.force, 2));
-      if (row.dot) {
-        row.dot.setAttribute("cx", at(found.rmse || 0));
-        row.dot.classList.toggle("away", found.rmse === null);
-      }
+      draw(row, found.rmse, at(found.rmse || 0));
     }
     moveTeam(team);
     return chosen;
@@ -107,10 +110,7 @@
         row.cell[name].dataset.value = value;
         row.cell[name].replaceChildren(...html);
       }
-      if (row.dot) {
-        row.dot.setAttribute("cx", row.at);
-        row.dot.classList.remove("away");
-      }
+      draw(row, Number(row.whole.rmse.value), row.at);
     }
     moveTeam(null);
   }
@@ -130,26 +130,32 @@
       if (a === Infinity || b === Infinity) return a === Infinity ? 1 : -1;  // What has none is last either way.
       return (a < b ? -1 : 1) * sign;
     });
-    const sorted = document.createDocumentFragment();
-    for (const [, row] of keyed) sorted.append(row.tr);
-    body.append(sorted);
+    const next = keyed.map(([, row]) => row);
+    if (next.some((row, i) => row !== order[i])) {
+      const sorted = document.createDocumentFragment();
+      for (const row of next) sorted.append(row.tr);
+      body.append(sorted);
+      order = next;
+    }
     table.dataset.sorted = sort;
     for (const button of table.querySelectorAll("thead button")) {
       const header = button.closest("th");
       if (button.dataset.sort === name) header.setAttribute("aria-sort", down ? "descending" : "ascending");
       else header.removeAttribute("aria-sort");
     }
-    order.value = name;
+    choice.value = name;
   }
 
   function search() {
     const words = query.value.toLowerCase().split(/\s+/).filter(Boolean);
     let count = 0;
-    for (const row of rows) {
+    for (const row of order) {
       const fits = words.every((word) => row.text.includes(word));
-      row.tr.hidden = !fits;
       count += fits;
+      row.tr.hidden = !fits || count > limit;
     }
+    more.hidden = count <= limit;
+    more.textContent = `Show all ${count}`;
     return count;
   }
 
@@ -160,7 +166,8 @@
     if (chosen === null && count === rows.length) told.textContent = whole;
     else {
       const where = chosen === null ? "scored on hidden lifts" :
-        `means over the public lifts of ${behaviour.selectedOptions[0].text} with ${subject.selectedOptions[0].text}; ranks and gaps are over all`;
+        `means over the public lifts of ${behaviour.value ? behaviour.selectedOptions[0].text : "all behaviours"} ` +
+        `with ${subject.value || "all subjects"}; ranks and gaps are over all hidden lifts`;
       told.textContent = `${count} of ${rows.length} policies, ${where}.` +
         (chosen && !chosen.length ? " The suite has no such lifts." : "");
     }
@@ -181,7 +188,7 @@
       if (input.selectedIndex === -1) input.value = "";
     }
     const wanted = state.get("sort") || "rank";
-    sort = [...order.options].some((option) => option.value === wanted.replace("-", "")) ? wanted : "rank";
+    sort = [...choice.options].some((option) => option.value === wanted.replace("-", "")) ? wanted : "rank";
     update();
   }
 
@@ -192,8 +199,14 @@
     update();
     remember();
   });
-  order.addEventListener("change", () => { sort = order.value; update(); remember(); });
+  choice.addEventListener("change", () => { sort = choice.value; update(); remember(); });
   for (const input of Object.values(filters)) input.addEventListener("input", () => { update(); remember(); });
+  more.addEventListener("click", () => {
+    const next = body.querySelector("tr[hidden] a");
+    limit = Infinity;
+    update();
+    if (next) next.focus();
+  });
   addEventListener("hashchange", recall);
 
   // Two to four may be compared.

@@ -32,6 +32,12 @@ class Sharing:
     def reset(self, seed): shared[0] += 1
     def act(self, observation): return [float(shared[0])]
 
+class Reading:
+    '''Keeps a file open, as np.load does with an archive.'''
+    weights = open(__file__, "rb")
+    def reset(self, seed): pass
+    def act(self, observation): return [float(os.pread(self.weights.fileno(), 6, 1) == b"import")]
+
 class Dying:
     def reset(self, seed): pass
     def act(self, observation): os._exit(3)
@@ -77,6 +83,11 @@ def test_what_an_episode_does_to_the_module_dies_with_it(preloaded):
 def test_memory_shared_on_import_survives_which_is_why_there_is_an_audit(preloaded):
     policy = preloaded("Sharing")
     assert [action(policy) for _ in range(3)] == [1.0, 2.0, 3.0]
+
+
+def test_a_file_opened_on_import_stays_open(preloaded):
+    policy = preloaded("Reading")
+    assert [action(policy) for _ in range(2)] == [1.0, 1.0]
 
 
 def test_an_episode_that_ends_its_process_leaves_the_next_alone(preloaded):

@@ -1,4 +1,4 @@
-from pathlib import Path
+from importlib.resources import files
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ from colift.benchmark.catalogue import make_scenario
 from colift.benchmark.episode import run_episode
 from colift.benchmark.suite import make_suite
 
-EXAMPLE = Path(__file__).parents[3] / "examples" / "proportional.py"
+EXAMPLE = files("colift.agents.submissions") / "template" / "policy.py"
 VIEWS = np.random.default_rng(0).uniform(-0.1, 0.2, (50, 5))
 
 
@@ -104,7 +104,7 @@ def test_beats_holding_still_and_copying_in_the_quick_suite():
 
 
 def test_the_example_is_the_same_policy():
-    ours, example = Proportional(), PolicySpec(text=f"{EXAMPLE}:Proportional").make()
+    ours, example = Proportional(), PolicySpec(text=f"{EXAMPLE}:Policy").make()
     for policy in (ours, example):
         policy.reset(0)
     assert [example.act(view) for view in VIEWS] == [ours.act(view) for view in VIEWS]

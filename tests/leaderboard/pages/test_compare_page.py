@@ -22,7 +22,9 @@ def test_ticked_policies_are_compared_lift_by_lift(page, front, played):
     mean = paired_difference(*errors, cells).mean
     shown = pair.locator("td").first.text_content().replace("−", "-")
     assert abs(float(shown) - mean) < 0.006
-    expect(page.locator("table.compared tbody").first.locator("tr[data-p]:visible")).to_have_count(2)
+    expect(page.locator("table.compared tbody").first.locator("tr[data-p]:visible")).to_have_count(
+        2
+    )
 
 
 def test_four_are_enough_and_one_is_too_few(page, front):

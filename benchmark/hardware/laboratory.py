@@ -1,0 +1,152 @@
+"""The emulated laboratory, frame by frame, in whoever's time: a NAO, a person, a motion capture.
+
+The person begins a lift when the robot says "Go".
+"""
+
+import queue
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+
+from ...agents.agent import FRAME
+from ...agents.hardware.ports import Clock
+from ...robots.arm_kinematics import ARM_JOINTS, arm_path
+from ..scenario import Scenario
+from .emulated_lift import EmulatedLift
+from .faults import Fault, Schedule
+from .joint_motion import TICK, JointMotion
+from .markers import Markers, Row
+from .services import (
+    FaultService,
+    Log,
+    MotionService,
+    PostureService,
+    SpeechService,
+    SystemService,
+)
+
+NAMES: Final = list(ARM_JOINTS)
+
+FRAMES_PER_TICK: Final = round(TICK / FRAME)
+
+CAPTURE_LATENCY: Final = 0.01
+"""Time from a motion-capture frame to its sending [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Conditions:
+    """What is emulated."""
+
+    scenario: Scenario
+    """Who lifts how."""
+    seed: int = 0
+    """Seed of the first lift; each one after it has the next."""
+    capture_latency: float = CAPTURE_LATENCY
+    """Time from a motion-capture frame to its sending [s]."""
+    faults: tuple[Fault, ...] = ()
+    """What goes wrong, in seconds after the first lift began."""
+
+
+class Laboratory:
+    """A laboratory whose time passes frame by frame.
+
+    Parameters
+    ----------
+    conditions
+        What is emulated.
+    clock
+        Its time: calls that block wait on it.
+    log
+        Called with a line for each thing that happens.
+    """
+
+    def __init__(self, conditions: Conditions, clock: Clock, log: Log) -> None:
+        self._conditions, self._clock, self._log = conditions, clock, log
+        self._go: queue.SimpleQueue[None] = queue.SimpleQueue()
+        self._lift = EmulatedLift(conditions.scenario)
+        rest = dict(zip(NAMES, arm_path().joint_angles(0.0), strict=True))
+        self._motion = JointMotion(rest)
+        self._ahead = self._before = np.array(self._motion.set_points(NAMES))
+        self._frame = self._lifts = 0
+        self._faults = Schedule(conditions.faults)
+        self._told: set[Fault] = set()
+        self._markers = Markers(conditions.capture_latency)
+        self.motion_service = MotionService(self._motion, log, self._pause)
+        self.services: dict[str, Any] = {
+            "ALMotion": self.motion_service,
+            "ALRobotPosture": PostureService(),
+            "ALTextToSpeech": SpeechService(self._heard, log, self._pause),
+            "ALSystem": SystemService(),
+            "ColiftFaults": FaultService(self.request),
+        }
+        """NAOqi's services by name, and the one that faults are requested of."""
+
+    def _pause(self, seconds: float) -> None:
+        self._clock.wait_until(self._clock.now() + seconds)
+
+    def _heard(self, text: str) -> None:
+        """Let the person begin when the robot says so."""
+        if text.rstrip(".! ").lower().endswith("go"):
+            self._go.put(None)
+
+    def request(self, fault: str) -> float:
+        """Let a fault come, whose time counts from now; return the time [s].
+
+        Raises
+        ------
+        InputError
+            If there is no such fault.
+        """
+        now = self._clock.now()
+        self._faults.request(fault, now)
+        return now
+
+    def frame(self) -> set[str]:
+        """Advance by a frame, capture it, and return the kinds of the faults that are active."""
+        phase = self._frame % FRAMES_PER_TICK
+        if phase == 0:
+            self._motion.tick()
+            self._before, self._ahead = self._ahead, np.array(self._motion.set_points(NAMES))
+        self._frame += 1
+        self._begin_lift()
+        now = self._clock.now()
+        faults = self._active(now)
+        # The set-points of a tick are reached at its end, as by the robot's own interpolation.
+        share = (phase + 1) / FRAMES_PER_TICK
+        commanded = self._before + (self._ahead - self._before) * share
+        self._lift.advance(commanded.tolist(), self._motion.stiffness(NAMES))
+        self._motion.measure(dict(zip(NAMES, self._lift.arms.angles(), strict=True)))
+        world = self._lift.world
+        self._markers.capture(now, world.human_end[-1], world.robot_end[-1], faults)
+        return {fault.kind for fault in faults}
+
+    def due(self) -> Iterator[Row]:
+        """Yield the motion-capture frames that are to be sent now."""
+        return self._markers.due(self._clock.now())
+
+    def _begin_lift(self) -> None:
+        """Let the person begin a lift if the robot has said so."""
+        if self._go.empty():
+            return
+        self._go.get()
+        seed = self._conditions.seed + self._lifts
+        self._lift.start(seed)
+        self._lifts += 1
+        self._faults.lift_begins(self._clock.now())
+        self._log(f"lift {self._lifts} seed {seed}")
+
+    def _active(self, now: float) -> list[Fault]:
+        """Return the active faults; those of the motors take effect here."""
+        active = self._faults.active(now)
+        for fault in active:
+            if fault not in self._told:
+                self._told.add(fault)
+                self._log(f"fault {fault.kind}")
+        self._motion.motors_off(any(fault.kind == "motor-off" for fault in active))
+        return active
+
+    def close(self) -> None:
+        """Release the world."""
+        self._lift.close()

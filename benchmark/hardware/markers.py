@@ -1,0 +1,90 @@
+"""The emulated motion capture: four markers on the table, and what the faults make of them."""
+
+from collections import deque
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+import numpy as np
+
+from ...robots.arm_kinematics import GRIP_X, REST_Z
+from ...robots.nao_facts import TORSO_HEIGHT
+from ..lift import MOCAP_NOISE
+from ..seeding import derive_seed
+from ..world.table import TABLE_LENGTH
+from .faults import Fault
+
+MARKERS: Final = {
+    "H1": (GRIP_X + TABLE_LENGTH, 0.2),
+    "H2": (GRIP_X + TABLE_LENGTH, -0.2),
+    "R1": (GRIP_X, 0.2),
+    "R2": (GRIP_X, -0.2),
+}
+"""Where each marker is on the table at rest: x and y in the robot's frame [m]."""
+
+REST_HEIGHT: Final = TORSO_HEIGHT + REST_Z
+"""Height of the table at rest above the floor [m]."""
+
+MARKER_NOISE: Final = MOCAP_NOISE * 2**0.5
+"""Standard deviation of a coordinate [m]: the mean of an end's two markers is as noisy as the
+simulated motion capture."""
+
+Row = tuple[float, list[float]]
+"""When a frame was captured [s], and x, y and z of each marker [m]."""
+
+
+class Markers:
+    """Captures the table frame by frame, and lets each frame out when it is due.
+
+    Parameters
+    ----------
+    latency
+        How long the system takes from a frame to its sending [s].
+    """
+
+    def __init__(self, latency: float) -> None:
+        self._latency = latency
+        self._rng = np.random.default_rng(derive_seed(0, "hardware/markers"))
+        self._waiting: deque[tuple[float, Row]] = deque()
+        self._due = 0.0
+
+    def capture(
+        self, now: float, human_end: float, robot_end: float, faults: Sequence[Fault]
+    ) -> None:
+        """Capture a frame.
+
+        Parameters
+        ----------
+        now
+            The time [s].
+        human_end, robot_end
+            Heights of the table's ends [m].
+        faults
+            Those that are active.
+        """
+        active = {fault.kind: fault for fault in faults}
+        if "swap" in active:
+            human_end, robot_end = robot_end, human_end
+        if "drift" in active:
+            drift = active["drift"].value * (now - active["drift"].start)
+            human_end, robot_end = human_end + drift, robot_end + drift
+        row: list[float] = []
+        noises = self._rng.normal(0.0, MARKER_NOISE, (len(MARKERS), 3)).tolist()
+        for (marker, (x, y)), noise in zip(MARKERS.items(), noises, strict=True):
+            z = REST_HEIGHT + (human_end if marker.startswith("H") else robot_end)
+            row += [x + noise[0], y + noise[1], z + noise[2]]
+        if "nan" in active:
+            row[:6] = [np.nan] * 6
+        delay = self._latency
+        if "latency" in active:
+            delay += active["latency"].value
+        if "jitter" in active:
+            delay += float(self._rng.uniform(0.0, active["jitter"].value))
+        if "dropout" not in active:
+            # A network may hold a frame up, but does not change the order.
+            self._due = max(self._due, now + delay)
+            self._waiting.append((self._due, (now, row)))
+
+    def due(self, now: float) -> Iterator[Row]:
+        """Yield the frames that are to be sent now, oldest first."""
+        while self._waiting and self._waiting[0][0] <= now + 1e-9:
+            yield self._waiting.popleft()[1]
