@@ -16,6 +16,7 @@ from ..benchmark.executors import process_pool
 from ..benchmark.policy_speed import LIMIT_MS, StepTime, default_scenarios, step_time
 from ..benchmark.speed import endurance, single_process, two_workers_ratio
 from .bench_isolation import print_isolation
+from .bench_scale import print_scale
 from .progress import progress_bar
 
 MEANING: Final = {
@@ -42,10 +43,18 @@ def bench(
     isolation: Annotated[
         bool, typer.Option("--isolation", help="Time what each sandbox costs instead.")
     ] = False,
+    scale: Annotated[
+        bool, typer.Option("--scale", help="Time a Dask cluster and verification instead.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON alone.")] = False,
 ) -> None:
     """Measure the benchmark itself: speed as ratios within this run, memory, convergence."""
-    studies = {"--convergence": convergence, "--policies": policies, "--isolation": isolation}
+    studies = {
+        "--convergence": convergence,
+        "--policies": policies,
+        "--isolation": isolation,
+        "--scale": scale,
+    }
     chosen = [name for name, wanted in studies.items() if wanted]
     if len(chosen) > 1:
         raise InputError(f"{' and '.join(chosen)} exclude each other: name one")
@@ -57,6 +66,9 @@ def bench(
         return
     if isolation:
         print_isolation(as_json)
+        return
+    if scale:
+        print_scale(as_json)
         return
     if episodes < 200:
         raise InputError(f"--episodes must be at least 200, got {episodes}")

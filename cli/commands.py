@@ -7,33 +7,43 @@ from typing import Any, Final
 import typer
 from typer.core import TyperGroup
 
-COMMANDS: Final[Mapping[str, str]] = {
-    "run": "run:run",
-    "list": "listing:list_all",
-    "new": "new:new",
-    "check": "check:check",
-    "submit": "submit:submit",
-    "verify": "verify:verify",
-    "board": "board:board",
-    "serve": "serve:serve",
-    "worker": "worker:worker",
-    "token": "token:app",
-    "compare": "compare:compare",
-    "bounds": "bounds:bounds",
-    "ablate": "ablate:ablate",
-    "sweep": "sweep:sweep",
-    "paper": "paper:paper",
-    "render": "render:render",
-    "demonstrate": "demonstrate:demonstrate",
-    "learn": "learn:app",
-    "calibrate": "calibrate:calibrate",
-    "references": "references:references",
-    "practice": "practice:practice",
-    "nao": "nao:app",
-    "bench": "bench:bench",
+PANELS: Final[Mapping[str, Mapping[str, str]]] = {
+    "Evaluate": {
+        "run": "run:run",
+        "compare": "compare:compare",
+        "list": "listing:list_all",
+        "render": "render:render",
+        "paper": "paper:paper",
+    },
+    "Submit": {
+        "new": "new:new",
+        "check": "check:check",
+        "submit": "submit:submit",
+        "verify": "verify:verify",
+    },
+    "Boards": {
+        "board": "board:board",
+        "serve": "serve:serve",
+        "worker": "worker:worker",
+        "token": "token:app",
+        "practice": "practice:practice",
+    },
+    "Robots": {"nao": "nao:app"},
+    "Learn and measure": {
+        "learn": "learn:app",
+        "demonstrate": "demonstrate:demonstrate",
+        "calibrate": "calibrate:calibrate",
+        "references": "references:references",
+        "bounds": "bounds:bounds",
+        "ablate": "ablate:ablate",
+        "sweep": "sweep:sweep",
+        "bench": "bench:bench",
+    },
 }
 """Where each command is: a function, or an app with commands of its own, of a module beside this
-one. ``colift --help`` shows them in this order."""
+one. ``colift --help`` shows them in these panels and this order."""
+
+COMMANDS: Final = {name: place for panel in PANELS.values() for name, place in panel.items()}
 
 
 class Commands(TyperGroup):
@@ -60,6 +70,7 @@ class _Loaded(Mapping[str, Any]):
             app.command()(found)
             command = typer.main.get_command(app)
         command.name = name
+        command.rich_help_panel = next(panel for panel, names in PANELS.items() if name in names)
         return command
 
     def __iter__(self) -> Iterator[str]:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from ..agent import Agent, Observation
-from .decisions import Decision, ask
+from .decisions import Decision, Inline
 from .loop import LoopSettings, run_trial
 from .ports import ArmState, CaptureLostError, HandLimits, RobotLostError, Sample
 from .record import Record, Step
@@ -88,18 +88,19 @@ class Replay:
         return self._next >= len(self._steps) and self._record.stop is None
 
 
-class RecordedDecider:
+class RecordedDecider(Inline):
     """Asks the policy as it was asked; one that was late then is late again."""
 
     def __init__(self, policy: Agent, replay: Replay) -> None:
-        self._policy, self._replay = policy, replay
+        super().__init__(policy)
+        self._replay = replay
 
     def decide(self, observation: Observation, budget: float) -> Decision:
         """Return the policy's action, unless it was late."""
         held = self._replay.step.hold
         if held == Hold.POLICY_BUSY.value:
             return Decision(hold=Hold.POLICY_BUSY)
-        answer = ask(self._policy, observation)
+        answer = super().decide(observation, budget)
         return Decision(hold=Hold.POLICY_LATE) if held == Hold.POLICY_LATE.value else answer
 
 

@@ -29,6 +29,9 @@ class Decider(Protocol):
     def decide(self, observation: Observation, budget: float) -> Decision:
         """Return its action, or why there is none after ``budget`` [s]."""
 
+    def close(self) -> None:
+        """Ask no more."""
+
 
 def ask(policy: Agent, observation: Observation) -> Decision:
     """Return the policy's action, or how it failed; only what ends the process is let through."""
@@ -47,6 +50,9 @@ class Inline:
     def decide(self, observation: Observation, budget: float) -> Decision:
         """Return its action, or how it failed."""
         return ask(self._policy, observation)
+
+    def close(self) -> None:
+        """Do nothing: no thread is to be ended."""
 
 
 class Timed:

@@ -16,8 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...robots.arm_kinematics import ARM_JOINTS, MIRROR, REST_Z, arm_path, hand_position
-from .naoqi_session import NaoqiSession
-from .ports import ArmState, HandLimits, RobotLostError
+from .ports import ArmState, HandLimits, Naoqi, RobotLostError
 from .safety import hand_limits, next_command
 
 NAMES: Final = list(ARM_JOINTS)
@@ -48,7 +47,7 @@ class NaoqiArm:
         If it does not answer.
     """
 
-    def __init__(self, session: NaoqiSession) -> None:
+    def __init__(self, session: Naoqi) -> None:
         self.session = session
         rows = [session.call("ALMotion", "getLimits", name)[0] for name in NAMES]
         self._speeds = np.array([row[2] for row in rows])

@@ -3,8 +3,9 @@
 Heights are displacements [m] from the table's rest height, z up; times are seconds of the clock.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 
 class Sample(NamedTuple):
@@ -63,6 +64,34 @@ class MotionCapture(Protocol):
 
     def close(self) -> None:
         """Release the connection."""
+
+
+class TableCapture(MotionCapture, Protocol):
+    """Motion capture whose zero can be moved to where the table rests."""
+
+    info: dict[str, object]
+    """What it says of itself."""
+
+    def set_rest(self, human_end: float, robot_end: float) -> None:
+        """Take the present zero of the ends' heights [m] to be displaced by these."""
+
+
+class Naoqi(Protocol):
+    """A NAOqi whose services can be called; each raises :class:`RobotLostError` on silence."""
+
+    url: str
+    """Where it is."""
+
+    def has(self, service: str) -> bool:
+        """Return whether it offers a service."""
+
+    def call(self, service: str, method: str, *arguments: Any, within: float = ...) -> Any:
+        """Call a method and return its result, waiting at most ``within`` [s]."""
+
+    def calls(
+        self, service: str, calls: Sequence[tuple[Any, ...]], *, within: float = ...
+    ) -> list[Any]:
+        """Make several calls at the same time and return their results."""
 
 
 class RobotArm(Protocol):

@@ -11,14 +11,13 @@ import numpy as np
 from ..agent import Agent, RobotObservation
 from ..errors import InputError, told
 from . import setup
-from .decisions import Timed
+from .decisions import Decider, Timed
 from .dry_run import DryArm
 from .loop import LoopSettings, run_trial
-from .lsl import LslCapture
 from .naoqi import NaoqiArm
 from .operator import StopButton, key_stops
 from .plausibility import seen
-from .ports import Clock, RobotArm, RobotLostError
+from .ports import Clock, RobotArm, RobotLostError, TableCapture
 from .record import Record
 from .stops import Stop, StopTrialError
 from .trial_end import TrialEnd
@@ -39,7 +38,7 @@ class Session:
     """
 
     arm: NaoqiArm
-    capture: LslCapture
+    capture: TableCapture
     clock: Clock
     tell: Callable[[str], None]
     """Shows a line to the operator."""
@@ -49,6 +48,8 @@ class Session:
     """The operator's stop, which the clock listens to."""
     dry: bool = False
     """Whether nothing may move."""
+    asked_by: Callable[[Agent], Decider] = Timed
+    """What asks a policy: in a thread of its own, where the time is real."""
 
     def set_up(self) -> None:
         """Take hold of the table, find zero, and check that the ends move as they should."""
@@ -97,7 +98,7 @@ class Session:
             warm_up(agent, seed)
             with _lost_is_stop():
                 self._ready()
-                decider = Timed(agent)
+                decider = self.asked_by(agent)
                 self.arm.say(f"Lift {number}. {GO}!")
             try:
                 with _undisturbed(), key_stops(self.button):

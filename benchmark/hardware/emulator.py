@@ -56,7 +56,10 @@ class Emulator:
                 behind += 1
                 self._log(f"behind the clock, {behind} times")
             faults = self._laboratory.frame()
-            self._laboratory.motion_service.silence("silence" in faults)
+            if "silence" in faults:
+                self._laboratory.answering.clear()
+            else:
+                self._laboratory.answering.set()
             if "disconnect" in faults:
                 self._session.close()
             if "stream-end" in faults:
@@ -67,7 +70,7 @@ class Emulator:
 
     def close(self) -> None:
         """Close the connections and the world."""
-        self._laboratory.motion_service.silence(False)
+        self._laboratory.answering.set()
         self._session.close()
         self._outlet.close()
         self._laboratory.close()

@@ -14,7 +14,7 @@ KINDS: Final = {
     "latency": "the motion capture comes VALUE s later (default 0.25)",
     "jitter": "the motion capture comes up to VALUE s later, at random (default 0.05)",
     "disconnect": "the robot's connection is closed, for good",
-    "silence": "the robot answers no call",
+    "silence": "the robot does not answer where its joints are",
     "stream-end": "the stream is closed, for good",
     "motor-off": "the robot's motors have no stiffness",
 }

@@ -1,5 +1,6 @@
 """The NAO's arms in the world, moved joint by joint as ALMotion moves them."""
 
+from collections.abc import Sequence
 from typing import ClassVar, Final
 
 import numpy as np
@@ -14,6 +15,13 @@ from ..world.servo import Servo
 from ..world.table import WEIGHT_SHARE
 
 _MIRROR: Final = np.array(MIRROR)
+
+SAME_POSTURE: Final = 0.02
+"""Change of a joint [rad] up to which levers and torques are taken to be the same: a tenth of a
+millimetre at the hand, and half of a frame's computing time."""
+
+_KEPT: Final = 1000
+"""Frames that a world keeps that is never put back."""
 
 
 class JointArms(NaoArms):
@@ -33,6 +41,7 @@ class JointArms(NaoArms):
         self.stiffness: NDArray[np.float64] = np.ones(len(ARM_JOINTS))
         """Share of its torque that each motor has, 0 to 1."""
         self._compliant = 1 / servo.stiffness
+        self._posture = np.full((2, 5), np.inf)
         super().__init__(client, tree, physics, servo)
 
     def reset(self) -> None:
@@ -43,7 +52,10 @@ class JointArms(NaoArms):
     def _set_points(self) -> NDArray[np.float64]:
         """Return the commanded angles with what the joints give way by [rad]."""
         sides = np.stack([self.commanded[:5], self.commanded[5:] * _MIRROR])
-        sag = gravity_torque(sides) - vertical_lever(sides) * self._load / 2
+        if np.abs(sides - self._posture).max() > SAME_POSTURE:
+            self._posture = sides
+            self._gravity, self._lever = gravity_torque(sides), vertical_lever(sides)
+        sag = self._gravity - self._lever * self._load / 2
         left, right = sides + sag * self._compliant
         return np.concatenate([left, right * _MIRROR])
 
@@ -84,6 +96,16 @@ class JointWorld(World):
         """Put everything to rest, once: what is real stays where it is."""
         if not hasattr(self, "human_end"):
             super().reset()
+
+    def advance(self, human_reference: Sequence[float], robot_reference: Sequence[float]) -> None:
+        """Advance, and forget what is long ago: a laboratory may run for days."""
+        super().advance(human_reference, robot_reference)
+        if len(self.human_end) > 2 * _KEPT:
+            for history in (
+                self.human_end, self.human_velocity, self.human_force,
+                self.robot_end, self.robot_velocity, self.robot_force,
+            ):  # fmt: skip
+                del history[:-_KEPT]
 
     @property
     def joint_arms(self) -> JointArms:

@@ -4,6 +4,7 @@ The person begins a lift when the robot says "Go".
 """
 
 import queue
+import threading
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Final
@@ -73,9 +74,11 @@ class Laboratory:
         self._faults = Schedule(conditions.faults)
         self._told: set[Fault] = set()
         self._markers = Markers(conditions.capture_latency)
-        self.motion_service = MotionService(self._motion, log, self._pause)
+        self.answering = threading.Event()
+        """Whether the robot answers where its joints are; whoever asks waits for it."""
+        self.answering.set()
         self.services: dict[str, Any] = {
-            "ALMotion": self.motion_service,
+            "ALMotion": MotionService(self._motion, log, self._pause, self.answering),
             "ALRobotPosture": PostureService(),
             "ALTextToSpeech": SpeechService(self._heard, log, self._pause),
             "ALSystem": SystemService(),

@@ -31,20 +31,14 @@ class MotionService:
     # libqi would else call one method at a time, and a blocking one would block them all.
     __qi_threading__ = "multi"
 
-    def __init__(self, motion: JointMotion, log: Log, pause: Pause) -> None:
+    def __init__(
+        self, motion: JointMotion, log: Log, pause: Pause, answering: threading.Event
+    ) -> None:
         self._motion = motion
         self._log, self._pause = log, pause
         self._awake = True
         self._killed = threading.Event()
-        self._answering = threading.Event()
-        self._answering.set()
-
-    def silence(self, silent: bool) -> None:
-        """Answer no call for the joints' state, or answer again: a fault."""
-        if silent:
-            self._answering.clear()
-        else:
-            self._answering.set()
+        self._answering = answering
 
     def getBodyNames(self, name: str) -> list[str]:
         """Return the joints of a chain or of ``Body``."""

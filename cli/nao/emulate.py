@@ -7,8 +7,9 @@ import typer
 
 from ...agents.hardware.operator import StopButton, armed
 from ...benchmark.catalogue import make_scenario
-from ...benchmark.hardware.emulator import Emulator, Laboratory
+from ...benchmark.hardware.emulator import Emulator
 from ...benchmark.hardware.faults import KINDS, parse_fault
+from ...benchmark.hardware.laboratory import CAPTURE_LATENCY, Conditions
 
 
 def emulate(
@@ -21,7 +22,7 @@ def emulate(
     seed: Annotated[int, typer.Option(help="Seed of the first lift.", min=0)] = 0,
     capture_latency: Annotated[
         float, typer.Option(metavar="S", help="From a frame to its sending.", min=0.0, max=1.0)
-    ] = 0.01,
+    ] = CAPTURE_LATENCY,
     fault: Annotated[
         list[str] | None,
         typer.Option(
@@ -34,21 +35,18 @@ def emulate(
 
     The person begins a lift whenever the robot says "Go".
     """
-    faults = tuple(map(parse_fault, fault or ()))
-    laboratory = Laboratory(
+    conditions = Conditions(
         scenario=make_scenario(human, subject),
-        url=url,
-        stream=stream,
         seed=seed,
         capture_latency=capture_latency,
-        faults=faults,
+        faults=tuple(map(parse_fault, fault or ())),
     )
     begin = time.monotonic()
 
     def log(line: str) -> None:
         print(f"{time.monotonic() - begin:9.3f} {line}", flush=True)
 
-    emulator = Emulator(laboratory, log)
+    emulator = Emulator(conditions, url=url, stream=stream, log=log)
     button = StopButton()
     log(f"ready: robot {url}, stream {stream}")
     try:

@@ -12,7 +12,7 @@ from colift.benchmark.catalogue import make_scenario
 from colift.benchmark.episode import run_episode
 from colift.benchmark.suite import make_suite
 
-EXAMPLE = files("colift.agents.submissions") / "template" / "policy.py"
+TEMPLATE = files("colift.agents.submissions") / "template" / "policy.py"
 VIEWS = np.random.default_rng(0).uniform(-0.1, 0.2, (50, 5))
 
 
@@ -103,11 +103,11 @@ def test_beats_holding_still_and_copying_in_the_quick_suite():
             assert error < copied < held
 
 
-def test_the_example_is_the_same_policy():
-    ours, example = Proportional(), PolicySpec(text=f"{EXAMPLE}:Policy").make()
-    for policy in (ours, example):
+def test_the_template_of_a_submission_is_the_same_policy():
+    ours, template = Proportional(), PolicySpec(text=f"{TEMPLATE}:Policy").make()
+    for policy in (ours, template):
         policy.reset(0)
-    assert [example.act(view) for view in VIEWS] == [ours.act(view) for view in VIEWS]
+    assert [template.act(view) for view in VIEWS] == [ours.act(view) for view in VIEWS]
 
 
 @pytest.mark.parametrize("gain", [0.0, -1.0, np.inf, np.nan])
