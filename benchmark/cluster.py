@@ -37,7 +37,7 @@ class Cluster(Executor):
     def __init__(self, client: Any, address: str, origin: Mapping[str, str]) -> None:
         self._client = client
         self._address = address
-        self.origin = origin
+        self.origin = dict(origin)
         """What :func:`.origin` is on every worker."""
         self.idle_threads = sum(threads - 1 for threads in client.nthreads().values())
         """Threads of the workers that get nothing to do: all but one of each worker."""

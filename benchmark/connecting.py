@@ -71,7 +71,8 @@ async def _kind(address: str) -> str:
     from distributed.security import Security
 
     secured = Security().get_connection_args("client")  # type: ignore[no-untyped-call]
-    async with rpc(address, timeout=CONNECT_SECONDS, connection_args=secured) as server:
+    server: Any = rpc(address, timeout=CONNECT_SECONDS, connection_args=secured)  # type: ignore[no-untyped-call]
+    async with server:
         return str((await server.identity())["type"])
 
 

@@ -16,6 +16,11 @@ from ..agents.errors import EvaluatorFault
 START_SECONDS: Final = 180.0
 """How long the processes may take to start [s]."""
 
+IDLE_SECONDS: Final = 1800
+ORPHANED_SECONDS: Final = 60
+"""When a scheduler that is not used, and a worker without a scheduler, end by themselves [s]: whoever
+started them may have been killed."""
+
 END_SECONDS: Final = 10.0
 """How long they may take to end before they are killed [s]."""
 
@@ -39,13 +44,13 @@ def loopback_cluster(workers: int) -> Iterator[str]:
     with contextlib.ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="colift-")))
         file, common = folder / "scheduler.json", ("--host", "127.0.0.1", "--no-dashboard")
-        own = ("--port", "0", "--scheduler-file", str(file))
+        own = ("--port", "0", "--scheduler-file", str(file), "--idle-timeout", str(IDLE_SECONDS))
         scheduler = stack.enter_context(_dask(folder, "scheduler", *own, *common))
         address = _address(file, scheduler, folder)
         if workers:
-            own = ("--nworkers", str(workers), "--nthreads", "1")
-            place = ("--local-directory", str(folder))
-            stack.enter_context(_dask(folder, "worker", address, *own, *place, *common))
+            own = ("--nworkers", str(workers), "--nthreads", "1", "--local-directory", str(folder))
+            end = ("--death-timeout", str(ORPHANED_SECONDS))
+            stack.enter_context(_dask(folder, "worker", address, *own, *end, *common))
             _wait(address, workers, folder)
         yield address
 

@@ -1,11 +1,14 @@
 """The two arms of a NAO through NAOqi's ALMotion.
 
-A command is one call of ``setAngles`` with the angles of the project's own arm path: it does not
-block, replaces the one before it, and the arms end at its target by themselves. So a robot that
-hears nothing more stops within a control period, whatever became of the network.
+A command is a target on the project's own arm path, given by ``setAngles``: it does not block,
+replaces the one before it, and the arms end at its target by themselves. So a robot that hears
+nothing more stops within a control period, whatever became of the network.
 
-``setAngles`` moves every joint at a fraction of its greatest speed, one fraction for all of them.
-It is chosen so that the joint with the longest way takes the whole duration.
+``setAngles`` moves joints at a fraction of their greatest speeds. Each joint of the left arm gets,
+with its mirror image, a call of its own, and the fraction with which it takes the whole duration:
+all of them arrive together, and the hands stay within 1.5 mm of a steady rise. With one fraction
+for all, the joints with the shorter ways arrive early, and the hands race at up to 2.7 times the
+speed that was asked for.
 """
 
 from collections.abc import Sequence
@@ -20,6 +23,9 @@ from .ports import ArmState, HandLimits, Naoqi, RobotLostError
 from .safety import hand_limits, next_command
 
 NAMES: Final = list(ARM_JOINTS)
+
+PAIRS: Final = [(joint, joint + 5) for joint in range(5)]
+"""Each joint of the left arm and its mirror image, as places in ``NAMES``."""
 
 SMALLEST_FRACTION: Final = 0.001
 """Smallest fraction of the greatest speed that is asked for; NAOqi takes (0, 1]."""
@@ -62,8 +68,13 @@ class NaoqiArm:
 
     @property
     def limits(self) -> HandLimits:
-        """What commands are held to; from the robot's own joint limits."""
-        return self._limits
+        """What commands are held to; from the robot's own joint limits, the offset included."""
+        own, offset = self._limits, self.weight_offset
+        return HandLimits(
+            low=max(own.low, own.low - offset),
+            high=min(own.high, own.high - offset),
+            speed=own.speed,
+        )
 
     @property
     def stopped(self) -> bool:
@@ -92,16 +103,26 @@ class NaoqiArm:
         """
         if self._stopped:
             raise RobotLostError("the hands are stopped: no command is taken any more")
-        self._command = next_command(height, self._command, self._set_point, duration, self._limits)
+        self._command = next_command(height, self._command, self._set_point, duration, self.limits)
         angles = self._path.joint_angles(self._command + self.weight_offset)
         self._send(angles, duration)
         return self._command
 
     def _send(self, angles: list[float], duration: float) -> None:
-        way = np.abs(np.array(angles) - self._set_angles)
-        fraction = float((way / self._speeds).max()) / duration
-        fraction = min(max(fraction, SMALLEST_FRACTION), 1.0)
-        self.session.call("ALMotion", "setAngles", NAMES, angles, fraction)
+        shares = np.abs(np.array(angles) - self._set_angles) / self._speeds / duration
+        fractions = np.clip(shares, SMALLEST_FRACTION, 1.0).tolist()
+        self.session.calls(
+            "ALMotion",
+            [
+                (
+                    "setAngles",
+                    [NAMES[left], NAMES[right]],
+                    [angles[left], angles[right]],
+                    max(fractions[left], fractions[right]),
+                )
+                for left, right in PAIRS
+            ],
+        )
 
     def stop(self) -> None:
         """Freeze the arms where they are, stiff; every later command is refused."""

@@ -1,6 +1,7 @@
 """Calls to a NAOqi over libqi, none of which waits forever."""
 
 import os
+import time
 from collections.abc import Sequence
 from typing import Any, Final
 
@@ -78,8 +79,9 @@ class NaoqiSession:
         """
         module = self._service(service)
         try:
+            deadline = time.monotonic() + within
             futures = [getattr(module, name)(*rest, _async=True) for name, *rest in calls]
-            return [future.value(round(1000 * within)) for future in futures]
+            return [future.value(_milliseconds_to(deadline)) for future in futures]
         except (RuntimeError, AttributeError) as error:
             names = ", ".join(f"{service}.{name}" for name, *_ in calls)
             raise RobotLostError(f"{names} at {self.url}: {one_line(error)}") from error
@@ -96,6 +98,11 @@ class NaoqiSession:
     def close(self) -> None:
         """Close the connection."""
         self._session.close()
+
+
+def _milliseconds_to(deadline: float) -> int:
+    """Return how long to wait; at least 1, for libqi waits for ever if it is told 0."""
+    return max(1, round(1000 * (deadline - time.monotonic())))
 
 
 def quiet() -> None:

@@ -2,6 +2,7 @@
 
 import gc
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from typing import Final
@@ -79,8 +80,9 @@ class Session:
         rest = setup.measure_rest(self.capture, self.clock)
         self.capture.set_rest(rest.human_end, rest.robot_end)
         self.tell(
-            f"rest heights: human's end {rest.human_end:.4f} m, robot's end {rest.robot_end:.4f} m; "
-            f"noise {1000 * rest.noise:.2f} mm, {rest.rate:.0f} frames a second"
+            f"rest heights: human's end {rest.human_end:.4f} m, robot's end "
+            f"{rest.robot_end:.4f} m; noise {1000 * rest.noise:.2f} mm, "
+            f"{rest.rate:.0f} frames a second"
         )
 
     def play(
@@ -147,11 +149,17 @@ def warm_up(policy: Agent, seed: int) -> None:
         If it fails.
     """
     try:
-        policy.reset(seed)
-        policy.act(np.zeros(len(RobotObservation)))
-        policy.reset(seed)
+        # In a thread that ends: a sandboxed policy holds its caller's to one processor for a while.
+        with ThreadPoolExecutor(1) as aside:
+            aside.submit(_rehearse, policy, seed).result()
     except (Exception, SystemExit) as error:
         raise StopTrialError(Stop.POLICY, f"the policy fails at once: {told(error)}") from error
+
+
+def _rehearse(policy: Agent, seed: int) -> None:
+    policy.reset(seed)
+    policy.act(np.zeros(len(RobotObservation)))
+    policy.reset(seed)
 
 
 @contextmanager

@@ -54,7 +54,10 @@ VARIANTS: Final = (
     Variant(name="people who roam among those it learned from", only=BEHAVIOURS),
     Variant(name="the arm's lag", parameters={"arm_lag": 0.0}),
     Variant(name="making up for the sag", parameters={"sag_memory": 1e9}),
-    Variant(name="foresight beyond the period", parameters={"foresight": CONTROL_PERIOD}),
+    Variant(
+        name="foresight beyond the period, as smooth",
+        parameters={"foresight": CONTROL_PERIOD, "smoothness": 0.2},
+    ),
     Variant(name="the cost of bends", parameters={"smoothness": 0.0}),
 )
 """Each lacks one part."""

@@ -1,7 +1,7 @@
 """The laboratory in simulated time, inside this process: no network, no extra, no waiting.
 
 The same adapter, loop and session work on it as on a robot. A call takes no time, and nothing
-happens but while somebody waits: so a trial is the same bit for bit, whatever else the machine does.
+happens but while somebody waits: so a trial is the same bit for bit, whatever else goes on.
 """
 
 from collections.abc import Callable, Sequence

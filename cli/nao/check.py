@@ -112,10 +112,8 @@ def capture_lines(capture: LslCapture) -> Iterator[Line]:
     yield (
         True,
         "stream",
-        (
-            f"{info['name']} of {info['host']}, {info['channels']} channels at {info['rate_hz']:g} Hz, "
-            f"clock offset {1000 * info['clock_offset_s']:.3f} ms"
-        ),
+        f"{info['name']} of {info['host']}, {info['channels']} channels at "
+        f"{info['rate_hz']:g} Hz, clock offset {1000 * info['clock_offset_s']:.3f} ms",
     )
     capture.drain()
     ages = []

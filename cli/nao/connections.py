@@ -1,10 +1,62 @@
 """From what a user types to a robot and a motion capture."""
 
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+from ...agents.agent import Agent
 from ...agents.errors import InputError
+from ...agents.hardware.clocks import MonotonicClock
+from ...agents.hardware.decisions import Decider, Inline, Timed
 from ...agents.hardware.lsl import Layout, LslCapture
 from ...agents.hardware.naoqi import NaoqiArm
 from ...agents.hardware.naoqi_session import NaoqiSession
-from ...agents.hardware.ports import RobotLostError
+from ...agents.hardware.operator import StopButton
+from ...agents.hardware.ports import Clock, RobotLostError, TableCapture
+from ...benchmark.catalogue import make_scenario
+from ...benchmark.hardware.laboratory import Conditions
+from ...benchmark.hardware.simulated import SimulatedLaboratory
+
+WORLD: Final = "world"
+"""What is typed for the simulated laboratory instead of a robot's address."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Place:
+    """Where trials are played."""
+
+    arm: NaoqiArm
+    capture: TableCapture
+    clock: Clock
+    asked_by: Callable[[Agent], Decider]
+    """What asks the policy."""
+    simulated: bool
+    """Whether the time is, and nobody has to confirm anything."""
+
+
+def open_place(robot: str, mocap: str, layout: Layout, button: StopButton) -> Place:
+    """Return a laboratory, or the simulated one of ``world`` or ``world:BEHAVIOUR/SUBJECT``.
+
+    Raises
+    ------
+    InputError
+        If something is not there.
+    """
+    kind, _, scenario = robot.partition(":")
+    if kind == WORLD:
+        behaviour, _, subject = (scenario or "smooth").partition("/")
+        conditions = Conditions(scenario=make_scenario(behaviour, subject or "S1"))
+        world = SimulatedLaboratory(conditions, button)
+        return Place(
+            arm=NaoqiArm(world), capture=world, clock=world, asked_by=Inline, simulated=True
+        )
+    return Place(
+        arm=open_robot(robot),
+        capture=open_capture(mocap, layout),
+        clock=MonotonicClock(button),
+        asked_by=Timed,
+        simulated=False,
+    )
 
 
 def open_capture(text: str, layout: Layout) -> LslCapture:

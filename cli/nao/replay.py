@@ -8,8 +8,8 @@ import typer
 
 from ...agents.hardware.csv_replay import commands, replay_trial
 from ...agents.hardware.recording import read_recording
-from ...agents.policies.loading import PolicySpec
 from ...benchmark.episode import policy_seed
+from ..policies import AUTO, choose_policy
 
 
 def replay(
@@ -19,6 +19,9 @@ def replay(
     policy: Annotated[
         str | None, typer.Option(help="Another policy than the one that was recorded.")
     ] = None,
+    isolation: Annotated[
+        str, typer.Option(help="What keeps the policy apart, as for 'nao run'.")
+    ] = AUTO,
 ) -> None:
     """Play a recorded trial again, and compare the commands with the recorded ones, bit for bit.
 
@@ -26,7 +29,9 @@ def replay(
     would have commanded, given what the recorded one saw.
     """
     recorded = read_recording(recording)
-    with PolicySpec(text=policy or recorded.policy).agent() as agent:
+    spec = choose_policy(policy or recorded.policy, isolation)
+    spec.check()
+    with spec.agent() as agent:
         agent.reset(policy_seed())
         played = replay_trial(recorded, agent)
     there, here = commands(recorded.record), commands(played)

@@ -3,13 +3,13 @@
 import json
 import sys
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from rich.console import Console
 
-from ...agents.hardware.clocks import MonotonicClock
 from ...agents.hardware.loop import LoopSettings
 from ...agents.hardware.operator import StopButton, armed, await_enter
 from ...agents.hardware.record import Record
@@ -17,22 +17,26 @@ from ...agents.hardware.recording import Recording, write_recording
 from ...agents.hardware.session import Session
 from ...agents.hardware.stops import StopTrialError
 from ...agents.hardware.trial_end import AfterDuration, AfterLift
-from ...agents.policies.loading import PolicySpec
+from ...benchmark.agent_spec import AgentSpec
 from ...benchmark.bundle import check_target, results, write_bundle
 from ...benchmark.episode import policy_seed
 from ...benchmark.hardware.timing import timing_report
 from ...benchmark.hardware.trial import episode, hardware_run, hardware_suite
+from ..policies import AUTO, HELP, choose_policy
 from ..tables import results_table, standing
-from .connections import layout_of, open_capture, open_robot
+from .connections import WORLD, layout_of, open_place
 from .reports import timing_table
 
 
 def run(
-    policy: Annotated[
-        str, typer.Argument(help="A name of 'colift list', module:Class or file.py:Class.")
-    ],
+    policy: Annotated[str, typer.Argument(help=HELP)],
     robot: Annotated[
-        str, typer.Option(metavar="URL", help="Where the robot's NAOqi listens.")
+        str,
+        typer.Option(
+            metavar="URL",
+            help="Where the robot's NAOqi listens; or world[:BEHAVIOUR[/SUBJECT]], a laboratory "
+            "that is simulated here, as fast as it goes, with a motion capture of its own.",
+        ),
     ] = "tcp://127.0.0.1:9559",
     mocap: Annotated[str, typer.Option(metavar="lsl:NAME", help="The motion capture.")] = (
         "lsl:colift"
@@ -53,6 +57,13 @@ def run(
     human_markers: Annotated[str, typer.Option(help="Markers at the human's end.")] = "H1,H2",
     robot_markers: Annotated[str, typer.Option(help="Markers at the robot's end.")] = "R1,R2",
     up: Annotated[str, typer.Option(help="The stream's axis that points up.")] = "Z",
+    isolation: Annotated[
+        str,
+        typer.Option(
+            help="What keeps the policy apart: auto (a sandbox, unless it is colift's own), none, "
+            "bubblewrap, landlock or limits."
+        ),
+    ] = AUTO,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Compute and log commands, and move nothing.")
     ] = False,
@@ -74,11 +85,12 @@ def run(
     Exit codes: 0 done, 2 wrong usage or set-up, 10 operator, 11 robot lost, 12 motion capture lost,
     13 motion capture not plausible, 14 policy, 15 motors.
     """
-    spec = PolicySpec(text=policy)
+    spec = choose_policy(policy, isolation)
     spec.check()
     settings = LoopSettings(period=control_period, latency=latency)
     layout = layout_of(human_markers, robot_markers, up)
-    name = "NAO trials (dry run)" if dry_run else "NAO trials"
+    name = "NAO trials" + (" (simulated)" if robot.startswith(WORLD) else "")
+    name += " (dry run)" if dry_run else ""
     suite = hardware_suite(name, person, trials, period=control_period, latency=latency)
     if out is not None:
         check_target(out)
@@ -88,19 +100,21 @@ def run(
 
     def confirm(line: str) -> None:
         _tell(line)
-        if not (yes or dry_run):
+        if not unattended:
             _tell("  Enter when ready, Ctrl-C to stop.")
             await_enter(button)
 
-    arm, capture = open_robot(robot), open_capture(mocap, layout)
+    place = open_place(robot, mocap, layout, button)
+    unattended = yes or dry_run or place.simulated
     session = Session(
-        arm=arm,
-        capture=capture,
-        clock=MonotonicClock(button),
+        arm=place.arm,
+        capture=place.capture,
+        clock=place.clock,
         tell=_tell,
         confirm=confirm,
         button=button,
         dry=dry_run,
+        asked_by=place.asked_by,
     )
     records: list[Record] = []
     stopped: StopTrialError | None = None
@@ -113,8 +127,8 @@ def run(
                         record / f"lift-{len(records):02}.csv",
                         Recording(
                             policy=policy,
-                            limits=arm.limits,
-                            weight_offset=arm.weight_offset,
+                            limits=place.arm.limits,
+                            weight_offset=place.arm.weight_offset,
                             dry=dry_run,
                             record=played,
                         ),
@@ -124,8 +138,8 @@ def run(
         session.stop(stop)
     finally:
         if not dry_run:
-            _release(session, wait=not yes)
-        capture.close()
+            _release(session, wait=not unattended)
+        place.capture.close()
     if records:
         episodes = [
             episode(played, person=person, number=number) for number, played in enumerate(records)
@@ -134,7 +148,7 @@ def run(
         content = results(done, {})
         content["hardware"] = {
             "robot": robot,
-            "motion_capture": capture.info,
+            "motion_capture": place.capture.info,
             "dry_run": dry_run,
             "timing": timing_report(records),
         }
@@ -147,7 +161,7 @@ def run(
 
 def _trials(
     session: Session,
-    spec: PolicySpec,
+    spec: AgentSpec,
     trials: int,
     settings: LoopSettings,
     duration: float | None,
@@ -170,7 +184,8 @@ def _release(session: Session, *, wait: bool) -> None:
     _tell("Take the table out of the hands: the arms go limp.")
     if wait:
         _tell("  Enter when it is out.")
-        sys.stdin.readline()
+        with suppress(KeyboardInterrupt):
+            sys.stdin.readline()
     session.finish()
 
 

@@ -78,7 +78,7 @@ def test_a_part_that_the_suite_does_not_have_shows_no_numbers(page, front):
     page.goto(front)
     page.get_by_label("Behaviour").select_option("smooth")
     page.get_by_label("Subject").select_option("S3")
-    assert set(page.locator("tbody .rmse").all_text_contents()) == {"–"}
+    assert set(page.locator("tbody .rmse").all_text_contents()) == {"\N{EN DASH}"}
     expect(page.locator("#told")).to_contain_text("The suite has no such lifts.")
 
 

@@ -77,6 +77,29 @@ def zipped(tmp_path):
     return make
 
 
+MOODY = """
+import os
+
+class Policy:
+    def reset(self, seed):
+        pass
+
+    def act(self, observation):
+        return [os.urandom(1)[0] / 1e4]
+"""
+"""Its lifts cannot be repeated."""
+
+
+def evaluated(page, url, queue, path, token):
+    """Upload a submission, have it evaluated, look at its page, and return the job."""
+    upload(page, url, path, token)
+    page.wait_for_url("**/jobs/*")
+    address = page.url
+    Worker(queue).once()
+    page.goto(address)
+    return queue.job(address.rpartition("/")[2])
+
+
 def upload(page, url, path, token):
     page.goto(f"{url}/submit")
     page.get_by_label("Folder as a zip file").set_input_files(path)
@@ -113,17 +136,23 @@ def test_an_uploaded_template_becomes_a_verified_row_before_ones_eyes(
 
 
 def test_a_failure_is_told_with_its_reason_and_the_log(page, url, queue, token, zipped):
-    upload(page, url, zipped("faulty", FAULTY), token)
-    page.wait_for_url("**/jobs/*")
-    address = page.url
-    Worker(queue).once()
-    job = queue.job(address.rpartition("/")[2])
-    page.goto(address)
-    if job.state == "failed":
-        expect(page.get_by_text("The submission failed:")).to_contain_text(job.reason)
-    assert job.log
+    job = evaluated(page, url, queue, zipped("moody", MOODY), token)
+    assert job.state == "failed"
+    expect(page.locator(".notice.bad")).to_have_text(f"The submission failed: {job.reason}")
+    assert page.locator("pre").text_content().strip() == job.log.strip()
+    page.get_by_role("link", name="What is known of it").click()
+    expect(page.get_by_text("This submission has no row")).to_be_visible()
+
+
+def test_why_lifts_failed_is_told_in_the_policys_own_words(page, url, queue, token, zipped):
+    job = evaluated(page, url, queue, zipped("faulty", FAULTY), token)
+    assert job.state == "done"
     assert page.locator("pre").text_content().strip() == job.log.strip()
     assert "no <b>idea</b>" in job.log
+    page.get_by_role("link", name="See its page").click()
+    failures = page.get_by_role("region", name="Failures").first
+    expect(failures).to_contain_text("2 of 2 public lifts failed")
+    expect(failures).to_contain_text("no <b>idea</b>")
 
 
 def test_what_is_not_accepted_is_told_why_and_nothing_is_queued(page, url, queue, token, zipped):

@@ -1,0 +1,89 @@
+"""``colift submit`` to a board on the web: a real service, a real worker."""
+
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+from colift.agents.submissions.new import write_template
+from colift.leaderboard.board import Board
+from colift.leaderboard.tokens import Tokens
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    return tmp_path_factory.mktemp("there")
+
+
+@pytest.fixture(scope="module")
+def environment(place):
+    return {**os.environ, "XDG_CACHE_HOME": str(place / "cache"), "COLUMNS": "100"}
+
+
+@pytest.fixture(scope="module")
+def board(place):
+    board = Board.open(place / "board", "quick-v1")
+    yield board
+    board.close()
+
+
+@pytest.fixture(scope="module")
+def url(place, board, environment):
+    """Serve the board; return its address."""
+    command = ["serve", "--board", "board", "--port", "0", "--workers", "1"]
+    with subprocess.Popen(
+        [sys.executable, "-m", "colift.cli", *command],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        cwd=place,
+        env=environment,
+    ) as process:
+        yield process.stdout.readline().split()[2]
+        process.send_signal(signal.SIGTERM)
+
+
+@pytest.fixture(scope="module")
+def colift(place, environment):
+    def run(*arguments, **more):
+        return subprocess.run(
+            [sys.executable, "-m", "colift.cli", *arguments],
+            capture_output=True,
+            text=True,
+            cwd=place,
+            env={**environment, **more},
+            timeout=300,
+        )
+
+    return run
+
+
+def test_an_upload_becomes_a_row_that_is_printed(colift, url, board, place):
+    write_template(place / "mine")
+    token = Tokens(board).add("ada")
+    done = colift("submit", "mine", "--board", url, COLIFT_TOKEN=token)
+    assert done.returncode == 0, done.stderr
+    (standing,) = board.standings()
+    assert (standing.row.name, standing.submitter) == ("mine", "ada")
+    for words in (f"submitted; job {url}/api/v1/jobs/", "mine by Your Name", "Rank 1 of 1"):
+        assert words in done.stdout
+    assert done.stdout.splitlines()[-1].endswith(f"{standing.row.submission}/bundle.zip")
+    again = colift("submit", "mine", "--board", f"{url}/", "--token", token)
+    assert (again.returncode, "Rank 1 of 1" in again.stdout) == (0, True)
+    assert len(board.standings()) == 1
+
+
+def test_a_wrong_token_is_refused_in_the_boards_words(colift, url, place):
+    write_template(place / "other")
+    done = colift("submit", "other", "--board", url, "--token", "x")
+    assert done.returncode == 2
+    assert "this token does not count" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_what_is_no_board_is_told(colift, url, place):
+    write_template(place / "third")
+    done = colift("submit", "third", "--board", f"{url}/elsewhere", "--token", "x")
+    assert done.returncode == 2
+    assert f"board {url}/elsewhere: " in done.stderr
