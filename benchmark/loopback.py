@@ -18,8 +18,8 @@ START_SECONDS: Final = 180.0
 
 IDLE_SECONDS: Final = 1800
 ORPHANED_SECONDS: Final = 60
-"""When a scheduler that is not used, and a worker without a scheduler, end by themselves [s]: whoever
-started them may have been killed."""
+"""When a scheduler that is not used, and a worker without a scheduler, end by themselves [s]:
+whoever started them may have been killed."""
 
 END_SECONDS: Final = 10.0
 """How long they may take to end before they are killed [s]."""

@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.text import Text
 
 from ..leaderboard.board import Board
+from ..leaderboard.opening import open_stocked
 from ..leaderboard.pages.site import write_site
 from ..leaderboard.queue import Queue
 from ..leaderboard.season import SeasonInfo
@@ -33,7 +34,7 @@ def board(
     ] = None,
 ) -> None:
     """Print a board: rank groups, RMSE with its interval, and the human-human team's line."""
-    place = Board.open(board)
+    place = open_stocked(board)
     try:
         if site is not None:
             write_site(place, site)

@@ -26,6 +26,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "serve": "serve:serve",
         "worker": "worker:worker",
         "token": "token:app",
+        "season": "season:app",
         "practice": "practice:practice",
     },
     "Robots": {"nao": "nao:app"},

@@ -10,6 +10,7 @@ from ..benchmark.executors import local_pool
 from ..leaderboard.board import Board
 from ..leaderboard.evaluation import Watch
 from ..leaderboard.job import Job
+from ..leaderboard.opening import open_stocked
 from ..leaderboard.queue import NO_QUOTA, Queue
 from ..leaderboard.worker import Worker
 from .outcome import Outcome
@@ -27,8 +28,8 @@ class Here:
 
     @classmethod
     def open(cls, folder: Path, suite: str | None) -> Self:
-        """Return the board in a folder; see :meth:`.Board.open`."""
-        return cls(Board.open(folder, suite))
+        """Return the board in a folder; see :func:`.open_stocked`."""
+        return cls(open_stocked(folder, suite))
 
     def close(self) -> None:
         """Close it."""

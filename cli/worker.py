@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
-from ..leaderboard.board import Board
 from ..leaderboard.job import Job
+from ..leaderboard.opening import open_stocked
 from ..leaderboard.queue import Queue
 from ..leaderboard.worker import Worker
 from .executors import executor
@@ -36,7 +36,7 @@ def worker(
     Any number of workers may share a board. One that is killed loses nothing: another begins anew.
     """
     signal.signal(signal.SIGTERM, _stop)
-    place = Board.open(board)
+    place = open_stocked(board)
     try:
         with executor(jobs, dask) as workers:
             here = Worker(Queue(place), workers)

@@ -36,8 +36,14 @@ FIRST: Final = "1"
 SUITE: Final = "standard-v1"
 """What a new board evaluates on, if nothing else is said."""
 
+SHIPPED: Final = "shipped"
+"""Why a season from elsewhere is here, if nothing else is said."""
+
 LOCAL: Final = "local"
 """Who does something, if nobody says who: whoever can write to the folder."""
+
+OWN: Final = "colift"
+"""Who submits the project's own policies: nobody's token has this name."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +62,7 @@ class Board:
         *,
         url: str | None = None,
         clock: Clock = utc_now,
+        practice: Practice | None = None,
     ) -> Self:
         """Return the board in a folder; it is made if there is none.
 
@@ -70,6 +77,9 @@ class Board:
             by default that of the environment's ``COLIFT_DATABASE_URL``, if there is one.
         clock
             What time it is.
+        practice
+            What a new board begins with, if it takes submissions and is of the wanted suite;
+            otherwise it begins with a season of its own.
 
         Raises
         ------
@@ -83,7 +93,7 @@ class Board:
             with store.alone():
                 board = cls(store.folder, Database.open(store.folder, place), clock)
                 with board._closed_on_error():
-                    board._ready(suite)
+                    board._ready(suite, practice)
         except OSError as error:
             raise InputError(f"cannot use {folder} as a board: {error.strerror}") from error
         return board
@@ -148,7 +158,7 @@ class Board:
         """
         self._book.reveal(season, who, why)
 
-    def adopt(self, practice: Practice, who: str = LOCAL, why: str = "shipped") -> None:
+    def adopt(self, practice: Practice, who: str = LOCAL, why: str = SHIPPED) -> None:
         """Take over a season that was played elsewhere, with its rows; nothing if it is there.
 
         Raises
@@ -270,10 +280,14 @@ class Board:
         """
         return self.store.keep(folder)
 
-    def _ready(self, suite: str | None) -> None:
+    def _ready(self, suite: str | None, practice: Practice | None) -> None:
         """Begin the first season, if there is none; refuse another suite than that of a board."""
         if not self.seasons():
-            self._book.begin(FIRST, suite or SUITE, LOCAL)
+            wanted = suite or SUITE
+            if practice and practice.info.current and practice.info.suite == wanted:
+                self._book.adopt(practice, LOCAL, SHIPPED)
+            else:
+                self._book.begin(FIRST, wanted, LOCAL)
         current = self._book.current()
         if suite not in (None, current.suite):
             raise InputError(f"{self.folder} is a board of {current.suite}, not of {suite}")

@@ -2,12 +2,15 @@
 
 from pathlib import Path
 
-from .board import Board
+from .board import SUITE, Board
+from .practice import SUITES
 from .shipped import DATA, shipped_practice
 
 
 def open_stocked(folder: Path, suite: str | None = None, data: Path = DATA) -> Board:
     """Return the board in a folder; a new one begins with the season that the project ships.
+
+    The practice seasons of other suites stand beside it, to be looked at.
 
     Parameters
     ----------
@@ -21,10 +24,14 @@ def open_stocked(folder: Path, suite: str | None = None, data: Path = DATA) -> B
     InputError
         As :meth:`.Board.open`.
     """
-    new = not (folder.is_dir() and any(folder.iterdir()))
-    board = Board.open(folder, suite)
-    if new:
-        with shipped_practice(board.season.suite.name, data) as practice:
-            if practice is not None:
-                board.adopt(practice)
+    if folder.is_dir() and any(folder.iterdir()):
+        return Board.open(folder, suite)
+    wanted = suite or SUITE
+    with shipped_practice(wanted, data) as practice:
+        board = Board.open(folder, suite, practice=practice)
+    for other in SUITES:
+        if practice is not None and other != wanted:
+            with shipped_practice(other, data, current=False) as shown:
+                if shown is not None:
+                    board.adopt(shown)
     return board

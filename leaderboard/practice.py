@@ -20,6 +20,7 @@ from ..benchmark.bundle import read_bundle
 from ..benchmark.bundle.files import EPISODES, RESULTS
 from ..benchmark.references import Reference
 from ..benchmark.suite import make_suite
+from .board import OWN
 from .entry import Entry
 from .evaluation import Watch, evaluate, versions
 from .own import own_entrant
@@ -33,9 +34,6 @@ STANDARD: Final = "standard-v1"
 
 SUITES: Final = (STANDARD, "paper-v1")
 """The suites on which the project ships a practice season."""
-
-SUBMITTER: Final = "colift"
-"""Who put the project's policies on the board."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,7 +97,7 @@ def play_policy(
         season=season.name,
         submission=entrant.digest,
         name=name,
-        submitter=SUBMITTER,
+        submitter=OWN,
         at=at,
         row=evaluation.row,
         refusal=None,

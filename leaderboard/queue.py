@@ -15,12 +15,12 @@ import sqlalchemy as sa
 
 from ..agents.errors import InputError
 from ..agents.submissions.submission import Submission
-from .board import LOCAL, Board
+from .board import LOCAL, OWN, Board
 from .database.reading import read_entries
 from .database.recording import record_entry, record_event
 from .database.schema import entries, jobs
 from .entry import Entry
-from .evaluation import Stage, amount
+from .evaluation import Entrant, Stage, amount
 from .event import Event
 from .job import HELD, Job, State
 from .worker_name import is_gone
@@ -96,7 +96,14 @@ class Queue:
         InputError
             If the season cannot be played by this colift.
         """
-        season, digest, now = self.board.season, submission.contents.digest, self.board.clock()
+        return self._enqueue(submission.contents.digest, submission.manifest.name, submitter)
+
+    def enqueue_own(self, entrant: Entrant) -> Job:
+        """Return the job of one of the project's own policies, likewise; see :mod:`.own`."""
+        return self._enqueue(entrant.digest, entrant.name, OWN)
+
+    def _enqueue(self, digest: str, name: str, submitter: str) -> Job:
+        season, now = self.board.season, self.board.clock()
         this = (jobs.c.season == season.name) & (jobs.c.submission == digest)
         fresh = {
             "state": "queued",
@@ -111,7 +118,8 @@ class Queue:
         with self.board.database.writing() as connection:
             there = connection.execute(sa.select(jobs).where(this)).mappings().first()
             if there is None:
-                self._admit(connection, submitter, now)
+                if submitter != OWN:
+                    self._admit(connection, submitter, now)
                 known = read_entries(
                     connection, entries.c.season == season.name, entries.c.submission == digest
                 )
@@ -121,7 +129,7 @@ class Queue:
                         id=uuid.uuid4().hex,
                         season=season.name,
                         submission=digest,
-                        name=submission.manifest.name,
+                        name=name,
                         submitter=submitter,
                         total=amount(season),
                         submitted_at=now,

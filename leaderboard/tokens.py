@@ -10,7 +10,7 @@ from typing import Final
 import sqlalchemy as sa
 
 from ..agents.errors import InputError
-from .board import LOCAL, Board
+from .board import LOCAL, OWN, Board
 from .database.schema import tokens
 
 NAME: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.@+-]{0,63}")
@@ -43,8 +43,10 @@ class Tokens:
         InputError
             If it is no name, or has a token that was not revoked.
         """
-        if not NAME.fullmatch(name) or name == LOCAL:
-            raise InputError(f"{name!r} must be letters, digits and _.@+-, at most 64, not {LOCAL}")
+        if not NAME.fullmatch(name) or name in (LOCAL, OWN):
+            raise InputError(
+                f"{name!r} must be letters, digits and _.@+-, at most 64, not {LOCAL} or {OWN}"
+            )
         token = PREFIX + secrets.token_urlsafe(32)
         with self.board.database.writing() as connection:
             if connection.scalar(sa.select(tokens.c.number).where(_active(name))) is not None:

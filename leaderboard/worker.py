@@ -14,10 +14,11 @@ from ..agents.errors import EvaluatorFault, InputError, told
 from ..benchmark.bundle import read_bundle
 from ..benchmark.cluster import Cluster
 from ..benchmark.shipping import shipped
-from .board import Board
+from .board import OWN, Board
 from .entry import Entry
 from .evaluation import Entrant, Evaluation, Stage, Watch, amount, evaluate, play_team
 from .job import Job
+from .own import own_entrant
 from .pulse import Pulse
 from .queue import LostError, Queue
 from .worker_name import this_worker
@@ -116,14 +117,13 @@ class Worker:
 
     def _evaluate(self, job: Job, bundle: Path, watch: Watch) -> tuple[Entry, Evaluation]:
         try:
-            submission = self._board.store.submission(job.submission)
+            entrant = self._placed(self._entrant(job))
             season = self._board.season_of(job.season)
         except InputError as error:
             raise EvaluatorFault(str(error)) from error  # It was good when it was submitted.
         vault = self._board.store.vault(job.season)
         watch.total(amount(season) + (0 if vault.known_team() else season.suite.size))
         team = vault.team(lambda: play_team(season, executor=self.executor, watch=watch))
-        entrant = self._placed(Entrant.of(submission))
         evaluation = evaluate(entrant, season, team, bundle, executor=self.executor, watch=watch)
         entry = Entry(
             season=job.season,
@@ -135,6 +135,15 @@ class Worker:
             refusal=evaluation.refusal,
         )
         return entry, evaluation
+
+    def _entrant(self, job: Job) -> Entrant:
+        """Return who is evaluated: what was submitted, or a policy of the project's own."""
+        if job.submitter != OWN:
+            return Entrant.of(self._board.store.submission(job.submission))
+        own = own_entrant(job.name)
+        if own.digest != job.submission:
+            raise InputError(f"colift's own {job.name} is not the one that was queued")
+        return own
 
     def _placed(self, entrant: Entrant) -> Entrant:
         """Return the entrant as the executor's machines can run it."""

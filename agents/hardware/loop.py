@@ -32,6 +32,10 @@ from which the motion capture is lost."""
 POLICY_SHARE: Final = 0.6
 """Share of the control period that the policy may take."""
 
+DEAD_TIME: Final = 0.01
+"""Mean time from a command to the hands' setting out [s]: half a cycle of ALMotion, which takes
+commands in every 20 ms."""
+
 FASTEST_LOOP: Final = 0.02
 """Shortest control period [s]: one cycle of the NAO's motion thread."""
 
@@ -52,8 +56,9 @@ class LoopSettings:
     period: float = 0.1
     """Control period T [s]."""
     latency: float = 0.1
-    """Age of the motion-capture frame that the policy is given [s]; the newest there is, if that
-    is older. The policies were made for 0.1 s, the paper's."""
+    """Time from the motion-capture frame that the policy is given to the hands' setting out [s]:
+    its age and :data:`DEAD_TIME`, as in simulation, where there is no dead time. The newest frame
+    there is, if that is older. The policies were made for 0.1 s, the paper's."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
@@ -202,7 +207,7 @@ class _Loop:
 
     def _observation(self, now: float, time: float, state: ArmState) -> Observation:
         """Return what the policy sees, laid out as in simulation."""
-        sample = at(self._watch.samples, now - self._settings.latency)
+        sample = at(self._watch.samples, now - max(0.0, self._settings.latency - DEAD_TIME))
         observation = np.empty(len(RobotObservation))
         observation[RobotObservation.HUMAN_END] = sample.human_end
         observation[RobotObservation.ROBOT_END] = sample.robot_end

@@ -101,8 +101,7 @@ class NaoqiSession:
 
 
 def _milliseconds_to(deadline: float) -> int:
-    """Return how long to wait; at least 1, for libqi waits for ever if it is told 0."""
-    return max(1, round(1000 * (deadline - time.monotonic())))
+    return max(0, round(1000 * (deadline - time.monotonic())))
 
 
 def quiet() -> None:

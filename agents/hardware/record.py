@@ -45,7 +45,7 @@ class Record:
     period: float
     """Control period [s]."""
     latency: float
-    """Age of the frame that the policy was to be given [s]."""
+    """Time from the frame that the policy was to be given to the hands' setting out [s]."""
     begin: float = 0.0
     """When the loop began [s], one period before the first step."""
     events: list[Sample | Step] = field(default_factory=list)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...agents.errors import InputError
+from ...agents.hardware.loop import DEAD_TIME
 from ...agents.hardware.plausibility import seen
 from ...agents.hardware.recording import Recording
 from ...robots.arm_kinematics import arm_path
@@ -29,10 +30,11 @@ class Estimates:
     """Numbers of a laboratory, and which of the world's each stands for."""
 
     capture_age: float
-    """Age of the newest frame when a step begins [s], median: the lowest ``latency`` that can be
-    simulated for this laboratory."""
+    """Age of the newest frame when a step begins [s], median: with the arms' dead time, the lowest
+    ``latency`` that can be simulated for this laboratory."""
     latency: float
-    """Age of the frame that the policy was given [s], median: the ``latency`` of these trials."""
+    """Time from the frame that the policy was given to the hands' setting out [s], median: the
+    ``latency`` of these trials."""
     follow_delay: float
     """How long the robot's table end is behind its commands [s], each a ramp over its period."""
     servo_time: float
@@ -62,7 +64,7 @@ def estimate(recordings: Sequence[Recording]) -> Estimates:
     stiffness, servo_time, sag = _servo(recordings)
     return Estimates(
         capture_age=float(np.median(ages)),
-        latency=float(np.median(np.maximum(ages, wanted[: len(ages)]))),
+        latency=float(np.median(np.maximum(ages + DEAD_TIME, wanted[: len(ages)]))),
         follow_delay=float(np.median([_delay(recording) for recording in recordings])),
         servo_time=servo_time,
         stiffness=stiffness,

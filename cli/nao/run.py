@@ -47,7 +47,7 @@ def run(
     ] = 0.1,
     latency: Annotated[
         float,
-        typer.Option(metavar="S", help="Age of the frame that the policy is given, at least."),
+        typer.Option(metavar="S", help="From a frame to the hands' move, at least."),
     ] = 0.1,
     duration: Annotated[
         float | None,

@@ -8,6 +8,7 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 WITHOUT = "COLIFT_TESTS_WITHOUT_POSTGRESQL"
 """Environment variable; set, the tests on PostgreSQL are skipped."""
@@ -36,27 +37,28 @@ def server() -> Iterator[str]:
     user = pwd.getpwnam("nobody") if os.getuid() == 0 else pwd.getpwuid(os.getuid())
     os.chown(folder, user.pw_uid, user.pw_gid)
 
-    def run(program: str, *arguments: str) -> None:
-        """Run a program of PostgreSQL; it refuses to be root."""
-        command = [binaries() / program, "-D", folder / "data", *arguments]
-        identity = {"user": user.pw_uid, "group": user.pw_gid, "extra_groups": []}
-        subprocess.run(
-            command,
-            check=True,
-            cwd=folder,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            env={**os.environ, "LC_ALL": "C.UTF-8"},
-            **(identity if os.getuid() == 0 else {}),
-        )
-
+    identity = {"user": user.pw_uid, "group": user.pw_gid, "extra_groups": []}
+    settings: dict[str, Any] = {
+        "cwd": folder,
+        "stdout": subprocess.DEVNULL,
+        "env": {**os.environ, "LC_ALL": "C.UTF-8"},
+        **(identity if os.getuid() == 0 else {}),  # PostgreSQL refuses to be root.
+    }
+    data, control = folder / "data", binaries() / "pg_ctl"
+    make = [binaries() / "initdb", "-D", data, "-U", "colift", "-A", "trust", "--no-sync"]
+    begin = [control, "-D", data, "start", "-w", "-l", folder / "log.txt"]
+    begin += ["-o", f"{SETTINGS} -k {folder}"]
     try:
-        run("initdb", "-U", "colift", "-A", "trust", "--no-sync")
-        log = str(folder / "log.txt")
-        run("pg_ctl", "start", "-w", "-l", log, "-o", f"{SETTINGS} -k {folder}")
-        try:
+        subprocess.run(make, check=True, stdin=subprocess.DEVNULL, **settings)
+        # It ends when the pipe does, also if this process is killed.
+        end = 'cat; "$0" -D "$1" stop -m immediate; rm -rf "$2"'
+        with subprocess.Popen(
+            ["sh", "-c", end, control, data, folder],
+            stdin=subprocess.PIPE,
+            start_new_session=True,
+            **settings,
+        ):
+            subprocess.run(begin, check=True, stdin=subprocess.DEVNULL, **settings)
             yield f"postgresql://colift@/postgres?host={folder}"
-        finally:
-            run("pg_ctl", "stop", "-m", "immediate")
     finally:
         shutil.rmtree(folder, ignore_errors=True)

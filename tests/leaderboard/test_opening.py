@@ -59,7 +59,7 @@ def opened(tmp_path, data, monkeypatch):
 
 
 def test_a_new_board_shows_the_shipped_rows_and_takes_submissions_beside_them(opened):
-    expected = ([("1", False), (SEASON, True)], ["blend"])
+    expected = ([(SEASON, True)], ["blend"])
     assert opened() == expected
     assert opened() == expected
 
