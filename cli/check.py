@@ -111,13 +111,13 @@ def _files(submission: Submission) -> Iterator[Check]:
 
 def _show(console: Console, check: Check) -> None:
     mark = Text("ok    ", "green") if check.ok else Text("failed", "bold red")
-    lines = textwrap.wrap(
-        check.told, max(console.width - COLUMN, 20), break_long_words=False, break_on_hyphens=False
-    )
+    width = max(console.width - COLUMN, 20)
+    lines = textwrap.wrap(check.told, width, break_long_words=False, break_on_hyphens=False)
     margin = "\n" + " " * COLUMN
     text = Text.assemble(mark, f"  {check.name:<11}  ", margin.join(lines))
     if check.printed.strip():
-        printed = check.printed.strip().splitlines()[-PRINTED_LINES:]
+        last = check.printed.strip().splitlines()[-PRINTED_LINES:]
+        printed = [part for line in last for part in textwrap.wrap(line, width) or [""]]
         text.append(margin + "it printed:" + margin + margin.join(printed), "dim")
     console.print(text, soft_wrap=True, highlight=False)
 

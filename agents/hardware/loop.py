@@ -224,7 +224,9 @@ class _Loop:
             return
         if self._held_since is None:
             self._held_since = now
-        lasted = age if hold is Hold.STALE else now - self._held_since
+        lasted = now - self._held_since
+        if hold is Hold.STALE:
+            lasted = max(lasted, age)
         if lasted > HOLD_LIMIT:
             told = f": {decision.reason}" if decision.reason else ""
             raise StopTrialError(Stop.after(hold), f"{hold.value} for {HOLD_LIMIT:g} s{told}")

@@ -59,12 +59,17 @@ def estimate(recordings: Sequence[Recording]) -> Estimates:
     steps = [step for record in records for step in record.steps]
     if len(steps) < FEWEST:
         raise InputError(f"{len(steps)} steps are too few to estimate from, {FEWEST} are needed")
-    ages = np.array([step.sensing_age for step in steps if math.isfinite(step.sensing_age)])
-    wanted = np.concatenate([np.full(len(record.steps), record.latency) for record in records])
+    seen_steps = [
+        (step.sensing_age, record.latency)
+        for record in records
+        for step in record.steps
+        if math.isfinite(step.sensing_age)
+    ]
+    ages, wanted = np.array(seen_steps).T
     stiffness, servo_time, sag = _servo(recordings)
     return Estimates(
         capture_age=float(np.median(ages)),
-        latency=float(np.median(np.maximum(ages + DEAD_TIME, wanted[: len(ages)]))),
+        latency=float(np.median(np.maximum(ages + DEAD_TIME, wanted))),
         follow_delay=float(np.median([_delay(recording) for recording in recordings])),
         servo_time=servo_time,
         stiffness=stiffness,

@@ -1,0 +1,113 @@
+"""What the tests of the hardware loop share: trials in the simulated laboratory."""
+
+import numpy as np
+import pytest
+from colift.agents.hardware.decisions import Inline
+from colift.agents.hardware.loop import LoopSettings, run_trial
+from colift.agents.hardware.naoqi import NAMES, NaoqiArm, hand_heights
+from colift.agents.hardware.operator import StopButton
+from colift.agents.hardware.recording import Recording
+from colift.agents.hardware.trial_end import AfterDuration
+from colift.agents.policies.loading import PolicySpec
+from colift.benchmark.catalogue import make_scenario
+from colift.benchmark.hardware.laboratory import Conditions
+from colift.benchmark.hardware.simulated import SimulatedLaboratory
+
+
+class Lab(SimulatedLaboratory):
+    """The simulated laboratory, which notes what reaches its server and where the hands are."""
+
+    def __init__(self):
+        self.button = StopButton()
+        super().__init__(Conditions(scenario=make_scenario("smooth", "S1")), self.button)
+        self.sent = []
+        self.hands = []
+
+    def wait_until(self, time):
+        pressed = None
+        while pressed is None and self.now() < time - 1e-9:
+            pressed = super().wait_until(self.now() + 0.01)
+            angles = self._laboratory.services["ALMotion"].getAngles(NAMES, False)
+            self.hands.append((self.now(), *hand_heights(np.array([angles])), *angles))
+        return pressed
+
+    def calls(self, service, calls, *, within=0.15):
+        self.sent += [(self.now(), *call) for call in calls]
+        return super().calls(service, calls, within=within)
+
+    def times(self, method):
+        """Return when a method was called [s]."""
+        return sorted({time for time, name, *_ in self.sent if name == method})
+
+    def set_points(self, since=0.0):
+        """Return the height of the hands by their set-points in each frame since a time [m]."""
+        return np.array([height for time, height, *_ in self.hands if time > since])
+
+
+class Faulty(AfterDuration):
+    """A trial's end that lets faults come: before the steps of these numbers."""
+
+    def __init__(self, lab, duration, faults):
+        super().__init__(duration=duration)
+        self.lab, self.faults, self.came = lab, faults, None
+
+    def over(self, record):
+        fault = self.faults.pop(len(record.steps), None)
+        if fault is not None:
+            self.came = self.lab.now()
+            fault(self.lab) if callable(fault) else self.lab.request(fault)
+        return super().over(record)
+
+
+class Trial:
+    """A trial that was played in the simulated laboratory."""
+
+    def __init__(self, lab, arm, record, name, end):
+        self.lab, self.arm, self.record, self.came = lab, arm, record, end.came
+        self.recording = Recording(
+            policy=name, limits=arm.limits, weight_offset=arm.weight_offset, record=record
+        )
+
+    @property
+    def ended(self):
+        """How long after the fault the arms were frozen [s]."""
+        return self.lab.times("killAll")[0] - self.came
+
+    def held_since(self, reason):
+        """Return how long after the fault a reason first held the hands [s]."""
+        return next(s.time for s in self.record.steps if s.hold == reason) - self.came
+
+    def last_command(self):
+        """Return how long after the fault the last command was given [s]."""
+        return self.lab.times("setAngles")[-1] - self.came
+
+
+@pytest.fixture
+def play():
+    """Play a trial in simulated time with a policy, by name or an object."""
+    labs = []
+
+    def trial(policy, *, faults=None, duration=5.0, decider=None, **settings):
+        lab = Lab()
+        labs.append(lab)
+        arm = NaoqiArm(lab)
+        # The rest heights without the sag under the table.
+        lab.wait_until(0.3)
+        lab.set_rest(0.0, arm.state().height)
+        arm.say("Go!")
+        agent = PolicySpec(text=policy).make() if isinstance(policy, str) else policy
+        agent.reset(1)
+        end = Faulty(lab, duration, dict(faults or {}))
+        record = run_trial(
+            arm,
+            lab,
+            (decider or Inline)(agent),
+            lab,
+            settings=LoopSettings(**settings),
+            end=end,
+        )
+        return Trial(lab, arm, record, policy if isinstance(policy, str) else "", end)
+
+    yield trial
+    for lab in labs:
+        lab.close()
