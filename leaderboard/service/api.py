@@ -14,6 +14,7 @@ from ..archive import pack
 from ..job import Job
 from ..standing import Standing
 from ..views.lifts import CellScore, cell_scores
+from ..views.table import standings_csv
 from .answers import EntryAnswer, JobAnswer, SeasonAnswer, StandingAnswer
 from .errors import CLOSE, Problem, problem
 from .progress import events
@@ -40,9 +41,6 @@ SeasonAsked = Annotated[
 Word = Query(pattern=r"^[A-Za-z0-9_-]{1,40}$")
 
 BINARY: Final = {"type": "string", "format": "binary"}
-
-FORMULA: Final = tuple("=+-@\t\r")
-"""What a formula begins with in a spreadsheet."""
 
 MISSING: Final[dict[int | str, dict[str, Any]]] = {
     404: {"model": Problem, "description": "It is not there."}
@@ -100,12 +98,10 @@ def standings(
     response_class=Response,
     responses={**MISSING, 200: {"content": {"text/csv": {"schema": {"type": "string"}}}}},
 )
-def standings_csv(service: Service, season: SeasonAsked = None) -> Response:
+def csv(service: Service, season: SeasonAsked = None) -> Response:
     """Return the rows of a season as a table for spreadsheets and pandas."""
     _check_season(service, season)
-    frame = service.board.ranking(season)
-    text = frame.map(_harmless).to_csv(index=False, lineterminator="\n")
-    return Response(text, media_type="text/csv")
+    return Response(standings_csv(service.board, season), media_type="text/csv")
 
 
 @router.get("/entries/{season}/{digest}", responses=MISSING)
@@ -260,8 +256,3 @@ def _check_word(what: str, value: str | None, known: set[str]) -> None:
     """Refuse what no lift has; a season without rows has no lifts to know them by."""
     if value is not None and known and value not in known:
         raise problem(422, f"{what} {value} is not in this season; {', '.join(sorted(known))} are")
-
-
-def _harmless(value: object) -> object:
-    """Return a cell that no spreadsheet takes for a formula."""
-    return f"'{value}" if isinstance(value, str) and value[:1] in FORMULA else value

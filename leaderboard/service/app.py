@@ -8,6 +8,7 @@ from typing import Final
 
 import anyio.to_thread
 from fastapi import FastAPI
+from fastapi.middleware.gzip import GZipMiddleware
 from fastapi.staticfiles import StaticFiles
 
 from ..opening import open_stocked
@@ -67,6 +68,7 @@ def create_app(folder: Path, rates: Rates | None = None) -> FastAPI:
         uploads=RateLimit(rate=rates.submitter),
     )
     answer_errors(app)
+    app.add_middleware(GZipMiddleware)
     app.add_middleware(Faults)
     app.add_middleware(Guard, rate=rates.address)
     app.include_router(api.router)

@@ -25,7 +25,7 @@ def rests(trial):
         ("latency@0:99:0.3", Hold.STALE, 0.2, Stop.CAPTURE_LOST, 1.2),
         ("nan@0", Hold.NOT_SEEN, 0.0, Stop.CAPTURE_UNUSABLE, 1.0),
         ("drift@0:99:0.1", Hold.DISAGREE, 0.3, Stop.CAPTURE_UNUSABLE, 1.3),
-        ("jitter@0:99:2.0", Hold.STALE, 0.2, Stop.CAPTURE_LOST, 1.2),
+        ("jitter@0:99:2.0", Hold.STALE, 0.2, Stop.CAPTURE_LOST, 1.0),
     ],
 )
 def test_motion_capture_that_stays_bad_holds_the_hands_and_then_stops_them(
