@@ -7,6 +7,7 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
+from ..agents.isolation.ladder import DESCRIPTIONS, VERIFIABLE
 from ..benchmark.headline import error, versus_human
 
 NAMES: Final = {
@@ -62,6 +63,9 @@ def standing(content: dict[str, Any]) -> str:
         )
     if step["p99"] is not None:
         lines.append(f"Policy time per step: median {step['p50']:.3f} ms, p99 {step['p99']:.3f} ms")
+    if content["isolation"] in DESCRIPTIONS:
+        told = "" if content["isolation"] in VERIFIABLE else "; no board would call this verified"
+        lines.append(f"Isolation: {content['isolation']}{told}")
     return "\n".join(lines)
 
 

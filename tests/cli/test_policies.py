@@ -4,7 +4,7 @@ import sys
 
 import pytest
 from colift.agents.errors import InputError
-from colift.agents.isolation.ladder import rungs
+from colift.agents.isolation.ladder import VERIFIABLE, rungs
 from colift.agents.isolation.sandboxed import SandboxedPolicy, close_sandboxes
 from colift.agents.policies.loading import PolicySpec
 from colift.agents.submissions.new import write_template
@@ -13,6 +13,7 @@ from colift.benchmark.catalogue import make_scenario
 from colift.benchmark.tasks import play
 from colift.cli import policies
 from colift.cli.policies import choose_policy
+from colift.cli.run import run
 
 SOURCE = (
     "from pathlib import Path\n"
@@ -178,3 +179,12 @@ def test_what_only_the_sandbox_can_tell_is_told_by_its_check(text, told):
     with pytest.raises(InputError) as caught:
         choose_policy(text).check()
     assert told in str(caught.value)
+
+
+@pytest.mark.parametrize("rung", rungs())
+def test_a_run_says_what_kept_the_policy_apart(rung, tmp_path, capsys):
+    write_template(tmp_path / "mine")
+    run(str(tmp_path / "mine"), suite="quick-v1", seeds="0:1", isolation=rung, jobs=1)
+    told = capsys.readouterr().out
+    assert f"Isolation: {rung}" in told
+    assert ("no board would call this verified" in told) == (rung not in VERIFIABLE)
