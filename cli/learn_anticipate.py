@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 import numpy as np
 import typer
@@ -25,6 +25,9 @@ from ..benchmark.executors import default_jobs, local_pool
 from ..benchmark.scenario import CONTROL_PERIOD, LATENCY
 from .output import check_output
 from .progress import progress_bar
+
+SHOWN: Final = 2
+"""Every second lead is shown, so that the table fits a terminal."""
 
 Lifts = Annotated[int, typer.Option(metavar="N", help="Lifts of a round.")]
 Rounds = Annotated[int, typer.Option(metavar="N", help="Rounds of lifting and fitting.")]
@@ -114,10 +117,10 @@ def _table(models: list[Anticipation]) -> Table:
     )
     table.add_column("round", justify="right")
     table.add_column("samples", justify="right")
-    for lead in models[-1].leads:
+    for lead in models[-1].leads[::SHOWN]:
         table.add_column(f"{1000 * np.round(lead, 3):+.0f} ms", justify="right")
     for number, model in enumerate(models, 1):
-        errors = model.provenance["rms_error_mm"]
+        errors = model.provenance["rms_error_mm"][::SHOWN]
         samples = str(model.provenance["samples"])
         table.add_row(str(number), samples, *(f"{error:.2f}" for error in errors))
     return table

@@ -43,7 +43,7 @@ class EmulatedLaboratory:
 
     def _read(self):
         for line in self.process.stdout:
-            self.lines.append(line.split(maxsplit=1)[1].rstrip())
+            self.lines.append(line.strip().partition(" ")[2])
             self._ready.set()
 
     @property

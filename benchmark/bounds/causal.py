@@ -27,8 +27,8 @@ ONLY_LEVEL: Final = AnticipateParameters(smoothness=0.0)
 def causal_bound() -> Foreseer:
     """Return the bound that is shipped, for the paper's latency and control period.
 
-    It is an estimate from below of what can be foreseen: a policy may come nearer to the future
-    than this network did, but none that learned the same way has.
+    It is an estimate, not a proof: what a larger network than the policy's learns in the same way,
+    from other lifts, with nothing given away for smoothness.
     """
     text = files(f"{__package__.rpartition('.')[0]}").joinpath("data", "causal_bound.json")
     return Foreseer(

@@ -1,5 +1,6 @@
 """``colift nao emulate``: a NAO and a motion capture that are not there."""
 
+import sys
 import time
 from typing import Annotated
 
@@ -44,7 +45,9 @@ def emulate(
     begin = time.monotonic()
 
     def log(line: str) -> None:
-        print(f"{time.monotonic() - begin:9.3f} {line}", flush=True)
+        # In one piece: the services are called in threads of their own.
+        sys.stdout.write(f"{time.monotonic() - begin:9.3f} {line}\n")
+        sys.stdout.flush()
 
     emulator = Emulator(conditions, url=url, stream=stream, log=log)
     button = StopButton()

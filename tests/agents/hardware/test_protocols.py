@@ -125,9 +125,9 @@ def test_motion_capture_that_stays_bad_holds_the_hands_and_then_stops_them(
     time.sleep(max(0.0, came + 2.0 - time.monotonic()))
 
 
-@pytest.mark.parametrize("fault", ["jitter@0:1.0:0.08", "dropout@0:0.1", "latency@0:1.0:0.05"])
+@pytest.mark.parametrize("fault", ["jitter@0:0.8:0.08", "dropout@0:0.1"])
 def test_what_can_be_lived_with_is(lift, fault):
-    record, came, _ = lift(fault, 2.0)
+    record, came, _ = lift(fault, 1.6)
     assert record.stop is None
     after = [step for step in record.steps if step.time > came]
     assert sum(not step.hold for step in after) > len(after) / 2
