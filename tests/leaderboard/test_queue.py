@@ -130,7 +130,10 @@ def test_a_worker_of_this_machine_that_is_gone_is_not_waited_for(submit, queue):
     assert queue.claim("another") is None
 
 
-@pytest.mark.parametrize("name", ["w", "host/machine/12/34", "", f"a/b/{os.getpid()}/c"])
+@pytest.mark.parametrize(
+    "name",
+    ["w", "host/machine/12/34", "", pytest.param(f"a/b/{os.getpid()}/c", id="a process of ours")],
+)
 def test_of_a_worker_elsewhere_only_its_silence_tells(name):
     assert not is_gone(name)
 
