@@ -23,7 +23,7 @@ WORKERS: Final = 2
 
 def scale(
     suite: str = "standard-v1",
-    rounds: int = 3,
+    rounds: int = 5,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> dict[str, float]:
     """Measure throughputs over that of a run in the local pool, all with two worker processes.

@@ -12,7 +12,7 @@ from ..benchmark.suite import make_suite
 from .progress import progress_bar
 
 SUITE: Final = "standard-v1"
-ROUNDS: Final = 3
+ROUNDS: Final = 5
 
 MEANING: Final = {
     "dask_ratio": "throughput of a Dask cluster of this machine (at least 0.9)",

@@ -224,10 +224,9 @@ class _Loop:
             return
         if self._held_since is None:
             self._held_since = now
-        lasted = now - self._held_since
-        if hold is Hold.STALE:
-            lasted = max(lasted, age)
-        if lasted > HOLD_LIMIT:
+        # Steps come a period apart: the one nearest to the limit counts.
+        lasted = now - self._held_since > HOLD_LIMIT - self._settings.period / 2
+        if lasted or (hold is Hold.STALE and age > HOLD_LIMIT):
             told = f": {decision.reason}" if decision.reason else ""
             raise StopTrialError(Stop.after(hold), f"{hold.value} for {HOLD_LIMIT:g} s{told}")
 

@@ -24,6 +24,8 @@ def module_digest(name: str) -> str:
     """
     source = _source(name)
     if not any(source.is_relative_to(each) for each in view(None).visible()):
+        if name.startswith("colift."):
+            raise InputError(f"module {name!r} is colift's own, which a sandbox does not see")
         raise InputError(
             f"module {name!r} is {source}, which a sandbox does not see: name the file, as in "
             f"{source.name}:Class, make it a submission, or install it"

@@ -17,7 +17,7 @@ LIFTS: Final = 2400
 """Lifts that it learns from, in one round: its robot has anticipated from the first."""
 
 HIDDEN: Final = (128, 128, 128)
-"""Units of its hidden layers: three times the numbers of the policy's."""
+"""Units of its hidden layers: twice the policy's, so more than three times the weights."""
 
 ONLY_LEVEL: Final = AnticipateParameters(smoothness=0.0)
 """It is a bound of the error alone: nothing is given away for smoothness."""

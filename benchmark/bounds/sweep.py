@@ -7,6 +7,7 @@ from typing import Final
 
 import numpy as np
 
+from ...agents.policies.anticipation_controller import AnticipateParameters
 from ...agents.policies.loading import PolicySpec
 from ..agent_spec import AgentSpec
 from ..anticipation_experience import Timing
@@ -80,9 +81,9 @@ def sweep(
     for timing in timings():
         timed = suite.with_timing(timing.latency, timing.control_period)
         specs: list[AgentSpec] = [PolicySpec(text=name) for name in FIXED]
-        for name, seed, hidden in (
-            ("anticipate", FIRST_SEED, HIDDEN),
-            (causal.CAUSAL_BOUND, causal.FIRST_SEED, causal.HIDDEN),
+        for name, seed, hidden, parameters in (
+            ("anticipate", FIRST_SEED, HIDDEN, AnticipateParameters()),
+            (causal.CAUSAL_BOUND, causal.FIRST_SEED, causal.HIDDEN, causal.ONLY_LEVEL),
         ):
             (lesson,) = learn_anticipation(
                 lifts=lifts,
@@ -93,7 +94,7 @@ def sweep(
                 executor=executor,
                 progress=progress,
             )
-            specs.append(Foreseer(name=name, model=lesson.model))
+            specs.append(Foreseer(name=name, model=lesson.model, parameters=parameters))
         for spec in specs:
             run = run_suite(spec, timed, executor=executor, progress=progress)
             yield _mean(spec.name, run, timing)

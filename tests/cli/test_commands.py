@@ -99,7 +99,7 @@ def test_list_names_everything():
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["run", "nonesuch"], "known: blend, copy, "),
+        (["run", "nonesuch"], "blend, copy, "),
         (["run", "copy", "--suite", "nonesuch"], "standard-v1, paper-v1, quick-v1"),
         (["run", "copy", "--seeds", "5:5"], "5:5"),
         (["run", "copy", "--seeds", "5"], "A:B"),
@@ -115,7 +115,8 @@ def test_list_names_everything():
         (["run", "no.such.module:Class"], "cannot import"),
         (["run", "/nowhere.py:Class"], "no such file"),
         (["run", "colift.agents.agent:FRAME"], "not a class"),
-        (["run", "colift.agents.humans:Subject"], "no method reset"),
+        (["run", "colift.agents.agent:RobotObservation"], "no method reset"),
+        (["run", "colift.agents.humans:Subject"], "own, which a sandbox does not see"),
         (["render", "copy", "--out", "lift.bmp"], ".gif, .mp4, .png, .html"),
         (["render", "copy", "--scenario", "nonesuch", "--out", "lift.png"], "smooth"),
         (["render", "copy", "--subject", "S9", "--out", "lift.png"], "S1, S2, S3, S4, S5"),
@@ -205,7 +206,7 @@ def test_ctrl_c_keeps_what_is_finished_and_says_so(tmp_path, jobs):
     process = subprocess.Popen(
         [
             *(sys.executable, "-m", "colift.cli", "run", f"{slow_source}:Mine"),
-            *("--jobs", jobs, "--out", str(out)),
+            *("--isolation", "none", "--jobs", jobs, "--out", str(out)),
         ],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from colift.agents.hardware.decisions import Inline
+from colift.agents.hardware.dry_run import DryArm
 from colift.agents.hardware.loop import LoopSettings, run_trial
 from colift.agents.hardware.naoqi import NAMES, NaoqiArm, hand_heights
 from colift.agents.hardware.operator import StopButton
@@ -62,11 +63,9 @@ class Faulty(AfterDuration):
 class Trial:
     """A trial that was played in the simulated laboratory."""
 
-    def __init__(self, lab, arm, record, name, end):
-        self.lab, self.arm, self.record, self.came = lab, arm, record, end.came
-        self.recording = Recording(
-            policy=name, limits=arm.limits, weight_offset=arm.weight_offset, record=record
-        )
+    def __init__(self, lab, arm, recording, end):
+        self.lab, self.arm, self.recording, self.came = lab, arm, recording, end.came
+        self.record = recording.record
 
     @property
     def ended(self):
@@ -87,7 +86,7 @@ def play():
     """Play a trial in simulated time with a policy, by name or an object."""
     labs = []
 
-    def trial(policy, *, faults=None, duration=5.0, decider=None, **settings):
+    def trial(policy, *, faults=None, duration=5.0, decider=None, dry=False, **settings):
         lab = Lab()
         labs.append(lab)
         arm = NaoqiArm(lab)
@@ -99,14 +98,21 @@ def play():
         agent.reset(1)
         end = Faulty(lab, duration, dict(faults or {}))
         record = run_trial(
-            arm,
+            DryArm(arm) if dry else arm,
             lab,
             (decider or Inline)(agent),
             lab,
             settings=LoopSettings(**settings),
             end=end,
         )
-        return Trial(lab, arm, record, policy if isinstance(policy, str) else "", end)
+        recording = Recording(
+            policy=policy if isinstance(policy, str) else "",
+            limits=arm.limits,
+            weight_offset=arm.weight_offset,
+            dry=dry,
+            record=record,
+        )
+        return Trial(lab, arm, recording, end)
 
     yield trial
     for lab in labs:

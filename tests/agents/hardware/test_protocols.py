@@ -109,7 +109,7 @@ def still(laboratory, seconds=0.5):
         ("latency@0:1.6:0.4", 0.2, Stop.CAPTURE_LOST, 1.2),
         ("nan@0:1.5", 0.05, Stop.CAPTURE_UNUSABLE, 1.05),
         ("swap@0:1.7", 0.05, Stop.CAPTURE_UNUSABLE, 1.05),
-        ("drift@0:1.8:0.15", 0.25, Stop.CAPTURE_UNUSABLE, 1.25),
+        ("drift@0:1.8:0.15", 0.3, Stop.CAPTURE_UNUSABLE, 1.3),
     ],
 )
 def test_motion_capture_that_stays_bad_holds_the_hands_and_then_stops_them(

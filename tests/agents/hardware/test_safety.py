@@ -4,8 +4,8 @@ import math
 
 import pytest
 from colift.agents.errors import InputError
-from colift.agents.hardware.ports import ArmState, HandLimits
 from colift.agents.hardware.loop import motor_fault
+from colift.agents.hardware.ports import ArmState, HandLimits
 from colift.agents.hardware.safety import hand_limits, limited, next_command
 from colift.robots.arm_kinematics import ARM_JOINTS
 from colift.robots.nao_facts import JOINTS

@@ -1,0 +1,113 @@
+"""A recorded trial plays again to the same commands, bit for bit."""
+
+import threading
+
+import numpy as np
+import pytest
+from colift.agents.errors import InputError
+from colift.agents.hardware.csv_replay import commands, replay_trial
+from colift.agents.hardware.decisions import Timed
+from colift.agents.hardware.recording import read_recording, write_recording
+from colift.agents.policies.loading import PolicySpec
+
+
+def played_again(recording, path, policy):
+    """Return the recording as it comes from a file, and what comes of playing it."""
+    write_recording(path, recording)
+    back = read_recording(path)
+    policy.reset(1)
+    return back, replay_trial(back, policy)
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [
+        None,
+        "dropout@0:0.5",
+        "dropout@0",
+        "nan@0:0.4",
+        "swap@0:0.6",
+        "jitter@0:99:0.3",
+        "disconnect@0",
+        "stream-end@0",
+        "motor-off@0",
+        lambda lab: lab.button.press("SIGINT"),
+        lambda lab: lab.wait_until(lab.now() + 0.37),
+    ],
+)
+def test_the_file_is_exact_and_gives_the_same_commands(play, tmp_path, fault):
+    trial = play("blend", faults={15: fault} if fault else None, duration=4.0)
+    back, again = played_again(
+        trial.recording, tmp_path / "trial.csv", PolicySpec(text="blend").make()
+    )
+    for there, here in zip(trial.record.steps, back.record.steps, strict=True):
+        np.testing.assert_array_equal(there[:8], here[:8])
+    np.testing.assert_array_equal(np.array(trial.record.samples), np.array(back.record.samples))
+    assert commands(again) == commands(trial.record)
+    assert (again.stop, len(again.steps)) == (trial.record.stop, len(trial.record.steps))
+
+
+def test_another_policy_gives_other_commands(play, tmp_path):
+    trial = play("copy", duration=3.0)
+    _, again = played_again(trial.recording, tmp_path / "t.csv", PolicySpec(text="hold").make())
+    assert [step.action for step in again.steps] == [0.0] * 30
+    assert commands(again) != commands(trial.record)
+
+
+def test_a_policy_that_was_late_is_late_again(play, tmp_path):
+    go_on = threading.Event()
+
+    class Late:
+        def __init__(self, waits):
+            self.waits = waits
+
+        def reset(self, seed):
+            self.step = 0
+
+        def act(self, observation):
+            self.step += 1
+            if self.waits and self.step == 5:
+                go_on.wait(60)
+            return np.array([0.002 * self.step])
+
+    def answer(lab):
+        go_on.set()
+        for thread in threading.enumerate():
+            if thread.name == "policy":
+                thread.join(0.2)
+
+    trial = play(Late(waits=True), faults={8: answer}, duration=2.0, decider=Timed)
+    held = [step.hold for step in trial.record.steps]
+    assert held[4:8] == ["the policy was late", *["the policy is still at an earlier step"] * 3]
+    assert not any(held[:4] + held[8:])
+    _, again = played_again(trial.recording, tmp_path / "t.csv", Late(waits=False))
+    assert commands(again) == commands(trial.record)
+    assert [step.hold for step in again.steps] == held
+
+
+def test_a_dry_run_moves_nothing_and_replays_too(play, tmp_path):
+    trial = play("copy", duration=3.0, dry=True)
+    assert max(commands(trial.record)) > 0.1
+    assert trial.lab.times("setAngles") == []
+    assert np.ptp(trial.lab.set_points()) == 0.0
+    back, again = played_again(trial.recording, tmp_path / "t.csv", PolicySpec(text="copy").make())
+    assert back.dry
+    assert commands(again) == commands(trial.record)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("", "no recording"),
+        ("a,b\n1,2\n", "no recording"),
+        ("event,policy\nsample,\n", "begins with 'sample'"),
+        (None, "cannot read"),
+    ],
+)
+def test_what_is_no_recording_is_refused_by_name(tmp_path, text, told):
+    path = tmp_path / "mine.csv"
+    if text is not None:
+        path.write_text(text)
+    with pytest.raises(InputError, match=told) as refused:
+        read_recording(path)
+    assert "mine.csv" in str(refused.value)

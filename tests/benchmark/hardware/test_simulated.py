@@ -1,0 +1,118 @@
+"""The laboratory in simulated time, against the simulation that the suites are made of."""
+
+import numpy as np
+import pytest
+from colift.agents.errors import InputError
+from colift.agents.hardware.decisions import Inline
+from colift.agents.hardware.loop import LoopSettings
+from colift.agents.hardware.naoqi import NaoqiArm
+from colift.agents.hardware.operator import StopButton
+from colift.agents.hardware.session import Session
+from colift.agents.hardware.stops import Stop, StopTrialError
+from colift.agents.hardware.trial_end import AfterLift
+from colift.agents.policies.loading import PolicySpec
+from colift.benchmark.catalogue import make_scenario
+from colift.benchmark.episode import policy_seed
+from colift.benchmark.hardware.faults import Fault
+from colift.benchmark.hardware.laboratory import Conditions
+from colift.benchmark.hardware.simulated import SimulatedLaboratory
+from colift.benchmark.hardware.trial import episode
+from colift.benchmark.runner import run_suite
+from colift.benchmark.suite import Suite
+
+SMOOTH = make_scenario("smooth", "S1")
+SEEDS = (0, 1, 2)
+
+
+def session(**conditions):
+    """Return a session in the simulated laboratory, and what it tells the operator."""
+    button, told = StopButton(), []
+    lab = SimulatedLaboratory(Conditions(scenario=SMOOTH, **conditions), button)
+    made = Session(
+        arm=NaoqiArm(lab),
+        capture=lab,
+        clock=lab,
+        tell=told.append,
+        confirm=told.append,
+        button=button,
+        asked_by=Inline,
+    )
+    return made, told
+
+
+def lift(made, policy, number):
+    """Play a lift and return its record."""
+    return made.play(
+        PolicySpec(text=policy).agent(),
+        policy_seed(),
+        number=number,
+        settings=LoopSettings(),
+        end=AfterLift(),
+    )
+
+
+@pytest.mark.parametrize("policy", ["blend", "reactive", "task_model"])
+def test_the_error_is_that_of_pure_simulation(policy):
+    made, _ = session()
+    made.set_up()
+    records = [lift(made, policy, number + 1) for number in SEEDS]
+    made.finish()
+    assert all(record.stop is None for record in records)
+    there = [
+        episode(record, person="S1", number=k).scores
+        for k, record in zip(SEEDS, records, strict=True)
+    ]
+    suite = Suite(name="here", scenarios=(SMOOTH,), seeds=SEEDS)
+    here = [e.scores for e in run_suite(PolicySpec(text=policy), suite).episodes]
+    for name in ("rmse_mm", "ldlj"):
+        measured = np.mean([getattr(scores, name) for scores in there])
+        simulated = np.mean([getattr(scores, name) for scores in here])
+        assert measured == pytest.approx(simulated, rel=0.15)
+
+
+def test_the_set_up_takes_hold_and_finds_zero():
+    made, told = session()
+    made.set_up()
+    assert made.arm.weight_offset == pytest.approx(0.0042, abs=0.0005)
+    state = made.arm.state()
+    assert state.height == pytest.approx(0.0, abs=0.0005)
+    made.clock.wait_until(made.clock.now() + 0.1)
+    frames = made.capture.drain()[-5:]
+    assert np.mean([frame[1:] for frame in frames], axis=0) == pytest.approx([0, 0], abs=0.0005)
+    assert [line for line in told if line.startswith("test move: the robot's end follows by 1.0")]
+    made.finish()
+    assert made.arm.session.call("ALMotion", "robotIsWakeUp") is False
+    assert made.arm.state().stiffness == 0.0
+
+
+@pytest.mark.parametrize(
+    ("kind", "value", "told"),
+    [
+        ("nan", 0.0, "was not seen in 100 of 100 frames"),
+        ("dropout", 0.0, "sends 0 frames a second"),
+        ("drift", 0.02, r"end moves by \d\.\d mm \(sd\) where it should rest"),
+        ("swap", 0.0, "the ends are taken for each other"),
+    ],
+)
+def test_a_set_up_that_is_wrong_is_refused_with_what_to_do(kind, value, told):
+    made, _ = session()
+    made.capture.request(f"{kind}@0:1000:{value}")
+    with pytest.raises(InputError, match=told):
+        made.set_up()
+
+
+def test_an_operator_may_stop_the_set_up():
+    made, _ = session()
+    made.button.press("the Enter key")
+    with pytest.raises(StopTrialError, match="the Enter key") as stopped:
+        made.set_up()
+    assert stopped.value.stop is Stop.OPERATOR
+
+
+def test_planned_faults_come_with_the_first_lift():
+    fault = Fault(kind="dropout", start=1.0, duration=9.0, value=0.0)
+    made, _ = session(faults=(fault,))
+    made.set_up()
+    record = lift(made, "hold", 1)
+    assert record.stop is Stop.CAPTURE_LOST
+    assert record.steps[-1].time - record.begin == pytest.approx(2.1, abs=0.15)

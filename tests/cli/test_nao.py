@@ -1,0 +1,244 @@
+"""``colift nao`` as a user meets it: real processes, over the real protocols on loopback."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from colift.agents.hardware.recording import read_recording
+from colift.cli.main import main
+
+COMMAND = [sys.executable, "-m", "colift.cli", "nao"]
+
+WITHOUT_EXTRA = """
+import sys
+from importlib.machinery import PathFinder
+
+class Bare(PathFinder):
+    hidden = ("qi", "pylsl")
+
+    @classmethod
+    def find_spec(cls, name, path=None, target=None):
+        return None if name in cls.hidden else super().find_spec(name, path, target)
+
+    @classmethod
+    def find_distributions(cls, context=None):
+        found = PathFinder.find_distributions(context)
+        return (each for each in found if each.name not in cls.hidden)
+
+sys.meta_path[sys.meta_path.index(PathFinder)] = Bare
+from colift.cli.main import main
+main()
+"""
+
+
+def nao(*arguments):
+    """Run ``colift nao`` and return the finished process."""
+    return subprocess.run(
+        [*COMMAND, *map(str, arguments)], capture_output=True, text=True, timeout=200
+    )
+
+
+def happened(laboratory, before):
+    """Return what has happened at the server since a line, but for its own lack of time."""
+    return [line for line in laboratory.lines[before:] if not line.startswith("behind the clock")]
+
+
+@pytest.fixture(scope="module")
+def laboratory(emulate):
+    return emulate("--human", "smooth", "--subject", "S1")
+
+
+@pytest.fixture(scope="module")
+def lifted(laboratory, tmp_path_factory):
+    """Lift once with the emulated NAO, and return the process and what it wrote."""
+    folder = tmp_path_factory.mktemp("trials")
+    written = ("--record", folder / "csv", "--out", folder / "out")
+    options = ("--trials", 1, "--duration", 5, "--yes", "--json", *written)
+    return nao("run", "blend", *laboratory.place, *options), folder
+
+
+def test_check_finds_robot_and_stream_and_nothing_moves(laboratory):
+    before = len(laboratory.lines)
+    done = nao("check", *laboratory.place)
+    assert done.returncode == 0, done.stdout
+    assert "MISSING" not in done.stdout
+    for told in (
+        "qi: 3",
+        "pylsl: 1",
+        "NAOqi 2.8.7-emulated",
+        "-0.030 to 0.290 m",
+        "fall manager: on",
+        "12 channels at 100 Hz",
+        "age of the newest frame: median",
+        "frames a second",
+    ):
+        assert told in done.stdout
+    assert happened(laboratory, before) == []
+
+
+def test_a_dry_run_sends_the_robot_no_motion(laboratory, tmp_path):
+    before = len(laboratory.lines)
+    options = ("--dry-run", "--trials", 1, "--duration", 3, "--record", tmp_path)
+    done = nao("run", "copy", *laboratory.place, *options)
+    assert done.returncode == 0, done.stderr
+    assert "dry run" in done.stdout
+    assert happened(laboratory, before) == ["say Lift 1. Go!", "lift 1 seed 0"]
+    trial = read_recording(tmp_path / "lift-01.csv")
+    assert max(step.command for step in trial.record.steps) > 0.05
+    assert trial.dry
+
+
+def test_a_lift_is_scored_as_a_simulated_one(lifted):
+    done, folder = lifted
+    assert done.returncode == 0, done.stderr
+    content = json.loads(done.stdout)
+    assert content == json.loads((folder / "out" / "results.json").read_text())
+    assert content["summary"]["failed"] == 0
+    assert 5 < content["summary"]["rmse_mm"]["mean"] < 30
+    assert content["groups"][0]["sparc"]["mean"] < 0
+    timing = content["hardware"]["timing"]
+    assert timing["steps"] > 40
+    for name in ("sensing_age_ms", "state_ms", "policy_ms", "command_ms", "period_error_ms"):
+        assert 0 < timing[name]["p50"] <= timing[name]["p99"] <= timing[name]["max"]
+    with np.load(folder / "out" / "traces.npz") as traces:
+        human, robot = traces["human_end"], traces["robot_end"]
+    assert human.max() > 0.1
+    assert robot.max() > 0.1
+    assert 1000 * np.sqrt(np.mean((human - robot) ** 2)) == pytest.approx(
+        content["summary"]["rmse_mm"]["mean"]
+    )
+
+
+def test_its_recording_replays_to_the_same_commands_bit_for_bit(lifted):
+    _, folder = lifted
+    done = nao("replay", folder / "csv" / "lift-01.csv")
+    assert done.returncode == 0, done.stderr
+    assert "every command equal to the bit" in done.stdout
+
+
+def test_another_policy_is_told_from_the_recorded_one(lifted, monkeypatch, capsys):
+    recording = str(lifted[1] / "csv" / "lift-01.csv")
+    monkeypatch.setattr(sys, "argv", ["colift", "nao", "replay", recording, "--policy", "copy"])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 1
+    assert "the commands differ, step" in capsys.readouterr().err
+
+
+def test_its_recording_says_how_the_laboratory_is(lifted):
+    _, folder = lifted
+    found = json.loads(nao("calibrate", folder / "csv" / "lift-01.csv", "--json").stdout)
+    assert found["capture_noise"] == pytest.approx(0.00023, rel=0.15)
+    assert found["stiffness"] == pytest.approx(18, rel=0.25)
+    assert 0.003 < found["sag"] < 0.007
+    assert 0.015 < found["capture_age"] < 0.1
+
+
+def test_ctrl_c_stops_the_hands_and_says_so(laboratory):
+    before = len(laboratory.lines)
+    run = subprocess.Popen(
+        [*COMMAND, "run", "blend", *laboratory.place, "--yes"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    deadline = time.monotonic() + 60
+    while not any(line.startswith("lift") for line in laboratory.lines[before:]):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    time.sleep(1.0)
+    run.send_signal(signal.SIGINT)
+    _, errors = run.communicate(timeout=60)
+    assert run.returncode == 10
+    assert "STOPPED (OPERATOR): stopped by the operator: SIGINT" in errors
+    lines = happened(laboratory, before)
+    frozen = lines.index("killAll")
+    assert not any(line.startswith("motion") for line in lines[frozen:])
+    assert lines[frozen:].index("stiffness 0 2") < lines[frozen:].index("rest")
+
+
+def test_a_robot_that_dies_ends_the_run_with_its_exit_code(emulate):
+    dying = emulate("--fault", "disconnect@1")
+    done = nao("run", "blend", *dying.place, "--yes", "--json")
+    assert done.returncode == 11
+    assert "STOPPED (ROBOT_LOST)" in done.stderr
+    assert "NOT released" in done.stderr
+    assert json.loads(done.stdout)["summary"]["failed"] == 1
+
+
+def test_check_says_what_is_missing(lsl_on_loopback):
+    done = nao("check", "--robot", "tcp://127.0.0.1:9", "--mocap", "lsl:nobody")
+    assert done.returncode == 1
+    assert "MISSING robot: no NAOqi at tcp://127.0.0.1:9" in done.stdout
+    assert "MISSING motion capture: no stream 'nobody'" in done.stdout
+
+
+@pytest.mark.parametrize("command", [["check"], ["run", "blend"], ["emulate"]])
+def test_without_the_extra_it_is_named(command):
+    done = subprocess.run(
+        [sys.executable, "-c", WITHOUT_EXTRA, "nao", *command],
+        capture_output=True,
+        text=True,
+        timeout=100,
+    )
+    assert done.returncode == (1 if command == ["check"] else 2)
+    assert "qi is not installed" in done.stdout + done.stderr
+    assert "pip install 'colift[nao]'" in done.stdout + done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_simulated_laboratory_needs_no_network(tmp_path):
+    options = ("--robot", "world:pause/S2", "--trials", 1, "--json", "--record")
+    first = nao("run", "minimum_jerk", *options, tmp_path / "a")
+    again = nao("run", "minimum_jerk", *options, tmp_path / "b")
+    assert first.returncode == 0, first.stderr
+    assert json.loads(first.stdout)["suite"] == "NAO trials (simulated)"
+    files = [tmp_path / name / "lift-01.csv" for name in "ab"]
+    assert files[0].read_bytes() == files[1].read_bytes()
+    assert first.stdout == again.stdout
+
+
+def test_somebody_elses_policy_runs_in_a_sandbox(tmp_path):
+    path = tmp_path / "mine.py"
+    path.write_text(
+        "import os\n"
+        "class Mine:\n"
+        "    def reset(self, seed): pass\n"
+        "    def act(self, observation):\n"
+        f"        assert not os.path.exists({str(tmp_path / 'key')!r})\n"
+        "        return [observation[0] - observation[3]]\n"
+    )
+    (tmp_path / "key").write_text("secret")
+    options = ("--robot", "world", "--trials", 1, "--duration", 2, "--json")
+    done = nao("run", f"{path}:Mine", *options)
+    assert done.returncode == 0, done.stderr
+    content = json.loads(done.stdout)
+    assert content["isolation"] != "none"
+    assert content["hardware"]["timing"]["held"] == {}
+    assert content["summary"]["failed"] == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("run", "nobody"), "nobody"),
+        (("run", "blend", "--mocap", "vicon:x", "--robot", "tcp://127.0.0.1:9"), "127.0.0.1:9"),
+        (("run", "blend", "--control-period", "0.01"), "0.02 to 0.5 s"),
+        (("run", "blend", "--robot", "world:dance"), "dance"),
+        (("run", "blend", "--robot-markers", ","), "at least one marker"),
+        (("run", "blend", "--up", "W"), "X, Y or Z"),
+        (("emulate", "--subject", "S9"), "S9"),
+        (("emulate", "--fault", "fire@1"), "unknown fault 'fire'"),
+        (("replay", "none.csv"), "cannot read none.csv"),
+    ],
+)
+def test_what_is_typed_wrong_is_named(arguments, told, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["colift", "nao", *arguments])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 2
+    assert told in capsys.readouterr().err
