@@ -106,6 +106,7 @@ def experience(
     window: Window,
     behaviours: Sequence[str],
     timing: Timing,
+    parameters: AnticipateParameters | None = None,
 ) -> Experience:
     """Return what the lift of a seed shows; without a model, the robot extrapolates.
 
@@ -118,7 +119,7 @@ def experience(
     human = lift.scripted_human()
     robot: Agent = Extrapolate()
     if model is not None:
-        robot = AnticipationController(model, AnticipateParameters())
+        robot = AnticipationController(model, parameters or AnticipateParameters())
     robot.reset(0)
     rng = np.random.default_rng(derive_seed(seed, "disturbance"))
     size, persistence = DISTURBANCE

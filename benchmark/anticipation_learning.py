@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from ..agents.errors import InputError
 from ..agents.estimators.perceptron import Perceptron
 from ..agents.policies.anticipation import Anticipation
+from ..agents.policies.anticipation_controller import AnticipateParameters
 from ..agents.policies.senses import Window
 from .anticipation_experience import LEADS, ROAMING, Experience, Timing, experience
 from .suite import BEHAVIOURS
@@ -114,6 +115,7 @@ def gather(
     window: Window,
     behaviours: Sequence[str],
     timing: Timing,
+    parameters: AnticipateParameters | None = None,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
 ) -> Experience:
@@ -131,7 +133,14 @@ def gather(
             f"seeds to learn from are {FIRST_SEED} to {LAST_SEED}, others are for tests; "
             f"got {seeds[0]} to {seeds[-1]}"
         )
-    play = partial(experience, model=model, window=window, behaviours=behaviours, timing=timing)
+    play = partial(
+        experience,
+        model=model,
+        window=window,
+        behaviours=behaviours,
+        timing=timing,
+        parameters=parameters,
+    )
     parts = []
     for part in map(play, seeds) if executor is None else executor.map(play, seeds, chunksize=8):
         parts.append(part)
@@ -155,6 +164,7 @@ def learn_anticipation(
     timing: Timing | None = None,
     first_seed: int = FIRST_SEED,
     partner: Anticipation | None = None,
+    parameters: AnticipateParameters | None = None,
     behaviours: Sequence[str] = WAYS,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
@@ -173,6 +183,8 @@ def learn_anticipation(
         Seed of the first lift.
     partner
         What the robot of the first round anticipates with; none: it extrapolates.
+    parameters
+        How the robot acts on what it anticipates; none: as :class:`.Anticipate` does.
     behaviours
         How the people move, see :func:`.scenario`.
     executor
@@ -198,6 +210,7 @@ def learn_anticipation(
             window=window,
             behaviours=behaviours,
             timing=timing,
+            parameters=parameters,
             executor=executor,
             progress=progress,
         )

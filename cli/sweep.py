@@ -19,7 +19,7 @@ from .progress import progress_bar
 
 def sweep(
     lifts: Annotated[
-        int, typer.Option(metavar="N", help="Lifts to learn from at each timing.", min=1)
+        int, typer.Option(metavar="N", help="Lifts of a round of learning.", min=1)
     ] = 400,
     people: Annotated[int, typer.Option(metavar="N", help="New people to lift with.", min=1)] = 8,
     each: Annotated[

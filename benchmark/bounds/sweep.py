@@ -3,15 +3,15 @@
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from functools import partial
 from typing import Final
 
 import numpy as np
 
-from ...agents.policies.anticipation_controller import AnticipateParameters
 from ...agents.policies.loading import PolicySpec
 from ..agent_spec import AgentSpec
 from ..anticipation_experience import Timing
-from ..anticipation_learning import FIRST_SEED, HIDDEN, learn_anticipation
+from ..anticipation_learning import ROUNDS, learn_anticipation
 from ..references import human_team_run
 from ..runner import Run, run_suite
 from ..suite import Suite
@@ -53,7 +53,7 @@ def timings() -> tuple[Timing, ...]:
 
 def lifts_to_play(suite: Suite, lifts: int) -> int:
     """Return how many lifts :func:`sweep` plays, for a progress bar."""
-    return len(timings()) * (2 * lifts + len(NAMES) * suite.size) + suite.size
+    return len(timings()) * (2 * ROUNDS * lifts + len(NAMES) * suite.size) + suite.size
 
 
 def sweep(
@@ -65,36 +65,36 @@ def sweep(
 ) -> Iterator[Swept]:
     """Yield the scores of each policy and bound at each timing.
 
-    `anticipate` and the causal bound are learned for each timing, in one round of ``lifts`` each,
-    on the seeds of the shipped ones: what is known of people depends on when one looks. That is
-    fewer than the shipped ones have, so that both are a little worse than they could be.
+    `anticipate` and the causal bound are learned for each timing, as the shipped ones and on their
+    seeds: what is known of people depends on when one looks. From fewer lifts than the shipped ones
+    both are somewhat worse than they could be; from a hundred or so they may even sway.
 
     Parameters
     ----------
     suite
         The episodes, at any timing; seeds and people that are not learned from.
     lifts
-        Lifts to learn from, at each timing.
+        Lifts of a round of learning, at each timing.
     executor, progress
         As for :func:`.run_suite`.
     """
     for timing in timings():
         timed = suite.with_timing(timing.latency, timing.control_period)
-        specs: list[AgentSpec] = [PolicySpec(text=name) for name in FIXED]
-        for name, seed, hidden, parameters in (
-            ("anticipate", FIRST_SEED, HIDDEN, AnticipateParameters()),
-            (causal.CAUSAL_BOUND, causal.FIRST_SEED, causal.HIDDEN, causal.ONLY_LEVEL),
-        ):
-            (lesson,) = learn_anticipation(
-                lifts=lifts,
-                rounds=1,
-                hidden=hidden,
-                timing=timing,
-                first_seed=seed,
-                executor=executor,
-                progress=progress,
-            )
-            specs.append(Foreseer(name=name, model=lesson.model, parameters=parameters))
+        learn = partial(learn_anticipation, timing=timing, executor=executor, progress=progress)
+        *_, policy = learn(lifts=lifts, rounds=ROUNDS)
+        *_, bound = learn(
+            lifts=lifts,
+            rounds=ROUNDS,
+            first_seed=causal.FIRST_SEED,
+            hidden=causal.HIDDEN,
+            partner=policy.model,
+            parameters=causal.ONLY_LEVEL,
+        )
+        specs: list[AgentSpec] = [
+            *(PolicySpec(text=name) for name in FIXED),
+            Foreseer(name="anticipate", model=policy.model),
+            Foreseer(name=causal.CAUSAL_BOUND, model=bound.model, parameters=causal.ONLY_LEVEL),
+        ]
         for spec in specs:
             run = run_suite(spec, timed, executor=executor, progress=progress)
             yield _mean(spec.name, run, timing)

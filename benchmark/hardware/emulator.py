@@ -9,7 +9,6 @@ from typing import Any, Final
 
 from ...agents.agent import FRAME
 from ...agents.errors import InputError
-from ...agents.hardware.clocks import MonotonicClock
 from ...agents.hardware.missing import load
 from ...agents.hardware.naoqi_session import one_line, quiet
 from ...agents.hardware.operator import StopButton
@@ -43,7 +42,7 @@ class Emulator:
 
     def __init__(self, conditions: Conditions, *, url: str, stream: str, log: Log) -> None:
         self._log = log
-        self._laboratory = Laboratory(conditions, MonotonicClock(), log)
+        self._laboratory = Laboratory(conditions, now=time.monotonic, pause=_pause, log=log)
         self._session: Any = _serve(url, self._laboratory.services)
         self._outlet = Outlet(stream)
 
@@ -74,6 +73,11 @@ class Emulator:
         self._session.close()
         self._outlet.close()
         self._laboratory.close()
+
+
+def _pause(seconds: float) -> None:
+    # libqi looks at the signatures of all that a service holds, and a builtin has none.
+    time.sleep(seconds)
 
 
 def _serve(url: str, services: dict[str, Any]) -> Any:

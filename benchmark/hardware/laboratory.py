@@ -5,14 +5,13 @@ The person begins a lift when the robot says "Go".
 
 import queue
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 
 from ...agents.agent import FRAME
-from ...agents.hardware.ports import Clock
 from ...robots.arm_kinematics import ARM_JOINTS, arm_path
 from ..scenario import Scenario
 from .emulated_lift import EmulatedLift
@@ -21,8 +20,10 @@ from .joint_motion import TICK, JointMotion
 from .markers import Markers, Row
 from .services import (
     FaultService,
+    LifeService,
     Log,
     MotionService,
+    Pause,
     PostureService,
     SpeechService,
     SystemService,
@@ -57,14 +58,18 @@ class Laboratory:
     ----------
     conditions
         What is emulated.
-    clock
-        Its time: calls that block wait on it.
+    now
+        Its time [s].
+    pause
+        Lets time pass [s], for calls that block.
     log
         Called with a line for each thing that happens.
     """
 
-    def __init__(self, conditions: Conditions, clock: Clock, log: Log) -> None:
-        self._conditions, self._clock, self._log = conditions, clock, log
+    def __init__(
+        self, conditions: Conditions, *, now: Callable[[], float], pause: Pause, log: Log
+    ) -> None:
+        self._conditions, self._now, self._log = conditions, now, log
         self._go: queue.SimpleQueue[None] = queue.SimpleQueue()
         self._lift = EmulatedLift(conditions.scenario)
         rest = dict(zip(NAMES, arm_path().joint_angles(0.0), strict=True))
@@ -78,16 +83,14 @@ class Laboratory:
         """Whether the robot answers where its joints are; whoever asks waits for it."""
         self.answering.set()
         self.services: dict[str, Any] = {
-            "ALMotion": MotionService(self._motion, log, self._pause, self.answering),
+            "ALMotion": MotionService(self._motion, log, pause, self.answering),
             "ALRobotPosture": PostureService(),
-            "ALTextToSpeech": SpeechService(self._heard, log, self._pause),
+            "ALAutonomousLife": LifeService(),
+            "ALTextToSpeech": SpeechService(self._heard, log, pause),
             "ALSystem": SystemService(),
             "ColiftFaults": FaultService(self.request),
         }
         """NAOqi's services by name, and the one that faults are requested of."""
-
-    def _pause(self, seconds: float) -> None:
-        self._clock.wait_until(self._clock.now() + seconds)
 
     def _heard(self, text: str) -> None:
         """Let the person begin when the robot says so."""
@@ -102,7 +105,7 @@ class Laboratory:
         InputError
             If there is no such fault.
         """
-        now = self._clock.now()
+        now = self._now()
         self._faults.request(fault, now)
         return now
 
@@ -114,7 +117,7 @@ class Laboratory:
             self._before, self._ahead = self._ahead, np.array(self._motion.set_points(NAMES))
         self._frame += 1
         self._begin_lift()
-        now = self._clock.now()
+        now = self._now()
         faults = self._active(now)
         # The set-points of a tick are reached at its end, as by the robot's own interpolation.
         share = (phase + 1) / FRAMES_PER_TICK
@@ -127,7 +130,7 @@ class Laboratory:
 
     def due(self) -> Iterator[Row]:
         """Yield the motion-capture frames that are to be sent now."""
-        return self._markers.due(self._clock.now())
+        return self._markers.due(self._now())
 
     def _begin_lift(self) -> None:
         """Let the person begin a lift if the robot has said so."""
@@ -137,7 +140,7 @@ class Laboratory:
         seed = self._conditions.seed + self._lifts
         self._lift.start(seed)
         self._lifts += 1
-        self._faults.lift_begins(self._clock.now())
+        self._faults.lift_begins(self._now())
         self._log(f"lift {self._lifts} seed {seed}")
 
     def _active(self, now: float) -> list[Fault]:

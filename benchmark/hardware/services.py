@@ -150,6 +150,14 @@ class PostureService:
         return "Standing"
 
 
+class LifeService:
+    """ALAutonomousLife: the robot does nothing of its own accord."""
+
+    def getState(self) -> str:
+        """Return the state."""
+        return "disabled"
+
+
 class SpeechService:
     """ALTextToSpeech: what the robot says, the person hears."""
 

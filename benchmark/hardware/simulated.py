@@ -43,7 +43,7 @@ class SimulatedLaboratory:
         self._closed: set[str] = set()
         self._pending: list[Sample] = []
         self._rest = REST_HEIGHT, REST_HEIGHT
-        self._laboratory = Laboratory(conditions, self, log)
+        self._laboratory = Laboratory(conditions, now=self.now, pause=self._pass, log=log)
         self.info: dict[str, object] = {"name": "world", "type": "MoCap", "rate_hz": 1 / FRAME}
 
     def now(self) -> float:
@@ -53,11 +53,16 @@ class SimulatedLaboratory:
     def wait_until(self, time: float) -> str | None:
         """Let the time pass; return how the stop button was pressed, or None."""
         while self.now() < time - 1e-9 and self._button.reason is None:
+            self._pass(FRAME)
+        return self._button.reason
+
+    def _pass(self, seconds: float) -> None:
+        """Let the time pass, whoever presses a button."""
+        for _ in range(round(seconds / FRAME)):
             self._frames += 1
             self._faults = self._laboratory.frame()
             self._closed |= self._faults & {"disconnect", "stream-end"}
             self._pending += map(self._sample, self._laboratory.due())
-        return self._button.reason
 
     def _sample(self, row: tuple[float, list[float]]) -> Sample:
         captured, values = row
@@ -96,7 +101,7 @@ class SimulatedLaboratory:
         if "disconnect" in self._closed:
             raise RobotLostError(f"no connection to {self.url}")
         if "silence" in self._faults and any(name == "getAngles" for name, *_ in calls):
-            self.wait_until(self.now() + within)
+            self._pass(within)
             raise RobotLostError(f"no answer of {self.url} within {within:g} s")
         module = self._laboratory.services[service]
         try:

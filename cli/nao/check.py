@@ -79,6 +79,10 @@ def robot_lines(arm: NaoqiArm) -> Iterator[Line]:
     if session.has("ALRobotPosture"):
         posture = session.call("ALRobotPosture", "getPosture", within=2.0)
         yield True, "posture", str(posture)
+    if session.has("ALAutonomousLife"):
+        life = str(session.call("ALAutonomousLife", "getState", within=2.0))
+        switched_off = life == "disabled"
+        yield switched_off, "autonomous life", life + ("" if switched_off else ": switch it off")
     limits = arm.limits
     yield (
         True,
@@ -96,6 +100,8 @@ def robot_lines(arm: NaoqiArm) -> Iterator[Line]:
     ):
         on = bool(arm.motion(method, *arguments, within=2.0))
         yield on, name, "on" if on else "off: switch it on"
+    smart = arm.motion("getSmartStiffnessEnabled", within=2.0)
+    yield True, "smart stiffness", "on: the arms give way more at rest" if smart else "off"
     times = []
     for _ in range(READINGS):
         begin = time.monotonic()

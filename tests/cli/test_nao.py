@@ -72,6 +72,7 @@ def test_check_finds_robot_and_stream_and_nothing_moves(laboratory):
         "NAOqi 2.8.7-emulated",
         "-0.030 to 0.290 m",
         "fall manager: on",
+        "autonomous life: disabled",
         "12 channels at 100 Hz",
         "age of the newest frame: median",
         "frames a second",
@@ -135,7 +136,7 @@ def test_its_recording_says_how_the_laboratory_is(lifted):
     assert found["capture_noise"] == pytest.approx(0.00023, rel=0.15)
     assert found["stiffness"] == pytest.approx(18, rel=0.25)
     assert 0.003 < found["sag"] < 0.007
-    assert 0.015 < found["capture_age"] < 0.1
+    assert 0.01 < found["capture_age"] < 0.1
 
 
 def test_ctrl_c_stops_the_hands_and_says_so(laboratory):
@@ -192,9 +193,9 @@ def test_without_the_extra_it_is_named(command):
 
 
 def test_a_simulated_laboratory_needs_no_network(tmp_path):
-    options = ("--robot", "world:pause/S2", "--trials", 1, "--json", "--record")
-    first = nao("run", "minimum_jerk", *options, tmp_path / "a")
-    again = nao("run", "minimum_jerk", *options, tmp_path / "b")
+    options = ("--robot", "world:pause/S2", "--trials", 1, "--duration", 3)
+    first = nao("run", "minimum_jerk", *options, "--json", "--record", tmp_path / "a")
+    again = nao("run", "minimum_jerk", *options, "--json", "--record", tmp_path / "b")
     assert first.returncode == 0, first.stderr
     assert json.loads(first.stdout)["suite"] == "NAO trials (simulated)"
     files = [tmp_path / name / "lift-01.csv" for name in "ab"]

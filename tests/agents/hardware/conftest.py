@@ -24,13 +24,11 @@ class Lab(SimulatedLaboratory):
         self.sent = []
         self.hands = []
 
-    def wait_until(self, time):
-        pressed = None
-        while pressed is None and self.now() < time - 1e-9:
-            pressed = super().wait_until(self.now() + 0.01)
+    def _pass(self, seconds):
+        for _ in range(round(seconds / 0.01)):
+            super()._pass(0.01)
             angles = self._laboratory.services["ALMotion"].getAngles(NAMES, False)
-            self.hands.append((self.now(), *hand_heights(np.array([angles])), *angles))
-        return pressed
+            self.hands.append((self.now(), *hand_heights(np.array([angles]))))
 
     def calls(self, service, calls, *, within=0.15):
         self.sent += [(self.now(), *call) for call in calls]
@@ -42,7 +40,7 @@ class Lab(SimulatedLaboratory):
 
     def set_points(self, since=0.0):
         """Return the height of the hands by their set-points in each frame since a time [m]."""
-        return np.array([height for time, height, *_ in self.hands if time > since])
+        return np.array([height for time, height in self.hands if time > since])
 
 
 class Faulty(AfterDuration):

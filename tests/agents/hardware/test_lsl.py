@@ -1,0 +1,96 @@
+"""Motion capture over the Lab Streaming Layer: a real outlet in this process."""
+
+import math
+import os
+import time
+
+import pytest
+from colift.agents.errors import InputError
+from colift.agents.hardware.lsl import Layout, LslCapture
+
+pylsl = pytest.importorskip("pylsl")
+
+
+@pytest.fixture
+def stream(lsl_on_loopback):
+    """Open an outlet with a channel for each label, type and unit; yield a sender and its name."""
+    kept = []
+
+    def make(*channels):
+        name = f"lsl-{os.getpid()}-{time.monotonic_ns()}"
+        info = pylsl.StreamInfo(name, "MoCap", len(channels), 100, pylsl.cf_double64, name)
+        node = info.desc().append_child("channels")
+        for channel in channels:
+            each = node.append_child("channel")
+            for key, value in channel.items():
+                each.append_child_value(key, value)
+        kept.append(pylsl.StreamOutlet(info))
+        return name, kept[-1]
+
+    yield make
+    kept.clear()
+
+
+def channels(unit="meters", markers=("H1", "H2", "R1", "R2"), axes="XYZ"):
+    return [
+        {"label": f"{marker}_{axis}", "type": f"Position{axis}", "unit": unit}
+        for marker in markers
+        for axis in axes
+    ]
+
+
+def received(capture, outlet, rows):
+    """Send rows that were captured 50 ms ago, and return what comes out."""
+    for row in rows:
+        outlet.push_sample(row, pylsl.local_clock() - 0.05)
+    frames, end = [], time.monotonic() + 5
+    while len(frames) < len(rows) and time.monotonic() < end:
+        frames += capture.drain()
+        time.sleep(0.005)
+    return frames
+
+
+def test_millimetres_and_another_axis_become_metres_up(stream):
+    name, outlet = stream(*channels("millimeters"))
+    capture = LslCapture(name, Layout(up="y"))
+    row = [0, 1000, 0, 0, 1002, 0, 0, 900, 0, 0, 904, 0]
+    (frame,) = received(capture, outlet, [row])
+    assert frame[1:] == pytest.approx((1.001, 0.902))
+    assert time.monotonic() - 0.05 - frame.time == pytest.approx(0.0, abs=0.5)
+    capture.set_rest(1.0, 0.9)
+    (frame,) = received(capture, outlet, [row])
+    assert frame[1:] == pytest.approx((0.001, 0.002))
+    capture.close()
+
+
+def test_one_hidden_marker_hides_its_end(stream):
+    name, outlet = stream(*channels())
+    capture = LslCapture(name, Layout())
+    nan = math.nan
+    (frame,) = received(capture, outlet, [[0, 0, 1, nan, nan, nan, 0, 0, 1, 0, 0, 1]])
+    assert math.isnan(frame.human_end)
+    assert frame.robot_end == 1.0
+    capture.close()
+
+
+def test_the_stamps_are_on_this_machines_clock(stream):
+    name, outlet = stream(*channels())
+    capture = LslCapture(name, Layout())
+    before = time.monotonic()
+    (frame,) = received(capture, outlet, [[0.0] * 12])
+    assert before - 0.06 < frame.time < time.monotonic() - 0.04
+    capture.close()
+
+
+@pytest.mark.parametrize(
+    ("made", "layout", "told"),
+    [
+        (channels(), Layout(human=("T1",)), "no Z of marker 'T1'; markers: H1, H2, R1, R2"),
+        (channels("feet"), Layout(), "unit 'feet'; known: m, "),
+        (channels(axes="XY"), Layout(), "no Z of marker 'H1'"),
+    ],
+)
+def test_a_stream_that_does_not_fit_is_refused_by_what_it_lacks(stream, made, layout, told):
+    name, _ = stream(*made)
+    with pytest.raises(InputError, match=told):
+        LslCapture(name, layout)
