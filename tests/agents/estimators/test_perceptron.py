@@ -1,3 +1,4 @@
+import itertools
 import json
 
 import numpy as np
@@ -11,7 +12,7 @@ def made(*sizes, seed=0):
     return Perceptron(
         centre=rng.normal(size=sizes[0]),
         spread=rng.uniform(0.5, 2.0, sizes[0]),
-        weights=tuple(rng.normal(size=shape) for shape in zip(sizes, sizes[1:], strict=False)),
+        weights=tuple(rng.normal(size=shape) for shape in itertools.pairwise(sizes)),
         biases=tuple(rng.normal(size=size) for size in sizes[1:]),
         gain=rng.uniform(0.5, 2.0, sizes[-1]),
     )
