@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import InputError
 from .plausibility import seen
@@ -24,6 +25,9 @@ LOWEST_RATE: Final = 50.0
 
 STILL: Final = 0.003
 """Largest standard deviation of an end at rest [m]."""
+
+PATIENCE: Final = 10
+"""How often rest heights are measured before it is said that an end does not rest."""
 
 LARGEST_OFFSET: Final = 0.03
 """Largest sag of the hands under the table's weight that is made up for [m]."""
@@ -75,7 +79,31 @@ def drained(capture: MotionCapture) -> list[Sample]:
 
 
 def measure_rest(capture: MotionCapture, clock: Clock, seconds: float = REST_TIME) -> Rest:
-    """Measure the table at rest; the person holds still."""
+    """Measure the table at rest; wait for the person to hold still."""
+    for _ in range(PATIENCE):
+        ends, rate = _ends(capture, clock, seconds)
+        spread = ends.std(axis=0)
+        if spread.max() <= STILL:
+            # Differences of neighbours, so that a slow sway of the hands does not count.
+            noise = float(np.diff(ends, axis=0).std() / math.sqrt(2))
+            human_end, robot_end = ends.mean(axis=0).tolist()
+            return Rest(human_end=human_end, robot_end=robot_end, noise=noise, rate=rate)
+    name = ("human's", "robot's")[int(spread.argmax())]
+    raise InputError(
+        f"the {name} end moves by {1000 * spread.max():.1f} mm (sd) where it should "
+        "rest: hold it still, and see that its markers are not taken for others"
+    )
+
+
+class _Ends(NamedTuple):
+    heights: NDArray[np.float64]
+    """Of the human's and the robot's end [m], shape (n, 2)."""
+    rate: float
+    """Frames a second."""
+
+
+def _ends(capture: MotionCapture, clock: Clock, seconds: float) -> _Ends:
+    """Return the heights of both ends for a while."""
     drained(capture)
     wait(clock, seconds)
     frames = drained(capture)
@@ -91,17 +119,7 @@ def measure_rest(capture: MotionCapture, clock: Clock, seconds: float = REST_TIM
             f"a table end was not seen in {hidden} of {len(frames)} frames: are all markers in "
             "view, and named right?"
         )
-    ends = np.array([(frame.human_end, frame.robot_end) for frame in frames])
-    if ends.std(axis=0).max() > STILL:
-        name = ("human's", "robot's")[int(ends.std(axis=0).argmax())]
-        raise InputError(
-            f"the {name} end moves by {1000 * ends.std(axis=0).max():.1f} mm (sd) where it should "
-            "rest: hold it still, and see that its markers are not taken for others"
-        )
-    # Differences of neighbours, so that a slow sway of the hands does not count.
-    noise = float(np.diff(ends, axis=0).std() / math.sqrt(2))
-    human_end, robot_end = ends.mean(axis=0).tolist()
-    return Rest(human_end=human_end, robot_end=robot_end, noise=noise, rate=rate)
+    return _Ends(np.array([(frame.human_end, frame.robot_end) for frame in frames]), rate)
 
 
 def measure_sag(robot: RobotArm, clock: Clock, readings: int = 10) -> float:

@@ -122,7 +122,10 @@ class Laboratory:
         # The set-points of a tick are reached at its end, as by the robot's own interpolation.
         share = (phase + 1) / FRAMES_PER_TICK
         commanded = self._before + (self._ahead - self._before) * share
+        lifting = self._lift.lifting
         self._lift.advance(commanded.tolist(), self._motion.stiffness(NAMES))
+        if lifting and not self._lift.lifting:
+            self._log(f"lift {self._lifts} is over")
         self._motion.measure(dict(zip(NAMES, self._lift.arms.angles(), strict=True)))
         world = self._lift.world
         self._markers.capture(now, world.human_end[-1], world.robot_end[-1], faults)

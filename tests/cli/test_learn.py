@@ -54,9 +54,8 @@ def test_a_model_is_learned_to_the_same_bytes_and_can_be_run(colift, demonstrate
     assert json.loads(one.read_text())["provenance"]["command"] == (
         "colift learn task_model --demonstrations lifts.csv --components 3 --seed 0 --practice 2"
     )
-    policy = "colift.agents.policies.task_model:TaskModel,model=one.json"
     options = ("--suite", "quick-v1", "--seeds", "40:41", "--jobs", "1", "--json")
-    code, told, _ = colift(demonstrated, "run", policy, *options)
+    code, told, _ = colift(demonstrated, "run", "task_model,model=one.json", *options)
     assert code == json.loads(told)["summary"]["failed"] == 0
 
 

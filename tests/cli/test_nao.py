@@ -87,7 +87,12 @@ def test_a_dry_run_sends_the_robot_no_motion(laboratory, tmp_path):
     done = nao("run", "copy", *laboratory.place, *options)
     assert done.returncode == 0, done.stderr
     assert "dry run" in done.stdout
-    assert happened(laboratory, before) == ["say Lift 1. Go!", "lift 1 seed 0"]
+    laboratory.await_line("lift 1 is over")
+    assert happened(laboratory, before) == [
+        "say Lift 1. Go!",
+        "lift 1 seed 0",
+        "lift 1 is over",
+    ]
     trial = read_recording(tmp_path / "lift-01.csv")
     assert max(step.command for step in trial.record.steps) > 0.05
     assert trial.dry

@@ -10,13 +10,17 @@ import psycopg
 import pytest
 from colift.agents.policies.loading import PolicySpec
 from colift.agents.submissions.new import write_template
+from colift.benchmark import suite
 from colift.benchmark.references import Reference
 from colift.benchmark.suite import make_suite
 from colift.leaderboard.board import Board
 from colift.leaderboard.evaluation import Entrant, play_team
 from colift.leaderboard.season import Season
+from playwright.sync_api import Browser
 
+from .browser import browser
 from .postgresql import WITHOUT, server
+from .tiny import ENTRY
 
 SECRET = bytes(range(32))
 WriteSubmission = Callable[..., Path]
@@ -35,6 +39,21 @@ class Clock:
 
     def turn(self, **more: float) -> None:
         self.now += timedelta(**more)
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Browser]:
+    """A browser, as long as a module needs it: its event loop keeps others from running."""
+    with browser() as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def tiny_suite() -> Iterator[None]:
+    """A suite ``tiny`` of two lifts, so that an evaluation takes seconds."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setitem(suite.SUITES, "tiny", ENTRY)
+        yield
 
 
 def make_season(secret: bytes = SECRET) -> Season:

@@ -10,11 +10,9 @@ from colift.leaderboard.queue import Queue
 from colift.leaderboard.tokens import Tokens
 from colift.leaderboard.worker import Worker
 
-from . import tiny  # noqa: F401
-
 
 @pytest.fixture
-def board(open_board):
+def board(open_board, tiny_suite):
     return open_board(suite="tiny")
 
 

@@ -37,7 +37,7 @@ class Policy:
 
 
 @pytest.fixture
-def board(open_board):
+def board(open_board, tiny_suite):
     return open_board(suite="tiny")
 
 
@@ -206,7 +206,7 @@ def runs(process):
 
 
 @pytest.fixture
-def real_board(tmp_path, database):
+def real_board(tmp_path, database, tiny_suite):
     """Yield a board whose clock is that of the processes that work for it."""
     board = Board.open(tmp_path / "board", "tiny", url=database)
     yield board

@@ -18,7 +18,7 @@ def tiny() -> suite.Suite:
     return dataclasses.replace(quick, name="tiny", scenarios=quick.scenarios[:1], seeds=(0, 1))
 
 
-suite.SUITES["tiny"] = ("for tests", tiny)
+ENTRY = ("for tests", tiny)
 
 
 def fork_each() -> None:
@@ -37,6 +37,7 @@ def fork_each() -> None:
 
 
 if __name__ == "__main__":
+    suite.SUITES["tiny"] = ENTRY
     if sys.argv[1:] == ["--fork"]:
         fork_each()
     else:

@@ -17,7 +17,6 @@ from colift.leaderboard.service.server import make_server
 from playwright.sync_api import Browser, Page
 
 from .boards import BEGAN, digest, practice, renamed
-from .browser import browser
 
 
 @contextmanager
@@ -66,12 +65,6 @@ def site(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> str:
     write_site(board, place)
     board.close()
     return place.as_uri()
-
-
-@pytest.fixture(scope="session")
-def chromium() -> Iterator[Browser]:
-    with browser() as opened:
-        yield opened
 
 
 @pytest.fixture

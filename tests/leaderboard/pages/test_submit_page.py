@@ -1,12 +1,10 @@
 """From a zip file in a browser to a verified row, or to the reason why not."""
 
-import dataclasses
 import threading
 from pathlib import Path
 
 import pytest
 from colift.agents.submissions.new import write_template
-from colift.benchmark import suite
 from colift.leaderboard.archive import pack
 from colift.leaderboard.board import Board
 from colift.leaderboard.queue import Queue
@@ -26,19 +24,12 @@ class Policy:
 """
 
 
-def tiny() -> suite.Suite:
-    quick = suite.make_suite("quick-v1")
-    return dataclasses.replace(quick, name="tiny", scenarios=quick.scenarios[:1], seeds=(0, 1))
-
-
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
+def folder(tmp_path_factory, tiny_suite):
     """A board of a suite of two lifts, so that an evaluation takes seconds."""
     place = tmp_path_factory.mktemp("submit") / "board"
-    with pytest.MonkeyPatch.context() as patched:
-        patched.setitem(suite.SUITES, "tiny", ("for tests", tiny))
-        Board.open(place, "tiny").close()
-        yield place
+    Board.open(place, "tiny").close()
+    return place
 
 
 @pytest.fixture(scope="module")

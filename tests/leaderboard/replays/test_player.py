@@ -8,18 +8,6 @@ import pytest
 from colift.leaderboard.replays.chosen import chosen_replays
 from colift.leaderboard.replays.html import replay_page, script_json
 
-playwright = pytest.importorskip("playwright.sync_api")
-CHROMIUM = Path("/usr/bin/chromium")
-pytestmark = pytest.mark.skipif(not CHROMIUM.exists(), reason="no Chromium here")
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with playwright.sync_playwright() as started:
-        found = started.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield found
-        found.close()
-
 
 @pytest.fixture(scope="module")
 def file(bundle, tmp_path_factory) -> Path:
@@ -29,12 +17,12 @@ def file(bundle, tmp_path_factory) -> Path:
 
 
 @pytest.fixture
-def open_page(browser, file):
+def open_page(chromium, file):
     """Return what opens the file; at the end, nothing was asked for and nothing went wrong."""
     contexts, troubles = [], []
 
     def opened(place="", motion="reduce", **options):
-        context = browser.new_context(reduced_motion=motion, **options)
+        context = chromium.new_context(reduced_motion=motion, **options)
         contexts.append(context)
         page = context.new_page()
         page.on("pageerror", lambda error: troubles.append(str(error)))
