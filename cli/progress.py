@@ -51,7 +51,7 @@ def job_bar(description: str, total: int | None) -> Iterator[JobBar]:
     """Show a bar of a job in stages while the body runs."""
     console = Console(stderr=True)
     columns = (
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
         BarColumn(),
         MofNCompleteColumn(),
         TimeRemainingColumn(),

@@ -10,6 +10,7 @@ from rich.console import Console
 from ..agents.errors import InputError
 from ..agents.submissions.submission import open_submission
 from ..benchmark.executors import default_jobs
+from .arguments import argument
 from .check import all_checks
 from .outcome import Outcome
 from .row_table import row_table, standing
@@ -65,7 +66,7 @@ def _check(folder: Path, jobs: int) -> None:
     for each in all_checks(folder, None, False, jobs):
         if not each.ok:
             print(f"not submitted, its check fails: {each.name}: {each.told}", file=sys.stderr)
-            print(f"Mend it, then: colift check {folder}", file=sys.stderr)
+            print(f"Mend it, then: colift check {argument(folder)}", file=sys.stderr)
             raise typer.Exit(1)
 
 
@@ -74,7 +75,7 @@ def _tell(outcome: Outcome, folder: Path) -> None:
     if outcome.row is None:
         print(outcome.reason, file=sys.stderr)
         if outcome.mend:
-            print(f"Mend it, then: colift check {folder}", file=sys.stderr)
+            print(f"Mend it, then: colift check {argument(folder)}", file=sys.stderr)
         raise typer.Exit(1)
     console = Console()
     console.print(row_table(outcome.row))
