@@ -12,6 +12,17 @@ from contextlib import ExitStack
 import pytest
 from colift.benchmark.loopback import loopback_cluster
 
+# A shell lets what it starts in the background ignore Ctrl-C; so would all that the tests start.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def own_cache(tmp_path_factory):
+    """Keep what is cached from the user's own, and for all tests of a process."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+        yield
+
 
 @pytest.fixture(scope="session")
 def dask_address():

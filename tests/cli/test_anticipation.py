@@ -4,21 +4,6 @@ import json
 
 import pytest
 from colift.agents.policies.anticipation import read_anticipation
-from colift.cli.main import main
-
-
-@pytest.fixture
-def colift(monkeypatch, capsys, tmp_path):
-    """Return what runs the command, and returns exit code, output and errors."""
-
-    def run(*arguments):
-        monkeypatch.chdir(tmp_path)
-        monkeypatch.setattr("sys.argv", ["colift", *arguments])
-        with pytest.raises(SystemExit) as end:
-            main()
-        return end.value.code, *capsys.readouterr()
-
-    return run
 
 
 def test_what_is_learned_can_be_run_and_says_where_it_came_from(colift, tmp_path):

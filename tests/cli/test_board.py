@@ -2,8 +2,6 @@
 
 import json
 import os
-import subprocess
-import sys
 
 import pytest
 from colift.agents.submissions.new import write_template
@@ -24,21 +22,6 @@ def board(tmp_path):
     board = Board.open(tmp_path / "board", "quick-v1")
     yield board
     board.close()
-
-
-@pytest.fixture
-def colift(tmp_path):
-    def run(*arguments, columns=100):
-        return subprocess.run(
-            [sys.executable, "-m", "colift.cli", *arguments],
-            capture_output=True,
-            text=True,
-            cwd=tmp_path,
-            env={**os.environ, "COLUMNS": str(columns), "XDG_CACHE_HOME": str(tmp_path / "cache")},
-            timeout=300,
-        )
-
-    return run
 
 
 @pytest.fixture

@@ -1,9 +1,6 @@
 """``colift check`` and ``colift run`` on a submission, as a user meets them: real processes."""
 
 import json
-import os
-import subprocess
-import sys
 
 import pytest
 from colift.agents.isolation.sandboxed import close_sandboxes
@@ -11,24 +8,6 @@ from colift.agents.submissions.new import write_template
 from colift.cli.check import all_checks
 
 HEAD = "import sys\nclass Policy:\n"
-
-
-@pytest.fixture
-def colift(tmp_path):
-    """Return the command, run in a folder of its own, with a cache of its own."""
-    environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path / "cache")}
-
-    def run(*arguments, **more):
-        return subprocess.run(
-            [sys.executable, "-m", "colift.cli", *arguments],
-            capture_output=True,
-            text=True,
-            timeout=300,
-            cwd=tmp_path,
-            env={**environment, **more},
-        )
-
-    return run
 
 
 @pytest.fixture

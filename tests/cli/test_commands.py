@@ -18,17 +18,6 @@ GOOD_CSV = "trial,t_s,z_m\n" + "".join(
 )
 
 
-def colift(*arguments, **settings):
-    """Run the command and return the finished process."""
-    return subprocess.run(
-        [sys.executable, "-m", "colift.cli", *arguments],
-        capture_output=True,
-        text=True,
-        timeout=300,
-        **settings,
-    )
-
-
 @pytest.fixture
 def policy(tmp_path):
     """Write a policy file and return what to call it by."""
@@ -45,7 +34,7 @@ def policy(tmp_path):
     return write
 
 
-def test_run_prints_a_table_and_where_the_policy_stands():
+def test_run_prints_a_table_and_where_the_policy_stands(colift):
     done = colift("run", "copy", "--suite", "quick-v1")
     assert done.returncode == 0
     assert done.stderr == ""
@@ -61,7 +50,7 @@ def test_run_prints_a_table_and_where_the_policy_stands():
         assert told in done.stdout
 
 
-def test_json_is_alone_on_stdout_and_the_bundle_holds_the_same(tmp_path):
+def test_json_is_alone_on_stdout_and_the_bundle_holds_the_same(colift, tmp_path):
     out = tmp_path / "bundle"
     done = colift("run", "copy", "--suite", "quick-v1", "--json", "--jobs", "2", "--out", str(out))
     content = json.loads(done.stdout)
@@ -70,7 +59,7 @@ def test_json_is_alone_on_stdout_and_the_bundle_holds_the_same(tmp_path):
     assert done.returncode == 0
 
 
-def test_seeds_latency_and_control_period_make_other_episodes():
+def test_seeds_latency_and_control_period_make_other_episodes(colift):
     options = ("--seeds", "40:41", "--latency", "0.05", "--control-period", "0.05", "--json")
     content = json.loads(colift("run", "copy", "--suite", "quick-v1", *options).stdout)
     usual = json.loads(
@@ -81,7 +70,7 @@ def test_seeds_latency_and_control_period_make_other_episodes():
     assert content["summary"]["rmse_mm"]["mean"] < usual["summary"]["rmse_mm"]["mean"]
 
 
-def test_recordings_are_evaluated(tmp_path):
+def test_recordings_are_evaluated(colift, tmp_path):
     path = tmp_path / "lifts.csv"
     path.write_text(GOOD_CSV)
     content = json.loads(colift("run", "copy", "--recordings", str(path), "--json").stdout)
@@ -89,7 +78,7 @@ def test_recordings_are_evaluated(tmp_path):
     assert content["groups"][0]["behaviour"] == "recorded"
 
 
-def test_list_names_everything():
+def test_list_names_everything(colift):
     done = colift("list")
     assert done.returncode == 0
     for name in ("copy", "hold", "random", "changing_goal", "S5", "draw-N", "standard-v1"):
@@ -128,7 +117,7 @@ def test_list_names_everything():
         ([], "Usage"),
     ],
 )
-def test_wrong_usage_is_one_clear_line_and_exit_code_2(arguments, told, tmp_path):
+def test_wrong_usage_is_one_clear_line_and_exit_code_2(colift, arguments, told, tmp_path):
     done = colift(*arguments, cwd=tmp_path)
     assert done.returncode == 2
     assert told in done.stderr + done.stdout
@@ -151,7 +140,7 @@ def test_wrong_usage_is_one_clear_line_and_exit_code_2(arguments, told, tmp_path
         ("trial,t_s,z_m\na,0,0\na,1,0.001\n", "m"),
     ],
 )
-def test_bad_recordings_are_refused(tmp_path, text, told):
+def test_bad_recordings_are_refused(colift, tmp_path, text, told):
     path = tmp_path / "lifts.csv"
     path.write_text(text)
     done = colift("run", "copy", "--recordings", str(path))
@@ -170,7 +159,7 @@ def test_bad_recordings_are_refused(tmp_path, text, told):
         ("return None", "must be 1 number"),
     ],
 )
-def test_a_failing_policy_is_reported_and_the_run_goes_on(policy, act, told):
+def test_a_failing_policy_is_reported_and_the_run_goes_on(colift, policy, act, told):
     done = colift("run", policy(act), "--suite", "quick-v1", "--json")
     assert done.returncode == 1
     content = json.loads(done.stdout)
@@ -181,7 +170,7 @@ def test_a_failing_policy_is_reported_and_the_run_goes_on(policy, act, told):
     assert "Traceback" not in done.stderr
 
 
-def test_a_policy_without_act_is_refused(tmp_path):
+def test_a_policy_without_act_is_refused(colift, tmp_path):
     path = tmp_path / "half.py"
     path.write_text("class Half:\n    def reset(self, seed): pass\n")
     done = colift("run", f"{path}:Half")
@@ -228,14 +217,14 @@ def test_ctrl_c_keeps_what_is_finished_and_says_so(tmp_path, jobs):
     assert "RMSE" in stdout
 
 
-def test_render_draws_a_picture(tmp_path):
+def test_render_draws_a_picture(colift, tmp_path):
     done = colift("render", "copy", "--scenario", "pause", "--out", "lift.png", cwd=tmp_path)
     assert done.returncode == 0
     assert (tmp_path / "lift.png").read_bytes().startswith(b"\x89PNG")
     assert "pause/S1 seed 0" in done.stdout
 
 
-def test_render_writes_a_page_that_plays_the_lift(tmp_path):
+def test_render_writes_a_page_that_plays_the_lift(colift, tmp_path):
     lift = ("render", "copy", "--scenario", "pause", "--seed", "2", "--out", "lift.html")
     done = colift(*lift, cwd=tmp_path)
     assert done.returncode == 0
@@ -259,13 +248,13 @@ def test_every_command_explains_itself_and_each_of_its_options(name, monkeypatch
         assert [option.name for option in each.params if not option.help] == []
 
 
-def test_help_names_every_command():
+def test_help_names_every_command(colift):
     done = colift("--help")
     assert done.returncode == 0
     assert [name for name in COMMANDS if f" {name} " not in done.stdout] == []
 
 
-def test_a_command_that_is_spelt_wrong_is_guessed():
+def test_a_command_that_is_spelt_wrong_is_guessed(colift):
     done = colift("verfy")
     assert done.returncode == 2
     assert "Did you mean 'verify'?" in done.stderr

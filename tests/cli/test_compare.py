@@ -1,27 +1,14 @@
 """``colift compare`` and ``colift bench --policies`` as a user meets them."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-
-def colift(*arguments: str, **settings: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "colift.cli", *arguments],
-        capture_output=True,
-        text=True,
-        timeout=300,
-        **settings,
-    )
-
-
 QUICK = ("--suite", "quick-v1", "--jobs", "1")
 
 
-def test_two_policies_are_ranked_against_each_other_and_people(tmp_path: Path) -> None:
+def test_two_policies_are_ranked_against_each_other_and_people(colift, tmp_path: Path) -> None:
     out = tmp_path / "made" / "here"
     done = colift("compare", "hold", "copy", *QUICK, "--out", str(out))
     assert done.returncode == 0
@@ -38,14 +25,14 @@ def test_two_policies_are_ranked_against_each_other_and_people(tmp_path: Path) -
     assert (out / "compare.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_json_is_alone_on_stdout() -> None:
+def test_json_is_alone_on_stdout(colift) -> None:
     done = colift("compare", "copy", "hold", *QUICK, "--seeds", "0:1", "--json")
     content = json.loads(done.stdout)
     assert content["episodes"] == 4
     assert content["suite"] == "quick-v1[0:1]"
 
 
-def test_recordings_are_compared(tmp_path: Path) -> None:
+def test_recordings_are_compared(colift, tmp_path: Path) -> None:
     path = tmp_path / "lifts.csv"
     lines = [f"a,{k / 50:.2f},{0.3 * min(k, 60 - k) / 30:.3f}\n" for k in range(61)]
     path.write_text("trial,t_s,z_m\n" + "".join(lines))
@@ -55,7 +42,7 @@ def test_recordings_are_compared(tmp_path: Path) -> None:
     assert "copy is the most level" in done.stdout
 
 
-def test_failed_lifts_are_said_and_the_rest_is_compared(tmp_path: Path) -> None:
+def test_failed_lifts_are_said_and_the_rest_is_compared(colift, tmp_path: Path) -> None:
     path = tmp_path / "bad.py"
     path.write_text(
         "class Bad:\n"
@@ -69,7 +56,7 @@ def test_failed_lifts_are_said_and_the_rest_is_compared(tmp_path: Path) -> None:
     assert "hold is the most level" in done.stdout
 
 
-def test_classes_of_one_name_are_told_apart_by_their_files(tmp_path: Path) -> None:
+def test_classes_of_one_name_are_told_apart_by_their_files(colift, tmp_path: Path) -> None:
     text = "class Mine:\n    def reset(self, seed): pass\n    def act(self, o): return [0.0]\n"
     for name in ("a.py", "b.py"):
         (tmp_path / name).write_text(text)
@@ -79,7 +66,7 @@ def test_classes_of_one_name_are_told_apart_by_their_files(tmp_path: Path) -> No
     assert names == {"a.py:Mine", "b.py:Mine"}
 
 
-def test_all_takes_every_registered_policy_beside_those_named() -> None:
+def test_all_takes_every_registered_policy_beside_those_named(colift) -> None:
     listed = colift("compare", "hold", "--all", *QUICK, "--seeds", "0:1", "--json")
     names = [policy["name"] for policy in json.loads(listed.stdout)["policies"]]
     assert {"blend", "copy", "hold", "proactive", "random", "reactive"} <= set(names)
@@ -97,7 +84,9 @@ def test_all_takes_every_registered_policy_beside_those_named() -> None:
         (["copy", "hold", "--out", "/dev/null"], "cannot be a folder"),
     ],
 )
-def test_wrong_usage_is_one_clear_line(arguments: list[str], told: str, tmp_path: Path) -> None:
+def test_wrong_usage_is_one_clear_line(
+    colift, arguments: list[str], told: str, tmp_path: Path
+) -> None:
     done = colift("compare", *arguments, cwd=tmp_path)
     assert done.returncode == 2
     assert done.stderr.startswith("error: ")
@@ -106,7 +95,7 @@ def test_wrong_usage_is_one_clear_line(arguments: list[str], told: str, tmp_path
     assert list(tmp_path.iterdir()) == []
 
 
-def test_bench_times_every_registered_policy() -> None:
+def test_bench_times_every_registered_policy(colift) -> None:
     done = colift("bench", "--policies", "--json")
     assert done.returncode == 0
     content = json.loads(done.stdout)
@@ -117,7 +106,7 @@ def test_bench_times_every_registered_policy() -> None:
         assert taken["within_limit"] == (taken["p99_ms"] <= 10.0)
 
 
-def test_bench_does_one_thing_at_a_time() -> None:
+def test_bench_does_one_thing_at_a_time(colift) -> None:
     done = colift("bench", "--policies", "--convergence")
     assert done.returncode == 2
     assert "--convergence and --policies" in done.stderr

@@ -3,40 +3,21 @@
 import json
 
 import pytest
-from colift.cli.main import main
 
 ROWS = "lift,behaviour,subject,t_s,seen_human_m,seen_partner_m,human_m,human_m_s,partner_m,"
 
 
 @pytest.fixture
-def colift(monkeypatch, capsys):
-    """Return what runs the command in a folder, and returns exit code, output and errors."""
-
-    def run(folder, *arguments):
-        monkeypatch.chdir(folder)
-        monkeypatch.setattr("sys.argv", ["colift", *arguments])
-        with pytest.raises(SystemExit) as end:
-            main()
-        return end.value.code, *capsys.readouterr()
-
-    return run
-
-
-@pytest.fixture
 def demonstrated(colift, tmp_path):
     """Return a folder with a few demonstrations."""
-    code, told, errors = colift(
-        tmp_path, "demonstrate", "--lifts", "6", "--jobs", "1", "--out", "lifts.csv"
-    )
+    code, told, errors = colift("demonstrate", "--lifts", "6", "--jobs", "1", "--out", "lifts.csv")
     assert (code, errors) == (0, "")
     assert told.startswith("6 lifts, ")
     return tmp_path
 
 
 def test_demonstrations_are_the_same_with_more_workers(colift, demonstrated):
-    code, _, _ = colift(
-        demonstrated, "demonstrate", "--lifts", "6", "--jobs", "2", "--out", "again.csv"
-    )
+    code, _, _ = colift("demonstrate", "--lifts", "6", "--jobs", "2", "--out", "again.csv")
     assert code == 0
     again, lifts = demonstrated / "again.csv", demonstrated / "lifts.csv"
     assert again.read_bytes() == lifts.read_bytes()
@@ -46,7 +27,7 @@ def test_a_model_is_learned_to_the_same_bytes_and_can_be_run(colift, demonstrate
     pytest.importorskip("sklearn")
     options = ("--demonstrations", "lifts.csv", "--components", "3", "--practice", "2")
     for name in ("one.json", "other.json"):
-        code, told, errors = colift(demonstrated, "learn", "task_model", *options, "--out", name)
+        code, told, errors = colift("learn", "task_model", *options, "--out", name)
         assert (code, errors) == (0, "")
         assert "stiffness" in told
     one, other = demonstrated / "one.json", demonstrated / "other.json"
@@ -55,7 +36,7 @@ def test_a_model_is_learned_to_the_same_bytes_and_can_be_run(colift, demonstrate
         "colift learn task_model --demonstrations lifts.csv --components 3 --seed 0 --practice 2"
     )
     options = ("--suite", "quick-v1", "--seeds", "40:41", "--jobs", "1", "--json")
-    code, told, _ = colift(demonstrated, "run", "task_model,model=one.json", *options)
+    code, told, _ = colift("run", "task_model,model=one.json", *options)
     assert code == json.loads(told)["summary"]["failed"] == 0
 
 
@@ -73,7 +54,7 @@ def test_a_model_is_learned_to_the_same_bytes_and_can_be_run(colift, demonstrate
     ],
 )
 def test_wrong_usage_is_one_clear_line_and_exit_code_2(colift, tmp_path, arguments, told):
-    code, output, errors = colift(tmp_path, *arguments)
+    code, output, errors = colift(*arguments)
     assert code == 2
     assert told in output + errors
     if errors.startswith("error:"):
@@ -84,13 +65,13 @@ def test_wrong_usage_is_one_clear_line_and_exit_code_2(colift, tmp_path, argumen
 def test_a_bad_file_of_demonstrations_is_named(colift, tmp_path):
     pytest.importorskip("sklearn")
     (tmp_path / "bad.csv").write_text(ROWS + "\n")
-    code, _, errors = colift(tmp_path, "learn", "task_model", "--demonstrations", "bad.csv")
+    code, _, errors = colift("learn", "task_model", "--demonstrations", "bad.csv")
     assert code == 2
     assert errors == "error: bad.csv: missing column(s) partner_m_s\n"
 
 
 def test_the_commands_explain_themselves(colift, tmp_path):
     for command in (["demonstrate"], ["learn", "reactive"], ["learn", "task_model"]):
-        code, told, _ = colift(tmp_path, *command, "--help")
+        code, told, _ = colift(*command, "--help")
         assert code == 0
         assert "--seed" in told

@@ -1,20 +1,7 @@
 """``colift new``, as a user meets it."""
 
-import subprocess
-import sys
 
-
-def colift(*arguments, **settings):
-    return subprocess.run(
-        [sys.executable, "-m", "colift.cli", *arguments],
-        capture_output=True,
-        text=True,
-        timeout=300,
-        **settings,
-    )
-
-
-def test_a_template_is_written_once_and_the_next_step_told(tmp_path):
+def test_a_template_is_written_once_and_the_next_step_told(colift, tmp_path):
     done = colift("new", "mine", cwd=tmp_path)
     assert done.returncode == 0
     assert done.stdout.splitlines() == [

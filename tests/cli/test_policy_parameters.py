@@ -1,24 +1,8 @@
 import json
-import sys
 from dataclasses import dataclass
 
 import pytest
-from colift.cli.main import main
 from colift.cli.policy_parameters import field_docstrings
-
-
-@pytest.fixture
-def colift(monkeypatch, capsys):
-    """Run the command in this process; return its exit code, stdout and stderr."""
-
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["colift", *arguments])
-        with pytest.raises(SystemExit) as end:
-            main()
-        told = capsys.readouterr()
-        return end.value.code, told.out, told.err
-
-    return run
 
 
 @dataclass

@@ -11,7 +11,6 @@ from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.runner import run_suite
 from colift.benchmark.scores import SCORING
 from colift.benchmark.suite import make_suite
-from colift.cli.main import main
 
 
 @pytest.fixture(scope="module")
@@ -31,19 +30,6 @@ def folder(made, tmp_path, monkeypatch):
     shutil.copytree(made, tmp_path / "bundle")
     monkeypatch.chdir(tmp_path)
     return tmp_path
-
-
-@pytest.fixture
-def colift(monkeypatch, capsys):
-    """Return what runs the command, and returns exit code, output and errors."""
-
-    def run(*arguments):
-        monkeypatch.setattr("sys.argv", ["colift", *arguments])
-        with pytest.raises(SystemExit) as end:
-            main()
-        return end.value.code, *capsys.readouterr()
-
-    return run
 
 
 def edit(folder, name, change):
