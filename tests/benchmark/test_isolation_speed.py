@@ -26,7 +26,8 @@ class Still:
         pass
 
     def act(self, observation: object) -> np.ndarray:
-        time.sleep(self._step)
+        if self._step:  # To sleep for no time lets others have the processor for some.
+            time.sleep(self._step)
         return np.zeros(1)
 
 
