@@ -2,6 +2,7 @@
 
 import asyncio
 import hashlib
+import threading
 import uuid
 from collections.abc import Callable, Mapping
 from concurrent.futures import CancelledError, Executor, Future
@@ -17,12 +18,16 @@ T = TypeVar("T")
 LONELY_SECONDS: Final = 60.0
 """How long a cluster may be without any worker during a run [s]: one that died is started anew."""
 
+WATCH_SECONDS: Final = 0.2
+"""How often it is looked whether the scheduler is still there [s]."""
+
 
 class Cluster(Executor):
     """The workers of a Dask cluster; see :func:`.connecting.dask_pool`.
 
     Dask would try a task whose worker died again by itself. Here its future fails, so that the run
-    knows of it and decides.
+    knows of it and decides. Dask may also wait forever for what it has lost with its scheduler.
+    Here every future fails then, and no more is taken.
 
     Parameters
     ----------
@@ -46,11 +51,14 @@ class Cluster(Executor):
         self._workers: set[str] = set()
         client.subscribe_topic("all", self._heard)
         self._workers |= set(client.scheduler_info(n_workers=-1)["workers"])
+        self._lost, self._ended = threading.Event(), threading.Event()
+        self._watch = threading.Thread(target=self._watch_scheduler, daemon=True)
+        self._watch.start()
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
         """Schedule a call; its future raises an EvaluatorFault if the worker dies in it."""
-        if self._client.status != "running":
-            raise EvaluatorFault(f"lost the Dask scheduler {self._address}")
+        if self._lost.is_set() or self._client.status != "running":
+            raise self._loss()
         if not self._workers:
             self._wait_for_workers()
         data, large = parcel(fn, args, kwargs, self._sent)
@@ -72,14 +80,39 @@ class Cluster(Executor):
                 self._large[digest] = self._client.submit(bytes, value, pure=False)
         return self._large[digest]
 
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """End the executor; the cluster goes on."""
+        self._ended.set()
+        if wait:
+            self._watch.join()
+
+    def _watch_scheduler(self) -> None:
+        while not self._ended.wait(WATCH_SECONDS):
+            if self._client.status != "running":
+                self._lost.set()
+            if self._lost.is_set():
+                for key in list(self._waiting):
+                    self._settle(key, error=self._loss())
+
+    def _loss(self) -> EvaluatorFault:
+        return EvaluatorFault(f"lost the Dask scheduler {self._address}")
+
     def _finished(self, future: Any) -> None:
         try:
-            self._settle(future.key, future.result())
+            self._settle(future.key, self._result(future))
         except (CancelledError, asyncio.CancelledError):
-            lost = EvaluatorFault(f"lost the Dask scheduler {self._address}")
-            self._settle(future.key, error=lost)
+            self._settle(future.key, error=self._loss())
         except Exception as error:
             self._settle(future.key, error=error)
+
+    def _result(self, future: Any) -> Any:
+        """Return the result of a call, or raise what it raised, unless the scheduler is lost."""
+        while True:
+            try:
+                return future.result(timeout=WATCH_SECONDS)
+            except TimeoutError:
+                if future.status == "error" or self._lost.is_set():
+                    raise
 
     def _settle(self, key: str, outcome: Any = None, error: Exception | None = None) -> None:
         """Give what waits for a key its outcome, if it still waits; the cluster forgets the key."""

@@ -49,7 +49,8 @@ def dask_pool(address: str) -> Iterator[Cluster]:
                 f"--dask {address}: the scheduler has no worker; start some: "
                 f"dask worker {address} --nworkers auto --nthreads 1"
             ) from None
-        yield Cluster(client, address, _agreed(client, address))
+        with Cluster(client, address, _agreed(client, address)) as cluster:
+            yield cluster
 
 
 def _reach(address: str) -> None:
