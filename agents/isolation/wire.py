@@ -16,6 +16,7 @@ FRAME: Final = 64 * 1024
 _FLAGS: Final = socket.MSG_NOSIGNAL | socket.MSG_DONTWAIT
 _LENGTH: Final = struct.Struct(">I")
 _CHUNK: Final = 4 * 1024
+_PACKER: Final = msgpack.Packer()
 
 
 class WireError(Exception):
@@ -35,7 +36,7 @@ def packed(content: list[Any]) -> bytes:
         If it is longer than a frame may be, or holds something that a frame cannot.
     """
     try:
-        body: bytes = msgpack.packb(content)
+        body: bytes = _PACKER.pack(content)
     except (TypeError, ValueError, OverflowError) as error:
         raise WireError(f"cannot be sent: {error}") from None
     if len(body) > FRAME:
