@@ -259,9 +259,10 @@ def test_the_keeper_may_try_a_failed_job_again(submit, queue, board):
         queue.retry("x", "Grace", "once more")
 
 
-def test_a_submitter_has_so_many_open_jobs(submit, queue):
+def test_a_submitter_has_so_many_open_jobs(submit, queue, clock):
     for number in range(5):
         submit(f"p{number}")
+    clock.turn(seconds=1)
     with pytest.raises(QuotaError, match="Ada has 5 submissions in the queue, at most 5"):
         submit("p5")
     assert submit("p0").state == "queued"
