@@ -6,6 +6,7 @@ No pickle, no arrays, no extension types; whatever arrives is a list, or an erro
 
 import socket
 import struct
+import threading
 from typing import Any, Final
 
 import msgpack
@@ -16,7 +17,6 @@ FRAME: Final = 64 * 1024
 _FLAGS: Final = socket.MSG_NOSIGNAL | socket.MSG_DONTWAIT
 _LENGTH: Final = struct.Struct(">I")
 _CHUNK: Final = 4 * 1024
-_PACKER: Final = msgpack.Packer()
 
 
 class WireError(Exception):
@@ -25,6 +25,15 @@ class WireError(Exception):
 
 class ClosedError(WireError):
     """The other side has closed."""
+
+
+class _Local(threading.local):
+    def __init__(self) -> None:
+        self.pack = msgpack.Packer().pack
+
+
+_LOCAL: Final = _Local()
+"""A packer of each thread's own, kept: a new one has to get its buffer anew."""
 
 
 def packed(content: list[Any]) -> bytes:
@@ -36,7 +45,7 @@ def packed(content: list[Any]) -> bytes:
         If it is longer than a frame may be, or holds something that a frame cannot.
     """
     try:
-        body: bytes = _PACKER.pack(content)
+        body: bytes = _LOCAL.pack(content)
     except (TypeError, ValueError, OverflowError) as error:
         raise WireError(f"cannot be sent: {error}") from None
     if len(body) > FRAME:

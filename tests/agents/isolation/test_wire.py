@@ -99,9 +99,11 @@ def test_any_bytes_are_a_list_or_an_error(body):
 
 
 @pytest.mark.parametrize("content", [[object()], [1 << 70], [{1, 2}], ["\udc80"]])
-def test_what_a_frame_cannot_hold_is_refused(content):
+def test_what_a_frame_cannot_hold_is_refused_and_leaves_nothing_behind(content):
+    whole = packed([1, "action"])
     with pytest.raises(WireError, match="cannot be sent"):
-        packed(content)
+        packed([1, "action", *content])
+    assert packed([1, "action"]) == whole
 
 
 def test_an_end_that_closes_is_told_from_one_that_closes_within_a_frame(ends):
