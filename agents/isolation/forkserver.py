@@ -13,7 +13,8 @@ import select
 import signal
 import socket
 import sys
-from collections.abc import Callable
+import tempfile
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
@@ -48,11 +49,25 @@ def main(handle: int) -> None:
     gc.freeze()
     walls = _walls(settings)
     orders.send(json.dumps({"namespaces": walls.namespaces}).encode())
-    while True:
-        order, handles, _, _ = socket.recv_fds(orders, SETTINGS, 3)
-        if not order:
-            return
-        start(walls, Ends(*handles), _work(order[:1], json.loads(order[1:])))
+    with _scratch(walls) as walls:
+        while True:
+            order, handles, _, _ = socket.recv_fds(orders, SETTINGS, 3)
+            if not order:
+                return
+            start(walls, Ends(*handles), _work(order[:1], json.loads(order[1:])))
+
+
+@contextlib.contextmanager
+def _scratch(walls: Walls) -> Iterator[Walls]:
+    """Yield the walls with a folder to write in where they give none of their own.
+
+    It is made and removed here, for this process outlives its owner, which may be killed.
+    """
+    if walls.mounted or walls.namespaces:
+        yield walls
+        return
+    with tempfile.TemporaryDirectory(prefix="colift-", ignore_cleanup_errors=True) as folder:
+        yield replace(walls, scratch=Path(folder))
 
 
 def _work(kind: bytes, policy: Any) -> Callable[[int], None]:
@@ -80,7 +95,7 @@ def _walls(settings: dict[str, Any]) -> Walls:
         hidden=(),
         mounted=settings["mounted"],
         folder=Path(settings["folder"]) if settings["folder"] else None,
-        scratch=None if settings["mounted"] else Path(settings["scratch"]),
+        scratch=None,
         limits=settings["limits"],
     )
     if not settings["namespaces"]:
@@ -91,7 +106,6 @@ def _walls(settings: dict[str, Any]) -> Walls:
             namespaces=kind,
             readable=tuple(map(Path, settings["readable"])),
             hidden=tuple(map(Path, settings["hidden"])),
-            scratch=None,
         )
         if _stands(walls):
             return walls

@@ -3,7 +3,6 @@
 import contextlib
 import json
 import os
-import shutil
 import signal
 import socket
 import subprocess
@@ -47,7 +46,6 @@ class ForkServer:
         visible = view(seen)
         self.orders, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         """Where it takes orders."""
-        scratch = tempfile.mkdtemp(prefix="colift-")
         with tempfile.TemporaryFile() as errors, contextlib.closing(theirs):
             try:
                 words = command(rung, visible, theirs.fileno(), superuser=os.geteuid() == 0)
@@ -63,17 +61,13 @@ class ForkServer:
                 )
             except OSError as error:
                 self.orders.close()
-                shutil.rmtree(scratch, ignore_errors=True)
                 raise EvaluatorFault(f"the {rung} sandbox does not start: {error}") from error
             theirs.close()
-            self.close = weakref.finalize(
-                self, _end, os.getpid(), self._process, self.orders, scratch
-            )
+            self.close = weakref.finalize(self, _end, os.getpid(), self._process, self.orders)
             """End all of its processes."""
             own = {
                 "folder": str(seen) if seen and seen.is_dir() else "",
                 "limits": limits.plain(),
-                "scratch": scratch,
             }
             try:
                 told = self._introduce(settings(rung, visible) | own)
@@ -103,7 +97,7 @@ class ForkServer:
         return self.close.alive and self._process.poll() is None
 
 
-def _end(owner: int, process: subprocess.Popen[bytes], orders: socket.socket, scratch: str) -> None:
+def _end(owner: int, process: subprocess.Popen[bytes], orders: socket.socket) -> None:
     """End a fork server; in a fork of its owner, only let go of it."""
     orders.close()
     if os.getpid() != owner:
@@ -115,4 +109,3 @@ def _end(owner: int, process: subprocess.Popen[bytes], orders: socket.socket, sc
         with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
         process.wait()
-    shutil.rmtree(scratch, ignore_errors=True)
