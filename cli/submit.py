@@ -47,8 +47,9 @@ def submit(
         raise InputError(f"--jobs must be at least 1, got {jobs}")
     opened = open_submission(folder)
     if board.startswith(("http://", "https://")):
+        there = There.open(board, token)
         _check(folder, count)
-        _tell(There(board, token).submitted(opened), folder)
+        _tell(there.submitted(opened), folder)
         return
     here = Here.open(Path(board), suite)
     try:

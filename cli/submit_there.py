@@ -3,7 +3,7 @@
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 from ..agents.errors import InputError
 from ..agents.submissions.submission import Submission
@@ -18,10 +18,27 @@ LOOK_S = 1.0
 
 @dataclass(frozen=True)
 class There:
-    """A board on the web."""
+    """A board on the web that knows who submits."""
 
-    url: str
-    token: str
+    board: RemoteBoard
+
+    @classmethod
+    def open(cls, url: str, token: str) -> Self:
+        """Return a board that has taken the token for somebody's.
+
+        Raises
+        ------
+        InputError
+            If there is no token, or the board does not answer or does not know it.
+        """
+        if not token:
+            raise InputError(
+                f"board {url} needs a token: --token or COLIFT_TOKEN; who runs the board "
+                "makes one by: colift token add NAME"
+            )
+        board = RemoteBoard(url, token)
+        board.submitter()
+        return cls(board)
 
     def submitted(self, submission: Submission) -> Outcome:
         """Return what comes of a submission.
@@ -29,29 +46,23 @@ class There:
         Raises
         ------
         InputError
-            If there is no token, or the board does not answer or refuses.
+            If the board does not answer or refuses.
         """
-        if not self.token:
-            raise InputError(
-                f"board {self.url} needs a token: --token or COLIFT_TOKEN; who runs the board "
-                "makes one by: colift token add NAME"
-            )
-        board = RemoteBoard(self.url, self.token)
-        job = board.submit(submission.folder)
+        job = self.board.submit(submission.folder)
         print(f"submitted; job {self._place(job)}", flush=True)
         try:
-            return self._outcome(board, _ended(board, job))
+            return self._outcome(_ended(self.board, job))
         except KeyboardInterrupt:
             return Outcome(reason=f"the board goes on without you: {self._place(job)}")
 
-    def _outcome(self, board: RemoteBoard, job: Mapping[str, Any]) -> Outcome:
+    def _outcome(self, job: Mapping[str, Any]) -> Outcome:
         if job["state"] == "evaluator fault":
             told = f"evaluator fault, not the policy's: {job['reason']}\nSubmit again."
             return Outcome(reason=told)
         if job["state"] == "failed":
             told = f"refused, so there is no row: {job['reason']}\nIts log: {self._place(job)}"
             return Outcome(reason=told, mend=True)
-        table = board.standings(job["season"])
+        table = self.board.standings(job["season"])
         rows = [(each["group"], Row.read(each["row"])) for each in table]
         row = next(row for _, row in rows if row.submission == job["submission"])
         bundle = f"{self._api}/entries/{job['season']}/{job['submission']}/bundle.zip"
@@ -66,7 +77,7 @@ class There:
 
     @property
     def _api(self) -> str:
-        return self.url.rstrip("/") + API
+        return self.board.url.rstrip("/") + API
 
 
 def _ended(board: RemoteBoard, job: dict[str, Any]) -> dict[str, Any]:

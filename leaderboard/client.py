@@ -39,6 +39,15 @@ class RemoteBoard:
     """Such as ``https://board.example.org``."""
     token: str = field(default="", repr=False)
 
+    def submitter(self) -> str:
+        """Return who the board takes the token for; :class:`.InputError` as :meth:`submit`."""
+        answer = self._read("/me", self._identity)
+        if not isinstance(answer, dict) or "submitter" not in answer:
+            raise InputError(
+                f"{self.url} is not a board of colift: it does not say whose token it is"
+            )
+        return str(answer["submitter"])
+
     def submit(self, folder: Path) -> dict[str, Any]:
         """Return the job of a submission, as the board's API tells it.
 
@@ -57,7 +66,7 @@ class RemoteBoard:
             size = file.tell()
             file.seek(0)
             headers = {
-                "Authorization": f"Bearer {self.token}",
+                **self._identity,
                 "Content-Type": "application/zip",
                 "Content-Length": str(size),
             }
@@ -74,11 +83,15 @@ class RemoteBoard:
         answer: list[dict[str, Any]] = self._read(f"/standings?season={season}")
         return answer
 
-    def _read(self, path: str) -> Any:
+    @property
+    def _identity(self) -> dict[str, str]:
+        return {"Authorization": f"Bearer {self.token}"}
+
+    def _read(self, path: str, headers: dict[str, str] | None = None) -> Any:
         """Return an answer; wait a little when the board has no time."""
         for _ in range(PATIENCE):
             try:
-                return self._ask(path)
+                return self._ask(path, headers=headers)
             except _BusyError as busy:
                 time.sleep(busy.seconds)
                 last = busy

@@ -29,6 +29,12 @@ class Health(Answer):
     """The season that takes submissions."""
 
 
+class SubmitterAnswer(Answer):
+    """Who a token belongs to."""
+
+    submitter: str
+
+
 class SeasonAnswer(Answer):
     """A season: one suite, one secret, one table."""
 

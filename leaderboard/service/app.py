@@ -17,6 +17,7 @@ from ..queue import Queue
 from ..tokens import Tokens
 from . import api, reference
 from .answers import Health
+from .asked import PREFIX
 from .errors import Faults, Problem, answer_errors
 from .security import Guard, RateLimit
 from .state import Rates, Service, State
@@ -56,7 +57,7 @@ def create_app(folder: Path, rates: Rates | None = None) -> FastAPI:
         version=version("colift"),
         summary="Standings, submissions and bundles of a leaderboard of cooperative lifting.",
         lifespan=lifespan,
-        openapi_url=f"{api.PREFIX}/openapi.json",
+        openapi_url=f"{PREFIX}/openapi.json",
         docs_url=None,  # These pages load scripts from elsewhere.
         redoc_url=None,
     )

@@ -11,7 +11,10 @@ import time
 import pytest
 from colift.agents.submissions.new import write_template
 
+from ..leaderboard import tiny
+
 TO_BOARD = ("--board", "board", "--suite", "quick-v1")
+TO_TINY = ("--board", "tiny", "--suite", "tiny")
 
 KEEPS_STATE = """
 import mmap
@@ -39,7 +42,7 @@ def begin(place):
 
     def start(*arguments):
         return subprocess.Popen(
-            [sys.executable, "-m", "colift.cli", *arguments],
+            [sys.executable, tiny.__file__, *arguments],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
@@ -118,29 +121,27 @@ def test_the_same_content_in_another_folder_is_on_the_board_already(colift, firs
     assert second.stdout.splitlines()[1:] == first.stdout.splitlines()
 
 
-def test_a_submission_that_was_killed_is_evaluated_when_it_comes_again(
-    begin, colift, first, make, place
-):
+def test_a_submission_that_was_killed_is_evaluated_when_it_comes_again(begin, colift, make, place):
     make("worse", "gain = 1.8", "gain = 0.1")
-    process = begin("submit", "worse", *TO_BOARD)
-    while not list(place.glob("board/private/work/*/bundle")):
+    process = begin("submit", "worse", *TO_TINY)
+    while not list(place.glob("tiny/private/work/*/bundle")):
         assert process.poll() is None
         time.sleep(0.01)
     process.kill()
     process.communicate()
     with contextlib.suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
-    done = colift("submit", "worse", *TO_BOARD)
+    done = colift("submit", "worse", *TO_TINY)
     assert done.returncode == 0, done.stderr
     assert "already" not in done.stdout
-    assert "Rank 2 of 2" in done.stdout
-    assert list(place.glob("board/private/work/*/bundle")) == []
+    assert "Rank 1 of 1" in done.stdout
+    assert list(place.glob("tiny/private/work/*/bundle")) == []
 
 
-def test_a_preloaded_policy_that_keeps_state_across_episodes_is_refused(colift, first, make, place):
+def test_a_preloaded_policy_that_keeps_state_across_episodes_is_refused(colift, make):
     make("keeping", new=KEEPS_STATE, preload=True)
     for _ in range(2):
-        done = colift("submit", "keeping", *TO_BOARD)
+        done = colift("submit", "keeping", *TO_TINY)
         assert done.returncode == 1
         assert "refused" in done.stderr
         assert "it kept something from one episode to the next" in done.stderr

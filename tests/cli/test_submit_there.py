@@ -7,8 +7,11 @@ import sys
 
 import pytest
 from colift.agents.submissions.new import write_template
+from colift.benchmark.suite import SUITES
 from colift.leaderboard.board import Board
 from colift.leaderboard.tokens import Tokens
+
+from ..leaderboard import tiny
 
 
 @pytest.fixture(scope="module")
@@ -23,32 +26,38 @@ def environment(place):
 
 @pytest.fixture(scope="module")
 def board(place):
-    board = Board.open(place / "board", "quick-v1")
-    yield board
-    board.close()
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setitem(SUITES, "tiny", tiny.ENTRY)
+        board = Board.open(place / "board", "tiny")
+        yield board
+        board.close()
 
 
 @pytest.fixture(scope="module")
 def url(place, board, environment):
-    """Serve the board; return its address."""
-    command = ["serve", "--board", "board", "--port", "0", "--workers", "1"]
-    with subprocess.Popen(
-        [sys.executable, "-m", "colift.cli", *command],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-        cwd=place,
-        env=environment,
-    ) as process:
-        yield process.stdout.readline().split()[2]
-        process.send_signal(signal.SIGTERM)
+    """Serve the board, with a worker; return its address."""
+
+    def start(*command):
+        return subprocess.Popen(
+            [sys.executable, tiny.__file__, *command, "--board", "board"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+            cwd=place,
+            env=environment,
+        )
+
+    with start("serve", "--port", "0", "--workers", "0") as service, start("worker") as worker:
+        yield service.stdout.readline().split()[2]
+        for process in (service, worker):
+            process.send_signal(signal.SIGTERM)
 
 
 @pytest.fixture(scope="module")
 def colift(place, environment):
     def run(*arguments, **more):
         return subprocess.run(
-            [sys.executable, "-m", "colift.cli", *arguments],
+            [sys.executable, tiny.__file__, *arguments],
             capture_output=True,
             text=True,
             cwd=place,
@@ -74,8 +83,9 @@ def test_an_upload_becomes_a_row_that_is_printed(colift, url, board, place):
     assert len(board.standings()) == 1
 
 
-def test_a_wrong_token_is_refused_in_the_boards_words(colift, url, place):
+def test_a_wrong_token_is_refused_before_all_else_in_the_boards_words(colift, url, place):
     write_template(place / "other")
+    (place / "other" / "policy.py").write_text("class Policy: ...")
     done = colift("submit", "other", "--board", url, "--token", "x")
     assert done.returncode == 2
     assert "this token does not count" in done.stderr

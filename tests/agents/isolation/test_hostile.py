@@ -1,4 +1,5 @@
-import importlib.util
+"""Hostile policies: each is contained, and leaves the machine and the others as they were."""
+
 import os
 import re
 import socket
@@ -13,22 +14,21 @@ from colift.agents.errors import PolicyError
 from colift.agents.isolation.ladder import strongest
 from colift.agents.isolation.sandboxed import SandboxedPolicy
 
-_here = Path(__file__).parent
+from .conftest import HURRIED, PATIENT, children, handles
+from .hostile.actions import ACTIONS
+from .hostile.ends import ENDS
+from .hostile.frames import FRAMES
+from .hostile.others import OTHERS
+from .hostile.resources import RESOURCES
+from .hostile.secrets import SECRETS
+from .hostile.state import STATE
+from .hostile.time import TIME
 
+WALLED = [*RESOURCES, *ENDS, *SECRETS, *OTHERS, *STATE]
+"""What the walls must contain."""
 
-def _beside(name):
-    spec = importlib.util.spec_from_file_location(f"isolation_{name}", _here / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-hostile = _beside("hostile")
-WALLED, ANSWERS = hostile.WALLED, hostile.ANSWERS
-from_conftest = _beside("conftest")
-PATIENT, HURRIED = from_conftest.PATIENT, from_conftest.HURRIED
-children, handles = from_conftest.children, from_conftest.handles
+OUTSIDE = [*TIME, *ACTIONS, *FRAMES]
+"""What the scoring side must stop or refuse, whatever the walls."""
 
 STEPS = 40
 
@@ -95,7 +95,7 @@ def board(tmp_path_factory):
             "port": listening.getsockname()[1],
             "abstract": abstract,
         }
-        for each in (*WALLED, *ANSWERS):
+        for each in (*WALLED, *OUTSIDE):
             (folder / file_of(each)).write_text(each.source(**values))
         yield board
 
@@ -124,8 +124,8 @@ def test_is_contained(board, expected, way, rung, policy):
     contained(board, expected, rung, policy)
 
 
-@pytest.mark.parametrize("policy", ANSWERS, ids=lambda policy: policy.name)
-def test_an_answer_that_is_none_is_refused(board, expected, policy):
+@pytest.mark.parametrize("policy", OUTSIDE, ids=lambda policy: policy.name)
+def test_is_stopped_from_outside(board, expected, policy):
     contained(board, expected, strongest(), policy)
 
 
@@ -175,5 +175,5 @@ def drive_in(policy):
 
 
 def test_names_are_distinct():
-    files = [file_of(each) for each in (*WALLED, *ANSWERS)]
+    files = [file_of(each) for each in (*WALLED, *OUTSIDE)]
     assert len(set(files)) == len(files)

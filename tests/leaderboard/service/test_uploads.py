@@ -71,6 +71,13 @@ def test_without_a_token_that_counts_nothing_is_taken(client, folder, zipped, au
     assert "colift token add" in answer.json()["error"]
 
 
+def test_who_asks_whose_a_token_is_gets_told(client, ada):
+    assert client.get("/api/v1/me", headers=ada).json() == {"submitter": "ada"}
+    answer = client.get("/api/v1/me", headers={"Authorization": "Bearer wrong"})
+    assert answer.status_code == 401
+    assert "this token does not count" in answer.json()["error"]
+
+
 def test_a_revoked_token_does_not_count_any_more(client, folder, opening, add_token, zipped):
     headers = {"Authorization": f"Bearer {add_token('eve')}", "Content-Type": "application/zip"}
     assert client.post(SUBMIT, headers=headers, content=b"no zip").status_code == 422
