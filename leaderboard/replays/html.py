@@ -16,7 +16,14 @@ from typing import Any, Final
 from .. import pages
 from .geometry import geometry
 
-SCRIPTS: Final = ("replay-scene.js", "replay-curves.js", "replay.js")
+SCRIPTS: Final = (
+    "replay-words.js",
+    "replay-lift.js",
+    "replay-scene.js",
+    "replay-curves.js",
+    "replay-charts.js",
+    "replay.js",
+)
 """The player, in the order in which it is loaded."""
 
 STYLE: Final = "replay.css"

@@ -5,72 +5,9 @@
 // comma and full stop go by a frame, G shows or hides the human-human team.
 (function () {
   const SPEEDS = [0.25, 0.5, 1, 2, 4];
-  const UNIT = 1e-4; // m
-  const WHICH = { best: "best", median: "typical", worst: "worst" };
-  const SHOWN = { best: "the best", median: "a typical one (the median)", worst: "the worst" };
-  const BEHAVIOURS = {
-    smooth: "lifts and lowers smoothly",
-    pause: "stops on the way, and goes on",
-    jerky: "lifts in jerks",
-    changing_goal: "changes the goal on the way",
-    recorded: "repeats a recorded lift",
-  };
-  const EVENTS = {
-    ready: "waits",
-    rise: "lifts",
-    brake: "brakes",
-    pause: "stands still",
-    resume: "goes on",
-    reverse: "turns back",
-    undershoot: "aims lower",
-    overshoot: "aims higher",
-    replan: "heads for the new goal",
-    hold: "holds",
-    lower: "lowers",
-    rest: "rests",
-  };
 
-  const colift = (window.coliftReplay = window.coliftReplay || {});
-
-  const number = (value, places) => value.toFixed(places).replace(/^-(?=0\.?0*$)/, "").replace("-", "−");
-  const words = (text) => text.replaceAll("_", " ");
-
-  colift.differenceWords = function (millimetres) {
-    const whole = Math.round(Math.abs(millimetres));
-    if (!whole) return "level";
-    return `robot ${whole} mm too ${millimetres < 0 ? "low" : "high"}`;
-  };
-
-  function element(name, attributes, ...children) {
-    const node = document.createElement(name);
-    for (const [key, value] of Object.entries(attributes || {})) {
-      if (key === "class") node.className = value;
-      else node.setAttribute(key, value);
-    }
-    node.append(...children);
-    return node;
-  }
-
-  // From the first height and the changes to heights in m.
-  function heights(changes) {
-    let sum = 0;
-    return changes.map((change) => (sum += change) * UNIT);
-  }
-
-  function decoded(replay) {
-    const scaled = (values, unit) => values && values.map((v) => (v === null ? null : v * unit));
-    return {
-      ...replay,
-      human: heights(replay.human),
-      robot: heights(replay.robot),
-      target: heights(replay.target),
-      command: scaled(replay.command, UNIT),
-      prediction: scaled(replay.prediction, UNIT),
-      confidence: scaled(replay.confidence, 1e-3),
-      role: scaled(replay.role, 1e-3),
-      ghost: { ...replay.ghost, human: heights(replay.ghost.human), robot: heights(replay.ghost.robot) },
-    };
-  }
+  const colift = window.coliftReplay;
+  const { decoded, element, eventWords, number, words } = colift;
 
   class Player {
     constructor(root, data, id) {
@@ -139,7 +76,7 @@
       this.whichButtons.replaceChildren(
         ...of.map((r) => {
           const button = element("button", { type: "button", "aria-pressed": r.which === this.now.which });
-          button.append(WHICH[r.which] || r.subject, " ", element("span", {}, `${r.scores.rmse_mm.toFixed(1)} mm`));
+          button.append(colift.WHICH[r.which] || r.subject, " ", element("span", {}, `${r.scores.rmse_mm.toFixed(1)} mm`));
           button.addEventListener("click", () => this.pick(r.behaviour, r.which));
           return button;
         })
@@ -183,9 +120,9 @@
 
     describe() {
       const { now } = this;
-      const what = BEHAVIOURS[now.behaviour] || words(now.behaviour);
+      const what = colift.BEHAVIOURS[now.behaviour] || words(now.behaviour);
       const lift = now.trial ? `recording ${now.trial}` : `seed ${now.seed}`;
-      const chosen = now.which ? `${SHOWN[now.which]} of its lifts with this behaviour: ` : "";
+      const chosen = now.which ? `${colift.SHOWN[now.which]} of its lifts with this behaviour: ` : "";
       const text = element("p", {});
       text.append(
         element("b", {}, now.policy),
@@ -213,93 +150,7 @@
     drawCharts() {
       const { now } = this;
       this.charts.replaceChildren();
-      const times = (values) => values.map((_, i) => (i + 1) * now.frame_s);
-      const steps = (values) => values.map((_, i) => i * now.period_s);
-      const mm = (values) => values.map((value) => (value === null ? null : 1000 * value));
-      const both = (a, b) => a.map((value, i) => 1000 * (value - b[i]));
-      const error = both(now.robot, now.human);
-      const team = both(now.ghost.robot, now.ghost.human);
-      const series = (kind, style, when, values, dot) => ({ kind, style, times: when(values), values, dot });
-      const span = (...lists) => {
-        const all = lists.flat().filter((value) => value !== null);
-        return [Math.min(0, ...all), Math.max(50, ...all)];
-      };
-      const lines = [
-        series("team", "line", times, mm(now.ghost.robot)),
-        series("target", "line", times, mm(now.target)),
-        series("human", "line", times, mm(now.human), true),
-        series("robot", "line", times, mm(now.robot), true),
-      ];
-      const keys = [
-        ["human", "human's end"],
-        ["robot", "robot's end"],
-        ["target", "human's intention"],
-        ["team", "a second human in the robot's place"],
-      ];
-      if (now.prediction) {
-        lines.push(series("prediction", "dots", steps, mm(now.prediction)));
-        keys.push(["prediction", "prediction of the human, drawn when it was made"]);
-      }
-      // A wild prediction must not flatten the lift.
-      const [least, most] = span(mm(now.human), mm(now.robot), mm(now.target), mm(now.ghost.robot));
-      const room = most - least;
-      const within = (value) => value !== null && value > least - 0.15 * room && value < most + 0.15 * room;
-      if (now.prediction) {
-        const last = lines[lines.length - 1];
-        last.values = last.values.map((value) => (within(value) ? value : null));
-      }
-      const events = now.events.map(([name, frame]) => [EVENTS[name] || words(name), frame * now.frame_s]);
-      const reach = Math.min(Math.max(15, ...error.map(Math.abs), ...team.map(Math.abs)), 120) * 1.1;
-      const charts = [
-        {
-          name: "heights",
-          title: "Height [mm]",
-          summary: `Heights of both ends over ${this.duration.toFixed(1)} s`,
-          keys,
-          low: least - 0.07 * room,
-          high: most + 0.22 * room,
-          height: 250,
-          series: lines,
-          events,
-        },
-        {
-          name: "error",
-          title: "Error: robot's end above the human's [mm]",
-          summary: `Height difference, RMSE ${number(now.scores.rmse_mm, 1)} mm`,
-          keys: [["robot", "with the robot"], ["team", "with a second human"]],
-          low: -reach,
-          high: reach,
-          height: 150,
-          series: [series("robot", "area", times, error, true), series("team", "line", times, team)],
-          last: !(now.confidence || now.role),
-        },
-      ];
-      if (now.confidence || now.role) {
-        const same = now.confidence && now.role && now.confidence.every((c, i) => c === now.role[i]);
-        const curves = [];
-        const told = [];
-        if (now.confidence) {
-          curves.push(series("confidence", "line", steps, now.confidence));
-          told.push(["confidence", same ? "confidence, and so its role" : "confidence in its prediction"]);
-        }
-        if (now.role && !same) {
-          curves.push(series("role", "line", steps, now.role));
-          told.push(["role", "role"]);
-        }
-        charts.push({
-          name: "confidence",
-          title: "What the policy says of itself",
-          summary: "Confidence and role of the policy, from 0 to 1",
-          keys: told,
-          low: -0.06,
-          high: 1.06,
-          height: 110,
-          labels: [[0, now.role ? "follows" : "0"], [0.5, "½"], [1, now.role ? "leads" : "1"]],
-          series: curves,
-          last: true,
-        });
-      }
-      this.drawn = charts.map((options) => new colift.Chart(this.charts, options, this));
+      this.drawn = colift.chartsOf(now).map((options) => new colift.Chart(this.charts, options, this));
       if (this.frames && !now.prediction && !now.confidence && !now.role) {
         this.charts.append(element("p", { class: "replay-note" }, "This policy reports neither predictions nor confidence."));
       }
@@ -316,36 +167,10 @@
       this.show();
     }
 
-    // The state at a time; a height between two frames is on the line between them.
-    state() {
-      const { now } = this;
-      const place = Math.max(this.time / now.frame_s - 1, 0);
-      const at = (values) => {
-        if (!values.length) return 0;
-        const i = Math.min(Math.floor(place), values.length - 1);
-        const next = values[Math.min(i + 1, values.length - 1)];
-        return values[i] + Math.min(place - i, 1) * (next - values[i]);
-      };
-      const step = Math.floor(this.time / now.period_s + 1e-9);
-      const said = (values) => (values && values.length ? values[Math.min(step, values.length - 1)] : null);
-      return {
-        human: at(now.human),
-        robot: at(now.robot),
-        target: at(now.target),
-        ghostHuman: at(now.ghost.human),
-        ghostRobot: at(now.ghost.robot),
-        prediction: said(now.prediction),
-        confidence: said(now.confidence),
-        role: said(now.role),
-        command: said(now.command),
-        over: this.frames < now.horizon && this.time > this.frames * now.frame_s,
-      };
-    }
-
     show() {
       if (!this.now) return;
       const { now } = this;
-      const state = this.state();
+      const state = colift.stateAt(now, this.time);
       this.scene.pose(state);
       const index = Math.max(Math.round(this.time / now.frame_s) - 1, 0);
       for (const chart of this.drawn) chart.at(this.time, index);
@@ -355,7 +180,7 @@
       const { over } = state;
       const difference = 1000 * (state.robot - state.human);
       const rows = [
-        ["human", "the human", over ? "the lift is over" : event ? EVENTS[event[0]] || words(event[0]) : "waits"],
+        ["human", "the human", over ? "the lift is over" : event ? eventWords(event[0]) : "waits"],
         ["human", "human's end", `${number(1000 * state.human, 0)} mm`],
         ["robot", "robot's end", `${number(1000 * state.robot, 0)} mm`],
         ["error", "difference", over ? "counts as 250 mm" : `${number(difference, 1)} mm`],

@@ -1,0 +1,96 @@
+"use strict";
+// Which curves the player of replays draws of a lift, and in which charts.
+(function () {
+  const colift = (window.coliftReplay = window.coliftReplay || {});
+
+  // Options for colift.Chart: heights, error and, if the policy tells, what it says of itself.
+  colift.chartsOf = function (now) {
+    const times = (values) => values.map((_, i) => (i + 1) * now.frame_s);
+    const steps = (values) => values.map((_, i) => i * now.period_s);
+    const mm = (values) => values.map((value) => (value === null ? null : 1000 * value));
+    const both = (a, b) => a.map((value, i) => 1000 * (value - b[i]));
+    const error = both(now.robot, now.human);
+    const team = both(now.ghost.robot, now.ghost.human);
+    const series = (kind, style, when, values, dot) => ({ kind, style, times: when(values), values, dot });
+    const span = (...lists) => {
+      const all = lists.flat().filter((value) => value !== null);
+      return [Math.min(0, ...all), Math.max(50, ...all)];
+    };
+    const lines = [
+      series("team", "line", times, mm(now.ghost.robot)),
+      series("target", "line", times, mm(now.target)),
+      series("human", "line", times, mm(now.human), true),
+      series("robot", "line", times, mm(now.robot), true),
+    ];
+    const keys = [
+      ["human", "human's end"],
+      ["robot", "robot's end"],
+      ["target", "human's intention"],
+      ["team", "a second human in the robot's place"],
+    ];
+    if (now.prediction) {
+      lines.push(series("prediction", "dots", steps, mm(now.prediction)));
+      keys.push(["prediction", "prediction of the human, drawn when it was made"]);
+    }
+    // A wild prediction must not flatten the lift.
+    const [least, most] = span(mm(now.human), mm(now.robot), mm(now.target), mm(now.ghost.robot));
+    const room = most - least;
+    const within = (value) => value !== null && value > least - 0.15 * room && value < most + 0.15 * room;
+    if (now.prediction) {
+      const last = lines[lines.length - 1];
+      last.values = last.values.map((value) => (within(value) ? value : null));
+    }
+    const events = now.events.map(([name, frame]) => [colift.eventWords(name), frame * now.frame_s]);
+    const reach = Math.min(Math.max(15, ...error.map(Math.abs), ...team.map(Math.abs)), 120) * 1.1;
+    const charts = [
+      {
+        name: "heights",
+        title: "Height [mm]",
+        summary: `Heights of both ends over ${(now.horizon * now.frame_s).toFixed(1)} s`,
+        keys,
+        low: least - 0.07 * room,
+        high: most + 0.22 * room,
+        height: 250,
+        series: lines,
+        events,
+      },
+      {
+        name: "error",
+        title: "Error: robot's end above the human's [mm]",
+        summary: `Height difference, RMSE ${colift.number(now.scores.rmse_mm, 1)} mm`,
+        keys: [["robot", "with the robot"], ["team", "with a second human"]],
+        low: -reach,
+        high: reach,
+        height: 150,
+        series: [series("robot", "area", times, error, true), series("team", "line", times, team)],
+        last: !(now.confidence || now.role),
+      },
+    ];
+    if (now.confidence || now.role) {
+      const same = now.confidence && now.role && now.confidence.every((c, i) => c === now.role[i]);
+      const curves = [];
+      const told = [];
+      if (now.confidence) {
+        curves.push(series("confidence", "line", steps, now.confidence));
+        told.push(["confidence", same ? "confidence, and so its role" : "confidence in its prediction"]);
+      }
+      if (now.role && !same) {
+        curves.push(series("role", "line", steps, now.role));
+        told.push(["role", "role"]);
+      }
+      charts.push({
+        name: "confidence",
+        title: "What the policy says of itself",
+        summary: "Confidence and role of the policy, from 0 to 1",
+        keys: told,
+        low: -0.06,
+        high: 1.06,
+        height: 110,
+        labels: [[0, now.role ? "follows" : "0"], [0.5, "½"], [1, now.role ? "leads" : "1"]],
+        series: curves,
+        last: true,
+      });
+    }
+    return charts;
+  };
+})();
