@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from multiprocessing.connection import Connection
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, Final, ParamSpec, TypeVar
 
 from ..agents.errors import EvaluatorFault, InputError, told
 
@@ -18,9 +18,37 @@ P = ParamSpec("P")
 T = TypeVar("T")
 
 
+JOBS: Final = "COLIFT_JOBS"
+"""If this is set in the environment, it says how many worker processes there are by default."""
+
+
 def default_jobs() -> int:
-    """Return the number of processors this process may use."""
-    return len(os.sched_getaffinity(0))
+    """Return :data:`JOBS`, or the number of processors this process may use.
+
+    Raises
+    ------
+    InputError
+        If :data:`JOBS` is no number of processes.
+    """
+    asked = os.environ.get(JOBS, "")
+    if not asked:
+        return len(os.sched_getaffinity(0))
+    if not (asked.isascii() and asked.isdecimal() and int(asked) > 0):
+        raise InputError(f"{JOBS} must be a whole number above 0, got {asked!r}")
+    return int(asked)
+
+
+def checked_jobs(jobs: int | None) -> int:
+    """Return a number of worker processes; None is :func:`default_jobs`.
+
+    Raises
+    ------
+    InputError
+        If it is not positive.
+    """
+    if jobs is not None and jobs < 1:
+        raise InputError(f"--jobs must be at least 1, got {jobs}")
+    return default_jobs() if jobs is None else jobs
 
 
 class LocalPool(Executor):
@@ -166,16 +194,17 @@ def process_pool(jobs: int) -> Iterator[LocalPool]:
 
 
 @contextmanager
-def local_pool(jobs: int) -> Iterator[Executor | None]:
+def local_pool(jobs: int | None) -> Iterator[Executor | None]:
     """Yield a pool of ``jobs`` processes, or None for one job: then nothing needs a pool.
+
+    None is :func:`default_jobs`.
 
     Raises
     ------
     InputError
         If ``jobs`` is not positive.
     """
-    if jobs < 1:
-        raise InputError(f"--jobs must be at least 1, got {jobs}")
+    jobs = checked_jobs(jobs)
     if jobs == 1:
         yield None
     else:

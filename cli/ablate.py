@@ -12,9 +12,10 @@ from ..benchmark.anticipation_learning import LIFTS, ROUNDS, learn_anticipation
 from ..benchmark.bounds import ablation
 from ..benchmark.bounds.ablation import VARIANTS, Ablation, variants
 from ..benchmark.bounds.held_out import held_out_suite
-from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.executors import local_pool
 from ..benchmark.statistics import PairedDifference
 from ..benchmark.suite import recorded_suite
+from .executors import Jobs
 from .progress import progress_bar
 
 
@@ -28,15 +29,13 @@ def ablate(
         Path | None,
         typer.Option(metavar="CSV", help="Recorded lifts (trial,t_s,z_m) instead of new people."),
     ] = None,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    jobs: Jobs = None,
 ) -> None:
     """Take anticipate apart: learn it without each of its parts, and lift with new people."""
     suite = held_out_suite(people, each) if recordings is None else recorded_suite(recordings)
     total = ROUNDS * lifts + (1 + len(VARIANTS)) * suite.size
     with (
-        local_pool(default_jobs() if jobs is None else jobs) as pool,
+        local_pool(jobs) as pool,
         progress_bar("ablation", total) as progress,
     ):
         first, *_, last = learn_anticipation(lifts=lifts, executor=pool, progress=progress)

@@ -14,9 +14,10 @@ from ..benchmark.bounds.held_out import FIRST_SEED, held_out_suite
 from ..benchmark.bounds.play import BOUNDS
 from ..benchmark.comparison.comparison import compare
 from ..benchmark.comparison.contest import amount, play_contest
-from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.executors import local_pool
 from ..benchmark.suite import recorded_suite
 from .compare_tables import behaviours_table, ranks_table
+from .executors import Jobs
 from .progress import progress_bar
 
 
@@ -30,16 +31,14 @@ def bounds(
         Path | None,
         typer.Option(metavar="CSV", help="Recorded lifts (trial,t_s,z_m) instead."),
     ] = None,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    jobs: Jobs = None,
 ) -> None:
     """Measure anticipate against people, the paper's policies and the bounds, with new people."""
     suite = held_out_suite(people, each, seed) if recordings is None else recorded_suite(recordings)
     specs = {name: PolicySpec(text=name) for name in (POLICY, *RIVALS)}
     total = amount(len(specs) + len(BOUNDS), suite)
     with (
-        local_pool(default_jobs() if jobs is None else jobs) as pool,
+        local_pool(jobs) as pool,
         progress_bar("bounds", total) as progress,
     ):
         contest = play_contest(specs, suite, bounds=BOUNDS, executor=pool, progress=progress)

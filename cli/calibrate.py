@@ -9,7 +9,8 @@ from rich.console import Console
 from rich.table import Table
 
 from ..benchmark.calibration import ROUNDS, TABLE_1, Fit, calibration_json, episodes, fit_rounds
-from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.executors import local_pool
+from .executors import Jobs
 from .output import check_output
 from .progress import progress_bar
 
@@ -19,15 +20,13 @@ def calibrate(
         Path | None,
         typer.Option(metavar="FILE", help="Where to write the numbers, with their provenance."),
     ] = None,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    jobs: Jobs = None,
 ) -> None:
     """Fit lift heights, process noise and the human team's lag to the paper, on own seeds."""
     check_output(out)
     console = Console()
     with (
-        local_pool(default_jobs() if jobs is None else jobs) as pool,
+        local_pool(jobs) as pool,
         progress_bar("calibrating", episodes()) as progress,
     ):
         for number, fit in enumerate(fit_rounds(executor=pool, progress=progress), 1):

@@ -17,10 +17,11 @@ from ..agents.submissions.packages import undeclared
 from ..agents.submissions.submission import Submission, open_submission
 from ..benchmark.agent_spec import AgentSpec
 from ..benchmark.checking import Check, check_policy
-from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.executors import local_pool
 from ..benchmark.runner import Run, run_suite
 from ..benchmark.suite import Suite
 from .arguments import argument
+from .executors import Jobs
 from .policies import AUTO, NONE, usable_rung
 from .progress import progress_bar
 
@@ -40,9 +41,7 @@ def check(
             "landlock, limits, or none (it acts in this process: for code that you trust)."
         ),
     ] = AUTO,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    jobs: Jobs = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the checks as JSON, and nothing else.")
     ] = False,
@@ -53,9 +52,8 @@ def check(
     that a board with that suite prints. Exit code 1 if a check fails.
     """
     rung = usable_rung(isolation)
-    count = default_jobs() if jobs is None else jobs
     console, done = Console(), []
-    for each in all_checks(folder, rung, isolation == NONE, count):
+    for each in all_checks(folder, rung, isolation == NONE, jobs):
         done.append(each)
         if not as_json:
             _show(console, each)
@@ -72,7 +70,7 @@ def check(
         raise typer.Exit(1)
 
 
-def all_checks(folder: Path, rung: str | None, trusted: bool, jobs: int) -> Iterator[Check]:
+def all_checks(folder: Path, rung: str | None, trusted: bool, jobs: int | None) -> Iterator[Check]:
     """Yield the checks of the folder, then those of the policy in it."""
     try:
         submission = open_submission(folder)

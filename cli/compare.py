@@ -19,9 +19,10 @@ from ..benchmark.comparison.comparison import compare as compared
 from ..benchmark.comparison.content import comparison_json
 from ..benchmark.comparison.contest import Bound, amount, play_contest
 from ..benchmark.comparison.words import failures, verdict
-from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.executors import local_pool
 from ..benchmark.suite import Suite
 from .compare_tables import behaviours_table, differences_table, ranks_table
+from .executors import Jobs
 from .policies import choose_policy
 from .progress import progress_bar
 from .suites import chosen_suite
@@ -52,9 +53,7 @@ def compare(
             "--bounds", help="Also the oracle and the causal bound, which are no policies."
         ),
     ] = False,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    jobs: Jobs = None,
     out: Annotated[
         Path | None,
         typer.Option(metavar="DIR", help="Where to write compare.html, .png, .csv and .json."),
@@ -74,7 +73,7 @@ def compare(
 
         check_target(out)
     limits = BOUNDS if bounds else {}
-    comparison = _compare(specs, episodes, limits, default_jobs() if jobs is None else jobs)
+    comparison = _compare(specs, episodes, limits, jobs)
     if out is not None:
         write_comparison(out, comparison)
     if as_json:
@@ -111,7 +110,7 @@ def _specs(named: Sequence[str], everything: bool) -> dict[str, AgentSpec]:
 
 
 def _compare(
-    specs: Mapping[str, AgentSpec], suite: Suite, bounds: Mapping[str, Bound], jobs: int
+    specs: Mapping[str, AgentSpec], suite: Suite, bounds: Mapping[str, Bound], jobs: int | None
 ) -> Comparison:
     """Play the episodes and compare; after Ctrl-C say so and end."""
     try:

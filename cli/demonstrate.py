@@ -14,7 +14,8 @@ from ..benchmark.demonstrations import (
     demonstrations,
     write_demonstrations,
 )
-from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.executors import local_pool
+from .executors import Jobs
 from .output import check_output
 from .progress import progress_bar
 
@@ -23,13 +24,11 @@ def demonstrate(
     out: Annotated[Path, typer.Option(metavar="FILE.csv", help="Where to write the lifts.")],
     lifts: Annotated[int, typer.Option(metavar="N", help="Number of lifts.")] = LIFTS,
     seed: Annotated[int, typer.Option(help="Seed of the first lift.")] = FIRST_SEED,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    jobs: Jobs = None,
 ) -> None:
     """Record lifts of human-human teams: new people, all behaviours, seeds of no suite."""
     check_output(out)
-    recorded = record(lifts, seed, default_jobs() if jobs is None else jobs)
+    recorded = record(lifts, seed, jobs)
     write_demonstrations(out, recorded)
     apart = np.concatenate([each["human_m"] - each["partner_m"] for each in recorded])
     Console().print(
@@ -40,7 +39,7 @@ def demonstrate(
     )
 
 
-def record(lifts: int, seed: int, jobs: int) -> list[Demonstration]:
+def record(lifts: int, seed: int, jobs: int | None) -> list[Demonstration]:
     """Return demonstrations, recorded with a progress bar."""
     with local_pool(jobs) as pool, progress_bar("demonstrating", lifts) as progress:
         recorded = []

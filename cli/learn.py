@@ -15,7 +15,7 @@ from ..agents.errors import InputError
 from ..agents.policies.q_learning import ACTIONS, Q_PARAMETERS
 from ..agents.policies.task import Task, task_json
 from ..benchmark.demonstrations import FIRST_SEED, LIFTS, read_demonstrations
-from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.executors import checked_jobs, local_pool
 from ..benchmark.learning import LearningTrial, learning_trials, table_json
 from ..benchmark.task_learning import (
     COMPONENTS,
@@ -25,6 +25,7 @@ from ..benchmark.task_learning import (
     require_learner,
 )
 from .demonstrate import record
+from .executors import Jobs
 from .learn_anticipate import anticipate, causal_bound
 from .output import check_output
 from .progress import progress_bar
@@ -55,16 +56,14 @@ def reactive(
     out: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Where to write the first trial's table.")
     ] = None,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    jobs: Jobs = None,
 ) -> None:
     """Learn the paper's reactive controller online, while the human stands still."""
     if trials < 1:
         raise InputError(f"--trials must be at least 1, got {trials}")
     check_output(out)
     done: list[LearningTrial] = []
-    jobs = min(trials, default_jobs() if jobs is None else jobs)
+    jobs = min(trials, checked_jobs(jobs))
     with local_pool(jobs) as pool, progress_bar("learning", trials) as progress:
         for trial in learning_trials(trials, seed, executor=pool):
             done.append(trial)
@@ -100,7 +99,7 @@ def task_model(
     check_output(out)
     require_learner()
     if demonstrations is None:
-        lifts = record(LIFTS, FIRST_SEED, default_jobs())
+        lifts = record(LIFTS, FIRST_SEED, None)
     else:
         lifts = list(read_demonstrations(demonstrations))
     task = learn_task(lifts, components=components, seed=seed)

@@ -21,8 +21,9 @@ from ..benchmark.anticipation_learning import (
     learn_anticipation,
 )
 from ..benchmark.bounds import causal
-from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.executors import local_pool
 from ..benchmark.scenario import CONTROL_PERIOD, LATENCY
+from .executors import Jobs
 from .output import check_output
 from .progress import progress_bar
 
@@ -34,9 +35,6 @@ Rounds = Annotated[int, typer.Option(metavar="N", help="Rounds of lifting and fi
 Seed = Annotated[int, typer.Option(help="Seed of the first lift.")]
 Out = Annotated[
     Path | None, typer.Option(metavar="FILE.json", help="Where to write what was learned.")
-]
-Jobs = Annotated[
-    int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
 ]
 
 
@@ -86,7 +84,7 @@ def _learn(
     check_output(out)
     models: list[Anticipation] = []
     with (
-        local_pool(default_jobs() if jobs is None else jobs) as pool,
+        local_pool(jobs) as pool,
         progress_bar("lifting", rounds * lifts) as progress,
     ):
         for lesson in learn_anticipation(

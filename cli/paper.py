@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.executors import local_pool
+from .executors import Jobs
 from .progress import progress_bar
 from .seeds import seed_range
 
@@ -21,9 +22,7 @@ def paper(
     seeds: Annotated[
         str, typer.Option(metavar="A:B", help="Seeds A to B-1 for each subject.")
     ] = "1000:1020",
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    jobs: Jobs = None,
     trials: Annotated[int, typer.Option(metavar="N", help="Learning trials.", min=1)] = 60,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print claims.json alone, and nothing else.")
@@ -41,7 +40,7 @@ def paper(
     check_target(out)
     try:
         with (
-            local_pool(default_jobs() if jobs is None else jobs) as pool,
+            local_pool(jobs) as pool,
             progress_bar("paper", amount(suite, effort)) as progress,
         ):
             evidence = gather(suite, effort, executor=pool, progress=progress)

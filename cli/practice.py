@@ -17,7 +17,7 @@ from ..leaderboard.own import own_names
 from ..leaderboard.practice import SUITES, is_current, play_policy, practice_season
 from ..leaderboard.season import Season
 from ..leaderboard.shipped import Shipped
-from .executors import executor
+from .executors import Jobs, executor
 from .progress import job_bar
 
 
@@ -36,9 +36,7 @@ def practice(
     fresh: Annotated[
         bool, typer.Option("--fresh", help="Evaluate also what is there and current.")
     ] = False,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    jobs: Jobs = None,
     dask: Annotated[
         str | None,
         typer.Option(metavar="URL", help="Use the Dask cluster of this scheduler: tcp://host:8786"),

@@ -8,10 +8,11 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.executors import local_pool
 from ..benchmark.references import Reference, play_references, references_json
 from ..benchmark.statistics import stratified_bootstrap
 from ..benchmark.suite import SUITES, Suite, make_suite
+from .executors import Jobs
 from .output import check_output
 from .progress import progress_bar
 
@@ -20,16 +21,14 @@ def references(
     out: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Where to write them, to be shipped.")
     ] = None,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    jobs: Jobs = None,
 ) -> None:
     """Play the human-human team, hold and copy on every suite; print their error by behaviour."""
     check_output(out)
     suites = [make_suite(name) for name in SUITES]
     played: list[tuple[Suite, dict[str, Reference]]] = []
     with (
-        local_pool(default_jobs() if jobs is None else jobs) as pool,
+        local_pool(jobs) as pool,
         progress_bar("references", 3 * sum(suite.size for suite in suites)) as progress,
     ):
         for suite in suites:

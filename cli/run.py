@@ -19,7 +19,7 @@ from ..benchmark.references import SPECS, Reference, play_references, shipped_re
 from ..benchmark.runner import Run, run_suite
 from ..benchmark.shipping import shipped
 from ..benchmark.suite import Suite
-from .executors import executor
+from .executors import Jobs, executor
 from .policies import AUTO, HELP, choose_policy
 from .progress import progress_bar
 from .run_report import complain, mention_idle, print_results
@@ -52,9 +52,7 @@ def run(
             "bubblewrap, landlock or limits."
         ),
     ] = AUTO,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    jobs: Jobs = None,
     dask: Annotated[
         str | None,
         typer.Option(metavar="URL", help="Use the Dask cluster of this scheduler: tcp://host:8786"),

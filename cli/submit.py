@@ -7,11 +7,11 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from ..agents.errors import InputError
 from ..agents.submissions.submission import open_submission
-from ..benchmark.executors import default_jobs
+from ..benchmark.executors import checked_jobs
 from .arguments import argument
 from .check import all_checks
+from .executors import Jobs
 from .outcome import Outcome
 from .row_table import row_table, standing
 from .submit_here import Here
@@ -31,9 +31,7 @@ def submit(
         str | None,
         typer.Option(help="Suite that the board must have; a new one has standard-v1 by default."),
     ] = None,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    jobs: Jobs = None,
     token: Annotated[
         str, typer.Option(envvar="COLIFT_TOKEN", help="For a board on the web: who you are.")
     ] = "",
@@ -42,9 +40,7 @@ def submit(
 
     A board in a folder evaluates it here and at once, one on the web when its turn has come.
     """
-    count = default_jobs() if jobs is None else jobs
-    if count < 1:
-        raise InputError(f"--jobs must be at least 1, got {jobs}")
+    count = checked_jobs(jobs)
     opened = open_submission(folder)
     if board.startswith(("http://", "https://")):
         there = There.open(board, token)

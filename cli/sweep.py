@@ -12,7 +12,8 @@ from ..agents.errors import InputError
 from ..benchmark.bounds import sweep as sweeping
 from ..benchmark.bounds.held_out import held_out_suite
 from ..benchmark.bounds.sweep import NAMES, Swept, lifts_to_play, team_rmse, timings
-from ..benchmark.executors import default_jobs, local_pool
+from ..benchmark.executors import local_pool
+from .executors import Jobs
 from .output import check_output
 from .progress import progress_bar
 
@@ -29,9 +30,7 @@ def sweep(
         Path | None,
         typer.Option(metavar="FILE.png", help="Where to draw it; numbers go beside, as .json."),
     ] = None,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    jobs: Jobs = None,
 ) -> None:
     """Sweep latency and control period: the paper's policies, anticipate, and the bounds."""
     if out is not None and out.suffix != ".png":
@@ -39,7 +38,7 @@ def sweep(
     check_output(out)
     suite = held_out_suite(people, each)
     with (
-        local_pool(default_jobs() if jobs is None else jobs) as pool,
+        local_pool(jobs) as pool,
         progress_bar("sweep", lifts_to_play(suite, lifts)) as progress,
     ):
         team = team_rmse(suite, executor=pool, progress=progress)

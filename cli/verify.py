@@ -8,13 +8,14 @@ from typing import Annotated, Final
 
 import typer
 
-from ..agents.errors import EvaluatorFault, InputError
+from ..agents.errors import EvaluatorFault
 from ..benchmark.bundle import check_target, one_line, write_bundle
-from ..benchmark.executors import default_jobs, process_pool
+from ..benchmark.executors import checked_jobs, process_pool
 from ..benchmark.headline import headline
 from ..benchmark.runner import Run
 from ..benchmark.verification import PROVES, UNPROVEN, Verdict
 from ..benchmark.verification import verify as verify_bundle
+from .executors import Jobs
 from .progress import progress_bar
 
 MOST_LINES: Final = 20
@@ -28,9 +29,7 @@ def verify(
             metavar="BUNDLE", help="A folder that colift run --out, or a board, has written."
         ),
     ],
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Worker processes; default: all cores.")
-    ] = None,
+    jobs: Jobs = None,
     rescore: Annotated[
         Path | None,
         typer.Option(
@@ -47,9 +46,7 @@ def verify(
     Nothing in the bundle is trusted, and no policy is run. Exit code 0: it is verified; 1: it is
     not, with the file, the lift and the first step in which that shows.
     """
-    count = default_jobs() if jobs is None else jobs
-    if count < 1:
-        raise InputError(f"--jobs must be at least 1, got {jobs}")
+    count = checked_jobs(jobs)
     if rescore is not None:
         check_target(rescore)
     try:

@@ -12,17 +12,14 @@ from ..leaderboard.job import Job
 from ..leaderboard.opening import open_stocked
 from ..leaderboard.queue import Queue
 from ..leaderboard.worker import Worker
-from .executors import executor
+from .executors import Jobs, executor
 
 
 def worker(
     board: Annotated[
         Path, typer.Option(metavar="PATH", help="The board's folder; made if there is none.")
     ] = Path("board"),
-    jobs: Annotated[
-        int | None,
-        typer.Option(metavar="N", help="Processes for episodes; default: all cores."),
-    ] = None,
+    jobs: Jobs = None,
     dask: Annotated[
         str | None,
         typer.Option(metavar="URL", help="Use the Dask cluster of this scheduler: tcp://host:8786"),

@@ -10,6 +10,7 @@ import time
 from contextlib import ExitStack
 
 import pytest
+from colift.benchmark.executors import JOBS
 from colift.benchmark.loopback import loopback_cluster
 
 # A shell lets what it starts in the background ignore Ctrl-C; so would all that the tests start.
@@ -17,10 +18,11 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session", autouse=True)
-def own_cache(tmp_path_factory):
-    """Keep what is cached from the user's own, and for all tests of a process."""
+def own_environment(tmp_path_factory):
+    """Keep what is cached from the user's own; one worker is enough where tests share the cores."""
     with pytest.MonkeyPatch.context() as patched:
         patched.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+        patched.setenv(JOBS, "1")
         yield
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from colift.agents.errors import EvaluatorFault, InputError, PolicyError
-from colift.benchmark.executors import local_pool, process_pool
+from colift.benchmark.executors import JOBS, default_jobs, local_pool, process_pool
 
 ORPHANS = """
 import os, signal, time
@@ -28,6 +28,23 @@ os.kill(os.getpid(), signal.SIGKILL)
 def pool():
     with process_pool(2) as made:
         yield made
+
+
+def test_by_default_there_is_a_worker_for_each_processor_or_what_the_environment_says(monkeypatch):
+    monkeypatch.delenv(JOBS)
+    assert default_jobs() == len(os.sched_getaffinity(0))
+    monkeypatch.setenv(JOBS, "3")
+    assert default_jobs() == 3
+
+
+@pytest.mark.parametrize("asked", ["0", "-1", "two", "1.5", "²"])
+def test_what_is_no_number_of_workers_is_refused(monkeypatch, asked):
+    monkeypatch.setenv(JOBS, asked)
+    with (
+        pytest.raises(InputError, match=f"COLIFT_JOBS must be .* above 0, got '{asked}'"),
+        local_pool(None),
+    ):
+        pass
 
 
 def raise_(error):
