@@ -37,7 +37,7 @@ def render(template: str, links: Links, **content: Any) -> str:
 def _environment() -> "Environment":
     try:
         from jinja2 import Environment, PackageLoader, StrictUndefined
-        from markupsafe import Markup
+        from markupsafe import Markup, escape
     except ModuleNotFoundError:
         raise InputError("pages need Jinja: pip install 'colift[board]'") from None
     environment = Environment(
@@ -48,6 +48,7 @@ def _environment() -> "Environment":
         lstrip_blocks=True,
     )
     environment.filters.update(FILTERS)
+    environment.filters["breakable"] = lambda name: escape(name).replace("_", Markup("_<wbr>"))
     environment.filters["data"] = lambda content: Markup(script_json(content))
     environment.globals["version"] = version("colift")
     return environment

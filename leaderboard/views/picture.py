@@ -2,58 +2,19 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Final
 
 from ...benchmark.comparison.front import Point, pareto_front
 from ...benchmark.comparison.scale import Scale, Spot, make_scale
 from ..row import Row
+from .dots import Box, Dot, Label, Place, labels_beside
 
 LEFT: Final = 56
 RIGHT: Final = 12
 TOP: Final = 14
 BOTTOM: Final = 46
 """Margins [px]."""
-
-LETTER: Final = 6.4
-"""Breadth of a letter [px], about."""
-LINE: Final = 15
-"""Height of a line of letters [px]."""
-RADIUS: Final = 5
-"""Of a dot [px]."""
-
-NAMED: Final = 40
-"""Dots that get their name, at most: the front, then the best."""
-
-Box = tuple[float, float, float, float]
-"""Left, top, right, bottom [px]."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Dot:
-    """A policy in the picture."""
-
-    name: str
-    submission: str
-    x: float
-    y: float
-    low: float
-    high: float
-    """Ends of the RMSE's interval [px]."""
-    front: bool
-    """Whether no other is both more level and smoother."""
-    told: str
-    """What it is, in words."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Label:
-    """A name beside its dot."""
-
-    x: float
-    y: float
-    anchor: str
-    text: str
-    front: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,19 +76,24 @@ def make_picture(
         _dot(row, spot, place, row.submission in front)
         for row, spot in zip(rows, spots, strict=True)
     )
+    stair = _stair(dots, front)
+    team = None if team_rmse_mm is None else place.x(team_rmse_mm)
+    lines = list(pairwise(stair))
+    if team is not None:
+        lines.append(((team, plot[1]), (team, plot[3])))
     beyond, still = place.x(scale.x[1]), place.y(scale.y[0])
     return Picture(
         width=width,
         height=height,
         plot=plot,
         dots=dots,
-        labels=_labels(dots, plot),
-        stair=_stair(dots, front),
+        labels=labels_beside(dots, plot, lines),
+        stair=" ".join(f"{x},{y}" for x, y in stair),
         across=tuple(Tick(at=place.x(mm), text=f"{mm:g}") for mm in _ticks(*scale.x)),
         up=tuple(Tick(at=place.y(s), text=_minus(f"{s:g}")) for s in _ticks(*scale.y)),
         beyond=beyond if scale.beyond else None,
         still=still if scale.still else None,
-        team=None if team_rmse_mm is None else place.x(team_rmse_mm),
+        team=team,
         words=_words(rows, front),
     )
 
@@ -196,53 +162,15 @@ def _dot(row: Row, spot: Spot, place: _Place, front: bool) -> Dot:
     )
 
 
-def _stair(dots: Sequence[Dot], front: Sequence[str]) -> str:
+def _stair(dots: Sequence[Dot], front: Sequence[str]) -> list[Place]:
+    """Return the corners of the front's line."""
     places = {dot.submission: (dot.x, dot.y) for dot in dots}
-    corners: list[tuple[float, float]] = []
+    corners: list[Place] = []
     for x, y in (places[digest] for digest in front):
         if corners:
             corners.append((x, corners[-1][1]))
         corners.append((x, y))
-    return " ".join(f"{x},{y}" for x, y in corners)
-
-
-def _labels(dots: Sequence[Dot], plot: Box) -> tuple[Label, ...]:
-    """Return names where there is room: first on the front, then in the order of the table."""
-    taken = [_around(dot) for dot in dots]
-    labels = []
-    for dot in sorted(dots, key=lambda dot: not dot.front)[:NAMED]:
-        for label, box in _candidates(dot):
-            inside = plot[0] <= box[0] and box[2] <= plot[2] and plot[1] <= box[1]
-            if inside and box[3] <= plot[3] and not any(_overlap(box, each) for each in taken):
-                labels.append(label)
-                taken.append(box)
-                break
-    return tuple(labels)
-
-
-def _candidates(dot: Dot) -> list[tuple[Label, Box]]:
-    breadth, gap = LETTER * len(dot.name), RADIUS + 4
-    found = []
-    for anchor, x, y in (
-        ("start", dot.x + 3, dot.y - gap + 1),
-        ("end", dot.x - 3, dot.y - gap + 1),
-        ("start", dot.x + 3, dot.y + gap + 9),
-        ("end", dot.x - 3, dot.y + gap + 9),
-        ("start", dot.x + gap, dot.y + 4),
-        ("end", dot.x - gap, dot.y + 4),
-    ):
-        left = x - breadth * {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor]
-        label = Label(x=round(x, 1), y=round(y, 1), anchor=anchor, text=dot.name, front=dot.front)
-        found.append((label, (left, y - LINE + 4, left + breadth, y + 4)))
-    return found
-
-
-def _around(dot: Dot) -> Box:
-    return dot.x - RADIUS, dot.y - RADIUS, dot.x + RADIUS, dot.y + RADIUS
-
-
-def _overlap(a: Box, b: Box) -> bool:
-    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+    return corners
 
 
 def _ticks(low: float, high: float) -> list[float]:

@@ -12,7 +12,7 @@ def digest(name):
     return (name.encode().hex() * 64)[:64]
 
 
-def make_row(name="mine", mean=10.0, season="1"):
+def make_row(name="mine", mean=10.0, season="1", sparc=-1.9):
     estimate = Estimate(mean=mean, ci95=(mean - 1.0, mean + 1.0))
     ratio = Estimate(mean=mean / 10, ci95=(mean / 10 - 0.1, mean / 10 + 0.1))
     public = PublicScores(
@@ -20,7 +20,7 @@ def make_row(name="mine", mean=10.0, season="1"):
         failed=0,
         rmse_mm=estimate,
         vs_human=ratio,
-        sparc=-1.9,
+        sparc=sparc,
         sparc_missing=0,
         human_force_n=0.3,
         step_ms_p50=0.2,

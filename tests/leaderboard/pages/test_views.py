@@ -1,6 +1,7 @@
 """What pages show, without a browser."""
 
 import dataclasses
+from itertools import pairwise
 
 import pytest
 from colift.benchmark.bundle.files import EPISODES, RESULTS
@@ -113,6 +114,22 @@ def test_names_in_the_picture_do_not_cover_each_other():
     ]
     for i, (x, y) in enumerate(boxes):
         assert all(abs(x - u) > 60 or abs(y - v) > 10 for u, v in boxes[:i])
+
+
+@pytest.mark.parametrize(("width", "height"), [(920, 440), (390, 380)])
+def test_the_names_of_the_front_stand_clear_of_its_line(width, height):
+    rows = [make_row("anticipate", 3.8, sparc=-2.09), make_row("task_model", 5.6, sparc=-2.13)]
+    rows += [make_row("proactive", 11.8, sparc=-2.01), make_row("impedance", 19.1, sparc=-1.8)]
+    picture = make_picture(rows, 10.3, width=width, height=height)
+    labels = {label.text: label for label in picture.labels}
+    places = [tuple(map(float, corner.split(","))) for corner in picture.stair.split()]
+    for dot in picture.dots:
+        if dot.front:
+            label = labels[dot.name]
+            assert not any(
+                left <= label.x <= right and label.y - 10 < y < label.y
+                for (left, y), (right, _) in pairwise(places)
+            )
 
 
 def test_who_never_moves_along_is_in_the_strip_and_not_on_the_front():
