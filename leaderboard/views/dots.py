@@ -54,7 +54,7 @@ class Label:
 
 
 def labels_beside(
-    dots: Sequence[Dot], plot: Box, lines: Iterable[tuple[Place, Place]]
+    dots: Sequence[Dot], plot: Box, *, texts: Iterable[Box], lines: Iterable[tuple[Place, Place]]
 ) -> tuple[Label, ...]:
     """Return names where there is room: first on the front, then in the order of the table.
 
@@ -64,10 +64,12 @@ def labels_beside(
         The policies, in the order of the table.
     plot
         Where names may be.
+    texts
+        Where other words stand.
     lines
         Lines, each straight up or across, that names do not cross if they can stand elsewhere.
     """
-    taken = [_around(dot) for dot in dots]
+    taken = [*map(_around, dots), *texts]
     drawn = [_covered(*line) for line in lines]
     labels = []
     for dot in sorted(dots, key=lambda dot: not dot.front)[:NAMED]:
@@ -96,8 +98,10 @@ def _candidates(dot: Dot) -> Iterator[tuple[Label, Box]]:
         ("end", dot.x - 3, dot.y + RADIUS + 13),
         ("start", dot.x + gap, dot.y + 4),
         ("end", dot.x - gap, dot.y + 4),
+        ("middle", dot.x, dot.y - gap),
+        ("middle", dot.x, dot.y + RADIUS + 13),
     ):
-        left = x - (breadth if anchor == "end" else 0.0)
+        left = x - breadth * {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor]
         label = Label(x=round(x, 1), y=round(y, 1), anchor=anchor, text=dot.name, front=dot.front)
         yield label, (left, y - LINE + 4, left + breadth, y + 4)
 

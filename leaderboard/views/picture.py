@@ -8,7 +8,7 @@ from typing import Final
 from ...benchmark.comparison.front import Point, pareto_front
 from ...benchmark.comparison.scale import Scale, Spot, make_scale
 from ..row import Row
-from .dots import Box, Dot, Label, Place, labels_beside
+from .dots import LETTER, LINE, Box, Dot, Label, Place, labels_beside
 
 LEFT: Final = 56
 RIGHT: Final = 12
@@ -79,15 +79,19 @@ def make_picture(
     stair = _stair(dots, front)
     team = None if team_rmse_mm is None else place.x(team_rmse_mm)
     lines = list(pairwise(stair))
+    texts: list[Box] = []
     if team is not None:
         lines.append(((team, plot[1]), (team, plot[3])))
+        texts.append((team, plot[1], team + LETTER * len("two people"), plot[1] + LINE))
+    if scale.beyond:
+        texts.append((plot[2] - LETTER * len("off the scale"), plot[1], plot[2], plot[1] + LINE))
     beyond, still = place.x(scale.x[1]), place.y(scale.y[0])
     return Picture(
         width=width,
         height=height,
         plot=plot,
         dots=dots,
-        labels=labels_beside(dots, plot, lines),
+        labels=labels_beside(dots, plot, texts=texts, lines=lines),
         stair=" ".join(f"{x},{y}" for x, y in stair),
         across=tuple(Tick(at=place.x(mm), text=f"{mm:g}") for mm in _ticks(*scale.x)),
         up=tuple(Tick(at=place.y(s), text=_minus(f"{s:g}")) for s in _ticks(*scale.y)),
