@@ -3,9 +3,11 @@
 (() => {
   const box = document.getElementById("job");
   const bar = document.getElementById("bar"), told = document.getElementById("told");
+  const state = document.getElementById("state");
   let pause = 1000, last = told.textContent;
 
   function show(job) {
+    state.textContent = job.state;
     if (job.total) bar.value = Math.min(job.done / job.total, 1);
     // A screen reader is told when the stage changes, not each lift.
     const text = job.state === "queued" ? "Waiting." : `${job.stage || job.state}: ${job.done} of ${job.total} lifts.`;

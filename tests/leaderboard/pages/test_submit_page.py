@@ -1,5 +1,6 @@
 """From a zip file in a browser to a verified row, or to the reason why not."""
 
+import re
 import threading
 from pathlib import Path
 
@@ -106,7 +107,8 @@ def test_an_uploaded_template_becomes_a_verified_row_before_ones_eyes(
     expect(page.locator("#told")).to_have_text("Waiting.")
     page.evaluate("""() => {
         window.seen = [];
-        const look = () => window.seen.push(document.getElementById("told").textContent);
+        const read = (id) => document.getElementById(id).textContent;
+        const look = () => window.seen.push(`${read("state")}, ${read("told")}`);
         new MutationObserver(look).observe(document.getElementById("told"), {childList: true});
     }""")
     seen: list[str] = []
@@ -118,7 +120,7 @@ def test_an_uploaded_template_becomes_a_verified_row_before_ones_eyes(
             seen += page.evaluate("window.seen || []")
     working.join()
     expect(page.get_by_text("Done: it is on the board")).to_be_visible()
-    assert any("lifts" in told for told in seen)
+    assert any(re.match(r"(running|verifying), .* \d+ of \d+ lifts", told) for told in seen)
     page.get_by_role("link", name="See the board").click()
     row = page.locator("table.board tbody tr")
     expect(row).to_have_count(1)
