@@ -13,7 +13,7 @@ from ..agents.policies.anticipation import Anticipation
 from ..agents.policies.anticipation_controller import AnticipateParameters, AnticipationController
 from ..agents.policies.extrapolate import Extrapolate
 from ..agents.policies.modes import modes, stroke_ends
-from ..agents.policies.senses import ARM_LAG, Window
+from ..agents.policies.senses import Window
 from .catalogue import make_scenario, make_subject
 from .lift import MOCAP_NOISE, Lift
 from .roaming import Roaming
@@ -30,11 +30,6 @@ ROAMING: Final = "roaming"
 
 LOOKS: Final = 5
 """Times at which each period of a lift is looked at, as if the robot had decided then."""
-
-ENCODER_NOISE: Final = 5e-5
-"""Standard deviation of the noise that is added to the own hand's height while learning [m]. The
-simulation's encoders are exact; a NAO's have 12 bits a turn, 1.5 mrad, of which the ten joints of
-two arms leave about this. So no more is read from the hand's sag than a real hand could tell."""
 
 DISTURBANCE: Final = (0.002, 0.6)
 """Size [m] and persistence a step of the random disturbance of the robot's command in half of the
@@ -111,8 +106,7 @@ def experience(
     """Return what the lift of a seed shows; without a model, the robot extrapolates.
 
     A lift of a few seconds holds some seventy decisions. It is looked at :data:`LOOKS` times as
-    often, as if the periods had begun at other frames, with sensor noise of its own; between the
-    robot's own decisions its hand is taken to be where its end of the table is.
+    often, as if the periods had begun at other frames, with sensor noise of its own.
     """
     lift = Lift(scenario(seed, behaviours, timing))
     lift.reset(seed)
@@ -124,37 +118,28 @@ def experience(
     rng = np.random.default_rng(derive_seed(seed, "disturbance"))
     size, persistence = DISTURBANCE
     size *= float(rng.random() < 0.5)
-    views, disturbance = [], 0.0
+    seen, disturbance = [], 0.0
     while not lift.done:
         view = lift.partner_observation()
-        view[RobotObservation.HAND_HEIGHT] += rng.normal(0.0, ENCODER_NOISE)
-        views.append(view)
+        seen.append(view[RobotObservation.HUMAN_END])
         before, disturbance = disturbance, persistence * disturbance + rng.normal(0.0, size)
         lift.step(human.act(lift.human_observation()), robot.act(view) + disturbance - before)
     lift.close()
 
-    seen = np.array(views)
     size_of_step, age = lift.frames_per_step, lift.scenario.latency_frames
-    commands = np.append(seen[:, RobotObservation.HAND_COMMAND], lift.command)
-    line = np.interp(np.arange(lift.frame + 1) / size_of_step, np.arange(len(commands)), commands)
     heights = np.array([0.0, *lift.world.since_reset(lift.world.human_end)])
-    hands = np.array([0.0, *lift.world.since_reset(lift.world.robot_end)])
     doing, ends = modes(heights), stroke_ends(heights)[:, np.newaxis]
     parts = []
     for first in range(0, size_of_step, max(size_of_step // LOOKS, 1)):
         now = np.arange(first, lift.frame, size_of_step)
-        if first == 0:
-            human_end = seen[:, RobotObservation.HUMAN_END]
-            hand = seen[:, RobotObservation.HAND_HEIGHT]
-        else:
+        human_end = np.array(seen)
+        if first > 0:
             human_end = heights[np.maximum(now - age, 0)] + rng.normal(0.0, MOCAP_NOISE, len(now))
-            hand = hands[now] + rng.normal(0.0, ENCODER_NOISE, len(now))
-        sags = line[np.maximum(now - round(ARM_LAG / FRAME), 0)] - hand
         coming = now[:, np.newaxis] + np.round(np.array(LEADS) / FRAME).astype(int)
         rises = np.hstack((heights[np.minimum(coming, lift.frame)], ends[now]))
         rises -= human_end[:, np.newaxis]
         outcomes = np.hstack((rises[:, :-1], doing[now], rises[:, -1:]))
-        inputs = window_inputs(human_end, line[now], sags, window)
+        inputs = window_inputs(human_end, window)
         parts.append(
             Experience(
                 inputs=inputs.astype(np.float32),
@@ -165,33 +150,19 @@ def experience(
     return Experience.join(parts)
 
 
-def window_inputs(heights: Array, commands: Array, sags: Array, window: Window) -> Array:
+def window_inputs(heights: Array, window: Window) -> Array:
     """Return the inputs of :class:`.Senses` in each of n steps, an interval apart.
 
     Parameters
     ----------
-    heights, commands, sags
-        (n,) what was seen, commanded and felt in each step [m].
+    heights
+        (n,) what was seen of the human's end in each step [m].
 
     Returns
     -------
     array
         (n, window.size).
     """
-    past = _past(heights, window.velocities + 1)
-    return np.hstack(
-        (
-            past[:, :1],
-            past[:, :-1] - past[:, 1:],
-            _past(commands, window.commands) - past[:, :1],
-            _past(sags, window.sags),
-        )
-    )
-
-
-def _past(values: Array, count: int) -> Array:
-    """Return (n, count): each value and the ones before it, newest first; at first, the first."""
-    if not count:
-        return np.empty((len(values), 0))
-    begun = np.concatenate((np.full(count - 1, values[0]), values))
-    return sliding_window_view(begun, count)[:, ::-1]
+    begun = np.concatenate((np.full(window.velocities, heights[0]), heights))
+    past = sliding_window_view(begun, window.size)[:, ::-1]
+    return np.hstack((past[:, :1], past[:, :-1] - past[:, 1:]))

@@ -13,9 +13,8 @@ class Anticipate(AnticipationController):
     **Foresight.** A small perceptron, learned in simulated lifts, maps the last two seconds of the
     human's end to the mean of its coming heights h(t). It does at once what several models would
     have to be mixed for: it has seen onsets, pauses, reversals and fits and starts, and knows how
-    they go on. It also sees the last commands of the own hand, as the human gives in to the robot,
-    and the sag of the own hand: its encoders are fresh while the motion capture is a latency old,
-    and so what the arm gives way tells how the human pulls just now (:class:`.Senses`).
+    they go on. It sees nothing of the robot itself: neither its commands nor the sag of its hand
+    tell more of the human than the human's end does.
 
     **The arm.** It follows its command by a known lag, and sags under its load by what differs
     along the stroke. The path to command is

@@ -31,7 +31,7 @@ class Foresight(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Anticipation:
-    """Where the human's end will be, given what was seen, done and felt.
+    """Where the human's end will be, given what was seen of it.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What a robot has seen, done and felt in the last seconds, as the inputs of a learned function."""
+"""What a robot has seen of the human in the last seconds, as the inputs of a learned function."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -29,60 +29,53 @@ class Window:
     """Time between the values of the past [s]."""
     velocities: int = 20
     """Past velocities of the human's end."""
-    commands: int = 3
-    """Own commands, the present one included."""
-    sags: int = 3
-    """How far the own hand was below where it was commanded, the present included."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
         if not 0 < self.interval < np.inf:
             raise InputError(f"interval must be a positive time, got {self.interval}")
-        if self.velocities < 1 or min(self.commands, self.sags) < 0:
-            raise InputError(f"a window needs a velocity and no negative number, got {self}")
+        if self.velocities < 1:
+            raise InputError(f"a window needs a velocity at least, got {self.velocities}")
 
     @property
     def size(self) -> int:
         """Number of inputs."""
-        return 1 + self.velocities + self.commands + self.sags
+        return 1 + self.velocities
 
 
 class Senses:
     """Collects observations, and makes inputs of them.
 
-    With z the seen heights of the human's end, u the own command, s the sag, and dt the window's
-    interval, the inputs are
+    With z the seen heights of the human's end and dt the window's interval, the inputs are
 
-        z(-0), z(-0) - z(-dt), z(-dt) - z(-2 dt), ...,
-        u(0) - z(-0), u(-dt) - z(-0), ...,    s(0), s(-dt), ...
+        z(-0), z(-0) - z(-dt), z(-dt) - z(-2 dt), ...
 
     with times from now, and z(-0) the newest that was seen, which is a latency old. Between two
     samples they are interpolated, before the first they are as with the first.
 
-    The sag is how far the hand is below its command of :data:`ARM_LAG` ago. It is what the arm
-    gives way under its load, and so it feels, without the latency of the eye, how the human tilts
-    and moves the table just now.
+    It also tells the sag: how far the hand is below its command of :data:`ARM_LAG` ago, which is
+    what the arm gives way under its load.
     """
 
     def __init__(self, window: Window) -> None:
         self._window = window
-        self._keep = window.interval * (window.velocities + window.commands + window.sags + 1)
+        self._keep = window.interval * (window.velocities + 1)
         self._times: list[float] = []
         self._heights: list[float] = []
         self._commands: list[float] = []
-        self._sags: list[float] = []
+        self._sag = 0.0
 
     def see(self, observation: Observation) -> None:
         """Take the newest observation in."""
         time = float(observation[RobotObservation.TIME])
         while len(self._times) > 1 and self._times[1] < time - self._keep:
-            for values in (self._times, self._heights, self._commands, self._sags):
+            for values in (self._times, self._heights, self._commands):
                 del values[0]
         self._times.append(time)
         self._heights.append(float(observation[RobotObservation.HUMAN_END]))
         self._commands.append(float(observation[RobotObservation.HAND_COMMAND]))
         expected = float(np.interp(time - ARM_LAG, self._times, self._commands))
-        self._sags.append(expected - float(observation[RobotObservation.HAND_HEIGHT]))
+        self._sag = expected - float(observation[RobotObservation.HAND_HEIGHT])
 
     @property
     def time(self) -> float:
@@ -97,7 +90,7 @@ class Senses:
     @property
     def sag(self) -> float:
         """How far the hand is below its command now [m]."""
-        return self._sags[-1]
+        return self._sag
 
     def period(self, default: float) -> float:
         """Return the time between the last two observations [s]; the default before."""
@@ -109,12 +102,6 @@ class Senses:
 
     def inputs(self) -> Array:
         """Return the inputs, shape ``(window.size,)`` [m]."""
-        window, times = self._window, self._times
-        ages = window.interval * np.arange(max(window.size, 2))
-        ago = times[-1] - ages
-        heights = np.interp(ago[: window.velocities + 1], times, self._heights)
-        commands = np.interp(ago[: window.commands], times, self._commands)
-        sags = np.interp(ago[: window.sags], times, self._sags)
-        return np.concatenate(
-            (heights[:1], heights[:-1] - heights[1:], commands - heights[0], sags)
-        )
+        ages = self._window.interval * np.arange(self._window.size)
+        heights = np.interp(self._times[-1] - ages, self._times, self._heights)
+        return np.concatenate((heights[:1], heights[:-1] - heights[1:]))

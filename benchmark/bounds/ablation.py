@@ -48,8 +48,6 @@ class Variant:
 VARIANTS: Final = (
     Variant(name="the curve: a linear map instead of the perceptron", hidden=()),
     Variant(name="the far past: 0.4 s instead of 2 s", window={"velocities": 4}),
-    Variant(name="the own commands as inputs", window={"commands": 0}),
-    Variant(name="the sag as an input", window={"sags": 0}),
     Variant(name="the second round of learning", first_round=True),
     Variant(name="people who roam among those it learned from", only=BEHAVIOURS),
     Variant(name="the arm's lag", parameters={"arm_lag": 0.0}),
@@ -73,7 +71,7 @@ class Ablation:
     worse_mm: PairedDifference | None
     """RMSE minus that of the whole, lift by lift; none for the whole itself."""
     rougher: PairedDifference | None
-    """SPARC of the whole minus its own, lift by lift."""
+    """SPARC of the whole minus its own, over the lifts in which both move along."""
 
 
 def variants(first: Lesson, last: Lesson, *, seed: int = 0) -> Iterator[Foreseer]:
@@ -96,17 +94,14 @@ def variants(first: Lesson, last: Lesson, *, seed: int = 0) -> Iterator[Foreseer
             model = first.model
         elif variant.learns:
             narrow = dataclasses.replace(window, **variant.window)
-            data = narrowed(moving(last.experience, variant.only), window, narrow)
+            data = narrowed(moving(last.experience, variant.only), narrow)
             model = learned(data, narrow, Timing(), hidden=variant.hidden, provenance={})
         yield Foreseer(name=variant.name, model=model, parameters=parameters)
 
 
-def narrowed(data: Experience, wide: Window, narrow: Window) -> Experience:
-    """Return experience as it would be with a narrower window: some of its inputs."""
-    starts = np.cumsum([0, 1, wide.velocities, wide.commands])
-    counts = (1, narrow.velocities, narrow.commands, narrow.sags)
-    chosen = [start + np.arange(count) for start, count in zip(starts, counts, strict=True)]
-    return dataclasses.replace(data, inputs=data.inputs[:, np.concatenate(chosen)])
+def narrowed(data: Experience, window: Window) -> Experience:
+    """Return experience as it would be with a narrower window: the first of its inputs."""
+    return dataclasses.replace(data, inputs=data.inputs[:, : window.size])
 
 
 def moving(data: Experience, ways: Sequence[str]) -> Experience:
@@ -142,11 +137,13 @@ def _against(name: str, run: Run, whole: Run) -> Ablation:
     if run is not whole:
         cells = [cell(episode) for episode in run.episodes]
         worse = paired_difference(rmse, _values(whole, "rmse_mm"), cells)
-        rougher = paired_difference(_values(whole, "sparc"), sparc, cells)
+        both = ~np.isnan(sparc - _values(whole, "sparc"))
+        moved = [cell for cell, taken in zip(cells, both, strict=True) if taken]
+        rougher = paired_difference(_values(whole, "sparc")[both], sparc[both], moved)
     return Ablation(
         name=name,
         rmse_mm=float(rmse.mean()),
-        sparc=float(sparc.mean()),
+        sparc=float(np.nanmean(sparc)),
         worse_mm=worse,
         rougher=rougher,
     )

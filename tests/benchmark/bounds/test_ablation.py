@@ -16,16 +16,15 @@ from colift.benchmark.suite import BEHAVIOURS, Suite
 
 def test_narrower_experience_is_what_a_narrower_window_sees():
     rng = np.random.default_rng(0)
-    human, commands, sags = rng.normal(0.0, 0.1, (3, 40))
-    wide, narrow = Window(), Window(velocities=4, commands=0, sags=1)
+    human = rng.normal(0.0, 0.1, 40)
+    wide, narrow = Window(), Window(velocities=4)
     data = Experience(
-        inputs=window_inputs(human, commands, sags, wide),
+        inputs=window_inputs(human, wide),
         outcomes=np.zeros((40, 2), np.float32),
         seeds=np.arange(40),
     )
-    wanted = window_inputs(human, commands, sags, narrow)
-    assert narrowed(data, wide, narrow).inputs == pytest.approx(wanted)
-    assert narrowed(data, wide, wide).inputs == pytest.approx(data.inputs)
+    assert narrowed(data, narrow).inputs == pytest.approx(window_inputs(human, narrow))
+    assert narrowed(data, wide).inputs == pytest.approx(data.inputs)
     assert moving(data, BEHAVIOURS).seeds.tolist() == [i for i in range(40) if i % 5 != 4]
 
 
@@ -45,8 +44,7 @@ def test_variants_are_learned_from_what_the_whole_was_learned_from():
     whole, *others = variants(first, last)
     assert whole.model is last.model
     found = dict(zip((variant.name for variant in VARIANTS), others, strict=True))
-    assert found["the sag as an input"].model.window.sags == 0
-    assert found["the own commands as inputs"].model.window.commands == 0
+    assert found["the far past: 0.4 s instead of 2 s"].model.window.velocities == 4
     assert found["the second round of learning"].model is first.model
     assert found["the cost of bends"].parameters.smoothness == 0.0
     line = next(robot for name, robot in found.items() if "linear" in name)
