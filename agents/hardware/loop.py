@@ -125,6 +125,7 @@ class _Loop:
         self._decider, self._settings, self._record = decider, settings, record
         self._watch = Watch()
         self._command = 0.0
+        self._speed = 0.0
         self._number = 0
         self._held_since: float | None = None
 
@@ -162,6 +163,7 @@ class _Loop:
         before = self._command
         if decision.action is not None:
             self._give(before + decision.action)
+        self._speed = (self._command - before) / period
         commanded = clock.now()
         record.events.append(
             Step(
@@ -206,12 +208,16 @@ class _Loop:
             raise StopTrialError(Stop.ROBOT_LOST, str(error)) from error
 
     def _observation(self, now: float, time: float, state: ArmState) -> Observation:
-        """Return what the policy sees, laid out as in simulation."""
+        """Return what the policy sees, laid out as in simulation.
+
+        All of it is as at the time when the hands set out: until then they go on at the speed that
+        they were told to have.
+        """
         sample = at(self._watch.samples, now - max(0.0, self._settings.latency - DEAD_TIME))
         observation = np.empty(len(RobotObservation))
         observation[RobotObservation.HUMAN_END] = sample.human_end
         observation[RobotObservation.ROBOT_END] = sample.robot_end
-        observation[RobotObservation.HAND_HEIGHT] = state.height
+        observation[RobotObservation.HAND_HEIGHT] = state.height + self._speed * DEAD_TIME
         observation[RobotObservation.HAND_COMMAND] = self._command
         observation[RobotObservation.TIME] = time
         return observation
