@@ -24,11 +24,11 @@ from .hostile.secrets import SECRETS
 from .hostile.state import STATE
 from .hostile.time import TIME
 
-WALLED = [*RESOURCES, *ENDS, *SECRETS, *OTHERS, *STATE]
+WALLED = [*TIME, *RESOURCES, *ENDS, *SECRETS, *OTHERS, *STATE]
 """What the walls must contain."""
 
-OUTSIDE = [*TIME, *ACTIONS, *FRAMES]
-"""What the scoring side must stop or refuse, whatever the walls."""
+ANSWERS = [*ACTIONS, *FRAMES]
+"""What the scoring side must refuse, whatever the walls."""
 
 STEPS = 40
 
@@ -95,7 +95,7 @@ def board(tmp_path_factory):
             "port": listening.getsockname()[1],
             "abstract": abstract,
         }
-        for each in (*WALLED, *OUTSIDE):
+        for each in (*WALLED, *ANSWERS):
             (folder / file_of(each)).write_text(each.source(**values))
         yield board
 
@@ -124,8 +124,8 @@ def test_is_contained(board, expected, way, rung, policy):
     contained(board, expected, rung, policy)
 
 
-@pytest.mark.parametrize("policy", OUTSIDE, ids=lambda policy: policy.name)
-def test_is_stopped_from_outside(board, expected, policy):
+@pytest.mark.parametrize("policy", ANSWERS, ids=lambda policy: policy.name)
+def test_an_answer_that_is_none_is_refused(board, expected, policy):
     contained(board, expected, strongest(), policy)
 
 
@@ -175,5 +175,5 @@ def drive_in(policy):
 
 
 def test_names_are_distinct():
-    files = [file_of(each) for each in (*WALLED, *OUTSIDE)]
+    files = [file_of(each) for each in (*WALLED, *ANSWERS)]
     assert len(set(files)) == len(files)

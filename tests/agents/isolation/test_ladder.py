@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -102,3 +103,37 @@ def test_the_commands_say_which_rung_was_used(tmp_path):
     run = ("run", mine, "--suite", "quick-v1", "--seeds", "0:1", "--jobs", "1", "--out", str(out))
     assert colift(*run, **own).returncode == 0
     assert f'"isolation": "{next_rung}"' in (out / "results.json").read_text()
+
+
+LEFT = """
+import os, signal
+from pathlib import Path
+from colift.agents.isolation.sandboxed import SandboxedPolicy
+
+policy = SandboxedPolicy(name="where", place="where.py:Where", folder=Path("."), rung="limits")
+with policy.agent() as agent:
+    agent.reset(1)
+print(agent.printed, flush=True)
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+WHERE = """
+import os
+
+class Where:
+    def reset(self, seed): print(os.environ["TMPDIR"])
+    def act(self, observation): return [0.0]
+"""
+
+
+def test_the_folder_to_write_in_goes_with_its_owner_even_if_that_is_killed(tmp_path):
+    (tmp_path / "where.py").write_text(WHERE)
+    done = subprocess.run(
+        [sys.executable, "-c", LEFT], cwd=tmp_path, capture_output=True, text=True, timeout=120
+    )
+    place = Path(done.stdout.strip())
+    assert place.name.startswith("colift-"), done.stderr
+    end = time.monotonic() + 30
+    while place.exists():
+        assert time.monotonic() < end
+        time.sleep(0.02)
