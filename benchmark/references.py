@@ -1,6 +1,7 @@
 """What every result is set against: the human-human team, and the policies hold and copy.
 
-For the public suites the references are shipped; for any other set of episodes they are played.
+For the public suites the references are shipped, and with them the bounds (:mod:`.bounds`), which
+take minutes to play; for any other set of episodes they are played.
 """
 
 import json
@@ -90,6 +91,11 @@ class Reference:
         """Mean RMSE [mm]."""
         return float(np.mean(self.rmse_mm))
 
+    def on(self, behaviour: str) -> float:
+        """Return the mean RMSE on a behaviour [mm]."""
+        errors = zip(self.rmse_mm, self.cells, strict=True)
+        return float(np.mean([error for error, (kind, _) in errors if kind == behaviour]))
+
     def by_cell(self) -> dict[Cell, float]:
         """Return the mean RMSE of each behaviour and subject [mm]."""
         members: dict[Cell, list[float]] = {}
@@ -135,22 +141,41 @@ def play_references(
 
 def shipped_references(suite: Suite) -> dict[str, Reference] | None:
     """Return the shipped references of a suite, or None if there are none for its digest."""
+    return _shipped(suite, "references")
+
+
+def shipped_bounds(suite: Suite) -> dict[str, Reference] | None:
+    """Return the shipped bounds of a suite, or None if there are none for its digest."""
+    return _shipped(suite, "bounds")
+
+
+def _shipped(suite: Suite, kind: str) -> dict[str, Reference] | None:
     path = files(__package__).joinpath("data", "references.json")
     if not path.is_file():
         return None
     content = json.loads(path.read_text()).get(suite.digest)
     if content is None:
         return None
-    return {name: Reference.read(value) for name, value in content["references"].items()}
+    return {name: Reference.read(value) for name, value in content[kind].items()}
 
 
-def references_json(played: Sequence[tuple[Suite, Mapping[str, Reference]]]) -> str:
-    """Return the content of the shipped file: references by suite digest."""
+@dataclass(frozen=True, kw_only=True)
+class ToShip:
+    """What is shipped for a suite."""
+
+    suite: Suite
+    references: Mapping[str, Reference]
+    bounds: Mapping[str, Reference]
+
+
+def references_json(played: Sequence[ToShip]) -> str:
+    """Return the content of the shipped file: references and bounds by suite digest."""
     content = {
-        suite.digest: {
-            "suite": suite.name,
-            "references": {name: value.plain() for name, value in references.items()},
+        each.suite.digest: {
+            "suite": each.suite.name,
+            "references": {name: value.plain() for name, value in each.references.items()},
+            "bounds": {name: value.plain() for name, value in each.bounds.items()},
         }
-        for suite, references in played
+        for each in played
     }
     return json.dumps(content, indent=1) + "\n"

@@ -36,7 +36,7 @@ def bounds(
     """Measure anticipate against people, the paper's policies and the bounds, with new people."""
     suite = held_out_suite(people, each, seed) if recordings is None else recorded_suite(recordings)
     specs = {name: PolicySpec(text=name) for name in (POLICY, *RIVALS)}
-    total = amount(len(specs) + len(BOUNDS), suite)
+    total = amount(len(specs), suite, bounds=len(BOUNDS))
     with (
         local_pool(jobs) as pool,
         progress_bar("bounds", total) as progress,

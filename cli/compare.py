@@ -50,7 +50,8 @@ def compare(
     bounds: Annotated[
         bool,
         typer.Option(
-            "--bounds", help="Also the oracle and the causal bound, which are no policies."
+            "--bounds",
+            help="Play the oracle and the causal bound, too; whole suites show them anyway.",
         ),
     ] = False,
     jobs: Jobs = None,
@@ -116,7 +117,7 @@ def _compare(
     try:
         with (
             local_pool(jobs) as pool,
-            progress_bar("compare", amount(len(specs) + len(bounds), suite)) as progress,
+            progress_bar("compare", amount(len(specs), suite, bounds=len(bounds))) as progress,
         ):
             return compared(
                 play_contest(specs, suite, bounds=bounds, executor=pool, progress=progress)

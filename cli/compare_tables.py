@@ -9,6 +9,7 @@ from ..benchmark.comparison.comparison import Comparison
 from ..benchmark.comparison.contest import Entry
 from ..benchmark.comparison.standing import Estimate, Standing
 from ..benchmark.comparison.words import TEAM, between, p_value, probability, title
+from ..benchmark.references import Reference
 
 NAME: Final = 18
 """Longest name that stays on one line."""
@@ -43,23 +44,22 @@ def ranks_table(comparison: Comparison) -> Table:
     interval = _interval(rmse)
     line = ["", TEAM, f"{rmse.mean:.2f}", interval, "1", smooth, f"{team.human_force_n:.2f}", ""]
     rows.append((rmse.mean, line, REFERENCE))
-    for bound in comparison.contest.bounds:
-        error = bound.mean("rmse_mm") or 0.0
-        rows.append((error, _bound_row(bound, error, rmse.mean), REFERENCE))
+    for name, bound in comparison.contest.bounds.items():
+        rows.append((bound.mean, _bound_row(name, bound, rmse.mean), REFERENCE))
     for _, cells, style in sorted(rows, key=lambda row: row[0]):
         table.add_row(*cells, style=style)
     return table
 
 
-def _bound_row(bound: Entry, error: float, team: float) -> list[str]:
+def _bound_row(name: str, bound: Reference, team: float) -> list[str]:
     return [
         "",
-        _name(bound.name),
-        f"{error:.2f}",
+        name,
+        f"{bound.mean:.2f}",
         "",
-        f"{error / team:.2f}",
-        _number(bound.mean("sparc"), ".2f"),
-        _number(bound.mean("human_force_n"), ".2f"),
+        f"{bound.mean / team:.2f}",
+        _number(bound.sparc, ".2f"),
+        f"{bound.human_force_n:.2f}",
         "",
     ]
 
@@ -119,9 +119,9 @@ def behaviours_table(comparison: Comparison) -> Table:
         table.add_row(_name(standing.name), *(_mark(column[standing.name]) for column in columns))
     team = [f"{scope.team_rmse_mm.mean:.1f}  " for scope in comparison.behaviours]
     table.add_row(TEAM, *team, style=REFERENCE)
-    for bound in comparison.contest.bounds:
-        errors = [bound.mean("rmse_mm", scope.name) for scope in comparison.behaviours]
-        table.add_row(bound.name, *(f"{error:.1f}  " for error in errors), style=REFERENCE)
+    for name, bound in comparison.contest.bounds.items():
+        errors = [f"{bound.on(scope.name):.1f}  " for scope in comparison.behaviours]
+        table.add_row(name, *errors, style=REFERENCE)
     return table
 
 

@@ -8,10 +8,12 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from ..benchmark.bounds.play import BOUNDS
+from ..benchmark.comparison.contest import play_bounds
 from ..benchmark.executors import local_pool
-from ..benchmark.references import Reference, play_references, references_json
+from ..benchmark.references import SPECS, Reference, ToShip, play_references, references_json
 from ..benchmark.statistics import stratified_bootstrap
-from ..benchmark.suite import SUITES, Suite, make_suite
+from ..benchmark.suite import SUITES, make_suite
 from .executors import Jobs
 from .output import check_output
 from .progress import progress_bar
@@ -23,25 +25,28 @@ def references(
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """Play the human-human team, hold and copy on every suite; print their error by behaviour."""
+    """Play two people, hold, copy and the bounds on every suite; print the errors by behaviour."""
     check_output(out)
     suites = [make_suite(name) for name in SUITES]
-    played: list[tuple[Suite, dict[str, Reference]]] = []
+    total = (len(SPECS) + len(BOUNDS)) * sum(suite.size for suite in suites)
+    played: list[ToShip] = []
     with (
         local_pool(jobs) as pool,
-        progress_bar("references", 3 * sum(suite.size for suite in suites)) as progress,
+        progress_bar("references", total) as progress,
     ):
         for suite in suites:
-            played.append((suite, play_references(suite, executor=pool, progress=progress)))
+            references = play_references(suite, executor=pool, progress=progress)
+            bounds = play_bounds(BOUNDS, suite, executor=pool, progress=progress)
+            played.append(ToShip(suite=suite, references=references, bounds=bounds))
     table = Table(box=box.SIMPLE_HEAD)
     for title in ("suite", "reference", "human"):
         table.add_column(title)
     table.add_column("RMSE mm", justify="right")
     table.add_column("95 % interval", justify="right")
-    for suite, found in played:
-        for name, reference in found.items():
+    for each in played:
+        for name, reference in {**each.references, **each.bounds}.items():
             for behaviour in (*dict.fromkeys(key[0] for key in reference.cells), "all"):
-                table.add_row(suite.name, name, behaviour, *_error(reference, behaviour))
+                table.add_row(each.suite.name, name, behaviour, *_error(reference, behaviour))
     Console().print(table)
     if out is not None:
         out.write_text(references_json(played))

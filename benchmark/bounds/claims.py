@@ -52,12 +52,13 @@ def claims(contest: Contest) -> tuple[Claim, ...]:
     The causal bound and the rivals are needed, and the human-human team is always there. On
     recorded lifts the team and the bound are no limits: people are no plan.
     """
-    entries = {entry.name: entry for entry in (*contest.entries, *contest.bounds)}
+    entries = {entry.name: entry for entry in contest.entries}
     cells = contest.team.cells
     behaviours = np.array([behaviour for behaviour, _ in cells])
     mine, blend = (_values(entries[name], "rmse_mm") for name in (POLICY, "blend"))
-    bound = _values(entries[CAUSAL_BOUND], "rmse_mm")
-    team = np.array(contest.team.rmse_mm)
+    bound, team = (
+        np.array(other.rmse_mm) for other in (contest.bounds[CAUSAL_BOUND], contest.team)
+    )
     found: list[Claim] = []
 
     def ratio(text: str, other: FloatArray, chosen: FloatArray, limit: float) -> None:

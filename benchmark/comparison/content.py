@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from importlib.metadata import version
 from typing import Any
 
+from ..references import Reference
 from .comparison import Comparison
-from .contest import Entry
 from .standing import Scope, Standing
 
 
@@ -42,16 +42,20 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
             "sparc": {"mean": team.sparc},
             "human_force_n": {"mean": team.human_force_n},
         },
-        "bounds": [_bound(bound) for bound in comparison.contest.bounds],
+        "bounds": [_bound(name, bound) for name, bound in comparison.contest.bounds.items()],
         "policies": policies,
         "behaviours": [_part(scope) for scope in comparison.behaviours],
         "subjects": [_part(scope) for scope in comparison.subjects],
     }
 
 
-def _bound(bound: Entry) -> dict[str, Any]:
-    means = {name: bound.mean(name) for name in ("rmse_mm", "sparc", "human_force_n")}
-    return {"name": bound.name, **{name: {"mean": mean} for name, mean in means.items()}}
+def _bound(name: str, bound: Reference) -> dict[str, Any]:
+    return {
+        "name": name,
+        "rmse_mm": {"mean": bound.mean},
+        "sparc": {"mean": bound.sparc},
+        "human_force_n": {"mean": bound.human_force_n},
+    }
 
 
 def _part(scope: Scope) -> dict[str, Any]:

@@ -1,15 +1,20 @@
 """Policies on the same episodes, and what remains of their runs."""
 
-import math
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
 
 from ..agent_spec import AgentSpec
-from ..references import HUMAN_HUMAN, Reference, human_team_run, shipped_references
+from ..references import (
+    HUMAN_HUMAN,
+    Reference,
+    human_team_run,
+    shipped_bounds,
+    shipped_references,
+)
 from ..runner import Run, run_suite
 from ..scores import Scores
 from ..suite import Suite
@@ -45,16 +50,6 @@ class Entry:
             step_ms=(float(p50), float(p99)) if times else None,
         )
 
-    def mean(self, metric: str, behaviour: str | None = None) -> float | None:
-        """Return the mean of a score, over the lifts (of a behaviour) that have one."""
-        values = [
-            getattr(scores, metric)
-            for scores, (kind, _) in zip(self.scores, self.cells, strict=True)
-            if behaviour in (None, kind)
-        ]
-        found = [value for value in values if not math.isnan(value)]
-        return float(np.mean(found)) if found else None
-
 
 class Bound(Protocol):
     """Plays a suite with a robot that is no policy, as far as such a robot can come."""
@@ -73,13 +68,14 @@ class Contest:
     entries: tuple[Entry, ...]
     team: Reference
     """The human-human team."""
-    bounds: tuple[Entry, ...] = ()
+    bounds: Mapping[str, Reference] = field(default_factory=dict)
     """What no policy is expected to beat; they have no rank."""
 
 
-def amount(policies: int, suite: Suite) -> int:
-    """Return how many episodes :func:`play_contest` will play; a bound counts as a policy."""
-    return suite.size * (policies + (shipped_references(suite) is None))
+def amount(policies: int, suite: Suite, *, bounds: int = 0) -> int:
+    """Return how many episodes :func:`play_contest` will play with so many policies and bounds."""
+    team = shipped_references(suite) is None
+    return suite.size * (policies + team + bounds * (shipped_bounds(suite) is None))
 
 
 def play_contest(
@@ -90,7 +86,7 @@ def play_contest(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> Contest:
-    """Play the suite with every policy; and with the human-human team, unless it is shipped.
+    """Play the suite with every policy; and with the human-human team and bounds not shipped.
 
     Parameters
     ----------
@@ -99,7 +95,7 @@ def play_contest(
     suite, executor, progress
         As for :func:`.run_suite`.
     bounds
-        Bounds to play as well, by name.
+        Bounds to play, by name, if there are none shipped: those are there in any case.
 
     Raises
     ------
@@ -112,16 +108,29 @@ def play_contest(
         Entry.of(name, _complete(run_suite(spec, suite, executor=executor, progress=progress)))
         for name, spec in policies.items()
     ]
-    bounding = [
-        Entry.of(name, _complete(play(suite, executor=executor, progress=progress)))
-        for name, play in (bounds or {}).items()
-    ]
+    bounding = shipped_bounds(suite)
+    if bounding is None:
+        bounding = play_bounds(bounds or {}, suite, executor=executor, progress=progress)
     shipped = shipped_references(suite)
     if shipped is None:
         team = Reference.of(_complete(human_team_run(suite, executor=executor, progress=progress)))
     else:
         team = shipped[HUMAN_HUMAN]
-    return Contest(suite=suite, entries=tuple(entries), team=team, bounds=tuple(bounding))
+    return Contest(suite=suite, entries=tuple(entries), team=team, bounds=bounding)
+
+
+def play_bounds(
+    bounds: Mapping[str, Bound],
+    suite: Suite,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> dict[str, Reference]:
+    """Return how far each of the bounds comes on a suite; arguments as of :func:`play_contest`."""
+    return {
+        name: Reference.of(_complete(play(suite, executor=executor, progress=progress)))
+        for name, play in bounds.items()
+    }
 
 
 def _complete(run: Run) -> Run:

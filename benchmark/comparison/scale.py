@@ -6,10 +6,10 @@ from typing import Final
 
 import numpy as np
 
+from ..references import Reference
 from ..rendering.palette import FAINT, HUMAN, ROBOT
 from ..statistics import Interval
 from .comparison import Comparison
-from .contest import Entry
 from .standing import Standing
 
 FAR: Final = 3.0
@@ -100,17 +100,16 @@ def spots(comparison: Comparison) -> list[Spot]:
             colour=HUMAN,
             marker="D",
         ),
-        *(_bound(bound) for bound in comparison.contest.bounds),
+        *(_bound(name, bound) for name, bound in comparison.contest.bounds.items()),
     ]
 
 
-def _bound(bound: Entry) -> Spot:
-    error = bound.mean("rmse_mm") or 0.0
+def _bound(name: str, bound: Reference) -> Spot:
     return Spot(
-        name=bound.name,
-        x=error,
-        x_bar=(error, error),
-        y=bound.mean("sparc"),
+        name=name,
+        x=bound.mean,
+        x_bar=(bound.mean, bound.mean),
+        y=bound.sparc,
         y_bar=None,
         colour=HUMAN,
         marker="s",

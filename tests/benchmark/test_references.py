@@ -1,4 +1,4 @@
-"""The references: the human-human team, hold and copy."""
+"""The references (the human-human team, hold, copy), and the bounds shipped with them."""
 
 import dataclasses
 import json
@@ -6,13 +6,17 @@ import json
 import numpy as np
 import pytest
 from colift.agents.policies.loading import PolicySpec
+from colift.benchmark.bounds.play import BOUNDS
 from colift.benchmark.bundle import results
+from colift.benchmark.comparison.contest import play_bounds
 from colift.benchmark.paper.published import HUMAN_TEAM
 from colift.benchmark.references import (
     HUMAN_HUMAN,
+    ToShip,
     human_team_run,
     play_references,
     references_json,
+    shipped_bounds,
     shipped_references,
 )
 from colift.benchmark.runner import run_suite
@@ -34,7 +38,9 @@ def test_every_suite_has_its_references_shipped(name):
     suite = make_suite(name)
     shipped = shipped_references(suite)
     assert set(shipped) == {"human_human", "hold", "copy"}
-    for reference in shipped.values():
+    bounds = shipped_bounds(suite)
+    assert set(bounds) == {"oracle", "causal_bound"}
+    for reference in (*shipped.values(), *bounds.values()):
         assert len(reference.rmse_mm) == len(reference.cells) == suite.size
 
 
@@ -46,14 +52,25 @@ def test_the_shipped_ones_are_what_the_code_gives(quick, played):
         assert reference.human_force_n == pytest.approx(played[name].human_force_n, rel=1e-6)
 
 
+def test_the_shipped_bounds_are_what_the_code_gives(quick):
+    """If this fails, the bound was learned anew or a number has changed: as above."""
+    some = dataclasses.replace(quick.with_seeds(0, 1), scenarios=quick.scenarios[1:2])
+    for name, played in play_bounds(BOUNDS, some).items():
+        shipped = shipped_bounds(quick)[name]
+        at = shipped.cells.index(played.cells[0])
+        assert shipped.rmse_mm[at] == pytest.approx(played.rmse_mm[0], rel=1e-6)
+
+
 def test_other_episodes_have_none_shipped(quick):
     assert shipped_references(quick.with_seeds(100, 103)) is None
     assert shipped_references(quick.with_timing(0.05, None)) is None
 
 
 def test_the_shipped_file_can_be_read_back(quick, played):
-    content = json.loads(references_json([(quick, played)]))
+    bounds = {"copy": played["copy"]}
+    content = json.loads(references_json([ToShip(suite=quick, references=played, bounds=bounds)]))
     assert content[quick.digest]["suite"] == "quick-v1"
+    assert list(content[quick.digest]["bounds"]) == ["copy"]
     assert content[quick.digest]["references"]["copy"]["rmse_mm"] == list(played["copy"].rmse_mm)
 
 

@@ -28,8 +28,7 @@ def test_the_bounds_stand_in_the_right_order():
     suite = Suite(name="few", scenarios=scenarios, seeds=(200_000, 200_001, 200_002))
     contest = play_contest({"blend": PolicySpec(text="blend")}, suite, bounds=BOUNDS)
     assert [entry.name for entry in contest.entries] == ["blend"]
-    errors = {entry.name: entry.mean("rmse_mm") for entry in contest.bounds}
-    assert 10 * errors["oracle"] < errors[CAUSAL_BOUND] < 0.6 * contest.entries[0].mean("rmse_mm")
-    jerky = contest.bounds[0].mean("rmse_mm", "jerky")
-    told = [score.rmse_mm for score in contest.bounds[0].scores]
-    assert jerky == np.mean(told[:3])
+    blend = np.mean([scores.rmse_mm for scores in contest.entries[0].scores])
+    bound = contest.bounds[CAUSAL_BOUND]
+    assert 10 * contest.bounds["oracle"].mean < bound.mean < 0.6 * blend
+    assert bound.on("jerky") == np.mean(bound.rmse_mm[:3])

@@ -32,6 +32,10 @@ def entry(name, rmse, sparc=-2.0, force=0.1, cells=CELLS):
     )
 
 
+def reference(rmse, cells):
+    return Reference(cells=cells, rmse_mm=(rmse,) * len(cells), sparc=-2.5, human_force_n=0.4)
+
+
 def contest(mine, *, bound=4.0, blend=16.0, team=8.0, sparc=-2.0, force=0.1, cells=CELLS):
     return Contest(
         suite=make_suite("quick-v1"),
@@ -40,8 +44,8 @@ def contest(mine, *, bound=4.0, blend=16.0, team=8.0, sparc=-2.0, force=0.1, cel
             entry("blend", blend, -2.3, 0.2, cells),
             entry("reactive", 20.0, -2.9, 0.3, cells),
         ),
-        bounds=(entry("causal_bound", bound, cells=cells),),
-        team=Reference(cells=cells, rmse_mm=(team,) * len(cells), sparc=-2.5, human_force_n=0.4),
+        bounds={"causal_bound": reference(bound, cells)},
+        team=reference(team, cells),
     )
 
 

@@ -8,7 +8,7 @@ from colift.benchmark.bundle import results
 from colift.benchmark.comparison.comparison import compare
 from colift.benchmark.comparison.content import comparison_json
 from colift.benchmark.comparison.contest import Contest, amount, play_contest
-from colift.benchmark.references import human_team_run, shipped_references
+from colift.benchmark.references import human_team_run, shipped_bounds, shipped_references
 from colift.benchmark.runner import run_suite
 from colift.benchmark.suite import Suite, make_suite
 
@@ -39,12 +39,20 @@ def list_of(value: object) -> list[object]:
     return list(value) if isinstance(value, list | tuple) else [value]
 
 
+def test_the_bounds_are_there_when_they_are_shipped(quick: Suite, played: Contest) -> None:
+    assert played.bounds == shipped_bounds(quick)
+    told = comparison_json(compare(played))["bounds"]
+    assert [bound["name"] for bound in told] == ["causal_bound", "oracle"]
+    assert told[1]["rmse_mm"]["mean"] < told[0]["rmse_mm"]["mean"]
+
+
 def test_the_team_is_the_one_shipped_or_is_played(quick: Suite, played: Contest) -> None:
     assert played.team == (shipped_references(quick) or {})["human_human"]
     other = dataclasses.replace(quick.with_seeds(7, 8), scenarios=quick.scenarios[:1])
     counted: list[int] = []
     copies = {"a": PolicySpec(text="copy"), "b": PolicySpec(text="copy")}
     found = play_contest(copies, other, progress=counted.append)
+    assert found.bounds == {}
     team = human_team_run(other)
     assert found.team.rmse_mm == tuple(episode.scores.rmse_mm for episode in team.episodes)
     assert sum(counted) == amount(2, other) == 3
