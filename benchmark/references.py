@@ -91,11 +91,6 @@ class Reference:
         """Mean RMSE [mm]."""
         return float(np.mean(self.rmse_mm))
 
-    def on(self, behaviour: str) -> float:
-        """Return the mean RMSE on a behaviour [mm]."""
-        errors = zip(self.rmse_mm, self.cells, strict=True)
-        return float(np.mean([error for error, (kind, _) in errors if kind == behaviour]))
-
     def by_cell(self) -> dict[Cell, float]:
         """Return the mean RMSE of each behaviour and subject [mm]."""
         members: dict[Cell, list[float]] = {}

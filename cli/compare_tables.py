@@ -9,15 +9,16 @@ from ..benchmark.comparison.comparison import Comparison
 from ..benchmark.comparison.contest import Entry
 from ..benchmark.comparison.standing import Estimate, Standing
 from ..benchmark.comparison.words import TEAM, between, p_value, probability, title
-from ..benchmark.references import Reference
 
 NAME: Final = 18
 """Longest name that stays on one line."""
 
 FEWER: Final = "*: over the lifts in which the robot moves along."
 
+BOUNDS: Final = "The oracle and the causal bound are no policies: how far one might come."
+
 REFERENCE: Final = "blue"
-"""Style of the human-human team's row."""
+"""Style of the rows of the human-human team and of the bounds."""
 
 
 def ranks_table(comparison: Comparison) -> Table:
@@ -28,6 +29,7 @@ def ranks_table(comparison: Comparison) -> Table:
         f"{overall.episodes} lifts each; suite digest {suite.digest}. Policies of one rank (#) "
         f"cannot be told from the first of them. vs_human: RMSE over the {TEAM}'s. Force at the "
         "human's hands in N; median time of a step in ms."
+        + (f" {BOUNDS}" if comparison.contest.bounds else "")
         + (f" {FEWER}" if any(s.sparc and s.sparc_missing for s in overall.standings) else ""),
     )
     table.add_column("#", justify="right")
@@ -39,27 +41,26 @@ def ranks_table(comparison: Comparison) -> Table:
         (standing.rmse_mm.mean, _rank_row(standing, entries[standing.name]), "")
         for standing in overall.standings
     ]
-    team, rmse = comparison.contest.team, overall.team_rmse_mm
-    smooth = _number(team.sparc, ".2f")
-    interval = _interval(rmse)
-    line = ["", TEAM, f"{rmse.mean:.2f}", interval, "1", smooth, f"{team.human_force_n:.2f}", ""]
-    rows.append((rmse.mean, line, REFERENCE))
-    for name, bound in comparison.contest.bounds.items():
-        rows.append((bound.mean, _bound_row(name, bound, rmse.mean), REFERENCE))
+    rows += [
+        (overall.references_rmse_mm[name].mean, _reference_row(comparison, name), REFERENCE)
+        for name in comparison.contest.references
+    ]
     for _, cells, style in sorted(rows, key=lambda row: row[0]):
         table.add_row(*cells, style=style)
     return table
 
 
-def _bound_row(name: str, bound: Reference, team: float) -> list[str]:
+def _reference_row(comparison: Comparison, name: str) -> list[str]:
+    reference, overall = comparison.contest.references[name], comparison.overall
+    rmse = overall.references_rmse_mm[name]
     return [
         "",
         name,
-        f"{bound.mean:.2f}",
-        "",
-        f"{bound.mean / team:.2f}",
-        _number(bound.sparc, ".2f"),
-        f"{bound.human_force_n:.2f}",
+        f"{rmse.mean:.2f}",
+        _interval(rmse),
+        f"{rmse.mean / overall.team_rmse_mm.mean:.2g}",
+        _number(reference.sparc, ".2f"),
+        f"{reference.human_force_n:.2f}",
         "",
     ]
 
@@ -117,11 +118,9 @@ def behaviours_table(comparison: Comparison) -> Table:
         columns.append({standing.name: standing for standing in scope.standings})
     for standing in comparison.overall.standings:
         table.add_row(_name(standing.name), *(_mark(column[standing.name]) for column in columns))
-    team = [f"{scope.team_rmse_mm.mean:.1f}  " for scope in comparison.behaviours]
-    table.add_row(TEAM, *team, style=REFERENCE)
-    for name, bound in comparison.contest.bounds.items():
-        errors = [f"{bound.on(scope.name):.1f}  " for scope in comparison.behaviours]
-        table.add_row(name, *errors, style=REFERENCE)
+    for name in comparison.contest.references:
+        errors = [scope.references_rmse_mm[name].mean for scope in comparison.behaviours]
+        table.add_row(name, *(f"{error:.1f}  " for error in errors), style=REFERENCE)
     return table
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Final, Protocol
 
 import numpy as np
 
@@ -19,6 +19,8 @@ from ..runner import Run, run_suite
 from ..scores import Scores
 from ..suite import Suite
 from ..summary import Cell, cell
+
+TEAM: Final = "human-human team"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -69,7 +71,12 @@ class Contest:
     team: Reference
     """The human-human team."""
     bounds: Mapping[str, Reference] = field(default_factory=dict)
-    """What no policy is expected to beat; they have no rank."""
+    """What no policy is expected to beat."""
+
+    @property
+    def references(self) -> dict[str, Reference]:
+        """What policies are set against, by name: the team, then the bounds; none has a rank."""
+        return {TEAM: self.team, **self.bounds}
 
 
 def amount(policies: int, suite: Suite, *, bounds: int = 0) -> int:

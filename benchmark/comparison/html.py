@@ -16,7 +16,6 @@ from .words import (
     HOW_TO_READ,
     PICTURE_CAPTION,
     RANKS_CAPTION,
-    TEAM,
     between,
     failures,
     p_value,
@@ -88,16 +87,22 @@ def _picture(comparison: Comparison) -> str:
 def _ranks(comparison: Comparison) -> str:
     entries = {entry.name: entry for entry in comparison.contest.entries}
     rows = [_rank_row(s, entries[s.name]) for s in comparison.overall.standings]
-    team, rmse = comparison.contest.team, comparison.overall.team_rmse_mm
+    rows += [_reference_row(comparison, name) for name in comparison.contest.references]
+    return table(RANKS, rows)
+
+
+def _reference_row(comparison: Comparison, name: str) -> str:
+    reference, overall = comparison.contest.references[name], comparison.overall
+    rmse = overall.references_rmse_mm[name]
     cells = [
         cell(""),
         _estimate(rmse, ".2f"),
-        cell("1"),
-        cell("none" if team.sparc is None else f"{team.sparc:.2f}"),
-        cell(f"{team.human_force_n:.2f}"),
+        cell(f"{rmse.mean / overall.team_rmse_mm.mean:.2g}"),
+        cell("none" if reference.sparc is None else f"{reference.sparc:.2f}"),
+        cell(f"{reference.human_force_n:.2f}"),
         cell(""),
     ]
-    return table(RANKS, [*rows, row(TEAM, cells, kind="reference")])
+    return row(name, cells, kind="reference")
 
 
 def _rank_row(standing: Standing, entry: Entry) -> str:
@@ -146,8 +151,10 @@ def _parts(comparison: Comparison, scopes: Sequence[Scope]) -> str:
         row(standing.name, [_part(column[standing.name]) for column in columns])
         for standing in comparison.overall.standings
     ]
-    team = [_estimate(scope.team_rmse_mm, ".1f") for scope in scopes]
-    return table(header, [*rows, row(TEAM, team, kind="reference")])
+    for name in scopes[0].references_rmse_mm:
+        errors = [_estimate(scope.references_rmse_mm[name], ".1f") for scope in scopes]
+        rows.append(row(name, errors, kind="reference"))
+    return table(header, rows)
 
 
 def _part(standing: Standing) -> str:

@@ -6,10 +6,10 @@ from typing import Final
 
 import numpy as np
 
-from ..references import Reference
 from ..rendering.palette import FAINT, HUMAN, ROBOT
 from ..statistics import Interval
 from .comparison import Comparison
+from .contest import TEAM
 from .standing import Standing
 
 FAR: Final = 3.0
@@ -42,6 +42,8 @@ class Spot:
     colour: str
     marker: str = "o"
     filled: bool = True
+    bound: bool = False
+    """Whether it is no robot that can be had: what is far off is so for those that can."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,33 +90,24 @@ class Scale:
 
 def spots(comparison: Comparison) -> list[Spot]:
     """Return the policies, the most level first, then the human-human team and the bounds."""
-    team = comparison.overall.team_rmse_mm
+    references = comparison.contest.references
     return [
         *(_spot(standing, comparison.front) for standing in comparison.overall.standings),
-        Spot(
-            name="human-human team",
-            x=team.mean,
-            x_bar=team.ci95,
-            y=comparison.contest.team.sparc,
-            y_bar=None,
-            colour=HUMAN,
-            marker="D",
+        *(
+            Spot(
+                name=name,
+                x=rmse.mean,
+                x_bar=rmse.ci95,
+                y=references[name].sparc,
+                y_bar=None,
+                colour=HUMAN,
+                marker="D" if name == TEAM else "s",
+                filled=name == TEAM,
+                bound=name != TEAM,
+            )
+            for name, rmse in comparison.overall.references_rmse_mm.items()
         ),
-        *(_bound(name, bound) for name, bound in comparison.contest.bounds.items()),
     ]
-
-
-def _bound(name: str, bound: Reference) -> Spot:
-    return Spot(
-        name=name,
-        x=bound.mean,
-        x_bar=(bound.mean, bound.mean),
-        y=bound.sparc,
-        y_bar=None,
-        colour=HUMAN,
-        marker="s",
-        filled=False,
-    )
 
 
 def _spot(standing: Standing, front: Sequence[str]) -> Spot:
@@ -133,7 +126,7 @@ def _spot(standing: Standing, front: Sequence[str]) -> Spot:
 
 def make_scale(drawn: Sequence[Spot]) -> Scale:
     """Return a scale that shows most of the spots; those far off do not count."""
-    far = FAR * float(np.median([spot.x for spot in drawn]))
+    far = FAR * float(np.median([spot.x for spot in drawn if not spot.bound]))
     near = [spot for spot in drawn if spot.x <= far]
     heights = [end for spot in near for end in (spot.y, *(spot.y_bar or ())) if end is not None]
     return Scale(

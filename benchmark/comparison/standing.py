@@ -1,6 +1,6 @@
 """Where each policy stands among the others: on all episodes, on a behaviour, with a subject."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -19,7 +19,7 @@ from ..statistics import (
     stratified_bootstrap,
 )
 from ..summary import Cell
-from .contest import Contest, Entry
+from .contest import TEAM, Contest, Entry
 
 Kind = Literal["all", "behaviour", "subject"]
 
@@ -79,10 +79,15 @@ class Scope:
     name: str
     """The behaviour or the subject; ``all`` for all episodes."""
     episodes: int
-    team_rmse_mm: Estimate
-    """RMSE of the human-human team."""
+    references_rmse_mm: Mapping[str, Estimate]
+    """RMSE of each of :attr:`.Contest.references`."""
     standings: tuple[Standing, ...]
     """In the order of the mean RMSE, the best first."""
+
+    @property
+    def team_rmse_mm(self) -> Estimate:
+        """RMSE of the human-human team."""
+        return self.references_rmse_mm[TEAM]
 
 
 def scope(contest: Contest, kind: Kind, name: str, members: Sequence[int]) -> Scope:
@@ -110,7 +115,10 @@ def scope(contest: Contest, kind: Kind, name: str, members: Sequence[int]) -> Sc
         kind=kind,
         name=name,
         episodes=len(members),
-        team_rmse_mm=_estimate(team, cells),
+        references_rmse_mm={
+            name: _estimate(np.array(reference.rmse_mm)[chosen], cells)
+            for name, reference in contest.references.items()
+        },
         standings=tuple(
             _standing(entries[name], chosen, cells, team, ranks[name], difference)
             for name, difference in zip(order, differences, strict=True)

@@ -3,8 +3,7 @@
 from typing import Final
 
 from .comparison import Comparison
-
-TEAM: Final = "human-human team"
+from .contest import TEAM
 
 SURE: Final = 0.975
 """Probability above which the 95 % interval of a difference leaves zero out."""
@@ -52,6 +51,7 @@ def picture_title(comparison: Comparison) -> str:
         f"How level and how smooth: {title(comparison)}\n"
         f"Means over {comparison.overall.episodes} lifts, with 95 % intervals. "
         "Orange: no other policy is both more level and smoother."
+        + (" Squares: bounds." if comparison.contest.bounds else "")
     )
 
 
