@@ -26,9 +26,12 @@ def own_environment(tmp_path_factory):
         yield
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def dask_address():
-    """Start a Dask scheduler and two worker processes, and return the scheduler's address."""
+    """Start a Dask scheduler and two worker processes, and return the scheduler's address.
+
+    They end with the module: they are busy also when nobody uses them.
+    """
     with loopback_cluster(2) as address:
         yield address
 

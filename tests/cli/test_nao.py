@@ -9,7 +9,6 @@ import time
 import numpy as np
 import pytest
 from colift.agents.hardware.recording import read_recording
-from colift.cli.main import main
 
 COMMAND = [sys.executable, "-m", "colift.cli", "nao"]
 
@@ -119,25 +118,24 @@ def test_a_lift_is_scored_as_a_simulated_one(lifted):
     )
 
 
-def test_its_recording_replays_to_the_same_commands_bit_for_bit(lifted):
+def test_its_recording_replays_to_the_same_commands_bit_for_bit(colift, lifted):
     _, folder = lifted
-    done = nao("replay", folder / "csv" / "lift-01.csv")
+    done = colift("nao", "replay", folder / "csv" / "lift-01.csv")
     assert done.returncode == 0, done.stderr
     assert "every command equal to the bit" in done.stdout
 
 
-def test_another_policy_is_told_from_the_recorded_one(lifted, monkeypatch, capsys):
-    recording = str(lifted[1] / "csv" / "lift-01.csv")
-    monkeypatch.setattr(sys, "argv", ["colift", "nao", "replay", recording, "--policy", "copy"])
-    with pytest.raises(SystemExit) as ended:
-        main()
-    assert ended.value.code == 1
-    assert "the commands differ, step" in capsys.readouterr().err
-
-
-def test_its_recording_says_how_the_laboratory_is(lifted):
+def test_another_policy_is_told_from_the_recorded_one(colift, lifted):
     _, folder = lifted
-    found = json.loads(nao("calibrate", folder / "csv" / "lift-01.csv", "--json").stdout)
+    done = colift("nao", "replay", folder / "csv" / "lift-01.csv", "--policy", "copy")
+    assert done.returncode == 1
+    assert "the commands differ, step" in done.stderr
+
+
+def test_its_recording_says_how_the_laboratory_is(colift, lifted):
+    _, folder = lifted
+    done = colift("nao", "calibrate", folder / "csv" / "lift-01.csv", "--json")
+    found = json.loads(done.stdout)
     assert found["capture_noise"] == pytest.approx(0.00023, rel=0.15)
     assert found["stiffness"] == pytest.approx(18, rel=0.25)
     assert 0.003 < found["sag"] < 0.007
@@ -197,10 +195,12 @@ def test_without_the_extra_it_is_named(command):
     assert "Traceback" not in done.stderr
 
 
-def test_a_simulated_laboratory_needs_no_network(tmp_path):
+def test_a_simulated_laboratory_needs_no_network(colift, tmp_path):
     options = ("--robot", "world:pause/S2", "--trials", 1, "--duration", 3)
-    first = nao("run", "minimum_jerk", *options, "--json", "--record", tmp_path / "a")
-    again = nao("run", "minimum_jerk", *options, "--json", "--record", tmp_path / "b")
+    first, again = (
+        colift("nao", "run", "minimum_jerk", *options, "--json", "--record", tmp_path / name)
+        for name in "ab"
+    )
     assert first.returncode == 0, first.stderr
     assert json.loads(first.stdout)["suite"] == "NAO trials (simulated)"
     files = [tmp_path / name / "lift-01.csv" for name in "ab"]
@@ -208,7 +208,7 @@ def test_a_simulated_laboratory_needs_no_network(tmp_path):
     assert first.stdout == again.stdout
 
 
-def test_somebody_elses_policy_runs_in_a_sandbox(tmp_path):
+def test_somebody_elses_policy_runs_in_a_sandbox(colift, tmp_path):
     path = tmp_path / "mine.py"
     path.write_text(
         "import os\n"
@@ -220,7 +220,7 @@ def test_somebody_elses_policy_runs_in_a_sandbox(tmp_path):
     )
     (tmp_path / "key").write_text("secret")
     options = ("--robot", "world", "--trials", 1, "--duration", 2, "--json")
-    done = nao("run", f"{path}:Mine", *options)
+    done = colift("nao", "run", f"{path}:Mine", *options)
     assert done.returncode == 0, done.stderr
     content = json.loads(done.stdout)
     assert content["isolation"] != "none"
@@ -242,9 +242,7 @@ def test_somebody_elses_policy_runs_in_a_sandbox(tmp_path):
         (("replay", "none.csv"), "cannot read none.csv"),
     ],
 )
-def test_what_is_typed_wrong_is_named(arguments, told, monkeypatch, capsys):
-    monkeypatch.setattr(sys, "argv", ["colift", "nao", *arguments])
-    with pytest.raises(SystemExit) as ended:
-        main()
-    assert ended.value.code == 2
-    assert told in capsys.readouterr().err
+def test_what_is_typed_wrong_is_named(colift, arguments, told):
+    done = colift("nao", *arguments)
+    assert done.returncode == 2
+    assert told in done.stderr

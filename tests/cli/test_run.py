@@ -144,10 +144,10 @@ def test_a_killed_run_goes_on_to_the_same_bundle(slow, whole, interrupted, torn)
         (None, ("--isolation", "none"), "', this one has 'none'"),
     ],
 )
-def test_another_run_does_not_go_on(slow, interrupted, policy, options, difference):
+def test_another_run_does_not_go_on(colift, slow, interrupted, policy, options, difference):
     before = journal_path(interrupted).read_bytes()
     suite = ("--suite", "quick-v1", *options)
-    code, told = run(policy or slow, *suite, "--out", interrupted, "--resume")
+    code, _, told = colift("run", policy or slow, *suite, "--out", interrupted, "--resume")
     assert code == 2
     assert "--resume: the interrupted run had " in told
     assert difference in told
@@ -169,8 +169,8 @@ def test_another_version_does_not_go_on(slow, interrupted, tmp_path):
     assert "the interrupted run had colift '" in told
 
 
-def test_an_interrupted_run_is_not_begun_anew(slow, interrupted):
-    code, told = run(slow, "--suite", "quick-v1", "--out", interrupted)
+def test_an_interrupted_run_is_not_begun_anew(colift, slow, interrupted):
+    code, _, told = colift("run", slow, "--suite", "quick-v1", "--out", interrupted)
     assert code == 2
     assert "episodes of an interrupted run: go on with it by --resume" in told
 
@@ -247,8 +247,8 @@ def test_a_run_whose_scheduler_dies_goes_on_elsewhere(slow, whole, tmp_path):
         (("--dask", "nonsense"), "should be such as tcp://host:8786"),
     ],
 )
-def test_what_is_wrong_is_said_in_a_line(options, words):
-    code, told = run("copy", "--suite", "quick-v1", *options)
+def test_what_is_wrong_is_said_in_a_line(colift, options, words):
+    code, _, told = colift("run", "copy", "--suite", "quick-v1", *options)
     assert code == 2
     assert words in told
     assert told.count("\n") == 1

@@ -55,8 +55,8 @@ def begin(place):
 
 
 @pytest.fixture(scope="module")
-def colift(begin):
-    """Return what runs the command to its end."""
+def process(begin):
+    """Return what runs the command to its end, in a process of its own."""
 
     def run(*arguments):
         process = begin(*arguments)
@@ -85,10 +85,10 @@ def make(place):
 
 
 @pytest.fixture(scope="module")
-def first(colift, make):
+def first(process, make):
     """Submit the template to a new board."""
     make("mine")
-    return colift("submit", "mine", *TO_BOARD)
+    return process("submit", "mine", *TO_BOARD)
 
 
 def told(done):
@@ -96,52 +96,52 @@ def told(done):
     return " ".join(done.stdout.split())
 
 
-def test_a_submission_becomes_a_verified_row_whose_bundle_can_be_verified(colift, first):
+def test_a_submission_becomes_a_verified_row_whose_bundle_can_be_verified(colift, first, place):
     assert (first.returncode, first.stderr) == (0, "")
     for words in ("mine by Your Name", "public lifts", "hidden lifts", "0 of 12", "Rank 1 of 1"):
         assert words in told(first)
     assert re.search(r"Isolation (bubblewrap|landlock): verified", told(first))
     next_step = first.stdout.splitlines()[-1]
     assert next_step.startswith("Next: colift verify ")
-    verified = colift(*next_step.removeprefix("Next: colift ").split())
+    verified = colift(*next_step.removeprefix("Next: colift ").split(), cwd=place)
     assert verified.returncode == 0, verified.stdout + verified.stderr
 
 
-def test_the_row_has_the_number_that_check_prints(colift, first):
-    (mean,) = re.findall(r"12 lifts: RMSE (\S+) mm", told(colift("check", "mine")))
+def test_the_row_has_the_number_that_check_prints(colift, first, place):
+    (mean,) = re.findall(r"12 lifts: RMSE (\S+) mm", told(colift("check", "mine", cwd=place)))
     assert re.search(rf"RMSE mm {re.escape(mean)} \(", told(first))
 
 
 def test_the_same_content_in_another_folder_is_on_the_board_already(colift, first, place):
     (place / "mine").rename(place / "renamed")
-    second = colift("submit", "renamed", *TO_BOARD)
+    second = colift("submit", "renamed", *TO_BOARD, cwd=place, COLUMNS="100")
     (place / "renamed").rename(place / "mine")
     assert second.returncode == 0
     assert "is on the board already" in second.stdout.splitlines()[0]
     assert second.stdout.splitlines()[1:] == first.stdout.splitlines()
 
 
-def test_a_submission_that_was_killed_is_evaluated_when_it_comes_again(begin, colift, make, place):
+def test_a_submission_that_was_killed_is_evaluated_when_it_comes_again(begin, process, make, place):
     make("worse", "gain = 1.8", "gain = 0.1")
-    process = begin("submit", "worse", *TO_TINY)
+    killed = begin("submit", "worse", *TO_TINY)
     while not list(place.glob("tiny/private/work/*/bundle")):
-        assert process.poll() is None
+        assert killed.poll() is None
         time.sleep(0.01)
-    process.kill()
-    process.communicate()
+    killed.kill()
+    killed.communicate()
     with contextlib.suppress(ProcessLookupError):
-        os.killpg(process.pid, signal.SIGKILL)
-    done = colift("submit", "worse", *TO_TINY)
+        os.killpg(killed.pid, signal.SIGKILL)
+    done = process("submit", "worse", *TO_TINY)
     assert done.returncode == 0, done.stderr
     assert "already" not in done.stdout
     assert "Rank 1 of 1" in done.stdout
     assert list(place.glob("tiny/private/work/*/bundle")) == []
 
 
-def test_a_preloaded_policy_that_keeps_state_across_episodes_is_refused(colift, make):
+def test_a_preloaded_policy_that_keeps_state_across_episodes_is_refused(process, make):
     make("keeping", new=KEEPS_STATE, preload=True)
     for _ in range(2):
-        done = colift("submit", "keeping", *TO_TINY)
+        done = process("submit", "keeping", *TO_TINY)
         assert done.returncode == 1
         assert "refused" in done.stderr
         assert "it kept something from one episode to the next" in done.stderr
@@ -152,7 +152,7 @@ def test_a_preloaded_policy_that_keeps_state_across_episodes_is_refused(colift, 
 def test_what_fails_its_check_is_not_put_on_the_board(colift, first, make, place):
     before = sorted(place.glob("board/submissions/*"))
     make("broken", new="class Policy:\n    def reset(self, seed): pass\n")
-    done = colift("submit", "broken", *TO_BOARD)
+    done = colift("submit", "broken", *TO_BOARD, cwd=place)
     assert done.returncode == 1
     assert "its check fails" in done.stderr
     assert "act" in done.stderr
@@ -173,7 +173,7 @@ def test_what_fails_its_check_is_not_put_on_the_board(colift, first, make, place
 )
 def test_what_is_wrong_is_said_in_a_line(colift, first, place, arguments, words):
     (place / "empty").mkdir(exist_ok=True)
-    done = colift("submit", *arguments)
+    done = colift("submit", *arguments, cwd=place)
     assert done.returncode == 2
     assert words in done.stderr
     assert "Traceback" not in done.stderr
