@@ -25,6 +25,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "board": "board:board",
         "serve": "serve:serve",
         "worker": "worker:worker",
+        "queue": "queue:app",
         "token": "token:app",
         "season": "season:app",
         "practice": "practice:practice",

@@ -11,7 +11,7 @@ from ..leaderboard.board import Board
 from ..leaderboard.evaluation import Watch
 from ..leaderboard.job import Job
 from ..leaderboard.opening import open_stocked
-from ..leaderboard.queue import NO_QUOTA, Queue
+from ..leaderboard.queue import NO_QUOTA, Queue, Work
 from ..leaderboard.worker import Worker
 from .outcome import Outcome
 from .progress import job_bar
@@ -79,7 +79,7 @@ def _evaluated(queue: Queue, job: Job, jobs: int) -> Job:
     worker, now = None, job
     with local_pool(jobs) as pool, job_bar(job.name, job.total) as bar:
         watch = Watch(stage=bar.stage, progress=bar.advance, total=bar.total)
-        worker = Worker(queue, pool)
+        worker = Worker(Work(queue.board), pool)
         while True:
             mine = worker.once(job.id, watch)
             now = mine or queue.job(job.id) or now

@@ -10,7 +10,7 @@ import typer
 
 from ..leaderboard.job import Job
 from ..leaderboard.opening import open_stocked
-from ..leaderboard.queue import Queue
+from ..leaderboard.queue import Work
 from ..leaderboard.worker import Worker
 from .executors import Jobs, executor
 
@@ -36,7 +36,7 @@ def worker(
     place = open_stocked(board)
     try:
         with executor(jobs, dask) as workers:
-            here = Worker(Queue(place), workers)
+            here = Worker(Work(place), workers)
             if once:
                 while (job := here.once()) is not None:
                     _tell(job)

@@ -8,7 +8,7 @@ import sqlalchemy as sa
 
 from .evaluation import Stage, Watch
 from .job import Job
-from .queue import LostError, Queue
+from .queue import LostError, Work
 
 PERIOD_S: Final = 1.0
 """Time between two signs of life [s], at most; a fifth of the lease if that is less."""
@@ -21,18 +21,18 @@ class Pulse:
 
     Parameters
     ----------
-    queue, job
+    work, job
         What is told of what.
     watch
         Whom else to tell.
     """
 
-    def __init__(self, queue: Queue, job: Job, watch: Watch | None = None) -> None:
+    def __init__(self, work: Work, job: Job, watch: Watch | None = None) -> None:
         self.stage: Stage | None = None
-        self._queue, self._job, self._total = queue, job, job.total
+        self._work, self._job, self._total = work, job, job.total
         self._also = watch or Watch()
         self._done, self._lost = 0, False
-        self._period = min(PERIOD_S, queue.lease.total_seconds() / 5)
+        self._period = min(PERIOD_S, work.lease.total_seconds() / 5)
         self._news, self._end = threading.Event(), threading.Event()
         self._thread = threading.Thread(target=self._beat, daemon=True)
 
@@ -78,7 +78,7 @@ class Pulse:
     def _beat(self) -> None:
         while not self._end.is_set():
             try:
-                self._queue.told(self._job, self.stage, self._done, self._total)
+                self._work.told(self._job, self.stage, self._done, self._total)
             except LostError:
                 self._lost = True
                 return

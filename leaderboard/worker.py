@@ -20,7 +20,7 @@ from .evaluation import Entrant, Evaluation, Stage, Watch, amount, evaluate, pla
 from .job import Job
 from .own import own_entrant
 from .pulse import Pulse
-from .queue import LostError, Queue
+from .queue import LostError, Queue, Work
 from .worker_name import this_worker
 
 IDLE_S: Final = 1.0
@@ -37,7 +37,7 @@ OPEN: Final[tuple[Stage | None, ...]] = (None, "human-human team", "public run")
 class Worker:
     """A worker of a board's queue."""
 
-    queue: Queue
+    work: Work
     executor: Executor | None = None
     """Runs the episodes; None runs all in this process."""
     name: str = field(default_factory=this_worker)
@@ -81,14 +81,14 @@ class Worker:
         KeyboardInterrupt
             After Ctrl-C; the job is queued again.
         """
-        claimed = self.queue.claim(self.name, job)
+        claimed = self.work.claim(self.name, job)
         if claimed is None:
             return None
         try:
             self._work(claimed, watch or Watch())
         except LostError as lost:
             self._log(claimed, str(lost))
-        now = self.queue.job(claimed.id)
+        now = Queue(self._board).job(claimed.id)
         if now is not None and now.state == "done":
             self._board.standings(now.season)  # So that no reader waits for the ranks.
         return now
@@ -96,19 +96,19 @@ class Worker:
     def _work(self, job: Job, watch: Watch) -> None:
         """Take a job to its end, whatever that is."""
         self._log(job, f"attempt {job.attempt}")
-        pulse = Pulse(self.queue, job, self._logged(job, watch))
+        pulse = Pulse(self.work, job, self._logged(job, watch))
         try:
             with self._board.store.workspace(job.id, job.attempt) as files:
                 with pulse:
                     entry, evaluation = self._evaluate(job, files / "bundle", pulse.watch())
                 self._log(job, *_failures(files / "bundle"))
-                self.queue.finish(job, entry, evaluation.hidden_rmse_mm, files / "bundle")
+                self.work.finish(job, entry, evaluation.hidden_rmse_mm, files / "bundle")
             self._log(job, "done" if entry.refusal is None else f"refused: {entry.refusal}")
         except LostError:
             raise
         except KeyboardInterrupt:
             self._log(job, "interrupted; queued again")
-            self.queue.release(job)
+            self.work.release(job)
             raise
         except InputError as error:
             self._failed(job, pulse.stage, error)
@@ -155,7 +155,7 @@ class Worker:
         """End a job whose policy cannot be loaded."""
         reason = str(error) if stage in OPEN else "it cannot be loaded for the hidden episodes"
         self._log(job, f"failed: {reason}")
-        self.queue.fail(job, reason)
+        self.work.fail(job, reason)
 
     def _faulty(self, job: Job, stage: Stage | None, error: Exception) -> None:
         """Queue a job again that this machine has failed."""
@@ -164,7 +164,7 @@ class Worker:
         reason = told(error) if stage in OPEN else "the details are for who keeps the board"
         reason = f"in {stage or 'the beginning'}: {reason}"
         self._log(job, f"evaluator fault, not the policy's, {reason}")
-        self.queue.fault(job, reason)
+        self.work.fault(job, reason)
 
     def _logged(self, job: Job, watch: Watch) -> Watch:
         """Return who is told of the stages, and writes them down."""
@@ -182,7 +182,7 @@ class Worker:
 
     @property
     def _board(self) -> Board:
-        return self.queue.board
+        return self.work.board
 
 
 def _failures(bundle: Path) -> list[str]:

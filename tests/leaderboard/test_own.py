@@ -6,7 +6,7 @@ import pytest
 from colift.agents.errors import InputError
 from colift.leaderboard.board import OWN
 from colift.leaderboard.own import own_entrant, own_names
-from colift.leaderboard.queue import Queue
+from colift.leaderboard.queue import Queue, Work
 from colift.leaderboard.tokens import Tokens
 from colift.leaderboard.worker import Worker
 
@@ -20,7 +20,7 @@ def test_an_own_policy_becomes_a_verified_row(board):
     queue = Queue(board)
     job = queue.enqueue_own(own_entrant("copy"))
     assert queue.enqueue_own(own_entrant("copy")).id == job.id
-    done = Worker(queue).once()
+    done = Worker(Work(queue.board)).once()
     assert done.state == "done", done.reason
     (standing,) = board.standings()
     assert (standing.row.name, standing.submitter, standing.row.verified) == ("copy", OWN, True)
@@ -29,7 +29,7 @@ def test_an_own_policy_becomes_a_verified_row(board):
 def test_a_policy_that_has_changed_since_it_was_queued_is_not_evaluated(board):
     queue = Queue(board)
     queue.enqueue_own(dataclasses.replace(own_entrant("copy"), digest="0" * 64))
-    done = Worker(queue).once()
+    done = Worker(Work(queue.board)).once()
     assert done.state == "evaluator fault"
     assert "is not the one that was queued" in done.reason
 

@@ -8,7 +8,7 @@ import pytest
 from colift.benchmark.runner import run_suite
 from colift.leaderboard.board import Board
 from colift.leaderboard.database.reading import read_error_numbers, read_errors
-from colift.leaderboard.queue import Queue
+from colift.leaderboard.queue import Queue, Work
 from colift.leaderboard.worker import Worker
 
 TELLTALE = """
@@ -45,7 +45,7 @@ def published(tmp_path_factory):
     board = Board.open(folder / "board", "quick-v1")
     queue = Queue(board)
     queue.enqueue(board.keep(folder / "telltale"))
-    job = Worker(queue).once()
+    job = Worker(Work(queue.board)).once()
     yield board, board.entry("1", job.submission)
     board.close()
 

@@ -16,7 +16,7 @@ from colift.benchmark.verification import verify
 from colift.leaderboard import worker as module
 from colift.leaderboard.board import Board
 from colift.leaderboard.evaluation import Watch
-from colift.leaderboard.queue import NO_QUOTA, Queue
+from colift.leaderboard.queue import NO_QUOTA, Queue, Work
 from colift.leaderboard.worker import Worker
 
 from . import tiny
@@ -59,7 +59,7 @@ def test_a_submission_becomes_a_verified_row(board, queue, write_submission):
     watch = Watch(
         stage=lambda stage: (stages.append(stage), states.add(queue.job(job.id).state)),
     )
-    done = Worker(queue, name="one").once(watch=watch)
+    done = Worker(Work(queue.board), name="one").once(watch=watch)
     assert (done.id, done.state, done.attempt, done.worker) == (job.id, "done", 1, "one")
     assert done.done == done.total > 8
     assert stages[:2] == ["human-human team", "public run"]
@@ -71,12 +71,12 @@ def test_a_submission_becomes_a_verified_row(board, queue, write_submission):
     for words in ("public run", "hidden run", "0 of 2 public episodes failed", "done"):
         assert words in done.log
     assert list((board.folder / "private/work").iterdir()) == []
-    assert Worker(queue).once() is None
+    assert Worker(Work(queue.board)).once() is None
 
 
 def test_what_acts_by_chance_is_refused_with_the_reason(board, queue, write_submission):
     job = queue.enqueue(board.keep(write_submission(REFUSED)), "Ada")
-    done = Worker(queue).once()
+    done = Worker(Work(queue.board)).once()
     assert done.state == "failed"
     assert board.entry("1", job.submission).refusal == done.reason
     assert board.standings() == ()
@@ -86,7 +86,7 @@ def test_what_acts_by_chance_is_refused_with_the_reason(board, queue, write_subm
 
 def test_failures_of_public_lifts_are_in_the_log(board, queue, write_submission):
     queue.enqueue(board.keep(write_submission(RAISES)), "Ada")
-    done = Worker(queue).once()
+    done = Worker(Work(queue.board)).once()
     assert done.state == "done"
     assert "2 of 2 public episodes failed" in done.log
     assert "seed 0: step 0: RuntimeError: my own mistake" in done.log
@@ -96,7 +96,7 @@ def test_what_cannot_be_loaded_fails_with_the_reason(board, queue, write_submiss
     code = "raise ImportError('no scipy here')\n"
     manifest = ("preload = false", "preload = true")
     queue.enqueue(board.keep(write_submission(code, manifest=manifest)), "Ada")
-    done = Worker(queue).once()
+    done = Worker(Work(queue.board)).once()
     assert (done.state, done.attempt) == ("failed", 1) or "no scipy here" in done.log
 
 
@@ -111,16 +111,16 @@ def test_a_machine_that_fails_tries_again_and_gives_the_same_row(
         raise EvaluatorFault("MARK hidden seed 123")
 
     monkeypatch.setattr(module, "evaluate", break_down)
-    faulty = Worker(queue).once()
+    faulty = Worker(Work(queue.board)).once()
     assert (faulty.state, faulty.ended) == ("evaluator fault", False)
     assert "MARK" not in faulty.reason + faulty.log
     private = board.folder / "private/1/logs" / f"{job.id}.txt"
     assert "MARK hidden seed 123" in private.read_text()
     assert private.stat().st_mode & 0o077 == 0
     monkeypatch.setattr(module, "evaluate", real)
-    assert Worker(queue).once() is None
+    assert Worker(Work(queue.board)).once() is None
     clock.turn(minutes=1)
-    done = Worker(queue).once()
+    done = Worker(Work(queue.board)).once()
     assert (done.state, done.attempt, done.reason) == ("done", 2, None)
 
 
@@ -133,7 +133,7 @@ def test_before_hidden_lifts_the_reason_is_told(board, queue, write_submission, 
         raise error
 
     monkeypatch.setattr(module, "evaluate", fail)
-    done = Worker(queue).once()
+    done = Worker(Work(queue.board)).once()
     assert str(error) in done.reason
     assert str(error) in done.log
     assert done.state == ("failed" if isinstance(error, InputError) else "evaluator fault")
@@ -147,15 +147,15 @@ def test_ctrl_c_gives_the_job_back(board, queue, write_submission, monkeypatch):
 
     monkeypatch.setattr(module, "evaluate", interrupt)
     with pytest.raises(KeyboardInterrupt):
-        Worker(queue).once()
+        Worker(Work(queue.board)).once()
     assert queue.job(job.id).state == "queued"
 
 
 def test_who_has_lost_a_job_stops_and_changes_nothing(
     board, queue, write_submission, clock, monkeypatch
 ):
-    quick = Queue(board, lease=timedelta(seconds=1), quota=NO_QUOTA)
-    job = quick.enqueue(board.keep(write_submission()), "Ada")
+    quick = Work(board, lease=timedelta(seconds=1))
+    job = queue.enqueue(board.keep(write_submission()), "Ada")
 
     def lose(*arguments, **more):
         clock.turn(minutes=1)  # It was stopped for so long, and so were its signs of life.

@@ -6,7 +6,7 @@ import pytest
 from axe_core_python.sync_playwright import Axe
 from colift.agents.submissions.new import write_template
 from colift.leaderboard.board import Board
-from colift.leaderboard.queue import Queue
+from colift.leaderboard.queue import Queue, Work
 
 from .boards import digest
 
@@ -36,7 +36,8 @@ def job(folder, tmp_path_factory):
     board = Board.open(folder)
     queue = Queue(board)
     queued = queue.enqueue(board.keep(place), "ada")
-    queue.fail(queue.claim("here"), "it did not start", "line\n" * 100)
+    work = Work(board)
+    work.fail(work.claim("here"), "it did not start", "line\n" * 100)
     board.close()
     return f"/jobs/{queued.id}"
 

@@ -8,7 +8,7 @@ import pytest
 from colift.agents.submissions.new import write_template
 from colift.leaderboard.archive import pack
 from colift.leaderboard.board import Board
-from colift.leaderboard.queue import Queue
+from colift.leaderboard.queue import Queue, Work
 from colift.leaderboard.tokens import Tokens
 from colift.leaderboard.worker import Worker
 from playwright.sync_api import expect
@@ -87,7 +87,7 @@ def evaluated(page, url, queue, path, token):
     upload(page, url, path, token)
     page.wait_for_url("**/jobs/*")
     address = page.url
-    Worker(queue).once()
+    Worker(Work(queue.board)).once()
     page.goto(address)
     return queue.job(address.rpartition("/")[2])
 
@@ -112,7 +112,7 @@ def test_an_uploaded_template_becomes_a_verified_row_before_ones_eyes(
         new MutationObserver(look).observe(document.getElementById("told"), {childList: true});
     }""")
     seen: list[str] = []
-    working = threading.Thread(target=Worker(queue).once)
+    working = threading.Thread(target=Worker(Work(queue.board)).once)
     working.start()
     while working.is_alive():
         page.wait_for_timeout(100)
