@@ -60,6 +60,7 @@ def sweep_figure(swept: Sequence[Swept], team: float, title: str) -> Figure:
 
 def _panel(axes: Axes, swept: Sequence[Swept], along: str, team: float) -> None:
     plain(axes)
+    axes.set_xticks(sorted({1000 * getattr(each, along) for each in swept}))
     axes.axhline(team, color=HUMAN, lw=1.2, ls=(0, (4, 3)), label="human-human team")
     for name, (colour, line, marker) in LOOKS.items():
         points = sorted((1000 * getattr(s, along), s.rmse_mm) for s in swept if s.policy == name)
