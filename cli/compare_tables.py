@@ -6,9 +6,9 @@ from rich import box
 from rich.table import Table
 
 from ..benchmark.comparison.comparison import Comparison
-from ..benchmark.comparison.contest import Entry
+from ..benchmark.comparison.contest import TEAM, Entry
 from ..benchmark.comparison.standing import Estimate, Standing
-from ..benchmark.comparison.words import TEAM, between, p_value, probability, title
+from ..benchmark.comparison.words import between, p_value, probability, title
 
 NAME: Final = 18
 """Longest name that stays on one line."""
