@@ -71,8 +71,11 @@ RESOURCES = [
     Hostile(
         name="thread bomb",
         act="""
+        # Small ones: else memory may run out before their number does.
+        import _thread
+        threading.stack_size(1 << 16)
         while True:
-            threading.Thread(target=time.sleep, args=(60,), daemon=True).start()
+            _thread.start_new_thread(time.sleep, (60,))
         """,
         reason=rf"RuntimeError: can't start new thread|{MANY}",
     ),
