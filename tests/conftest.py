@@ -17,6 +17,11 @@ from colift.benchmark.loopback import loopback_cluster
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+def pytest_xdist_auto_num_workers() -> int:
+    """One more than there are processors: many tests wait for what they have started."""
+    return len(os.sched_getaffinity(0)) + 1
+
+
 @pytest.fixture(scope="session", autouse=True)
 def own_environment(tmp_path_factory):
     """Keep what is cached from the user's own; one worker is enough where tests share the cores."""
