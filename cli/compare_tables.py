@@ -15,7 +15,7 @@ NAME: Final = 18
 
 FEWER: Final = "*: over the lifts in which the robot moves along."
 
-BOUNDS: Final = "The oracle and the causal bound are no policies: how far one might come."
+NO_POLICIES: Final = "The oracle and the causal bound are no policies: how far one might come."
 
 REFERENCE: Final = "blue"
 """Style of the rows of the human-human team and of the bounds."""
@@ -29,7 +29,7 @@ def ranks_table(comparison: Comparison) -> Table:
         f"{overall.episodes} lifts each; suite digest {suite.digest}. Policies of one rank (#) "
         f"cannot be told from the first of them. vs_human: RMSE over the {TEAM}'s. Force at the "
         "human's hands in N; median time of a step in ms."
-        + (f" {BOUNDS}" if comparison.contest.bounds else "")
+        + (f" {NO_POLICIES}" if comparison.contest.bounds else "")
         + (f" {FEWER}" if any(s.sparc and s.sparc_missing for s in overall.standings) else ""),
     )
     table.add_column("#", justify="right")

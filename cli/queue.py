@@ -21,7 +21,9 @@ app = typer.Typer(
     help="See what waits at a board and what came of it, and try again.", no_args_is_help=True
 )
 
-BoardOption = Annotated[Path, typer.Option("--board", metavar="PATH", help="The board's folder.")]
+BoardOption = Annotated[
+    Path, typer.Option("--board", metavar="PATH", help="The board's folder; made if there is none.")
+]
 JobArgument = Annotated[
     str, typer.Argument(metavar="JOB", help="Its number in 'colift queue list', or the beginning.")
 ]

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from importlib.metadata import version
 from typing import Any
 
-from ..references import Reference
 from .comparison import Comparison
+from .contest import TEAM
 from .standing import Scope, Standing
 
 
@@ -18,7 +18,7 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
     ``policies`` are on all episodes, ``behaviours`` and ``subjects`` on a part of them each. The
     fields of a policy are those of :class:`.Standing`.
     """
-    suite, team = comparison.contest.suite, comparison.contest.team
+    suite = comparison.contest.suite
     entries = {entry.name: entry for entry in comparison.contest.entries}
     policies = []
     for standing in comparison.overall.standings:
@@ -37,24 +37,22 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
         "suite": suite.name,
         "suite_digest": suite.digest,
         "episodes": comparison.overall.episodes,
-        "human_human": {
-            "rmse_mm": dataclasses.asdict(comparison.overall.team_rmse_mm),
-            "sparc": {"mean": team.sparc},
-            "human_force_n": {"mean": team.human_force_n},
-        },
-        "bounds": [_bound(name, bound) for name, bound in comparison.contest.bounds.items()],
+        "human_human": _reference(comparison, TEAM),
+        "bounds": [
+            {"name": name, **_reference(comparison, name)} for name in comparison.contest.bounds
+        ],
         "policies": policies,
         "behaviours": [_part(scope) for scope in comparison.behaviours],
         "subjects": [_part(scope) for scope in comparison.subjects],
     }
 
 
-def _bound(name: str, bound: Reference) -> dict[str, Any]:
+def _reference(comparison: Comparison, name: str) -> dict[str, Any]:
+    reference = comparison.contest.references[name]
     return {
-        "name": name,
-        "rmse_mm": {"mean": bound.mean},
-        "sparc": {"mean": bound.sparc},
-        "human_force_n": {"mean": bound.human_force_n},
+        "rmse_mm": dataclasses.asdict(comparison.overall.references_rmse_mm[name]),
+        "sparc": {"mean": reference.sparc},
+        "human_force_n": {"mean": reference.human_force_n},
     }
 
 

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import pytest
 from colift.cli.main import main
+from colift.leaderboard.board import Board
 
 
 class Done(NamedTuple):
@@ -13,6 +14,14 @@ class Done(NamedTuple):
     returncode: int
     stdout: str
     stderr: str
+
+
+@pytest.fixture
+def board(tmp_path):
+    """A board of quick-v1 in the folder of the test."""
+    board = Board.open(tmp_path / "board", "quick-v1")
+    yield board
+    board.close()
 
 
 @pytest.fixture

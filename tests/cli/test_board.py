@@ -7,7 +7,6 @@ import pytest
 from colift.agents.submissions.new import write_template
 from colift.benchmark.references import Reference
 from colift.cli.board_table import board_table
-from colift.leaderboard.board import Board
 from colift.leaderboard.queue import Queue
 from colift.leaderboard.tokens import Tokens
 from rich.console import Console
@@ -15,13 +14,6 @@ from rich.console import Console
 from ..leaderboard.rows import add, digest
 
 LONG = "a-policy-with-a-rather-long-name-indeed-so-long-that-it-is-cut"
-
-
-@pytest.fixture
-def board(tmp_path):
-    board = Board.open(tmp_path / "board", "quick-v1")
-    yield board
-    board.close()
 
 
 @pytest.fixture

@@ -2,17 +2,9 @@
 
 import pytest
 from colift.agents.submissions.new import write_template
-from colift.leaderboard.board import Board
 from colift.leaderboard.queue import Queue, Work
 
 BOARD = ("--board", "board")
-
-
-@pytest.fixture
-def board(tmp_path):
-    board = Board.open(tmp_path / "board", "quick-v1")
-    yield board
-    board.close()
 
 
 @pytest.fixture

@@ -7,7 +7,8 @@ from colift.agents.policies.loading import PolicySpec
 from colift.benchmark.bundle import results
 from colift.benchmark.comparison.comparison import compare
 from colift.benchmark.comparison.content import comparison_json
-from colift.benchmark.comparison.contest import Contest, amount, play_contest
+from colift.benchmark.comparison.contest import TEAM, Contest, amount, play_contest
+from colift.benchmark.comparison.html import html_page
 from colift.benchmark.references import human_team_run, shipped_bounds, shipped_references
 from colift.benchmark.runner import run_suite
 from colift.benchmark.suite import Suite, make_suite
@@ -43,7 +44,11 @@ def test_the_bounds_are_there_when_they_are_shipped(quick: Suite, played: Contes
     assert played.bounds == shipped_bounds(quick)
     told = comparison_json(compare(played))["bounds"]
     assert [bound["name"] for bound in told] == ["causal_bound", "oracle"]
-    assert told[1]["rmse_mm"]["mean"] < told[0]["rmse_mm"]["mean"]
+    assert told[1]["rmse_mm"]["ci95"][1] < told[0]["rmse_mm"]["ci95"][0]
+    page = html_page(compare(played))
+    tables = [part.partition("</table>")[0] for part in page.split("<table")[1:]]
+    for name in (TEAM, "oracle", "causal_bound"):
+        assert [name in table for table in tables] == [True, False, True, True]
 
 
 def test_the_team_is_the_one_shipped_or_is_played(quick: Suite, played: Contest) -> None:

@@ -1,5 +1,6 @@
 """What is drawn where: every policy with its name, nothing over anything."""
 
+import dataclasses
 import itertools
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 from colift.benchmark.comparison.comparison import Comparison, compare
 from colift.benchmark.comparison.picture import comparison_figure
 from colift.benchmark.comparison.scale import Scale, make_scale, spots
+from colift.benchmark.references import Reference
 from colift.benchmark.rendering.palette import FAINT, ROBOT
 from matplotlib.axes import Axes
 from matplotlib.text import Text
@@ -93,6 +95,20 @@ def test_policies_alike_are_all_drawn_to_scale_however_bad() -> None:
     scale, places = scaled(bad)
     assert not scale.beyond
     assert places["a"][0] == pytest.approx(120.0)
+
+
+def test_bounds_do_not_push_policies_off_the_scale() -> None:
+    policies = contest(*(entry(f"{mm}", mm + noise(mm), -2.0) for mm in (12, 14, 34)))
+    near = Reference(
+        cells=policies.team.cells,
+        rmse_mm=(0.1,) * len(policies.team.cells),
+        sparc=-1.9,
+        human_force_n=0.1,
+    )
+    bounded = dataclasses.replace(policies, bounds={"oracle": near, "causal_bound": near})
+    scale, places = scaled(compare(bounded))
+    assert not scale.beyond
+    assert places["oracle"] == pytest.approx((0.1, -1.9))
 
 
 def test_the_front_is_filled_and_the_rest_is_not(comparison: Comparison) -> None:
