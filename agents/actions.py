@@ -1,9 +1,17 @@
 """What an action must be."""
 
 import math
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
+
+HAND_SPEED: Final = 0.4
+"""Fastest change of the hand command [m/s]: the paper's largest action, 4 cm in 100 ms."""
+
+
+def action_limit(control_period: float) -> float:
+    """Return the largest change of the hand command in one control period [m]; beyond it is cut."""
+    return HAND_SPEED * control_period
 
 
 class ActionError(ValueError):
@@ -18,7 +26,7 @@ def checked_action(agent: str, action: Any, size: int) -> list[float]:
     agent
         Whose it is, for the message.
     action
-        Whatever the agent returned.
+        Whatever the agent returned. Where one number is due, it need not be in a list.
     size
         How many numbers it must be.
 
@@ -31,8 +39,13 @@ def checked_action(agent: str, action: Any, size: int) -> list[float]:
         values = np.asarray(action, dtype=np.float64)
     except Exception:  # An object may have any __array__ or __float__.
         values = np.empty(0)
+    if action is None or isinstance(action, str | bytes):  # NumPy makes numbers of these, too.
+        values = np.empty(0)
+    if size == 1 and values.ndim == 0:
+        values = values.reshape(1)
     if values.shape != (size,):
-        raise ActionError(f"{agent}'s action must be {size} number(s), got {_shown(action)}")
+        due = "1 number" if size == 1 else f"{size} numbers"
+        raise ActionError(f"{agent}'s action must be {due}, got {_shown(action)}")
     listed: list[float] = values.tolist()
     if not all(map(math.isfinite, listed)):
         raise ActionError(f"{agent}'s action must be finite, got {listed}")

@@ -9,6 +9,7 @@ from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Final
 
 from .errors import InputError
+from .near_names import did_you_mean
 
 POLICIES: Final = "colift.policies"
 HUMANS: Final = "colift.humans"
@@ -51,7 +52,8 @@ def lookup(group: str, name: str) -> Any:
     """
     known = entries(group)
     if name not in known:
-        raise InputError(f"unknown {_KIND[group]} {name!r}; known: {', '.join(known)}")
+        near = did_you_mean(name, known)
+        raise InputError(f"unknown {_KIND[group]} {name!r}; {near}known: {', '.join(known)}")
     try:
         return known[name].load()
     except Exception as error:

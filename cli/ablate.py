@@ -4,22 +4,21 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich import box
-from rich.console import Console
 from rich.table import Table
 
-from ..benchmark.anticipation_learning import LIFTS, ROUNDS, learn_anticipation
 from ..benchmark.bounds import ablation
 from ..benchmark.bounds.ablation import VARIANTS, Ablation, variants
 from ..benchmark.bounds.held_out import held_out_suite
-from ..benchmark.executors import local_pool
-from ..benchmark.statistics import PairedDifference
-from ..benchmark.suite import recorded_suite
-from .executors import Jobs
+from ..benchmark.execution.pool import local_pool
+from ..benchmark.statistics import Estimate
+from ..benchmark.suites.suite import recorded_suite
+from ..benchmark.training.anticipation import LIFTS, ROUNDS, learn_anticipation
+from .options import Jobs
+from .printing import show, table
 from .progress import progress_bar
 
 
-def ablate(
+def ablate_policies(
     lifts: Annotated[int, typer.Option(metavar="N", help="Lifts of a round of learning.")] = LIFTS,
     people: Annotated[int, typer.Option(metavar="N", help="New people to lift with.")] = 20,
     each: Annotated[
@@ -40,33 +39,29 @@ def ablate(
     ):
         first, *_, last = learn_anticipation(lifts=lifts, executor=pool, progress=progress)
         found = ablation.ablate(variants(first, last), suite, executor=pool, progress=progress)
-    Console().print(_table(found, suite.name), highlight=False)
+    show(_table(found, suite.name))
 
 
 def _table(found: list[Ablation], suite: str) -> Table:
-    table = Table(
-        title=f"Without each part, on {suite}",
+    return table(
+        f"Without each part, on {suite}",
+        ("without", "RMSE", "more", "SPARC", "rougher by"),
+        (
+            (
+                each.name,
+                f"{each.rmse_mm:.2f}",
+                _told(each.worse_mm),
+                f"{each.sparc:.3f}",
+                _told(each.rougher, 3),
+            )
+            for each in found
+        ),
         caption="RMSE in mm, SPARC (closer to 0 is smoother); in brackets the 95 % interval of the "
         "paired difference to the whole.",
-        title_justify="left",
-        caption_justify="left",
-        box=box.SIMPLE_HEAD,
     )
-    table.add_column("without")
-    for name in ("RMSE", "more", "SPARC", "rougher by"):
-        table.add_column(name, justify="right")
-    for each in found:
-        table.add_row(
-            each.name,
-            f"{each.rmse_mm:.2f}",
-            _told(each.worse_mm),
-            f"{each.sparc:.3f}",
-            _told(each.rougher, 3),
-        )
-    return table
 
 
-def _told(difference: PairedDifference | None, digits: int = 2) -> str:
+def _told(difference: Estimate | None, digits: int = 2) -> str:
     if difference is None:
         return ""
     low, high = difference.ci95

@@ -1,33 +1,47 @@
 """``colift bench``: how fast the benchmark is, how fine its physics, how fast the policies."""
 
+import dataclasses
 import json
 from typing import Annotated, Final
 
 import typer
-from rich import box
-from rich.console import Console
-from rich.table import Table
 
 from ..agents.errors import InputError
-from ..agents.policies.loading import PolicySpec
+from ..agents.loading.loading import PolicySpec
 from ..agents.registry import POLICIES, entries
-from ..benchmark.convergence import REFERENCE, study
-from ..benchmark.executors import process_pool
-from ..benchmark.policy_speed import LIMIT_MS, StepTime, default_scenarios, step_time
-from ..benchmark.speed import endurance, single_process, two_workers_ratio
-from .bench_isolation import print_isolation
-from .bench_scale import print_scale
+from ..benchmark.execution.pool import process_pool
+from ..benchmark.profiling.cluster import scale as measure_scale
+from ..benchmark.profiling.convergence import solver_error, study
+from ..benchmark.profiling.engine import endurance, single_process, two_workers_ratio
+from ..benchmark.profiling.policies import LIMIT_MS, StepTime, default_scenarios, step_time
+from ..benchmark.profiling.sandbox import (
+    EPISODE_MS,
+    ROUNDS,
+    STEP_US,
+    IsolationCost,
+    isolated,
+    isolation_cost,
+)
+from ..benchmark.suites.suite import make_suite
+from ..benchmark.world import Physics
+from .printing import left, show, table
 from .progress import progress_bar
 
 MEANING: Final = {
     "sim_speed": "simulated seconds per wall second, one process",
-    "engine_ratio": "share of an episode's wall time inside the physics engine (at least 0.8)",
-    "naive_nao_ratio": "speed over the whole NAO as loaded, stepped at 240 Hz (at least 20)",
+    "solver_error": "worst RMSE error of a lift, relative, to a converged solver (at most 0.003)",
+    "naive_nao_ratio": "speed over the whole NAO as loaded, stepped at 240 Hz (at least 24)",
     "reset_share": "share of an episode's wall time spent on its reset (at most 0.02)",
     "two_workers_ratio": "throughput of two workers over one (at least 1.7)",
     "memory_growth_mb": "growth of the process after the first hundred episodes",
     "late_over_early": "time of the last episodes over that of the first (1 = linear cost)",
+    "dask_ratio": "throughput of Dask on this machine over the local pool's (at least 0.9)",
+    "verify_ratio": "throughput of verification over that of the run (at least 1)",
 }
+
+SCALE_POLICY: Final = "blend"
+SCALE_SUITE: Final = "standard-v1"
+SCALE_ROUNDS: Final = 5
 
 
 def bench(
@@ -50,39 +64,69 @@ def bench(
 ) -> None:
     """Measure the benchmark itself: speed as ratios within this run, memory, convergence."""
     studies = {
-        "--convergence": convergence,
-        "--policies": policies,
-        "--isolation": isolation,
-        "--scale": scale,
+        "--convergence": (convergence, _convergence),
+        "--policies": (policies, _policies),
+        "--isolation": (isolation, _isolation),
+        "--scale": (scale, _scale),
     }
-    chosen = [name for name, wanted in studies.items() if wanted]
+    chosen = [name for name, (wanted, _) in studies.items() if wanted]
     if len(chosen) > 1:
         raise InputError(f"{' and '.join(chosen)} exclude each other: name one")
-    if convergence:
-        _convergence(as_json)
-        return
-    if policies:
-        _policies(as_json)
-        return
-    if isolation:
-        print_isolation(as_json)
-        return
-    if scale:
-        print_scale(as_json)
+    if chosen:
+        studies[chosen[0]][1](as_json)
         return
     if episodes < 200:
         raise InputError(f"--episodes must be at least 200, got {episodes}")
-    figures = single_process() | two_workers_ratio(process_pool) | _endurance(episodes)
+    figures = single_process() | {"solver_error": solver_error()}
+    figures |= two_workers_ratio(process_pool) | _endurance(episodes)
+    _print_figures("colift bench", figures, "", as_json)
+
+
+def _print_figures(title: str, figures: dict[str, float], caption: str, as_json: bool) -> None:
     if as_json:
         print(json.dumps(figures, indent=2))
         return
-    table = Table(title="colift bench", title_justify="left", box=box.SIMPLE_HEAD)
-    table.add_column("figure")
-    table.add_column("value", justify="right")
-    table.add_column("meaning")
-    for name, value in figures.items():
-        table.add_row(name, f"{value:.3g}", MEANING[name])
-    Console().print(table)
+    rows = ((name, f"{value:.3g}", MEANING[name]) for name, value in figures.items())
+    show(table(title, ("figure", "value", left("meaning")), rows, caption=caption))
+
+
+def _scale(as_json: bool) -> None:
+    """Print how fast a cluster and verification are, over a run in the local pool."""
+    lifts = 3 * SCALE_ROUNDS * make_suite(SCALE_SUITE).size
+    with progress_bar("bench", lifts) as progress:
+        figures = measure_scale(SCALE_POLICY, SCALE_SUITE, SCALE_ROUNDS, progress)
+    told = f"{SCALE_POLICY} on {SCALE_SUITE}, two worker processes each"
+    _print_figures("scale", figures, f"{told}; median of {SCALE_ROUNDS} rounds", as_json)
+
+
+def _isolation(as_json: bool) -> None:
+    """Print what each way that works here costs, over the same policy in this process."""
+    found: dict[str, IsolationCost] = {}
+    with isolated() as (plain, ways), progress_bar("bench", ROUNDS * len(ways)) as progress:
+        for name, policy in ways.items():
+            found[name] = isolation_cost(plain, policy, progress=progress)
+    if as_json:
+        content = {
+            "aim": {"step_us": STEP_US, "episode_ms": EPISODE_MS},
+            "isolation": {
+                name: {**dataclasses.asdict(cost), "within_aim": cost.within_aim}
+                for name, cost in found.items()
+            },
+        }
+        print(json.dumps(content, indent=2))
+        return
+    rows = (
+        (
+            name,
+            f"{cost.step_us:.0f}",
+            f"{cost.episode_ms:.1f}",
+            "reached" if cost.within_aim else "missed",
+        )
+        for name, cost in found.items()
+    )
+    titles = ("isolation", "us a step", "ms an episode", "aim")
+    caption = f"over in-process; aim: {STEP_US:g} us a step, {EPISODE_MS:g} ms an episode"
+    show(table("cost of isolation", titles, rows, caption=caption))
 
 
 def _endurance(episodes: int) -> dict[str, float]:
@@ -121,24 +165,17 @@ def _policies(as_json: bool) -> None:
         }
         print(json.dumps(content, indent=2))
         return
-    table = Table(
-        title="time of a step",
-        caption=f"limit: 99th percentile at most {LIMIT_MS:g} ms",
-        title_justify="left",
-        caption_justify="left",
-        box=box.SIMPLE_HEAD,
-    )
-    table.add_column("policy")
-    for heading in ("median ms", "p99 ms", "steps", "limit"):
-        table.add_column(heading, justify="right", no_wrap=True)
+    rows = []
     for name, taken in found.items():
         if taken is None:
-            table.add_row(name, "none", "none", "0", "fails")
+            rows.append((name, "none", "none", "0", "fails"))
         else:
             kept = "kept" if taken.within_limit else "exceeded"
-            cells = (f"{taken.median_ms:.3f}", f"{taken.p99_ms:.3f}", str(taken.steps), kept)
-            table.add_row(name, *cells)
-    Console().print(table)
+            times = (f"{taken.median_ms:.3f}", f"{taken.p99_ms:.3f}")
+            rows.append((name, *times, str(taken.steps), kept))
+    titles = ("policy", "median ms", "p99 ms", "steps", "limit")
+    caption = f"limit: 99th percentile at most {LIMIT_MS:g} ms"
+    show(table("time of a step", titles, rows, caption=caption))
 
 
 def _convergence(as_json: bool) -> None:
@@ -150,6 +187,8 @@ def _convergence(as_json: bool) -> None:
                 "policy": row.policy,
                 "step_s": row.physics.step,
                 "iterations": row.physics.iterations,
+                "reference_step_s": row.reference.step,
+                "reference_iterations": row.reference.iterations,
                 "mean_rmse_error": row.mean_error,
                 "worst_rmse_error": row.rmse_error,
                 "height_error_mm": row.height_error_mm,
@@ -158,12 +197,17 @@ def _convergence(as_json: bool) -> None:
         ]
         print(json.dumps(content, indent=2))
         return
-    print(f"Against {1000 * REFERENCE.step} ms steps with {REFERENCE.iterations} iterations:\n")
-    print("| policy | step ms | iterations | mean RMSE error | worst RMSE error | heights mm |")
+    print("| policy | physics | against | mean RMSE error | worst RMSE error | heights mm |")
     print("|---|---|---|---|---|---|")
     for row in rows:
         print(
-            f"| {row.policy} | {1000 * row.physics.step:g} | {row.physics.iterations} "
-            f"| {100 * row.mean_error:.2f} % | {100 * row.rmse_error:.2f} % "
-            f"| {row.height_error_mm:.2f} |"
+            f"| {row.policy} | {_setting(row.physics)} | {_setting(row.reference)} "
+            f"| {100 * row.mean_error:.3f} % | {100 * row.rmse_error:.3f} % "
+            f"| {row.height_error_mm:.3f} |"
         )
+
+
+def _setting(physics: Physics) -> str:
+    """Return a physics setting as a table says it."""
+    solver = f"{physics.iterations} iterations" if physics.iterations else "direct"
+    return f"{1000 * physics.step:g} ms, {solver}"

@@ -1,19 +1,24 @@
 """``colift board``: a board's tables in the terminal."""
 
 import json
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from rich.console import Console
-from rich.text import Text
 
-from ..leaderboard.board import Board
-from ..leaderboard.opening import open_stocked
+from ..agents.errors import InputError
+from ..leaderboard.backup.backup import Backup, back_up
+from ..leaderboard.backup.restoring import restore
+from ..leaderboard.board.board import Board
 from ..leaderboard.pages.site import write_site
+from ..leaderboard.practice.shipped import open_to_read
 from ..leaderboard.queue import Queue
-from ..leaderboard.season import SeasonInfo
-from .board_table import board_table
+from ..leaderboard.records.season import SeasonInfo
+from .printing import show
+from .tables.board import board_table
 
 
 def board(
@@ -32,11 +37,32 @@ def board(
             metavar="DIR", help="Write the pages of all seasons as files, to open or host."
         ),
     ] = None,
+    backup: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write the whole board, in use or not, into one file."),
+    ] = None,
+    from_backup: Annotated[
+        Path | None,
+        typer.Option(
+            "--restore", metavar="FILE", help="Make the board of a backup at PATH, a new folder."
+        ),
+    ] = None,
 ) -> None:
     """Print a board: rank groups, RMSE with its interval, and the human-human team's line."""
-    place = open_stocked(board)
+    asked = [name for name, value in _options(site, as_json, backup, from_backup) if value]
+    if len(asked) > 1:
+        raise InputError(f"{' and '.join(asked)} exclude each other")
+    if from_backup is not None:
+        told = restore(from_backup, board)
+        _tell(told, f"restored {from_backup} to {board}")
+        print(f"Next: colift board --board {board}")
+        return
+    place = open_to_read(board)
     try:
-        if site is not None:
+        if backup is not None:
+            _tell(back_up(place, backup), f"backed up {board} to {backup}")
+            print("It holds the secrets of the seasons: keep it to yourself.")
+        elif site is not None:
             write_site(place, site)
             print(f"Open {(site / 'index.html').absolute().as_uri()}")
         elif as_json:
@@ -47,19 +73,34 @@ def board(
         place.close()
 
 
+def _options(
+    site: Path | None, as_json: bool, backup: Path | None, from_backup: Path | None
+) -> Iterator[tuple[str, object]]:
+    yield "--site", site
+    yield "--json", as_json
+    yield "--backup", backup
+    yield "--restore", from_backup
+
+
+def _tell(told: Backup, done: str) -> None:
+    print(f"{done}: {told.seasons} seasons, {told.entries} entries, {told.jobs} jobs")
+    for each in told.missing:
+        print(f"missing: {each}", file=sys.stderr)
+
+
 def _show(place: Board, season: str | None) -> None:
     console, info = Console(), place.season_info(season)
-    table = board_table(info, place.standings(info.name), place.team(info.name), console.width)
-    console.print(table)
+    standings, team = place.standings(info.name), place.team(info.name)
+    show(board_table(info, standings, team, console.width), console=console)
     for each in place.events(info.name):
         if each.submission is not None:
             what = f"{each.kind} of {each.submission[:16]} by {each.who}"
-            console.print(Text(f"{each.at:%Y-%m-%d} {what}: {each.why}"), soft_wrap=True)
+            print(f"{each.at:%Y-%m-%d} {what}: {each.why}")
     others = [each.name for each in place.seasons() if each.name != info.name]
     if others:
-        console.print(Text(f"Other seasons: {', '.join(others)} (--season NAME)"), soft_wrap=True)
+        print(f"Other seasons: {', '.join(others)} (--season NAME)")
     if info.current:
-        console.print(Text(_waiting(place)), soft_wrap=True)
+        print(_waiting(place))
 
 
 def _waiting(place: Board) -> str:
@@ -79,11 +120,11 @@ def _content(place: Board, season: str | None) -> dict[str, Any]:
         if team is None
         else {
             "rmse_mm": {"mean": team.rmse_mm.mean, "ci95": list(team.rmse_mm.ci95)},
-            "sparc": team.sparc,
-            "human_force_n": team.human_force_n,
+            **team.means,
         },
         "rows": [
             {
+                "section": each.section,
                 "group": each.group,
                 "at": each.at.isoformat(),
                 "submitter": each.submitter,

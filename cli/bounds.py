@@ -4,21 +4,20 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich import box
-from rich.console import Console
 from rich.table import Table
 
-from ..agents.policies.loading import PolicySpec
+from ..agents.loading.loading import PolicySpec
+from ..benchmark.bounds.causal import BOUNDS
 from ..benchmark.bounds.claims import POLICY, RIVALS, Claim, claims
 from ..benchmark.bounds.held_out import FIRST_SEED, held_out_suite
-from ..benchmark.bounds.play import BOUNDS
 from ..benchmark.comparison.comparison import compare
 from ..benchmark.comparison.contest import amount, play_contest
-from ..benchmark.executors import local_pool
-from ..benchmark.suite import recorded_suite
-from .compare_tables import behaviours_table, ranks_table
-from .executors import Jobs
+from ..benchmark.execution.pool import local_pool
+from ..benchmark.suites.suite import recorded_suite
+from .options import Jobs
+from .printing import show, table
 from .progress import progress_bar
+from .tables.comparison import behaviours_table, ranks_table
 
 
 def bounds(
@@ -43,25 +42,27 @@ def bounds(
     ):
         contest = play_contest(specs, suite, bounds=BOUNDS, executor=pool, progress=progress)
     comparison = compare(contest)
-    console = Console()
-    console.print(ranks_table(comparison))
+    show(ranks_table(comparison))
     if recordings is None:
-        console.print(behaviours_table(comparison))
+        show(behaviours_table(comparison))
     found = claims(contest)
-    console.print(_table(found), highlight=False)
+    show(_table(found))
     if not all(claim.holds for claim in found):
         raise typer.Exit(1)
 
 
 def _table(found: tuple[Claim, ...]) -> Table:
-    table = Table(title=f"Claims of {POLICY}", title_justify="left", box=box.SIMPLE_HEAD)
-    table.add_column("what")
-    for name in ("value", "95 %", "limit", "holds"):
-        table.add_column(name, justify="right")
-    for claim in found:
-        interval = "" if claim.ci95 is None else f"{claim.ci95[0]:.3f} to {claim.ci95[1]:.3f}"
-        limit = f"{'at least' if claim.least else 'at most'} {claim.limit:g}"
-        table.add_row(
-            claim.text, f"{claim.value:.3f}", interval, limit, "yes" if claim.holds else "NO"
-        )
-    return table
+    return table(
+        f"Claims of {POLICY}",
+        ("what", "value", "95 %", "limit", "holds"),
+        (
+            (
+                claim.text,
+                f"{claim.value:.3f}",
+                "" if claim.ci95 is None else f"{claim.ci95[0]:.3f} to {claim.ci95[1]:.3f}",
+                f"{'at least' if claim.least else 'at most'} {claim.limit:g}",
+                "yes" if claim.holds else "NO",
+            )
+            for claim in found
+        ),
+    )

@@ -4,14 +4,19 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich import box
-from rich.console import Console
 from rich.table import Table
 
-from ..benchmark.calibration import ROUNDS, TABLE_1, Fit, calibration_json, episodes, fit_rounds
-from ..benchmark.executors import local_pool
-from .executors import Jobs
-from .output import check_output
+from ..benchmark.execution.pool import local_pool
+from ..benchmark.paper.calibration import (
+    ROUNDS,
+    TABLE_1,
+    Fit,
+    calibration_json,
+    episodes,
+    fit_rounds,
+)
+from .options import Jobs, check_output, write_output
+from .printing import show, table
 from .progress import progress_bar
 
 
@@ -24,42 +29,35 @@ def calibrate(
 ) -> None:
     """Fit lift heights, process noise and the human team's lag to the paper, on own seeds."""
     check_output(out)
-    console = Console()
     with (
         local_pool(jobs) as pool,
         progress_bar("calibrating", episodes()) as progress,
     ):
         for number, fit in enumerate(fit_rounds(executor=pool, progress=progress), 1):
-            console.print(
+            print(
                 f"round {number} of {ROUNDS}: worst cell {100 * fit.worst_cell:.1f} % off, "
-                f"human-human {fit.human_human:.3f} mm",
-                highlight=False,
+                f"human-human {fit.human_human:.3f} mm"
             )
-    console.print(_table(fit))
-    if out is not None:
-        out.write_text(calibration_json(fit))
-        console.print(f"written: {out}", highlight=False, soft_wrap=True)
+    show(_table(fit))
+    write_output(out, calibration_json(fit))
 
 
 def _table(fit: Fit) -> Table:
     numbers = fit.calibration
-    table = Table(
-        title="Table I (mm), measured and the paper's",
+    return table(
+        "Table I (mm), measured and the paper's",
+        ("subject", "height mm", "without", "paper", "with", "paper"),
+        (
+            (
+                name,
+                f"{1000 * numbers.amplitude[name]:.1f}",
+                f"{fit.without[name]:.2f}",
+                f"{row[0]:.2f}",
+                f"{fit.with_prediction[name]:.2f}",
+                f"{row[1]:.2f}",
+            )
+            for name, row in TABLE_1.items()
+        ),
         caption=f"process noise q = {numbers.process_noise:.3g} mm2/s6, "
         f"partner's lag {1000 * numbers.partner_lag:.1f} ms",
-        title_justify="left",
-        caption_justify="left",
-        box=box.SIMPLE_HEAD,
     )
-    for title in ("subject", "height mm", "without", "paper", "with", "paper"):
-        table.add_column(title, justify="right")
-    for name, row in TABLE_1.items():
-        table.add_row(
-            name,
-            f"{1000 * numbers.amplitude[name]:.1f}",
-            f"{fit.without[name]:.2f}",
-            f"{row[0]:.2f}",
-            f"{fit.with_prediction[name]:.2f}",
-            f"{row[1]:.2f}",
-        )
-    return table

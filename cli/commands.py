@@ -8,37 +8,38 @@ import typer
 from typer.core import TyperGroup
 
 PANELS: Final[Mapping[str, Mapping[str, str]]] = {
-    "Evaluate": {
+    "Use": {
         "run": "run:run",
-        "compare": "compare:compare",
+        "compare": "compare:compare_policies",
         "list": "listing:list_all",
-        "render": "render:render",
+        "render": "render:render_episode",
+        "demonstrate": "demonstrate:demonstrate_lifts",
         "paper": "paper:paper",
     },
-    "Submit": {
+    "Submit a policy": {
         "new": "new:new",
         "check": "check:check",
-        "submit": "submit:submit",
-        "verify": "verify:verify",
+        "submit": "submit:submit_policy",
+        "verify": "verify:verify_bundle",
     },
-    "Boards": {
+    "Keep a board": {
+        "serve": "serve:serve_board",
         "board": "board:board",
-        "serve": "serve:serve",
-        "worker": "worker:worker",
-        "queue": "queue:app",
         "token": "token:app",
+        "queue": "queue:app",
+        "row": "row:app",
+        "worker": "worker:worker",
         "season": "season:app",
-        "practice": "practice:practice",
     },
-    "Robots": {"nao": "nao:app"},
-    "Learn and measure": {
+    "Try it on a robot": {"nao": "nao:app"},
+    "Maintain colift": {
         "learn": "learn:app",
-        "demonstrate": "demonstrate:demonstrate",
         "calibrate": "calibrate:calibrate",
         "references": "references:references",
+        "practice": "practice:practice",
         "bounds": "bounds:bounds",
-        "ablate": "ablate:ablate",
-        "sweep": "sweep:sweep",
+        "ablate": "ablate:ablate_policies",
+        "sweep": "sweep:sweep_rates",
         "bench": "bench:bench",
     },
 }

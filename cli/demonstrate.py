@@ -5,22 +5,20 @@ from typing import Annotated
 
 import numpy as np
 import typer
-from rich.console import Console
 
-from ..benchmark.demonstrations import (
+from ..benchmark.execution.pool import local_pool
+from ..benchmark.training.demonstrations import (
     FIRST_SEED,
     LIFTS,
     Demonstration,
     demonstrations,
     write_demonstrations,
 )
-from ..benchmark.executors import local_pool
-from .executors import Jobs
-from .output import check_output
+from .options import Jobs, check_output
 from .progress import progress_bar
 
 
-def demonstrate(
+def demonstrate_lifts(
     out: Annotated[Path, typer.Option(metavar="FILE.csv", help="Where to write the lifts.")],
     lifts: Annotated[int, typer.Option(metavar="N", help="Number of lifts.")] = LIFTS,
     seed: Annotated[int, typer.Option(help="Seed of the first lift.")] = FIRST_SEED,
@@ -31,11 +29,9 @@ def demonstrate(
     recorded = record(lifts, seed, jobs)
     write_demonstrations(out, recorded)
     apart = np.concatenate([each["human_m"] - each["partner_m"] for each in recorded])
-    Console().print(
+    print(
         f"{lifts} lifts, {len(apart)} samples; the ends were "
-        f"{1000 * float(np.sqrt(np.mean(apart**2))):.1f} mm apart (rms)\nwritten: {out}",
-        highlight=False,
-        soft_wrap=True,
+        f"{1000 * float(np.sqrt(np.mean(apart**2))):.1f} mm apart (rms)\nwritten: {out}"
     )
 
 

@@ -6,18 +6,17 @@ from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich import box
-from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 from typer.core import TyperGroup
 
+from ..agents.control.q_learning import ACTIONS, Q_PARAMETERS
+from ..agents.control.task import Task, task_json
 from ..agents.errors import InputError
-from ..agents.policies.q_learning import ACTIONS, Q_PARAMETERS
-from ..agents.policies.task import Task, task_json
-from ..benchmark.demonstrations import FIRST_SEED, LIFTS, read_demonstrations
-from ..benchmark.executors import checked_jobs, local_pool
-from ..benchmark.learning import LearningTrial, learning_trials, table_json
-from ..benchmark.task_learning import (
+from ..benchmark.execution.pool import checked_jobs, local_pool
+from ..benchmark.training.demonstrations import FIRST_SEED, LIFTS, read_demonstrations
+from ..benchmark.training.q_learning import LearningTrial, learning_trials, table_json
+from ..benchmark.training.task_model import (
     COMPONENTS,
     PRACTICE_LIFTS,
     learn_task,
@@ -25,9 +24,9 @@ from ..benchmark.task_learning import (
     require_learner,
 )
 from .demonstrate import record
-from .executors import Jobs
-from .learn_anticipate import anticipate, causal_bound
-from .output import check_output
+from .learn_anticipate import anticipate, learn_causal_bound
+from .options import Jobs, check_output, write_output
+from .printing import Cell, show, table
 from .progress import progress_bar
 
 
@@ -68,12 +67,9 @@ def reactive(
         for trial in learning_trials(trials, seed, executor=pool):
             done.append(trial)
             progress(1)
-    console = Console()
-    console.print(_table(done[0]))
-    console.print(_convergence(done), highlight=False)
-    if out is not None:
-        out.write_text(table_json(done[0], seed))
-        console.print(f"written: {out}", highlight=False, soft_wrap=True)
+    show(_table(done[0]))
+    print(_convergence(done))
+    write_output(out, table_json(done[0], seed))
 
 
 @app.command("task_model")
@@ -111,60 +107,49 @@ def task_model(
         f"--practice {practice}"
     )
     task = dataclasses.replace(task, provenance={"command": command, **task.provenance})
-    console = Console()
-    console.print(_task(task), highlight=False)
-    if out is not None:
-        out.write_text(task_json(task))
-        console.print(f"written: {out}", highlight=False, soft_wrap=True)
+    show(_task(task))
+    write_output(out, task_json(task))
 
 
 app.command()(anticipate)
-app.command("causal_bound")(causal_bound)
+app.command("causal_bound")(learn_causal_bound)
 
 
 def _task(task: Task) -> Table:
     """Return the situations that the model tells apart, the most frequent first."""
     impedance = task.impedance
-    table = Table(
-        title="Situations (mean of each component of the mixture) and their stiffness",
+    mixture = task.mixture
+    rows = []
+    for i in np.argsort(-mixture.weights, kind="stable"):
+        height, *velocities = 1000 * mixture.means[i]
+        speeds = (f"{velocities[0]:.0f}", f"{velocities[-1]:.0f}")
+        share = f"{100 * mixture.weights[i]:.0f} %"
+        rows.append((share, f"{height:.0f}", *speeds, f"{impedance.stiffness[i]:.2f}"))
+    return table(
+        "Situations (mean of each component of the mixture) and their stiffness",
+        ("share", "height mm", "velocity mm/s", "then", "stiffness"),
+        rows,
         caption=f"lead {1000 * impedance.lead:.0f} ms, offset {1000 * impedance.offset:.1f} mm, "
         f"tolerance {1000 * task.tolerance:.1f} mm",
-        title_justify="left",
-        caption_justify="left",
-        box=box.SIMPLE_HEAD,
     )
-    for title in ("share", "height mm", "velocity mm/s", "then", "stiffness"):
-        table.add_column(title, justify="right")
-    for i in np.argsort(-task.mixture.weights, kind="stable"):
-        height, *velocities = 1000 * task.mixture.means[i]
-        table.add_row(
-            f"{100 * task.mixture.weights[i]:.0f} %",
-            f"{height:.0f}",
-            f"{velocities[0]:.0f}",
-            f"{velocities[-1]:.0f}",
-            f"{impedance.stiffness[i]:.2f}",
-        )
-    return table
 
 
 def _table(trial: LearningTrial) -> Table:
-    table = Table(
-        title="Q-table (mm of tilt taken away); the greedy action is bold",
-        title_justify="left",
-        box=box.SIMPLE_HEAD,
-    )
-    table.add_column("human - robot")
-    for action in ACTIONS:
-        step = 1000 * action * Q_PARAMETERS.position_step
-        table.add_column(f"{step:+.0f} mm", justify="right")
+    steps = (1000 * action * Q_PARAMETERS.position_step for action in ACTIONS)
     edges = ["", *(f"{1000 * edge:+.0f}" for edge in Q_PARAMETERS.edges), ""]
+    rows: list[tuple[Cell, ...]] = []
     for low, high, row in zip(edges, edges[1:], trial.table, strict=False):
         best = int(np.argmax(row))
-        cells = [f"{1000 * value:.1f}" for value in row]
-        cells[best] = f"[bold]{cells[best]}[/]"
         name = f"{low} to {high} mm" if low and high else f"above {low}" if low else f"below {high}"
-        table.add_row(name, *cells)
-    return table
+        cells = (
+            Text(f"{1000 * value:.1f}", "bold" if i == best else "") for i, value in enumerate(row)
+        )
+        rows.append((name, *cells))
+    return table(
+        "Q-table (mm of tilt taken away); the greedy action is bold",
+        ("human - robot", *(f"{step:+.0f} mm" for step in steps)),
+        rows,
+    )
 
 
 def _convergence(trials: list[LearningTrial]) -> str:

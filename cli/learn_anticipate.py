@@ -7,24 +7,16 @@ from typing import Annotated, Final
 
 import numpy as np
 import typer
-from rich import box
-from rich.console import Console
 from rich.table import Table
 
-from ..agents.policies.anticipation import Anticipation, anticipation_json, load_anticipation
-from ..benchmark.anticipation_experience import Timing
-from ..benchmark.anticipation_learning import (
-    FIRST_SEED,
-    HIDDEN,
-    LIFTS,
-    ROUNDS,
-    learn_anticipation,
-)
+from ..agents.control.anticipation import Anticipation, anticipation_json, load_anticipation
 from ..benchmark.bounds import causal
-from ..benchmark.executors import local_pool
-from ..benchmark.scenario import CONTROL_PERIOD, LATENCY
-from .executors import Jobs
-from .output import check_output
+from ..benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
+from ..benchmark.execution.pool import local_pool
+from ..benchmark.training.anticipation import FIRST_SEED, HIDDEN, LIFTS, ROUNDS, learn_anticipation
+from ..benchmark.training.experience import Timing
+from .options import Jobs, check_output, write_output
+from .printing import show, table
 from .progress import progress_bar
 
 SHOWN: Final = 2
@@ -59,7 +51,7 @@ def anticipate(
     _learn(command, lifts, rounds, seed, HIDDEN, timing, out, jobs)
 
 
-def causal_bound(
+def learn_causal_bound(
     lifts: Annotated[int, typer.Option(metavar="N", help="Lifts.")] = causal.LIFTS,
     seed: Seed = causal.FIRST_SEED,
     out: Out = None,
@@ -98,27 +90,23 @@ def _learn(
             progress=progress,
         ):
             models.append(lesson.model)
-    console = Console()
-    console.print(_table(models), highlight=False)
-    if out is not None:
-        provenance = {"command": command, **models[-1].provenance}
-        out.write_text(anticipation_json(dataclasses.replace(models[-1], provenance=provenance)))
-        console.print(f"written: {out}", highlight=False, soft_wrap=True)
+    show(_table(models))
+    provenance = {"command": command, **models[-1].provenance}
+    write_output(out, anticipation_json(dataclasses.replace(models[-1], provenance=provenance)))
 
 
 def _table(models: list[Anticipation]) -> Table:
     """Return the error of the foreseen height at each lead, after each round."""
-    table = Table(
-        title="Error of the foreseen height on what it was learned from, rms mm",
-        title_justify="left",
-        box=box.SIMPLE_HEAD,
+    leads = models[-1].leads[::SHOWN]
+    return table(
+        "Error of the foreseen height on what it was learned from, rms mm",
+        ("round", "samples", *(f"{1000 * np.round(lead, 3):+.0f} ms" for lead in leads)),
+        (
+            (
+                str(number),
+                str(model.provenance["samples"]),
+                *(f"{error:.2f}" for error in model.provenance["rms_error_mm"][::SHOWN]),
+            )
+            for number, model in enumerate(models, 1)
+        ),
     )
-    table.add_column("round", justify="right")
-    table.add_column("samples", justify="right")
-    for lead in models[-1].leads[::SHOWN]:
-        table.add_column(f"{1000 * np.round(lead, 3):+.0f} ms", justify="right")
-    for number, model in enumerate(models, 1):
-        errors = model.provenance["rms_error_mm"][::SHOWN]
-        samples = str(model.provenance["samples"])
-        table.add_row(str(number), samples, *(f"{error:.2f}" for error in errors))
-    return table

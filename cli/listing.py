@@ -3,25 +3,28 @@
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
 from ..agents.humans import SUBJECTS, Subject
 from ..agents.registry import HUMANS, POLICIES, entries, lookup, summary
-from ..benchmark.suite import SUITES
+from ..benchmark.suites.suite import SUITES
+from .completion import policies
 from .policy_parameters import policy_parameters
+from .printing import show
 
 
 def list_all(
     policy: Annotated[
         str | None,
-        typer.Argument(help="List its parameters: a name, module:Class or file.py:Class."),
+        typer.Argument(
+            help="List its parameters: a name, module:Class, file.py:Class or a folder.",
+            autocompletion=policies,
+        ),
     ] = None,
 ) -> None:
     """List policies, human behaviours, subjects and suites, one line each."""
     if policy is not None:
-        for part in policy_parameters(policy):
-            Console().print(part, highlight=False)
+        show(*policy_parameters(policy))
         return
     table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
     table.add_column(style="bold", no_wrap=True)
@@ -37,7 +40,7 @@ def list_all(
     table.add_row("[underline]Suites[/]")
     for name, (line, _) in SUITES.items():
         table.add_row(f"  {name}", line)
-    Console().print(table, highlight=False)
+    show(table)
 
 
 def _about(subject: Subject) -> str:

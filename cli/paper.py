@@ -3,15 +3,21 @@
 import json
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
-from rich.console import Console
+from rich.console import RenderableType
 
-from ..benchmark.executors import local_pool
-from .executors import Jobs
+from ..benchmark.execution.pool import local_pool
+from .options import Jobs, seed_range
+from .printing import left, show, table
 from .progress import progress_bar
-from .seeds import seed_range
+
+if TYPE_CHECKING:
+    from ..benchmark.paper.report import Report
+
+SHOWN: Final = (0, 1, 2, 4, 5, 8)
+"""Columns of Table I that fit a terminal: not the ratios and the differences."""
 
 
 def paper(
@@ -32,8 +38,7 @@ def paper(
     # The report needs matplotlib, which is slow to load: not for the other commands.
     from ..benchmark.paper.evidence import Effort, amount, gather
     from ..benchmark.paper.report import check_target, claims_json, make_report, write_report
-    from ..benchmark.suite import make_suite
-    from .paper_summary import summary_table
+    from ..benchmark.suites.suite import make_suite
 
     suite = make_suite("paper-v1").with_seeds(*seed_range(seeds))
     effort = Effort(learning_trials=trials)
@@ -52,7 +57,21 @@ def paper(
     if as_json:
         print(json.dumps(claims_json(report), indent=2, allow_nan=False))
     else:
-        console = Console()
-        for table in summary_table(report):
-            console.print(table)
-        console.print(f"Report: {out / 'report.html'}", highlight=False, soft_wrap=True)
+        show(*_summary(report))
+        print(f"Report: {out / 'report.html'}")
+
+
+def _summary(report: "Report") -> list[RenderableType]:
+    """Return Table I and the list of the claims."""
+    from ..benchmark.paper.words import HEADER, table_notes, table_rows, verdict
+
+    titles = [HEADER[column].replace(": ", ":\n") for column in SHOWN]
+    rows = [
+        [row[column].replace(" (", "\n(") for column in SHOWN] for row in table_rows(report.table)
+    ]
+    claims = table(
+        verdict(sum(claim.holds for claim in report.claims), len(report.claims)),
+        ("claim", left("measured"), "holds"),
+        ((each.claim, each.measured, "yes" if each.holds else "no") for each in report.claims),
+    )
+    return [table("Table I: RMSE [mm]", titles, rows), *table_notes(report.table), claims]

@@ -1,18 +1,22 @@
 """From what a user calls a policy to what runs it, and how far apart from the scores."""
 
-import hashlib
+import functools
+import sys
 from pathlib import Path
 from typing import Final
 
 from ..agents.errors import InputError
-from ..agents.isolation.ladder import DESCRIPTIONS, fault
-from ..agents.isolation.sandboxed import SandboxedPolicy
-from ..agents.policies.loading import PolicySpec
+from ..agents.identity import source_hash
+from ..agents.loading.loading import PolicySpec
+from ..agents.loading.parameters import merged, split
+from ..agents.near_names import did_you_mean
 from ..agents.registry import POLICIES, entries, own_entries
+from ..agents.sandbox.host.levels import LEVELS, choose, fault
+from ..agents.sandbox.host.policy import SandboxedPolicy
+from ..agents.spec import AgentSpec
 from ..agents.submissions.modules import module_digest
 from ..agents.submissions.snapshot import snapshot_file
-from ..agents.submissions.submission import DIGEST, open_submission
-from ..benchmark.agent_spec import AgentSpec
+from ..agents.submissions.submission import digest_with, open_submission
 
 AUTO: Final = "auto"
 """Colift's own policies by name in this process, all others in the strongest sandbox."""
@@ -31,39 +35,43 @@ def choose_policy(text: str, isolation: str = AUTO) -> AgentSpec:
     ----------
     text
         A registered name, ``module:Class`` or ``file.py:Class``, each with parameters after a
-        comma if any; or the folder of a submission. A name comes before a folder of that name:
-        say ``./name`` for the folder.
+        comma if any; or the folder of a submission, with or without them. A name comes before a
+        folder of that name: say ``./name`` for the folder.
     isolation
         ``auto``: colift's own policies by name in this process, all others in the strongest
-        sandbox that works here. ``none``: in this process, whatever it is. Else a rung of
-        isolation, for any policy.
+        sandbox that works here. ``none``: in this process, whatever it is. Else the isolation
+        level, for any policy.
 
     Raises
     ------
     InputError
-        If there is no such policy, submission or isolation, or the rung does not work here.
+        If there is no such policy, submission or isolation, or the level does not work here.
     """
-    rung = usable_rung(isolation)
+    level = usable_level(isolation)
     spec = PolicySpec(text=text)
-    place, _, parameters = spec.parts
+    place, comma, parameters = spec.parts
+    if comma and not Path(text).is_dir():  # The name of a folder may have a comma.
+        split(parameters)
     own = place in own_entries(POLICIES)
-    if own and rung is None:
+    if own and level is None:
         spec.load()
         return spec
     if own:
-        return _sandboxed(spec, entries(POLICIES)[place].value, spec.digest(), rung)
+        return _sandboxed(spec, entries(POLICIES)[place].value, spec.digest(), level)
     if place in entries(POLICIES) or ":" in place:
-        return spec if isolation == NONE else _foreign(spec, rung)
-    if parameters and Path(place).is_dir():
-        raise InputError(f"submission {place} takes no parameters; set them in its policy.py")
-    if not text or place.endswith(".py") or not ("/" in text or Path(text).is_dir()):
+        return spec if isolation == NONE else _foreign(spec, level)
+    if Path(text).is_dir():
+        place, parameters = text, ""
+    if not place or place.endswith(".py") or not ("/" in place or Path(place).is_dir()):
         spec.load()  # Tells that the class is missing, or which names there are.
-    submission = open_submission(Path(text))
-    return submission.trusted() if isolation == NONE else submission.sandboxed(rung)
+    submission = open_submission(Path(place))
+    if isolation == NONE:
+        return submission.trusted(parameters)
+    return submission.sandboxed(level or auto_level(), parameters)
 
 
-def usable_rung(isolation: str) -> str | None:
-    """Return the rung that an isolation names; None for ``auto`` and ``none``.
+def usable_level(isolation: str) -> str | None:
+    """Return the level that an isolation names; None for ``auto`` and ``none``.
 
     Raises
     ------
@@ -72,16 +80,32 @@ def usable_rung(isolation: str) -> str | None:
     """
     if isolation in (AUTO, NONE):
         return None
-    if isolation not in DESCRIPTIONS:
-        known = ", ".join((AUTO, *DESCRIPTIONS, NONE))
-        raise InputError(f"unknown isolation {isolation!r}; known: {known}")
+    if isolation not in LEVELS:
+        known = (AUTO, *LEVELS, NONE)
+        near = did_you_mean(isolation, known)
+        raise InputError(f"unknown isolation {isolation!r}; {near}known: {', '.join(known)}")
     reason = fault(isolation)
     if reason is not None:
         raise InputError(f"isolation {isolation} does not work here: {reason}")
     return isolation
 
 
-def _foreign(spec: PolicySpec, rung: str | None) -> SandboxedPolicy:
+@functools.cache
+def auto_level() -> str:
+    """Return the strongest level that works here; say once on stderr which stronger ones do not.
+
+    Raises
+    ------
+    EvaluatorFault
+        If none works.
+    """
+    choice = choose()
+    if choice.passed:
+        print(choice, file=sys.stderr)
+    return choice.level
+
+
+def _foreign(spec: PolicySpec, level: str | None) -> SandboxedPolicy:
     """Return a class of somebody else's in a sandbox, where it sees its own file and packages."""
     place, _, parameters = spec.parts
     if place in entries(POLICIES):
@@ -89,14 +113,15 @@ def _foreign(spec: PolicySpec, rung: str | None) -> SandboxedPolicy:
     source, _, name = place.rpartition(":")
     if source.endswith(".py"):
         path = Path(source)
-        folder, contents = snapshot_file(path)
-        digest = contents.files[0].sha256[:DIGEST]
-        return _sandboxed(spec, f"{path.name}:{name}", _digest(digest, parameters), rung, folder)
-    return _sandboxed(spec, place, _digest(module_digest(source), parameters), rung)
+        folder, _ = snapshot_file(path)
+        digest = source_hash((folder / path.name).read_bytes())
+        digest = digest_with(digest, merged(parameters))
+        return _sandboxed(spec, f"{path.name}:{name}", digest, level, folder)
+    return _sandboxed(spec, place, digest_with(module_digest(source), merged(parameters)), level)
 
 
 def _sandboxed(
-    spec: PolicySpec, place: str, digest: str, rung: str | None, folder: Path | None = None
+    spec: PolicySpec, place: str, digest: str, level: str | None, folder: Path | None = None
 ) -> SandboxedPolicy:
     _, _, parameters = spec.parts
     return SandboxedPolicy(
@@ -105,13 +130,5 @@ def _sandboxed(
         parameters=parameters,
         folder=folder,
         source_digest=digest,
-        rung=rung,
+        isolation=level or auto_level(),
     )
-
-
-def _digest(source: str, parameters: str) -> str:
-    """Return the digest of a source and the parameters as they are written."""
-    if not parameters:
-        return source
-    told = ",".join(sorted(part.strip() for part in parameters.split(",")))
-    return hashlib.sha256(f"{source},{told}".encode()).hexdigest()[:DIGEST]

@@ -8,16 +8,17 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
 from ..agents.errors import EvaluatorFault, InputError
-from ..leaderboard.evaluation import Watch, amount, play_team
-from ..leaderboard.own import own_names
-from ..leaderboard.practice import SUITES, is_current, play_policy, practice_season
-from ..leaderboard.season import Season
-from ..leaderboard.shipped import Shipped
-from .executors import Jobs, executor
+from ..leaderboard.evaluation.entrant import builtin_names
+from ..leaderboard.evaluation.evaluation import episode_count, play_team
+from ..leaderboard.evaluation.progress import Callbacks
+from ..leaderboard.practice.practice import SUITES, is_current, play_policy, practice_season
+from ..leaderboard.practice.shipped import Shipped
+from ..leaderboard.records.season import Season
+from .options import Jobs, executor
+from .printing import show, table
 from .progress import job_bar
 
 
@@ -48,10 +49,10 @@ def practice(
     """
     if not out.is_dir():
         raise InputError(f"cannot write to {out}: there is no such folder")
-    names = policy or list(own_names())
-    unknown = [name for name in names if name not in own_names()]
+    names = policy or list(builtin_names())
+    unknown = [name for name in names if name not in builtin_names()]
     if unknown:
-        known = ", ".join(own_names())
+        known = ", ".join(builtin_names())
         raise InputError(f"colift has no policy {unknown[0]!r} of its own; it has {known}")
     refused = False
     with executor(jobs, dask) as pool:
@@ -62,7 +63,7 @@ def practice(
                 print("interrupted: go on by the same command", file=sys.stderr)
                 raise typer.Exit(1) from None
             refused |= bool(faults)
-            Console().print(_table(season, shipped))
+            show(_table(season, shipped))
             for fault in faults:
                 print(f"error: {fault}", file=sys.stderr)
     if refused:
@@ -78,7 +79,7 @@ def _season(
         there = None
     done = [] if there is None or fresh else [p for p in there.played if is_current(p, season)]
     todo = [name for name in names if name not in {each.entry.name for each in done}]
-    total = len(todo) * amount(season) + (season.suite.size if there is None else 0)
+    total = len(todo) * episode_count(season) + (season.suite.size if there is None else 0)
     faults = []
     with job_bar(season.name, total) as bar:
 
@@ -86,7 +87,7 @@ def _season(
             bar.stage(f"{season.name}: {policy}, {name}")
 
         if there is None:
-            watch = Watch(stage=partial(stage, "all"), progress=bar.advance)
+            watch = Callbacks(stage=partial(stage, "all"), progress=bar.advance)
             team = play_team(season, executor=pool, watch=watch)
             there = Shipped(
                 suite=season.suite.name,
@@ -96,7 +97,7 @@ def _season(
                 played=(),
             )
         for name in todo:
-            watch = Watch(stage=partial(stage, name), progress=bar.advance)
+            watch = Callbacks(stage=partial(stage, name), progress=bar.advance)
             try:
                 now = datetime.now(UTC)
                 new = play_policy(name, season, there.team, now, executor=pool, watch=watch)
@@ -109,12 +110,17 @@ def _season(
 
 
 def _table(season: Season, shipped: Shipped) -> Table:
-    table = Table(title=f"Season {season.name} on {season.suite.name}", box=None)
-    table.add_column("policy")
-    for title in ("public RMSE mm", "hidden RMSE mm", "hidden vs human"):
-        table.add_column(title, justify="right")
     rows = [each.entry.row for each in shipped.played if each.entry.row is not None]
-    for row in sorted(rows, key=lambda row: row.hidden.rmse_mm.mean):
-        numbers = (row.public.rmse_mm.mean, row.hidden.rmse_mm.mean, row.hidden.vs_human.mean)
-        table.add_row(row.name, *(f"{number:.2f}" for number in numbers))
-    return table
+    return table(
+        f"Season {season.name} on {season.suite.name}",
+        ("policy", "public RMSE mm", "hidden RMSE mm", "hidden vs human"),
+        (
+            (
+                row.name,
+                f"{row.public.rmse_mm.mean:.2f}",
+                f"{row.hidden.rmse_mm.mean:.2f}",
+                f"{row.hidden.vs_human.mean:.2f}",
+            )
+            for row in sorted(rows, key=lambda row: row.hidden.rmse_mm.mean)
+        ),
+    )

@@ -4,18 +4,15 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich import box
-from rich.console import Console
-from rich.table import Table
 
-from ..benchmark.bounds.play import BOUNDS
+from ..benchmark.bounds.causal import BOUNDS
 from ..benchmark.comparison.contest import play_bounds
-from ..benchmark.executors import local_pool
-from ..benchmark.references import SPECS, Reference, ToShip, play_references, references_json
+from ..benchmark.execution.pool import local_pool
+from ..benchmark.results.baselines import SPECS, Reference, ToShip, play_references, references_json
 from ..benchmark.statistics import stratified_bootstrap
-from ..benchmark.suite import SUITES, make_suite
-from .executors import Jobs
-from .output import check_output
+from ..benchmark.suites.suite import SUITES, make_suite
+from .options import Jobs, check_output, write_output
+from .printing import left, show, table
 from .progress import progress_bar
 
 
@@ -38,19 +35,15 @@ def references(
             references = play_references(suite, executor=pool, progress=progress)
             bounds = play_bounds(BOUNDS, suite, executor=pool, progress=progress)
             played.append(ToShip(suite=suite, references=references, bounds=bounds))
-    table = Table(box=box.SIMPLE_HEAD)
-    for title in ("suite", "reference", "human"):
-        table.add_column(title)
-    table.add_column("RMSE mm", justify="right")
-    table.add_column("95 % interval", justify="right")
-    for each in played:
-        for name, reference in {**each.references, **each.bounds}.items():
-            for behaviour in (*dict.fromkeys(key[0] for key in reference.cells), "all"):
-                table.add_row(each.suite.name, name, behaviour, *_error(reference, behaviour))
-    Console().print(table)
-    if out is not None:
-        out.write_text(references_json(played))
-        print(f"written: {out}")
+    rows = [
+        (each.suite.name, name, behaviour, *_error(reference, behaviour))
+        for each in played
+        for name, reference in {**each.references, **each.bounds}.items()
+        for behaviour in (*dict.fromkeys(key[0] for key in reference.cells), "all")
+    ]
+    titles = ("suite", left("reference"), left("human"), "RMSE mm", "95 % interval")
+    show(table("", titles, rows))
+    write_output(out, references_json(played))
 
 
 def _error(reference: Reference, behaviour: str) -> tuple[str, str]:

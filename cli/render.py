@@ -1,26 +1,26 @@
 """``colift render``: a lift as picture, film, or a page on which it can be played."""
 
+import sys
 from pathlib import Path
 from typing import Annotated, Final
 
 import typer
 
 from ..agents.errors import InputError
-from ..agents.policies.loading import PolicySpec
-from ..benchmark.catalogue import make_scenario
-from ..benchmark.episode import Episode
-from ..benchmark.scenario import CONTROL_PERIOD, LATENCY, Scenario
-from ..benchmark.tasks import play
-from .output import check_output
+from ..benchmark.episode.episode import START, STEP, Episode
+from ..benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
+from ..benchmark.execution.tasks import play
+from ..benchmark.suites.catalogue import make_scenario
+from .completion import behaviours, people, policies
+from .options import check_output
+from .policies import HELP, choose_policy
 from .progress import progress_bar
 
 HTML: Final = ".html"
 
 
-def render(
-    policy: Annotated[
-        str, typer.Argument(help="A name of 'colift list', module:Class or file.py:Class.")
-    ],
+def render_episode(
+    policy: Annotated[str, typer.Argument(help=HELP, autocompletion=policies)],
     out: Annotated[
         Path,
         typer.Option(
@@ -29,10 +29,16 @@ def render(
         ),
     ],
     scenario: Annotated[
-        str, typer.Option(help="The human's behaviour, or recorded:FILE.csv#TRIAL.")
+        str,
+        typer.Option(
+            help="The human's behaviour, or recorded:FILE.csv#TRIAL.", autocompletion=behaviours
+        ),
     ] = "smooth",
-    subject: Annotated[str, typer.Option(help="Who the human is: S1 to S5, or draw-N.")] = "S1",
-    seed: Annotated[int, typer.Option(help="The episode's seed.")] = 0,
+    subject: Annotated[
+        str,
+        typer.Option(help="Who the human is: S1 to S5, or draw-N.", autocompletion=people),
+    ] = "S1",
+    seed: Annotated[int, typer.Option(help="The lift's seed.")] = 0,
     latency: Annotated[
         float, typer.Option(metavar="S", help="Age of the robot's data, in seconds.")
     ] = LATENCY,
@@ -40,11 +46,20 @@ def render(
         float, typer.Option(metavar="S", help="Time between two decisions, in seconds.")
     ] = CONTROL_PERIOD,
 ) -> None:
-    """Draw a lift, seen from the side, with the heights of both ends under it."""
+    """Draw a lift, seen from the side, with the heights of both ends under it.
+
+    Exit code 1, and no file, if the policy fails.
+    """
     _check(out)
-    spec = PolicySpec(text=policy)
+    if seed < 0:
+        raise InputError(f"--seed must not be negative, got {seed}")
+    spec = choose_policy(policy)
     played = make_scenario(scenario, subject, control_period=control_period, latency=latency)
+    spec.check()
     (episode,) = play(spec, played, (seed,))
+    if episode.failure is not None and episode.failure.startswith((START, STEP)):
+        print(f"nothing to draw: the policy failed: {episode.failure}", file=sys.stderr)
+        raise typer.Exit(1)
     if out.suffix == HTML:
         _write_page(out, episode, played, spec.name)
     else:
@@ -76,10 +91,9 @@ def _film(out: Path, episode: Episode, played: Scenario, name: str) -> None:
 
 
 def _write_page(out: Path, episode: Episode, played: Scenario, name: str) -> None:
-    from ..leaderboard.replays.ghost import play_ghost
     from ..leaderboard.replays.html import replay_page
-    from ..leaderboard.replays.replay import replay
+    from ..leaderboard.replays.replay import play_ghost, replay_content
 
     ghost = play_ghost(played, episode.seed)
-    page = replay_page([replay(episode, played, ghost, policy=name)])
+    page = replay_page([replay_content(episode, played, ghost, policy=name)])
     out.write_text(page, encoding="utf-8")

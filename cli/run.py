@@ -1,36 +1,38 @@
 """``colift run``: evaluate a policy on a suite."""
 
-from collections.abc import Mapping
+import json
+import sys
+from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated, Any, Final
 
 import typer
 
 from ..agents.errors import EvaluatorFault, InputError
-from ..benchmark.agent_spec import AgentSpec
-from ..benchmark.bundle import check_target, results, write_bundle
-from ..benchmark.cluster import Cluster
-from ..benchmark.journal import Journal, open_journal
-from ..benchmark.origin import origin, platform
-from ..benchmark.references import SPECS, Reference, play_references, shipped_references
-from ..benchmark.runner import Run, run_suite
-from ..benchmark.shipping import shipped
-from ..benchmark.suite import Suite
-from .executors import Jobs, executor
+from ..agents.spec import AgentSpec
+from ..benchmark.bundle import check_target, check_unfinished, results, write_bundle
+from ..benchmark.execution.cluster import Cluster
+from ..benchmark.execution.journal import Journal, open_journal
+from ..benchmark.execution.provenance import origin, platform_of
+from ..benchmark.execution.runner import Run, run_suite
+from ..benchmark.results.baselines import SPECS, Reference, play_references, shipped_references
+from ..benchmark.suites.suite import Suite
+from .completion import policies, suites
+from .options import STANDARD, Jobs, chosen_suite, executor
 from .policies import AUTO, HELP, choose_policy
+from .printing import argument, show
 from .progress import progress_bar
-from .run_report import complain, mention_idle, print_results
-from .suites import chosen_suite
+from .tables.results import results_table, standing
 
 GO_ON: Final = "what is finished is kept: go on by the same command with --resume"
 
 
 def run(
-    policy: Annotated[str, typer.Argument(help=HELP)],
-    suite: Annotated[str, typer.Option(help="Scenario suite.")] = "standard-v1",
+    policy: Annotated[str, typer.Argument(help=HELP, autocompletion=policies)],
+    suite: Annotated[str, typer.Option(help="Scenario suite.", autocompletion=suites)] = STANDARD,
     seeds: Annotated[
         str | None, typer.Option(metavar="A:B", help="Seeds A to B-1 instead of the suite's.")
     ] = None,
@@ -60,6 +62,9 @@ def run(
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Where to write the result bundle.")
     ] = None,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace the finished result bundle in --out.")
+    ] = False,
     resume: Annotated[
         bool,
         typer.Option("--resume", help="Go on with the run of the same --out that was interrupted."),
@@ -77,24 +82,26 @@ def run(
         raise InputError("--resume needs the --out of the run that was interrupted")
     if out is not None:
         check_target(out)
+        if not (force or resume):
+            check_unfinished(out)
     spec = choose_policy(policy, isolation)
     spec.check()
     with executor(jobs, dask) as workers:
         there = origin()
         if isinstance(workers, Cluster):
-            spec, there = shipped(spec), workers.origin
-            mention_idle(workers)
+            there = workers.origin
+            _mention_idle(workers)
         with _journal(out, resume, _identity(spec, episodes, there)) as journal:
             done, references = _evaluate(spec, episodes, workers, journal)
             finished = done.complete and references.keys() == SPECS.keys()
             content = results(done, references) if done.episodes else None
             if content is not None and out is not None:
-                write_bundle(out, done, content, platform=platform(there))
+                write_bundle(out, done, content, platform=platform_of(there))
             if journal is not None and finished:
                 journal.remove()
     if content is not None:
-        print_results(content, out, as_json=as_json)
-    if complain(done, finished=finished, hint="" if out is None else GO_ON):
+        _print_results(content, out, as_json=as_json)
+    if _complain(done, finished=finished, hint="" if out is None else GO_ON):
         raise typer.Exit(1)
 
 
@@ -136,3 +143,68 @@ def _evaluate(
                 raise
             raise EvaluatorFault(f"{fault}; {GO_ON}") from fault
     return done, ready
+
+
+def _print_results(content: dict[str, Any], out: Path | None, *, as_json: bool) -> None:
+    """Print the results, as tables and where the policy stands, or as JSON alone."""
+    if as_json:
+        print(json.dumps(content, indent=2, allow_nan=False))
+        return
+    show(results_table(content), standing(content))
+    if out is not None:
+        print(f"Result bundle: {out}")
+        if content["complete"]:
+            print(f"Next: colift verify {argument(out)}")
+
+
+def _mention_idle(cluster: Cluster) -> None:
+    """Say on stderr if a cluster's workers have threads that will get nothing to do."""
+    if cluster.idle_threads:
+        print(
+            f"{cluster.idle_threads} threads of the workers stay idle, since each worker plays one "
+            "lift at a time: start them by dask worker ... --nworkers auto --nthreads 1",
+            file=sys.stderr,
+        )
+
+
+def _complain(run: Run, *, finished: bool, hint: str) -> bool:
+    """Say on stderr what went wrong; return whether the result is to be doubted.
+
+    Parameters
+    ----------
+    run
+        What was played.
+    finished
+        Whether that is everything, the references included.
+    hint
+        How to go on with what is not finished.
+    """
+    for line in (*_faults(run), *_failures(run)):
+        print(line, file=sys.stderr)
+    if not finished:
+        print("; ".join(part for part in (_interrupted(run), hint) if part), file=sys.stderr)
+    return not finished or any(episode.failure is not None for episode in run.episodes)
+
+
+def _faults(run: Run) -> Iterator[str]:
+    if run.faults:
+        again = "1 task was" if run.faults == 1 else f"{run.faults} tasks were"
+        yield f"{again} played again because a worker died or a machine failed"
+
+
+def _failures(run: Run) -> Iterator[str]:
+    failed = [episode for episode in run.episodes if episode.failure is not None]
+    if failed:
+        first = failed[0]
+        yield (
+            f"{len(failed)} of {len(run.episodes)} lifts failed and count as worst; "
+            f"the first, {first.behaviour}/{first.subject} seed {first.seed}: {first.failure}"
+        )
+
+
+def _interrupted(run: Run) -> str:
+    if not run.episodes:
+        return "interrupted before the first lift was finished"
+    if not run.complete:
+        return f"interrupted: partial results of {len(run.episodes)} of {run.suite.size} lifts"
+    return "interrupted before the references were played: there is nothing to compare with"

@@ -5,9 +5,9 @@ from typing import Annotated
 
 import typer
 
-from ..leaderboard.board import LOCAL
-from ..leaderboard.opening import open_stocked
-from ..leaderboard.own import own_entrant, own_names
+from ..leaderboard.board.board import LOCAL
+from ..leaderboard.evaluation.entrant import builtin_entrant, builtin_names
+from ..leaderboard.practice.shipped import open_stocked
 from ..leaderboard.queue import Queue
 
 app = typer.Typer(help="Begin and end the seasons of a board.", no_args_is_help=True)
@@ -36,7 +36,7 @@ def begin(
         print(f"season {name} on {season.suite.name} takes submissions from now on")
         print(f"commitment to its secret: {season.commitment}")
         if own:
-            jobs = [Queue(place).enqueue_own(own_entrant(each)) for each in own_names()]
+            jobs = [Queue(place).enqueue_own(builtin_entrant(each)) for each in builtin_names()]
             print(f"{len(jobs)} policies of the project are queued")
             print(f"Next: colift worker --board {board} --once")
     finally:

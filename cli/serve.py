@@ -12,13 +12,19 @@ from typing import Annotated
 import typer
 
 from ..agents.errors import InputError
-from ..benchmark.executors import default_jobs
+from ..agents.extras import how_to_install
+from ..agents.sandbox.host.levels import check_level
+from ..agents.submissions.folder import MIB
+from ..benchmark.execution.pool import default_jobs
+from ..leaderboard.evaluation.entrant import AUTO
+from ..leaderboard.queue import Quota
+from .board_isolation import Isolation
 
-LISTENING = 2048
-"""Connections that wait to be accepted."""
+ENDING = (signal.SIGINT, signal.SIGTERM)
+"""Signals that end the service."""
 
 
-def serve(
+def serve_board(
     board: Annotated[
         Path, typer.Option(metavar="PATH", help="The board's folder; made if there is none.")
     ] = Path("board"),
@@ -31,6 +37,19 @@ def serve(
     workers: Annotated[
         int, typer.Option(metavar="N", min=0, help="Processes that evaluate submissions.")
     ] = 1,
+    isolation: Isolation = AUTO,
+    rows_a_day: Annotated[
+        int,
+        typer.Option(metavar="N", min=1, help="Rows that a submitter may get in 24 hours."),
+    ] = Quota().rows,
+    kept: Annotated[
+        int,
+        typer.Option(metavar="MIB", min=1, help="Files that are kept of a submitter, in MiB."),
+    ] = Quota().size // MIB,
+    contact: Annotated[
+        str,
+        typer.Option(metavar="TEXT", help="How you are reached; shown where people submit."),
+    ] = "",
     root: Annotated[
         str,
         typer.Option(metavar="/PATH", help="Path below which a reverse proxy shows the board."),
@@ -39,19 +58,23 @@ def serve(
     """Serve a board on the web: its pages, its JSON interface, and uploads."""
     try:
         from ..leaderboard.service.app import create_app
-        from ..leaderboard.service.server import make_server
-        from ..leaderboard.service.workers import running
+        from ..leaderboard.service.server import make_server, running
     except ModuleNotFoundError as error:
         raise InputError(
-            f"{error.name} is not installed; a board on the web needs: pip install 'colift[board]'"
+            f"{error.name} is not installed; a board on the web needs: {how_to_install('board')}"
         ) from error
+    quota = Quota(rows=rows_a_day, size=kept * MIB)
+    if isolation != AUTO:
+        check_level(isolation)  # Rather than by each worker, again and again.
     logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(levelname)s %(message)s")
     command = [sys.executable, "-m", "colift.cli", "worker", "--board", str(board.absolute())]
     command += ["--jobs", str(max(1, default_jobs() // max(1, workers)))]  # They share the cores.
-    signal.signal(signal.SIGTERM, _leave)  # uvicorn raises it again when all is closed.
+    command += ["--isolation", isolation]
+    for number in ENDING:
+        signal.signal(number, _leave)  # uvicorn raises it again when all is closed.
     try:
         with _listening(host, port) as listener:
-            server = make_server(create_app(board), root.rstrip("/"))
+            server = make_server(create_app(board, contact=contact, quota=quota), root.rstrip("/"))
             with running(command, workers):
                 print(f"Board {board}: {_url(listener)} (Ctrl-C ends it)", flush=True)
                 server.run(sockets=[listener])
@@ -67,9 +90,10 @@ def _listening(host: str, port: int) -> socket.socket:
     InputError
         If that is not possible here.
     """
+    from ..leaderboard.service.server import listening
+
     try:
-        family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
-        return socket.create_server((host, port), family=family, backlog=LISTENING)
+        return listening(host, port)
     except OSError as error:
         told = {
             errno.EADDRINUSE: f"port {port} is taken; name another by --port, or 0 for a free one",
@@ -85,4 +109,6 @@ def _url(listener: socket.socket) -> str:
 
 
 def _leave(number: int, frame: FrameType | None) -> None:
+    for each in ENDING:
+        signal.signal(each, signal.SIG_IGN)  # One is enough; the workers have some seconds.
     raise KeyboardInterrupt

@@ -5,20 +5,18 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from ..agents.submissions.submission import open_submission
-from ..benchmark.executors import checked_jobs
-from .arguments import argument
+from ..benchmark.execution.pool import checked_jobs
 from .check import all_checks
-from .executors import Jobs
-from .outcome import Outcome
-from .row_table import row_table, standing
+from .options import Jobs
+from .printing import argument, show
 from .submit_here import Here
 from .submit_there import There
+from .tables.row import Outcome, row_table, standing
 
 
-def submit(
+def submit_policy(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="The submission's folder.")],
     board: Annotated[
         str,
@@ -74,7 +72,5 @@ def _tell(outcome: Outcome, folder: Path) -> None:
         if outcome.mend:
             print(f"Mend it, then: colift check {argument(folder)}", file=sys.stderr)
         raise typer.Exit(1)
-    console = Console()
-    console.print(row_table(outcome.row))
-    console.print(standing(outcome.row, outcome.ranking), highlight=False, soft_wrap=True)
+    show(row_table(outcome.row), standing(outcome.row, outcome.ranking, outcome.section))
     print(outcome.next)

@@ -6,15 +6,15 @@ from pathlib import Path
 from typing import Self
 
 from ..agents.submissions.submission import Submission
-from ..benchmark.executors import local_pool
-from ..leaderboard.board import Board
-from ..leaderboard.evaluation import Watch
-from ..leaderboard.job import Job
-from ..leaderboard.opening import open_stocked
-from ..leaderboard.queue import NO_QUOTA, Queue, Work
-from ..leaderboard.worker import Worker
-from .outcome import Outcome
+from ..benchmark.execution.pool import local_pool
+from ..leaderboard.board.board import Board
+from ..leaderboard.evaluation.progress import Callbacks
+from ..leaderboard.practice.shipped import open_stocked
+from ..leaderboard.queue import NO_QUOTA, Queue, WorkerQueue
+from ..leaderboard.queue.worker import Worker
+from ..leaderboard.records.job import Job
 from .progress import job_bar
+from .tables.row import Outcome
 
 LOOK_S = 0.5
 """How often another worker's job is looked at [s]."""
@@ -62,10 +62,13 @@ class Here:
                 told += f"\nIts public run: {place}"
             return Outcome(reason=told, mend=True)
         standings = self.board.standings(job.season)
-        row = next(each.row for each in standings if each.row.submission == job.submission)
+        mine = next(each for each in standings if each.row.submission == job.submission)
         return Outcome(
-            row=row,
-            ranking=tuple((each.group, each.row) for each in standings if each.ranked),
+            row=mine.row,
+            section=mine.section,
+            ranking=tuple(
+                (each.group, each.row) for each in standings if each.section == mine.section
+            ),
             next=f"Bundle of the public run: {place}\nNext: colift verify {place}",
         )
 
@@ -78,8 +81,8 @@ def _evaluated(queue: Queue, job: Job, jobs: int) -> Job:
     """Return a job that has ended, or failed by this machine's fault."""
     worker, now = None, job
     with local_pool(jobs) as pool, job_bar(job.name, job.total) as bar:
-        watch = Watch(stage=bar.stage, progress=bar.advance, total=bar.total)
-        worker = Worker(Work(queue.board), pool)
+        watch = Callbacks(stage=bar.stage, progress=bar.advance, total=bar.total)
+        worker = Worker(WorkerQueue(queue.board), pool)
         while True:
             mine = worker.once(job.id, watch)
             now = mine or queue.job(job.id) or now

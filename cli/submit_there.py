@@ -8,9 +8,10 @@ from typing import Any, Self
 from ..agents.errors import InputError
 from ..agents.submissions.submission import Submission
 from ..leaderboard.client import API, RemoteBoard
-from ..leaderboard.row import Row
-from .outcome import Outcome
+from ..leaderboard.pages.links import ServiceLinks
+from ..leaderboard.records.row import BoardRow
 from .progress import job_bar
+from .tables.row import Outcome
 
 LOOK_S = 1.0
 """How often a job is looked at [s]."""
@@ -59,21 +60,29 @@ class There:
         if job["state"] == "evaluator fault":
             told = f"evaluator fault, not the policy's: {job['reason']}\nSubmit again."
             return Outcome(reason=told)
+        if job["state"] == "cancelled":
+            return Outcome(reason=f"cancelled by {job['reason']}")
         if job["state"] == "failed":
             told = f"refused, so there is no row: {job['reason']}\nIts log: {self._place(job)}"
             return Outcome(reason=told, mend=True)
         table = self.board.standings(job["season"])
-        rows = [(each["group"], Row.read(each["row"])) for each in table]
-        row = next(row for _, row in rows if row.submission == job["submission"])
+        mine = next(each for each in table if each["row"]["submission"] == job["submission"])
+        same = [each for each in table if each["section"] == mine["section"]]
         bundle = f"{self._api}/entries/{job['season']}/{job['submission']}/bundle.zip"
         return Outcome(
-            row=row,
-            ranking=tuple((group, row) for group, row in rows if group),
-            next=f"Bundle of the public run: {bundle}",
+            row=BoardRow.read(mine["row"]),
+            section=mine["section"],
+            ranking=tuple((each["group"], BoardRow.read(each["row"])) for each in same),
+            next=f"Bundle of the public run: {bundle}\n"
+            f"Its page: {self._pages.policy(job['season'], job['submission'])}",
         )
 
     def _place(self, job: Mapping[str, Any]) -> str:
-        return f"{self._api}/jobs/{job['id']}"
+        return f"{self._pages.root}/jobs/{job['id']}"
+
+    @property
+    def _pages(self) -> ServiceLinks:
+        return ServiceLinks(self.board.url.rstrip("/"))
 
     @property
     def _api(self) -> str:

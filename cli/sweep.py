@@ -4,21 +4,19 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich import box
-from rich.console import Console
 from rich.table import Table
 
 from ..agents.errors import InputError
 from ..benchmark.bounds import sweep as sweeping
 from ..benchmark.bounds.held_out import held_out_suite
 from ..benchmark.bounds.sweep import NAMES, Swept, lifts_to_play, team_rmse, timings
-from ..benchmark.executors import local_pool
-from .executors import Jobs
-from .output import check_output
+from ..benchmark.execution.pool import local_pool
+from .options import Jobs, check_output
+from .printing import show, table
 from .progress import progress_bar
 
 
-def sweep(
+def sweep_rates(
     lifts: Annotated[
         int, typer.Option(metavar="N", help="Lifts of a round of learning.", min=1)
     ] = 400,
@@ -43,27 +41,18 @@ def sweep(
     ):
         team = team_rmse(suite, executor=pool, progress=progress)
         swept = list(sweeping.sweep(suite, lifts=lifts, executor=pool, progress=progress))
-    console = Console()
-    console.print(_table(swept, team, suite.name), highlight=False)
+    show(_table(swept, team, suite.name))
     if out is not None:
         # matplotlib is slow to load.
         from ..benchmark.bounds.sweep_picture import sweep_figure, sweep_json
 
         sweep_figure(swept, team, "What a fresher or a faster robot gains").savefig(out)
         out.with_suffix(".json").write_text(sweep_json(swept, team))
-        console.print(f"written: {out}", highlight=False, soft_wrap=True)
+        print(f"written: {out}")
 
 
 def _table(swept: list[Swept], team: float, suite: str) -> Table:
-    table = Table(
-        title=f"RMSE mm on {suite}",
-        caption=f"human-human team: {team:.2f} mm",
-        title_justify="left",
-        caption_justify="left",
-        box=box.SIMPLE_HEAD,
-    )
-    for name in ("latency ms", "period ms", *NAMES):
-        table.add_column(name, justify="right")
+    rows = []
     for timing in timings():
         latency, period = timing.latency, timing.control_period
         found = {
@@ -71,6 +60,11 @@ def _table(swept: list[Swept], team: float, suite: str) -> Table:
             for each in swept
             if (each.latency, each.control_period) == (latency, period)
         }
-        row = [f"{1000 * latency:.0f}", f"{1000 * period:.0f}"]
-        table.add_row(*row, *(f"{found[name]:.2f}" for name in NAMES))
-    return table
+        row = (f"{1000 * latency:.0f}", f"{1000 * period:.0f}")
+        rows.append((*row, *(f"{found[name]:.2f}" for name in NAMES)))
+    return table(
+        f"RMSE mm on {suite}",
+        ("latency ms", "period ms", *NAMES),
+        rows,
+        caption=f"human-human team: {team:.2f} mm",
+    )

@@ -4,12 +4,11 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich import box
-from rich.console import Console
-from rich.table import Table
 
-from ..leaderboard.board import Board
-from ..leaderboard.tokens import Tokens
+from ..leaderboard.board.board import Board
+from ..leaderboard.board.tokens import Tokens
+from ..leaderboard.practice.shipped import open_to_read
+from .printing import show, table
 
 app = typer.Typer(help="Say who may submit to a board over the web.", no_args_is_help=True)
 
@@ -31,10 +30,19 @@ def revoke(name: NameArgument, board: BoardOption = Path("board")) -> None:
 
 
 @app.command("list")
-def list_all(board: BoardOption = Path("board")) -> None:
+def list_tokens(board: BoardOption = Path("board")) -> None:
     """List who has a token, or had one."""
-    table = Table("name", "since", "until", box=box.SIMPLE_HEAD)
-    for each in Tokens(Board.open(board)).all():
-        until = "" if each.revoked_at is None else f"{each.revoked_at:%Y-%m-%d}"
-        table.add_row(each.name, f"{each.added_at:%Y-%m-%d}", until)
-    Console().print(table)
+    place = open_to_read(board)
+    try:
+        found = Tokens(place).all()
+    finally:
+        place.close()
+    rows = (
+        (
+            each.name,
+            f"{each.added_at:%Y-%m-%d}",
+            "" if each.revoked_at is None else f"{each.revoked_at:%Y-%m-%d}",
+        )
+        for each in found
+    )
+    show(table("", ("name", "since", "until"), rows))

@@ -9,20 +9,19 @@ from typing import Annotated, Final
 import typer
 
 from ..agents.errors import EvaluatorFault
-from ..benchmark.bundle import check_target, one_line, write_bundle
-from ..benchmark.executors import checked_jobs, process_pool
-from ..benchmark.headline import headline
-from ..benchmark.runner import Run
-from ..benchmark.verification import PROVES, UNPROVEN, Verdict
-from ..benchmark.verification import verify as verify_bundle
-from .executors import Jobs
+from ..benchmark.bundle import check_target, check_unfinished, one_line, write_bundle
+from ..benchmark.execution.pool import checked_jobs, process_pool
+from ..benchmark.execution.runner import Run
+from ..benchmark.results.headline import headline
+from ..benchmark.verification import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Verdict, verify
+from .options import Jobs
 from .progress import progress_bar
 
 MOST_LINES: Final = 20
 """In how many ways a bundle's platform is said to be another."""
 
 
-def verify(
+def verify_bundle(
     bundle: Annotated[
         Path,
         typer.Argument(
@@ -37,11 +36,14 @@ def verify(
             help="Write the bundle anew there, with the scores of this version of colift.",
         ),
     ] = None,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace the finished result bundle in --rescore.")
+    ] = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the verdict as JSON, and nothing else.")
     ] = False,
 ) -> None:
-    """Simulate every episode of a result bundle again, and compare every number.
+    """Simulate every lift of a result bundle again, and compare every number.
 
     Nothing in the bundle is trusted, and no policy is run. Exit code 0: it is verified; 1: it is
     not, with the file, the lift and the first step in which that shows.
@@ -49,12 +51,14 @@ def verify(
     count = checked_jobs(jobs)
     if rescore is not None:
         check_target(rescore)
+        if not force:
+            check_unfinished(rescore)
     try:
         with (
             process_pool(count) as pool,
             progress_bar(f"verify {bundle.name}", None) as progress,
         ):
-            verdict = verify_bundle(bundle, executor=pool, progress=progress)
+            verdict = verify(bundle, executor=pool, progress=progress)
     except EvaluatorFault as fault:
         print(f"not verified: {fault}; this says nothing of the bundle", file=sys.stderr)
         raise typer.Exit(1) from None
@@ -89,12 +93,14 @@ def _good_news(bundle: Path, verdict: Verdict, run: Run) -> str:
     else:
         how = f"within {verdict.tolerance_mm} mm, since it comes from another platform"
     lines = [
-        f"{len(run.episodes)} episodes of {run.policy} on {run.suite.name} simulated again: {how}."
+        f"{len(run.episodes)} lifts of {run.policy} on {verdict.suite} simulated again: {how}."
     ]
     lines += [
         f"  {name}: {there} there, {here} here"
         for name, (there, here) in itertools.islice(verdict.other_platform.items(), MOST_LINES)
     ]
+    if verdict.policies_differ:
+        lines.append(ACTIONS_FROM_LOG)
     if verdict.results is not None:
         lines.append(headline(verdict.results["summary"]))
     if verdict.ok:

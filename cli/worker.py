@@ -6,13 +6,20 @@ from pathlib import Path
 from types import FrameType
 from typing import Annotated
 
+import sqlalchemy as sa
 import typer
 
-from ..leaderboard.job import Job
-from ..leaderboard.opening import open_stocked
-from ..leaderboard.queue import Work
-from ..leaderboard.worker import Worker
-from .executors import Jobs, executor
+from ..agents.errors import EvaluatorFault
+from ..leaderboard.evaluation.entrant import AUTO
+from ..leaderboard.practice.shipped import open_stocked
+from ..leaderboard.queue import WorkerQueue
+from ..leaderboard.queue.worker import Worker
+from ..leaderboard.records.job import Job
+from .board_isolation import Isolation, tell_isolation
+from .options import Jobs, executor
+
+ENDING = (signal.SIGINT, signal.SIGTERM)
+"""Signals that end a worker."""
 
 
 def worker(
@@ -24,6 +31,7 @@ def worker(
         str | None,
         typer.Option(metavar="URL", help="Use the Dask cluster of this scheduler: tcp://host:8786"),
     ] = None,
+    isolation: Isolation = AUTO,
     once: Annotated[
         bool, typer.Option("--once", help="End when nothing waits, instead of waiting for more.")
     ] = False,
@@ -32,11 +40,13 @@ def worker(
 
     Any number of workers may share a board. One that is killed loses nothing: another begins anew.
     """
-    signal.signal(signal.SIGTERM, _stop)
+    for number in ENDING:
+        signal.signal(number, _stop)
+    tell_isolation(isolation)
     place = open_stocked(board)
     try:
         with executor(jobs, dask) as workers:
-            here = Worker(Work(place), workers)
+            here = Worker(WorkerQueue(place), workers, isolation=isolation)
             if once:
                 while (job := here.once()) is not None:
                     _tell(job)
@@ -45,6 +55,8 @@ def worker(
                 here.run(ended=_tell)
     except KeyboardInterrupt:
         print("ended; an unfinished evaluation is in the queue again", file=sys.stderr)
+    except sa.exc.OperationalError as error:
+        raise EvaluatorFault(f"the board's database does not work: {error.orig}") from error
     finally:
         place.close()
 
@@ -55,4 +67,6 @@ def _tell(job: Job) -> None:
 
 
 def _stop(number: int, frame: FrameType | None) -> None:
+    for each in ENDING:
+        signal.signal(each, signal.SIG_IGN)  # One is enough; a second one would only interrupt it.
     raise KeyboardInterrupt

@@ -1,4 +1,4 @@
-"""A board on the web, as whoever submits to it meets it."""
+"""Client of a board on the web."""
 
 import json
 import tempfile
@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import IO, Any, Final
 
 from ..agents.errors import InputError
-from .archive import pack
+from .storage.archive import pack
 
 API: Final = "/api/v1"
 
@@ -22,6 +22,10 @@ PATIENCE: Final = 30
 
 BUSY: Final = (429, 502, 503, 504)
 """What a board, or a server before it, answers then."""
+
+
+QUOTA: Final = 429
+"""What it answers who has submitted too much: that is not waited for."""
 
 
 class _NoRedirect(urllib.request.HTTPRedirectHandler):
@@ -41,7 +45,7 @@ class RemoteBoard:
 
     def submitter(self) -> str:
         """Return who the board takes the token for; :class:`.InputError` as :meth:`submit`."""
-        answer = self._read("/me", self._identity)
+        answer = self._patiently("/me", self._identity)
         if not isinstance(answer, dict) or "submitter" not in answer:
             raise InputError(
                 f"{self.url} is not a board of colift: it does not say whose token it is"
@@ -64,35 +68,40 @@ class RemoteBoard:
         with tempfile.TemporaryFile() as file:
             pack(folder, file)
             size = file.tell()
-            file.seek(0)
             headers = {
                 **self._identity,
                 "Content-Type": "application/zip",
                 "Content-Length": str(size),
             }
-            answer: dict[str, Any] = self._ask("/submissions", file, headers)
+            answer: dict[str, Any] = self._patiently("/submissions", headers, file)
         return answer
 
     def job(self, id: str) -> dict[str, Any]:  # noqa: A002
         """Return how far a job is; :class:`.InputError` as :meth:`submit`."""
-        answer: dict[str, Any] = self._read(f"/jobs/{id}")
+        answer: dict[str, Any] = self._patiently(f"/jobs/{id}")
         return answer
 
     def standings(self, season: str) -> list[dict[str, Any]]:
         """Return a season's table, best first; :class:`.InputError` as :meth:`submit`."""
-        answer: list[dict[str, Any]] = self._read(f"/standings?season={season}")
+        answer: list[dict[str, Any]] = self._patiently(f"/standings?season={season}")
         return answer
 
     @property
     def _identity(self) -> dict[str, str]:
         return {"Authorization": f"Bearer {self.token}"}
 
-    def _read(self, path: str, headers: dict[str, str] | None = None) -> Any:
+    def _patiently(
+        self, path: str, headers: dict[str, str] | None = None, body: IO[bytes] | None = None
+    ) -> Any:
         """Return an answer; wait a little when the board has no time."""
         for _ in range(PATIENCE):
             try:
-                return self._ask(path, headers=headers)
+                if body is not None:
+                    body.seek(0)
+                return self._ask(path, body, headers)
             except _BusyError as busy:
+                if body is not None and busy.code == QUOTA:
+                    raise
                 time.sleep(busy.seconds)
                 last = busy
         raise last
@@ -118,9 +127,9 @@ class RemoteBoard:
 class _BusyError(InputError):
     """The board has no time now."""
 
-    def __init__(self, told: str, seconds: float) -> None:
+    def __init__(self, told: str, code: int, seconds: float) -> None:
         super().__init__(told)
-        self.seconds = seconds
+        self.code, self.seconds = code, seconds
 
 
 def _refusal(url: str, error: urllib.error.HTTPError) -> InputError:
@@ -134,5 +143,5 @@ def _refusal(url: str, error: urllib.error.HTTPError) -> InputError:
         told = f"it answers {error.code} {error.reason}; is it a board of colift?"
     told = f"board {url}: {told}"
     if error.code in BUSY:
-        return _BusyError(told, min(float(wait), 60.0) if wait.isdecimal() else 2.0)
+        return _BusyError(told, error.code, min(float(wait), 60.0) if wait.isdecimal() else 2.0)
     return InputError(told)

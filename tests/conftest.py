@@ -1,6 +1,11 @@
 """What the tests of several packages share."""
 
+import fcntl
+import gc
+import importlib
 import os
+import resource
+import shutil
 import signal
 import socket
 import subprocess
@@ -8,18 +13,31 @@ import sys
 import threading
 import time
 from contextlib import ExitStack
+from pathlib import Path
 
+import colift
 import pytest
-from colift.benchmark.executors import JOBS
-from colift.benchmark.loopback import loopback_cluster
+from colift.agents.sandbox.host import levels
+from colift.benchmark.execution.pool import JOBS
+from colift.benchmark.profiling.loopback import loopback_cluster
+
+MOST_MEMORY = 1 << 30
+"""Memory that no process of the tests may reach [bytes]."""
 
 # A shell lets what it starts in the background ignore Ctrl-C; so would all that the tests start.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
-def pytest_xdist_auto_num_workers() -> int:
-    """One more than there are processors: many tests wait for what they have started."""
-    return len(os.sched_getaffinity(0)) + 1
+def pytest_xdist_auto_num_workers(config: pytest.Config) -> int:
+    """One more than there are processors: many tests wait. The smoke tests are in one file."""
+    smoke = config.getoption("markexpr") == "smoke"
+    return 0 if smoke else len(os.sched_getaffinity(0)) + 1
+
+
+def pytest_ignore_collect(collection_path, config):
+    """Leave out what has no smoke test when only these are asked for: importing it takes longer."""
+    asked = config.getoption("markexpr") == "smoke" and collection_path.name.startswith("test_")
+    return True if asked and "mark.smoke" not in collection_path.read_text() else None
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -31,12 +49,82 @@ def own_environment(tmp_path_factory):
         yield
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _own_leaks(request):
+    """Charge what is left open, and the memory of the process, to the module that took it."""
+    before = peak_memory()
+    yield
+    gc.collect()
+    peak = peak_memory()
+    if before < MOST_MEMORY <= peak:
+        pytest.fail(f"{request.module.__name__} took this process to {peak >> 20} MiB of memory")
+
+
+def peak_memory():
+    """Return the most memory that this process has had at a time [bytes]."""
+    return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+
+@pytest.fixture(scope="session")
+def once(tmp_path_factory):
+    """Return what makes a folder once for all processes of the tests, and gives its path."""
+    base = tmp_path_factory.getbasetemp()
+    base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+
+    def folder(name, make):
+        place, made = base / name, base / f"{name}-{os.getpid()}"
+        with (base / f"{name}.lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not place.exists():
+                made.mkdir()
+                make(made)
+                made.rename(place)
+        return place
+
+    return folder
+
+
+@pytest.fixture
+def another_colift(tmp_path):
+    """Return a folder with a colift whose sandboxes are another version."""
+    here, there = Path(colift.__file__).parent, tmp_path / "another" / "colift"
+    there.mkdir(parents=True)
+    for path in here.iterdir():
+        if path.name != "agents":
+            (there / path.name).symlink_to(path)
+    shutil.copytree(here / "agents", there / "agents")
+    changed = there / "agents" / "sandbox" / "guest" / "forkserver.py"
+    changed.write_text(changed.read_text().replace("os.umask(0o022)", "os.umask(0o077)"))
+    return there.parent
+
+
+@pytest.fixture(scope="session")
+def need_level():
+    """Return what skips a test if an isolation level does not work here, with the reason."""
+
+    def need(level):
+        reason = levels.fault(level)
+        if reason is not None:
+            remedy = "; apt-get install bubblewrap" if level == "bubblewrap" else ""
+            pytest.skip(f"isolation {level} does not work here: {reason}{remedy}")
+
+    return need
+
+
+@pytest.fixture(scope="module", params=list(levels.LEVELS))
+def each_level(request, need_level):
+    """Each isolation level that works here."""
+    need_level(request.param)
+    return request.param
+
+
 @pytest.fixture(scope="module")
 def dask_address():
     """Start a Dask scheduler and two worker processes, and return the scheduler's address.
 
     They end with the module: they are busy also when nobody uses them.
     """
+    pytest.importorskip("distributed", reason="needs Dask: uv sync --all-extras")
     with loopback_cluster(2) as address:
         yield address
 
@@ -60,12 +148,16 @@ class EmulatedLaboratory:
         self._ready = threading.Event()
         self._reader = threading.Thread(target=self._read)
         self._reader.start()
-        assert self._ready.wait(60), "the emulator does not start"
+        self._ready.wait(60)
+        if not self.lines:
+            self._end()
+            pytest.fail(f"the emulator does not start (exit code {self.process.returncode})")
 
     def _read(self):
         for line in self.process.stdout:
             self.lines.append(line.strip().partition(" ")[2])
             self._ready.set()
+        self._ready.set()
 
     @property
     def place(self):
@@ -82,7 +174,15 @@ class EmulatedLaboratory:
     def close(self):
         """End it as an operator does."""
         self.process.send_signal(signal.SIGINT)
-        self.process.wait(60)
+        try:
+            assert self.process.wait(60) == 0
+        finally:
+            self._end()
+
+    def _end(self):
+        """Leave nothing of it, whatever state it is in."""
+        self.process.kill()
+        self.process.wait()
         self._reader.join()
         self.process.stdout.close()
 
@@ -108,6 +208,12 @@ def lsl_on_loopback(tmp_path_factory):
 @pytest.fixture(scope="module")
 def emulate(lsl_on_loopback):
     """Start an emulated laboratory in a process of its own, over the real protocols."""
+    for package in ("qi", "pylsl"):
+        # Where there is no library for this machine, pylsl says so by a RuntimeError.
+        try:
+            importlib.import_module(package)
+        except (ImportError, RuntimeError) as error:
+            pytest.skip(f"needs {package} ({error}): uv sync --all-extras")
     with ExitStack() as stack:
         count = iter(range(100))
 

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from colift.benchmark import suite
+from colift.benchmark.suites import suite
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -21,8 +21,7 @@ def test_plot_plans_draws_a_picture(tmp_path, monkeypatch):
 
 
 def test_readings_prints_a_row_for_each_reading(monkeypatch, capsys):
-    few = suite.make_suite("quick-v1").with_seeds(0, 1)
-    monkeypatch.setattr(suite, "make_suite", lambda name: few)
+    monkeypatch.setitem(suite.SUITES, "paper-v1", suite.SUITES["quick-v1"])
     runpy.run_path(str(EXAMPLES / "readings.py"))
     heading, _, *rows = capsys.readouterr().out.splitlines()
     assert heading.startswith("| reading | RMSE mm |")

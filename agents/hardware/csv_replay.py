@@ -5,14 +5,14 @@ from collections.abc import Sequence
 from ..agent import Agent, Observation
 from .decisions import Decision, Inline
 from .loop import LoopSettings, run_trial
-from .ports import ArmState, CaptureLostError, HandLimits, RobotLostError, Sample
+from .ports import ArmState, CaptureLostError, HandLimits, Sample
 from .record import Record, Step
-from .recording import Recording
+from .recording import TrialRecording
 from .safety import next_command
-from .stops import Hold, Stop
+from .stops import HoldReason, Stop, StopTrialError
 
 
-class Replay:
+class CsvReplay:
     """A recorded trial as motion capture, robot, clock, and end of a trial.
 
     Parameters
@@ -21,7 +21,7 @@ class Replay:
         The trial.
     """
 
-    def __init__(self, recording: Recording) -> None:
+    def __init__(self, recording: TrialRecording) -> None:
         record = recording.record
         self._limits = recording.limits
         self._dry = recording.dry
@@ -57,6 +57,11 @@ class Replay:
             return self._record.reason
         return None
 
+    @property
+    def unseen(self) -> str:
+        """Nothing is known of single markers."""
+        return ""
+
     def drain(self) -> list[Sample]:
         """Return the frames that came before the recorded step."""
         if self._next > len(self._steps) and self._record.stop is Stop.CAPTURE_LOST:
@@ -68,8 +73,10 @@ class Replay:
     def state(self) -> ArmState:
         """Return where the hands were."""
         if self._next > len(self._steps):
-            raise RobotLostError(self._record.reason)
-        return ArmState(self.step.hand_height, self.step.set_point, self.step.stiffness)
+            assert self._record.stop is not None
+            raise StopTrialError(self._record.stop, self._record.reason)
+        step = self.step
+        return ArmState(step.hand_height, step.set_point, step.stiffness, step.astray)
 
     def command(self, height: float, duration: float) -> float:
         """Return what the robot would have been told."""
@@ -91,22 +98,26 @@ class Replay:
 class RecordedDecider(Inline):
     """Asks the policy as it was asked; one that was late then is late again."""
 
-    def __init__(self, policy: Agent, replay: Replay) -> None:
+    def __init__(self, policy: Agent, replay: CsvReplay) -> None:
         super().__init__(policy)
         self._replay = replay
 
     def decide(self, observation: Observation, budget: float) -> Decision:
         """Return the policy's action, unless it was late."""
         held = self._replay.step.hold
-        if held == Hold.POLICY_BUSY.value:
-            return Decision(hold=Hold.POLICY_BUSY)
+        if held == HoldReason.POLICY_BUSY.value:
+            return Decision(hold=HoldReason.POLICY_BUSY)
         answer = super().decide(observation, budget)
-        return Decision(hold=Hold.POLICY_LATE) if held == Hold.POLICY_LATE.value else answer
+        return (
+            Decision(hold=HoldReason.POLICY_LATE)
+            if held == HoldReason.POLICY_LATE.value
+            else answer
+        )
 
 
-def replay_trial(recording: Recording, policy: Agent) -> Record:
+def replay_trial(recording: TrialRecording, policy: Agent) -> Record:
     """Play a recorded trial again, with a policy that has been reset; return what came of it."""
-    replay = Replay(recording)
+    replay = CsvReplay(recording)
     record = recording.record
     settings = LoopSettings(period=record.period, latency=record.latency)
     played = run_trial(
@@ -116,6 +127,6 @@ def replay_trial(recording: Recording, policy: Agent) -> Record:
     return played
 
 
-def commands(record: Record) -> Sequence[float]:
+def recorded_commands(record: Record) -> Sequence[float]:
     """Return the commands of a trial's steps [m]."""
     return [step.command for step in record.steps]

@@ -3,12 +3,16 @@
 import queue
 import threading
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Final, Protocol
 
 from ..actions import checked_action
 from ..agent import Agent, Observation
 from ..errors import told
-from .stops import Hold
+from .stops import HoldReason
+
+POLICY_SHARE: Final = 0.6
+"""Share of the control period that the policy may take: a later answer is thrown away. The rest
+is for reading the robot and for the command."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,7 +21,7 @@ class Decision:
 
     action: float | None = None
     """Its change of the hand command [m], or None."""
-    hold: Hold | None = None
+    hold: HoldReason | None = None
     """Why there is none."""
     reason: str = ""
     """What the policy said, if it failed."""
@@ -38,7 +42,7 @@ def ask(policy: Agent, observation: Observation) -> Decision:
     try:
         return Decision(action=checked_action("robot", policy.act(observation), 1)[0])
     except (Exception, SystemExit) as error:
-        return Decision(hold=Hold.POLICY_FAILED, reason=told(error))
+        return Decision(hold=HoldReason.POLICY_FAILED, reason=told(error))
 
 
 class Inline:
@@ -76,7 +80,7 @@ class Timed:
     def decide(self, observation: Observation, budget: float) -> Decision:
         """Return its action, or that it failed, or was late."""
         if self._busy and self._answers.empty():
-            return Decision(hold=Hold.POLICY_BUSY)
+            return Decision(hold=HoldReason.POLICY_BUSY)
         if self._busy:
             self._answers.get()
         self._busy = True
@@ -84,7 +88,7 @@ class Timed:
         try:
             answer = self._answers.get(timeout=budget)
         except queue.Empty:
-            return Decision(hold=Hold.POLICY_LATE)
+            return Decision(hold=HoldReason.POLICY_LATE)
         self._busy = False
         return answer
 

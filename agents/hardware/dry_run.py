@@ -1,6 +1,9 @@
 """An arm that reads the robot and never moves it."""
 
-from .naoqi import NaoqiArm
+import dataclasses
+import math
+
+from .nao.naoqi import NaoqiArm
 from .ports import ArmState, HandLimits
 from .safety import next_command
 
@@ -14,12 +17,12 @@ class DryArm:
 
     @property
     def limits(self) -> HandLimits:
-        """What commands are held to."""
-        return self._arm.limits
+        """What commands are held to; the tilt of the table is not this policy's doing."""
+        return dataclasses.replace(self._arm.limits, tilt=math.inf)
 
     def state(self) -> ArmState:
-        """Return where the robot's hands really are; its motors may be off."""
-        return self._arm.state()._replace(stiffness=1.0)
+        """Return where the robot's hands really are: motors off, or moved by anybody."""
+        return self._arm.state()._replace(stiffness=1.0, astray=0.0)
 
     def command(self, height: float, duration: float) -> float:
         """Return the height that would be commanded [m]."""

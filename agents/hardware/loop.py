@@ -5,7 +5,7 @@ whole periods have been missed, they are skipped and counted, and never caught u
 
 Each step reads the robot, judges the motion capture, asks the policy, and gives one command: the
 same as in simulation, up to what the clock makes of it. What cannot be acted on holds the hands
-where they were told to go last; what lasts longer than :data:`HOLD_LIMIT`, or cannot be waited
+where they were told to go last; what lasts longer than :data:`.holds.LIMIT`, or cannot be waited
 for, stops the trial.
 """
 
@@ -17,20 +17,16 @@ import numpy as np
 
 from ..agent import Observation, RobotObservation
 from ..errors import InputError
-from .decisions import Decider, Decision
-from .plausibility import Watch, at
-from .ports import ArmState, CaptureLostError, Clock, MotionCapture, RobotArm, RobotLostError
+from .conduct import Conduct
+from .decisions import POLICY_SHARE, Decider, Decision
+from .frames import UNDATED, drained
+from .holds import LIMIT, WINDOW, Holds
+from .plausibility import CaptureMonitor, at
+from .ports import ArmState, Clock, MotionCapture, RobotArm
 from .record import Record, Step
-from .safety import LOWEST_STIFFNESS, TRACKING_ERROR
-from .stops import Hold, Stop, StopTrialError
+from .safety import limited, motor_fault
+from .stops import HoldReason, Stop, StopTrialError, losses_stop
 from .trial_end import TrialEnd
-
-HOLD_LIMIT: Final = 1.0
-"""How long the hands are held before the trial is stopped [s]; also the age of the newest frame
-from which the motion capture is lost."""
-
-POLICY_SHARE: Final = 0.6
-"""Share of the control period that the policy may take."""
 
 DEAD_TIME: Final = 0.01
 """Mean time from a command to the hands' setting out [s]: half a cycle of ALMotion, which takes
@@ -123,16 +119,19 @@ class _Loop:
     ) -> None:
         self._robot, self._capture, self._clock = robot, capture, clock
         self._decider, self._settings, self._record = decider, settings, record
-        self._watch = Watch()
+        self._watch, self._holds, self._conduct = (
+            CaptureMonitor(),
+            Holds(),
+            Conduct(robot.limits.tilt),
+        )
         self._command = 0.0
         self._speed = 0.0
         self._number = 0
-        self._held_since: float | None = None
 
     def begin(self) -> None:
         """Set the first deadline."""
         self._record.begin = self._clock.now()
-        self._frames()
+        self._frames(self._record.begin)
 
     def step(self) -> None:
         """Wait for the deadline, decide and command."""
@@ -149,8 +148,9 @@ class _Loop:
             deadline = record.start + self._number * period
         number = self._number
         self._number += 1
-        self._frames()
-        state = self._state()
+        self._frames(now)
+        with losses_stop():
+            state = self._robot.state()
         read = clock.now()
         hold = self._watch.judge(now, state.height)
         age = self._watch.age(now)
@@ -162,7 +162,8 @@ class _Loop:
         decided = clock.now()
         before = self._command
         if decision.action is not None:
-            self._give(before + decision.action)
+            wanted = limited(before + decision.action, before, period, self._robot.limits)
+            self._give(self._conduct.level(wanted, before, self._watch.samples[-1].human_end))
         self._speed = (self._command - before) / period
         commanded = clock.now()
         record.events.append(
@@ -172,11 +173,13 @@ class _Loop:
                 hand_height=state.height,
                 set_point=state.set_point,
                 stiffness=state.stiffness,
+                astray=state.astray,
                 hand_command=before,
                 action=nan if decision.action is None else decision.action,
                 command=self._command,
                 hold=fault or ("" if decision.hold is None else decision.hold.value),
                 sensing_age=age,
+                rate=self._watch.rate(now),
                 state_time=read - now,
                 policy_time=decided - read,
                 command_time=commanded - decided,
@@ -185,27 +188,19 @@ class _Loop:
         if fault is not None:
             raise StopTrialError(Stop.MOTORS, fault)
         self._limit_hold(now, age, decision)
+        self._conduct.commands(now, self._command)
+        if hold is None:
+            self._conduct.tilts(now, self._watch.samples[-1])
 
-    def _frames(self) -> None:
+    def _frames(self, now: float) -> None:
         """Take in what the motion capture has sent."""
-        try:
-            frames = self._capture.drain()
-        except CaptureLostError as error:
-            raise StopTrialError(Stop.CAPTURE_LOST, str(error)) from error
-        self._record.events.extend(frames)
-        self._watch.take(frames)
-
-    def _state(self) -> ArmState:
-        try:
-            return self._robot.state()
-        except RobotLostError as error:
-            raise StopTrialError(Stop.ROBOT_LOST, str(error)) from error
+        frames, misdated = drained(self._capture, now)
+        self._record.events.extend([*frames, *[UNDATED] * misdated])
+        self._watch.take(frames, misdated)
 
     def _give(self, height: float) -> None:
-        try:
+        with losses_stop():
             self._command = self._robot.command(height, self._settings.period)
-        except RobotLostError as error:
-            raise StopTrialError(Stop.ROBOT_LOST, str(error)) from error
 
     def _observation(self, now: float, time: float, state: ArmState) -> Observation:
         """Return what the policy sees, laid out as in simulation.
@@ -225,22 +220,18 @@ class _Loop:
     def _limit_hold(self, now: float, age: float, decision: Decision) -> None:
         """Stop if the hands have been held for too long."""
         hold = decision.hold
-        if hold is None:
-            self._held_since = None
-            return
-        if self._held_since is None:
-            self._held_since = now
+        held = self._holds.step(now, held=hold is not None)
         # Steps come a period apart: the one nearest to the limit counts.
-        lasted = now - self._held_since > HOLD_LIMIT - self._settings.period / 2
-        if lasted or (hold is Hold.STALE and age > HOLD_LIMIT):
-            told = f": {decision.reason}" if decision.reason else ""
-            raise StopTrialError(Stop.after(hold), f"{hold.value} for {HOLD_LIMIT:g} s{told}")
-
-
-def motor_fault(state: ArmState) -> str | None:
-    """Return what is wrong with the hands, or None if they do what they were told."""
-    if not state.stiffness >= LOWEST_STIFFNESS:
-        return f"an arm motor has the stiffness {state.stiffness:.2f}"
-    if not abs(state.height - state.set_point) <= TRACKING_ERROR:
-        return f"the hands are at {state.height:.3f} m, told to be at {state.set_point:.3f} m"
-    return None
+        lasted = held > LIMIT - self._settings.period / 2
+        if hold is None or not (lasted or (hold is HoldReason.STALE and age > LIMIT)):
+            return
+        told = decision.reason
+        if hold is HoldReason.NOT_SEEN:
+            told = self._capture.unseen
+        if hold is HoldReason.STALE and self._record.misdated:
+            told = f"{self._record.misdated} frames had time stamps ahead of the clock, or none"
+        raise StopTrialError(
+            Stop.after(hold),
+            f"{hold.value}; the hands were held for {held:.1f} s of the last "
+            f"{WINDOW:g} s{told and ': '}{told}",
+        )

@@ -2,8 +2,7 @@
 
 The stream has channels for the positions of markers, labelled as the layer's convention for motion
 capture has it: one channel a coordinate, with ``marker`` (or a label ``NAME_X``), ``type``
-(``PositionZ``) and ``unit``. An end's height is the mean over its markers, as in the paper
-(section II.A).
+(``PositionZ``) and ``unit``.
 """
 
 import time
@@ -11,7 +10,8 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from ..errors import InputError
-from .missing import load
+from .ends import Height, MarkerEnds
+from .missing import import_optional
 from .ports import CaptureLostError, Sample
 
 RESOLVE_TIME: Final = 3.0
@@ -55,7 +55,7 @@ class LslCapture:
     """
 
     def __init__(self, name: str, layout: Layout) -> None:
-        lsl = load("pylsl")
+        lsl = import_optional("pylsl")
         found = lsl.resolve_byprop("name", name, timeout=RESOLVE_TIME)
         if not found:
             known = sorted({stream.name() for stream in lsl.resolve_streams(0.5)})
@@ -70,9 +70,10 @@ class LslCapture:
         )
         info = self._inlet.info(timeout=RESOLVE_TIME)
         channels = list_channels(info)
-        self._human = [pick(channels, marker, layout.up) for marker in layout.human]
-        self._robot = [pick(channels, marker, layout.up) for marker in layout.robot]
-        self._human_rest = self._robot_rest = 0.0
+        self._ends = MarkerEnds(
+            [pick_channel(channels, marker, layout.up) for marker in layout.human],
+            [pick_channel(channels, marker, layout.up) for marker in layout.robot],
+        )
         self._inlet.open_stream(timeout=RESOLVE_TIME)
         self.info: dict[str, object] = {
             "name": info.name(),
@@ -86,8 +87,12 @@ class LslCapture:
 
     def set_rest(self, human_end: float, robot_end: float) -> None:
         """Take the present zero of the ends' heights [m] to be displaced by these."""
-        self._human_rest += human_end
-        self._robot_rest += robot_end
+        self._ends.set_rest(human_end, robot_end)
+
+    @property
+    def unseen(self) -> str:
+        """Which markers were not seen in the newest frame, and why; empty if all were."""
+        return self._ends.unseen
 
     def drain(self) -> list[Sample]:
         """Return the frames that came in since the last call, oldest first."""
@@ -97,12 +102,7 @@ class LslCapture:
             raise CaptureLostError(f"the stream is lost: {error}") from error
         shift = time.monotonic() - self._lsl.local_clock()
         return [
-            Sample(
-                stamp + shift,
-                mean_height(row, self._human) - self._human_rest,
-                mean_height(row, self._robot) - self._robot_rest,
-            )
-            for row, stamp in zip(rows, stamps, strict=True)
+            self._ends.sample(stamp + shift, row) for row, stamp in zip(rows, stamps, strict=True)
         ]
 
     def close(self) -> None:
@@ -111,7 +111,7 @@ class LslCapture:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Channel:
+class StreamChannel:
     """One coordinate of one marker."""
 
     index: int
@@ -121,7 +121,7 @@ class Channel:
     unit: str
 
 
-def list_channels(info: Any) -> list[Channel]:
+def list_channels(info: Any) -> list[StreamChannel]:
     """Return the channels that a stream's information describes."""
     found = []
     node = info.desc().child("channels").child("channel")
@@ -129,7 +129,7 @@ def list_channels(info: Any) -> list[Channel]:
         label, kind = node.child_value("label"), node.child_value("type")
         marker, _, axis = label.rpartition("_")
         found.append(
-            Channel(
+            StreamChannel(
                 index=index,
                 marker=node.child_value("marker") or marker,
                 axis=(kind.removeprefix("Position") or axis).upper(),
@@ -140,8 +140,8 @@ def list_channels(info: Any) -> list[Channel]:
     return found
 
 
-def pick(channels: list[Channel], marker: str, axis: str) -> tuple[int, float]:
-    """Return the index of a marker's coordinate, and the metres per unit of it.
+def pick_channel(channels: list[StreamChannel], marker: str, axis: str) -> Height:
+    """Return where a marker's coordinate is, and the metres per unit of it.
 
     Raises
     ------
@@ -154,11 +154,6 @@ def pick(channels: list[Channel], marker: str, axis: str) -> tuple[int, float]:
                 raise InputError(
                     f"marker {marker} has the unit {channel.unit!r}; known: {', '.join(UNITS)}"
                 )
-            return channel.index, UNITS[channel.unit.lower()]
+            return Height(marker, channel.index, UNITS[channel.unit.lower()])
     known = ", ".join(dict.fromkeys(channel.marker for channel in channels if channel.marker))
     raise InputError(f"the stream has no {axis} of marker {marker!r}; markers: {known or 'none'}")
-
-
-def mean_height(row: list[float], picked: list[tuple[int, float]]) -> float:
-    """Return the mean height of some markers [m]; NaN if one was not seen."""
-    return sum(row[index] * scale for index, scale in picked) / len(picked)

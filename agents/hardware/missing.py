@@ -4,9 +4,10 @@ import importlib
 from typing import Any
 
 from ..errors import InputError
+from ..extras import how_to_install
 
 
-def load(package: str) -> Any:
+def import_optional(package: str) -> Any:
     """Return an imported package of the extra ``nao``.
 
     Raises
@@ -18,5 +19,5 @@ def load(package: str) -> Any:
         return importlib.import_module(package)
     except ImportError as error:
         raise InputError(
-            f"{package} is not installed ({error}); say: pip install 'colift[nao]'"
+            f"{package} is not installed ({error}); say: {how_to_install('nao')}"
         ) from error

@@ -1,14 +1,22 @@
 """Whether motion capture can be believed: not seen, too old, jumped, or against the encoders."""
 
 import math
+from collections import deque
 from collections.abc import Sequence
 from typing import Final
 
 from .ports import Sample
-from .stops import Hold
+from .stops import HoldReason
 
 STALE: Final = 0.2
 """Age of the newest frame [s] from which the hands are held."""
+
+AHEAD: Final = 0.03
+"""How far a frame's time stamp may be ahead of this machine's clock [s]: the clocks are brought
+together to half of a round trip, which takes up to 50 ms over a wireless network."""
+
+FEWEST: Final = 25
+"""Fewest new frames in a second with which the hands are moved: half of what a set-up asks for."""
 
 FASTEST: Final = 2.0
 """Fastest that a table end can plausibly move [m/s]. Free hands peak at 1.84 +- 0.43 m/s in
@@ -23,6 +31,11 @@ beyond it the grip is lost, or the motion capture has drifted or took one end fo
 
 SETTLED: Final = 0.1
 """Time [s] without a jump after which the motion capture is believed again."""
+
+
+def stamped(sample: Sample, now: float) -> bool:
+    """Return whether a frame's time stamp can be: a number, and not ahead of the clock."""
+    return -math.inf < sample.time <= now + AHEAD
 
 
 def seen(sample: Sample) -> bool:
@@ -62,13 +75,16 @@ def at(samples: Sequence[Sample], time: float) -> Sample:
     return later
 
 
-class Watch:
+class CaptureMonitor:
     """Watches the motion capture and keeps the last second of plausible frames."""
 
     def __init__(self) -> None:
         self._kept: list[Sample] = []
         self._newest: Sample | None = None
         self._jump: float | None = None
+        self._begin: float | None = None
+        self._misdated = False
+        self._times: deque[float] = deque()
         self._hands: list[tuple[float, float]] = []
 
     @property
@@ -76,13 +92,25 @@ class Watch:
         """The plausible frames of the last second, oldest first."""
         return self._kept
 
-    def take(self, frames: Sequence[Sample]) -> None:
-        """Take new frames in; one that is not newer than the last is left out."""
+    def take(self, frames: Sequence[Sample], misdated: int = 0) -> None:
+        """Take new frames in; one that is not newer than the last is left out.
+
+        Parameters
+        ----------
+        frames
+            Those with time stamps that can be.
+        misdated
+            How many others came with them. If there are any, no stamp is believed: the clock that
+            is ahead dates a frame that is a little older as if it were new.
+        """
+        self._misdated = misdated > 0
         for frame in frames:
             last = self._newest
             if last is not None and frame.time <= last.time:
                 continue
             self._newest = frame
+            self._begin = frame.time if self._begin is None else self._begin
+            self._times.append(frame.time)
             if not seen(frame):
                 continue
             if self._kept and jumped(self._kept[-1], frame):
@@ -96,7 +124,15 @@ class Watch:
         """Return the age of the newest frame [s], infinite before the first."""
         return math.inf if self._newest is None else now - self._newest.time
 
-    def judge(self, now: float, hand_height: float) -> Hold | None:
+    def rate(self, now: float) -> float:
+        """Return how many new frames the last second has brought; infinite in the first second."""
+        while self._times and self._times[0] <= now - 1.0:
+            self._times.popleft()
+        if self._begin is None or now - self._begin < 1.0:
+            return math.inf
+        return len(self._times)
+
+    def judge(self, now: float, hand_height: float) -> HoldReason | None:
         """Return why the motion capture must not be acted on now, or None.
 
         Parameters
@@ -109,14 +145,16 @@ class Watch:
         self._hands.append((now, hand_height))
         del self._hands[:-64]
         newest = self._newest
-        if newest is None or now - newest.time > STALE:
-            return Hold.STALE
+        if newest is None or self._misdated or now - newest.time > STALE:
+            return HoldReason.STALE
+        if self.rate(now) < FEWEST:
+            return HoldReason.FEW
         if not seen(newest):
-            return Hold.NOT_SEEN
+            return HoldReason.NOT_SEEN
         if self._jump is not None and newest.time - self._jump < SETTLED:
-            return Hold.JUMP
+            return HoldReason.JUMP
         if self._disagrees(newest):
-            return Hold.DISAGREE
+            return HoldReason.DISAGREE
         return None
 
     def _disagrees(self, newest: Sample) -> bool:

@@ -28,6 +28,8 @@ class ArmState(NamedTuple):
     """Mean height of the hands by the robot's own set-points [m]; it moves to the last command."""
     stiffness: float
     """Lowest stiffness of the arms' motors, 0 (off) to 1."""
+    astray: float = 0.0
+    """How far the set-point of a joint is from where this client's commands lead [rad], at most."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,10 +42,16 @@ class HandLimits:
     """Highest height [m]."""
     speed: float
     """Highest speed [m/s]."""
+    tilt: float
+    """Largest difference in height of the table's ends [m]."""
 
 
 class RobotLostError(Exception):
     """The connection to the robot is lost; the message says what was noticed."""
+
+
+class RobotTakenError(Exception):
+    """Somebody else commands the robot; the message says who."""
 
 
 class CaptureLostError(Exception):
@@ -52,6 +60,10 @@ class CaptureLostError(Exception):
 
 class MotionCapture(Protocol):
     """Motion capture of the table's two ends."""
+
+    @property
+    def unseen(self) -> str:
+        """Which markers were not seen in the newest frame, and why; empty if all were."""
 
     def drain(self) -> list[Sample]:
         """Return the frames that came in since the last call, oldest first, without waiting.
@@ -108,6 +120,8 @@ class RobotArm(Protocol):
         ------
         RobotLostError
             If the robot does not answer.
+        RobotTakenError
+            If somebody else commands it.
         """
 
     def command(self, height: float, duration: float) -> float:
@@ -122,6 +136,8 @@ class RobotArm(Protocol):
         ------
         RobotLostError
             If the robot does not answer.
+        RobotTakenError
+            If somebody else commands it.
         """
 
     def stop(self) -> None:

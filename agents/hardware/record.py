@@ -1,5 +1,6 @@
 """What a trial leaves behind: every frame and every step, in the order in which they came."""
 
+import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -20,6 +21,8 @@ class Step(NamedTuple):
     """Height of the hands by the robot's set-points [m]."""
     stiffness: float
     """Lowest stiffness of the arms' motors."""
+    astray: float
+    """How far a joint's set-point was from where the commands lead [rad], at most."""
     hand_command: float
     """The command before this step [m]."""
     action: float
@@ -30,6 +33,8 @@ class Step(NamedTuple):
     """Why the hands are held, empty if they are not."""
     sensing_age: float
     """Age of the newest motion-capture frame [s]."""
+    rate: float
+    """Motion-capture frames of the last second; infinite in the first."""
     state_time: float
     """What reading the robot took [s]."""
     policy_time: float
@@ -66,6 +71,11 @@ class Record:
     def samples(self) -> list[Sample]:
         """The motion-capture frames."""
         return [event for event in self.events if isinstance(event, Sample)]
+
+    @property
+    def misdated(self) -> int:
+        """Number of frames whose time stamps were ahead of the clock, or no numbers."""
+        return sum(math.isnan(sample.time) for sample in self.samples)
 
     @property
     def steps(self) -> list[Step]:

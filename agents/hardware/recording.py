@@ -17,15 +17,15 @@ from .record import Record, Step
 from .stops import Stop
 
 _TRIAL: Final = (
-    "policy", "period", "latency", "begin", "late_steps", "low", "high", "speed", "weight_offset",
-    "dry", "stop", "reason",
+    "policy", "period", "latency", "begin", "late_steps", "low", "high", "speed",
+    "tilt", "weight_offset", "dry", "stop", "reason",
 )  # fmt: skip
 COLUMNS: Final = ("event", *dict.fromkeys((*_TRIAL, *Sample._fields, *Step._fields)))
 """The columns; times in s, heights in m, speed in m/s."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Recording:
+class TrialRecording:
     """A trial with what is needed to play it again."""
 
     policy: str
@@ -40,7 +40,7 @@ class Recording:
     """The trial."""
 
 
-def write_recording(path: Path, recording: Recording) -> None:
+def write_recording(path: Path, recording: TrialRecording) -> None:
     """Write a trial; numbers are written so that they read back to the same bits."""
     record = recording.record
     head = {
@@ -61,7 +61,7 @@ def write_recording(path: Path, recording: Recording) -> None:
             writer.writerow({"event": kind, **event._asdict()})
 
 
-def read_recording(path: Path) -> Recording:
+def read_recording(path: Path) -> TrialRecording:
     """Return the trial of a file.
 
     Raises
@@ -79,7 +79,7 @@ def read_recording(path: Path) -> Recording:
         raise InputError(f"{path} is no recording of a trial: {error}") from error
 
 
-def _recording(rows: list[dict[str, str]]) -> Recording:
+def _recording(rows: list[dict[str, str]]) -> TrialRecording:
     head, events = rows[0], rows[1:]
     if head["event"] != "trial":
         raise ValueError(f"it begins with {head['event']!r} instead of 'trial'")
@@ -92,8 +92,8 @@ def _recording(rows: list[dict[str, str]]) -> Recording:
         stop=Stop[head["stop"]] if head["stop"] else None,
         reason=head["reason"],
     )
-    limits = HandLimits(**{name: float(head[name]) for name in ("low", "high", "speed")})
-    return Recording(
+    limits = HandLimits(**{name: float(head[name]) for name in ("low", "high", "speed", "tilt")})
+    return TrialRecording(
         policy=head["policy"],
         limits=limits,
         weight_offset=float(head["weight_offset"]),

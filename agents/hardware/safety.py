@@ -9,12 +9,11 @@ from typing import Final
 
 import numpy as np
 
-from ...robots.arm_kinematics import ARM_JOINTS, STROKE, arm_path
+from ...robots.nao.kinematics import ARM_JOINTS, STROKE, arm_path
+from ..actions import HAND_SPEED
 from ..errors import InputError
-from .ports import HandLimits
-
-HAND_SPEED: Final = 0.4
-"""Fastest hand command [m/s]: the paper's largest action, 4 cm in 100 ms, as in simulation."""
+from .conduct import LARGEST_TILT
+from .ports import ArmState, HandLimits
 
 JOINT_MARGIN: Final = 0.01
 """Distance that a joint keeps from the robot's own limit [rad]."""
@@ -26,6 +25,11 @@ The arms sag by some 4 mm and follow 20 to 50 ms late, 20 mm at the greatest spe
 
 LOWEST_STIFFNESS: Final = 0.3
 """Stiffness below which a motor counts as switched off."""
+
+ASTRAY: Final = 0.02
+"""Distance of a joint's set-point from the way between this client's commands [rad] from which it
+counts as another's. Without another it is 0, up to the rounding of 32-bit floats; 0.02 rad are 3 mm
+at the hand."""
 
 
 def limited(wanted: float, present: float, duration: float, limits: HandLimits) -> float:
@@ -111,4 +115,19 @@ def hand_limits(joint_limits: Mapping[str, Sequence[float]]) -> HandLimits:
         low=max(float(path.heights[first]), STROKE[0]),
         high=min(float(path.heights[last]), STROKE[1]),
         speed=HAND_SPEED,
+        tilt=LARGEST_TILT,
     )
+
+
+def motor_fault(state: ArmState) -> str | None:
+    """Return what is wrong with the hands, or None if they do what they were told."""
+    if not state.stiffness >= LOWEST_STIFFNESS:
+        return f"an arm motor has the stiffness {state.stiffness:.2f}"
+    if not state.astray <= ASTRAY:
+        return (
+            f"a joint has a set-point that is {state.astray:.3f} rad off the way between the "
+            "commands given here: something else commands the robot"
+        )
+    if not abs(state.height - state.set_point) <= TRACKING_ERROR:
+        return f"the hands are at {state.height:.3f} m, told to be at {state.set_point:.3f} m"
+    return None

@@ -14,17 +14,30 @@ from ..errors import InputError, told
 from . import setup
 from .decisions import Decider, Timed
 from .dry_run import DryArm
+from .frames import drained
 from .loop import LoopSettings, run_trial
-from .naoqi import NaoqiArm
+from .nao.naoqi import NaoqiArm
 from .operator import StopButton, key_stops
 from .plausibility import seen
-from .ports import Clock, RobotArm, RobotLostError, TableCapture
+from .ports import Clock, HandLimits, RobotArm, RobotLostError, TableCapture
 from .record import Record
-from .stops import Stop, StopTrialError
+from .stops import Stop, StopTrialError, losses_stop
 from .trial_end import TrialEnd
 
 READY: Final = 0.015
 """Largest height of an end at which a trial may begin [m]."""
+
+BACK: Final = 3.0
+"""How long a robot that does not answer is waited for before it is left as it is [s]."""
+
+RELEASE: Final = "Take the table out of the hands: the arms go limp."
+"""What is said before the stiffness is taken from the arms."""
+
+UNKNOWN: Final = (
+    "The robot does not answer; nothing is known of the arms: they may be stiff, limp, or on the "
+    "way to their last target. Take the table out with care, and press the chest button twice."
+)
+"""What is said when the robot may hang."""
 
 GO: Final = "Go"
 """What the robot says when a trial begins."""
@@ -52,13 +65,23 @@ class Session:
     asked_by: Callable[[Agent], Decider] = Timed
     """What asks a policy: in a thread of its own, where the time is real."""
 
+    @property
+    def robot(self) -> RobotArm:
+        """What the trials move."""
+        return DryArm(self.arm) if self.dry else self.arm
+
+    @property
+    def limits(self) -> HandLimits:
+        """What the trials are held to."""
+        return self.robot.limits
+
     def set_up(self) -> None:
         """Take hold of the table, find zero, and check that the ends move as they should."""
         if self.dry:
             self.tell("dry run: nothing moves; the weight offset and the test move are left out")
             self._zero()
             return
-        with _lost_is_stop():
+        with losses_stop():
             self.confirm("Clear the space around the robot's arms: they move to the rest posture.")
             self.arm.take_hold()
             self.confirm("Put the table into its hands, hold the other end level, and keep still.")
@@ -95,10 +118,10 @@ class Session:
         end: TrialEnd,
     ) -> Record:
         """Play one trial with a new policy object; return also one that was stopped."""
-        robot: RobotArm = DryArm(self.arm) if self.dry else self.arm
+        robot = self.robot
         with policy as agent:
             warm_up(agent, seed)
-            with _lost_is_stop():
+            with losses_stop():
                 self._ready()
                 decider = self.asked_by(agent)
                 self.arm.say(f"Lift {number}. {GO}!")
@@ -116,26 +139,52 @@ class Session:
             setup.move_to(self.arm, self.clock, 0.0)
         for _ in range(100):
             setup.wait(self.clock, 0.2)
-            frames = [sample for sample in setup.drained(self.capture) if seen(sample)]
+            frames = list(filter(seen, drained(self.capture, self.clock.now()).frames))
             if frames and max(map(abs, frames[-1][1:])) < READY:
                 return
+        unseen = self.capture.unseen
         raise InputError(
-            f"the table does not come to rest within {1000 * READY:.0f} mm of its rest height"
+            "the table does not come to rest within "
+            f"{1000 * READY:.0f} mm of its rest height{unseen and ': '}{unseen}"
         )
 
     def stop(self, stop: StopTrialError) -> None:
         """Freeze the hands for good, and say why."""
         self.tell(f"STOPPED ({stop.stop.name}): {stop.reason}")
-        if not self.dry:
+        if not self.dry and not self.arm.stopped:
             self.arm.stop()
 
-    def finish(self) -> None:
-        """Let the arms go limp, smoothly, and the robot rest; the table is out of its hands."""
+    def finish(self, taken_out: Callable[[], None]) -> None:
+        """Let the arms go limp, smoothly, and the robot rest.
+
+        A robot that somebody else commands is left to them. Of one that does not answer nothing is
+        claimed; it is waited for, for a little while.
+
+        Parameters
+        ----------
+        taken_out
+            Waits until the operator has taken the table out of the hands.
+        """
+        if self.arm.taken:
+            self.tell(f"Nothing more is sent to the robot: {self.arm.taken}.")
+            return
+        known = self.arm.answers()
+        self.tell(RELEASE if known else UNKNOWN)
+        taken_out()
         try:
+            if not known:
+                self._await_answer()
             self.arm.release()
             self.tell("the arms are released, the robot is at rest")
         except RobotLostError as error:
             self.tell(f"the arms are NOT released: {error}; press the robot's chest button twice")
+
+    def _await_answer(self) -> None:
+        """Return when a robot that did not answer does, or after :data:`BACK`."""
+        end = self.clock.now() + BACK
+        while not self.arm.answers() and self.clock.now() < end:
+            if self.clock.wait_until(self.clock.now() + 0.25) is not None:
+                return
 
 
 def warm_up(policy: Agent, seed: int) -> None:
@@ -160,15 +209,6 @@ def _rehearse(policy: Agent, seed: int) -> None:
     policy.reset(seed)
     policy.act(np.zeros(len(RobotObservation)))
     policy.reset(seed)
-
-
-@contextmanager
-def _lost_is_stop() -> Iterator[None]:
-    """Turn a lost robot into a stop."""
-    try:
-        yield
-    except RobotLostError as error:
-        raise StopTrialError(Stop.ROBOT_LOST, str(error)) from error
 
 
 @contextmanager

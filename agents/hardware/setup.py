@@ -13,9 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from .frames import drained
 from .plausibility import seen
-from .ports import CaptureLostError, Clock, MotionCapture, RobotArm, RobotLostError, Sample
-from .stops import Stop, StopTrialError
+from .ports import ArmState, Clock, MotionCapture, RobotArm
+from .safety import ASTRAY, motor_fault
+from .stops import Stop, StopTrialError, losses_stop
 
 REST_TIME: Final = 1.0
 """How long rest heights are measured [s]."""
@@ -70,12 +72,13 @@ def wait(clock: Clock, seconds: float) -> None:
         raise StopTrialError(Stop.OPERATOR, f"stopped by the operator: {pressed}")
 
 
-def drained(capture: MotionCapture) -> list[Sample]:
-    """Return the newest frames."""
-    try:
-        return capture.drain()
-    except CaptureLostError as error:
-        raise StopTrialError(Stop.CAPTURE_LOST, str(error)) from error
+def arm_state(robot: RobotArm) -> ArmState:
+    """Return where the hands are, unless somebody else moves them."""
+    with losses_stop():
+        state = robot.state()
+    if not state.astray <= ASTRAY:
+        raise StopTrialError(Stop.MOTORS, motor_fault(state) or "")
+    return state
 
 
 def measure_rest(capture: MotionCapture, clock: Clock, seconds: float = REST_TIME) -> Rest:
@@ -104,10 +107,16 @@ class _Ends(NamedTuple):
 
 def _ends(capture: MotionCapture, clock: Clock, seconds: float) -> _Ends:
     """Return the heights of both ends for a while."""
-    drained(capture)
+    drained(capture, clock.now())
     wait(clock, seconds)
-    frames = drained(capture)
+    frames, misdated = drained(capture, clock.now())
     rate = len(frames) / seconds
+    if misdated:
+        raise InputError(
+            f"{misdated} of {misdated + len(frames)} frames have time stamps ahead of this "
+            "machine's clock, or none: a stamp is when the frame was captured, on the clock of "
+            "the layer (local_clock)"
+        )
     if rate < LOWEST_RATE:
         raise InputError(
             f"the motion capture sends {rate:.0f} frames a second, at least {LOWEST_RATE:.0f} are "
@@ -117,7 +126,7 @@ def _ends(capture: MotionCapture, clock: Clock, seconds: float) -> _Ends:
     if hidden:
         raise InputError(
             f"a table end was not seen in {hidden} of {len(frames)} frames: are all markers in "
-            "view, and named right?"
+            f"view, and named right?{capture.unseen and ' The last frame: '}{capture.unseen}"
         )
     return _Ends(np.array([(frame.human_end, frame.robot_end) for frame in frames]), rate)
 
@@ -126,10 +135,7 @@ def measure_sag(robot: RobotArm, clock: Clock, readings: int = 10) -> float:
     """Return by how much the hands sag under the table at rest [m], positive downwards."""
     sags = []
     for _ in range(readings):
-        try:
-            state = robot.state()
-        except RobotLostError as error:
-            raise StopTrialError(Stop.ROBOT_LOST, str(error)) from error
+        state = arm_state(robot)
         sags.append(state.set_point - state.height)
         wait(clock, 0.03)
     sag = float(np.mean(sags))
@@ -145,13 +151,11 @@ def move_to(robot: RobotArm, clock: Clock, height: float) -> list[tuple[float, f
     """Move the hands calmly to a height [m]; return times and encoders' heights on the way."""
     seen_heights = []
     while True:
-        try:
-            state = robot.state()
-            seen_heights.append((clock.now(), state.height))
-            step = max(-CALM_SPEED * PERIOD, min(CALM_SPEED * PERIOD, height - state.set_point))
+        state = arm_state(robot)
+        seen_heights.append((clock.now(), state.height))
+        step = max(-CALM_SPEED * PERIOD, min(CALM_SPEED * PERIOD, height - state.set_point))
+        with losses_stop():
             commanded = robot.command(state.set_point + step, PERIOD)
-        except RobotLostError as error:
-            raise StopTrialError(Stop.ROBOT_LOST, str(error)) from error
         wait(clock, PERIOD)
         if abs(height - state.set_point) < 0.0005 and abs(commanded - height) < 0.0005:
             return seen_heights
@@ -171,9 +175,9 @@ def measure_direction(robot: RobotArm, capture: MotionCapture, clock: Clock) -> 
         If the robot's end does not follow the hands: the ends are taken for each other, an axis
         points down, the unit is wrong, or the hands do not hold the table.
     """
-    drained(capture)
+    drained(capture, clock.now())
     hands = move_to(robot, clock, TEST_MOVE) + move_to(robot, clock, 0.0)
-    frames = [frame for frame in drained(capture) if seen(frame)]
+    frames = [frame for frame in drained(capture, clock.now()).frames if seen(frame)]
     if len(frames) < 10:
         raise InputError("the motion capture did not see the table while the hands moved")
     times, heights = zip(*hands, strict=True)

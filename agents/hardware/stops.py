@@ -1,12 +1,17 @@
 """Why a trial holds for a moment, and why it stops for good."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from enum import IntEnum, StrEnum
 
+from .ports import CaptureLostError, RobotLostError, RobotTakenError
 
-class Hold(StrEnum):
+
+class HoldReason(StrEnum):
     """Why no new command was given in a period; the hands complete the last one and stay."""
 
     STALE = "stale motion capture"
+    FEW = "too few motion-capture frames"
     NOT_SEEN = "a table end was not seen"
     JUMP = "a table end jumped"
     DISAGREE = "motion capture and encoders disagree"
@@ -27,16 +32,17 @@ class Stop(IntEnum):
     CAPTURE_UNUSABLE = 13
     """Motion capture that is not plausible, for longer than it may be held."""
     POLICY = 14
-    """A policy that fails or is late, for longer than it may be held."""
+    """A policy that fails or is late, for longer than it may be held; that tilts the table, or
+    shakes it."""
     MOTORS = 15
-    """Hands that do not follow their commands, or motors without stiffness."""
+    """Hands that do not follow their commands or follow another's, or motors without stiffness."""
 
     @classmethod
-    def after(cls, hold: Hold) -> "Stop":
+    def after(cls, hold: HoldReason) -> "Stop":
         """Return what a hold that lasts too long ends in."""
-        if hold is Hold.STALE:
+        if hold in (HoldReason.STALE, HoldReason.FEW):
             return cls.CAPTURE_LOST
-        if hold in (Hold.POLICY_FAILED, Hold.POLICY_LATE, Hold.POLICY_BUSY):
+        if hold in (HoldReason.POLICY_FAILED, HoldReason.POLICY_LATE, HoldReason.POLICY_BUSY):
             return cls.POLICY
         return cls.CAPTURE_UNUSABLE
 
@@ -48,3 +54,16 @@ class StopTrialError(Exception):
         super().__init__(reason)
         self.stop = stop
         self.reason = reason
+
+
+@contextmanager
+def losses_stop() -> Iterator[None]:
+    """Turn a robot or a motion capture that is lost, or a robot that is taken, into a stop."""
+    try:
+        yield
+    except RobotLostError as error:
+        raise StopTrialError(Stop.ROBOT_LOST, str(error)) from error
+    except RobotTakenError as error:
+        raise StopTrialError(Stop.MOTORS, str(error)) from error
+    except CaptureLostError as error:
+        raise StopTrialError(Stop.CAPTURE_LOST, str(error)) from error

@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from ..agent import FRAME
-from .lift import Lift, between, natural_stroke
+from .movement import Lift, between, natural_stroke
 from .plan import Plan, assemble, move, still
 from .stroke import replan
 from .subject import GOAL_RANGE, Subject

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .lift import Lift, between
+from .movement import Lift, between
 from .plan import Plan, assemble, move, still
 from .stroke import Motion, Submovement, stroke
 from .subject import Subject

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .lift import Lift, between, natural_stroke
+from .movement import Lift, between, natural_stroke
 from .plan import Plan, Segment, assemble, move, still
 from .stroke import Motion, replan
 from .subject import Subject

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..agent import FRAME
 from ..errors import InputError
-from .lift import REST_AFTER, REST_BEFORE, between
+from .movement import REST_AFTER, REST_BEFORE, between
 from .plan import Plan, Segment, assemble, move, still
 from .recordings import LEAST_MOVEMENT, Recording
 from .stroke import minimum_jerk, stroke

@@ -1,12 +1,12 @@
 """The human that carries a plan out: with motor noise, tremor, and a slow eye on the result."""
 
+import math
 from collections import deque
-from functools import lru_cache
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...robots.arithmetic import dot, each
 from ..agent import FRAME, HISTORY, Action, HumanObservation, Observation
 from .subject import Subject
 
@@ -22,13 +22,13 @@ CORRECTION_GAIN: Final = 1.0
 CORRECTION_LIMIT: Final = 0.03
 """Largest voluntary correction [m]."""
 
-BLOCK: Final = 1000
+BLOCK: Final = 250
 """Frames of noise drawn at a time."""
 
 # A Gaussian kernel of width s gives noise with the autocorrelation exp(-t^2 / (4 s^2)).
 _WIDTH: Final = 0.5 * NOISE_CORRELATION / FRAME
-_BELL: Final = np.exp(-0.5 * (np.arange(-3 * _WIDTH, 3 * _WIDTH + 1) / _WIDTH) ** 2)
-_KERNEL: Final = _BELL / np.linalg.norm(_BELL)
+_BELL: Final = each(math.exp, -0.5 * (np.arange(-3 * _WIDTH, 3 * _WIDTH + 1) / _WIDTH) ** 2)
+_KERNEL: Final = _BELL / math.sqrt(dot(_BELL, _BELL))
 
 
 class ScriptedHuman:
@@ -49,14 +49,15 @@ class ScriptedHuman:
 
     def __init__(self, *, subject: Subject) -> None:
         self.subject = subject
+        self._kept = math.exp(-FRAME / LEAK)
 
     def reset(self, seed: int) -> None:
         """Begin an episode; the noise comes from ``seed``."""
         self._rng = np.random.default_rng(seed)
         self._phase = 2.0 * np.pi * float(self._rng.random())
         self._white = self._rng.standard_normal(len(_KERNEL) - 1)
-        self._gain = np.empty(0)
-        self._tremor = np.empty(0)
+        self._gain: list[float] = []
+        self._tremor: list[float] = []
         self._frame = 0
         self._error = 0.0
         self._correction = 0.0
@@ -67,7 +68,7 @@ class ScriptedHuman:
 
     def act(self, observation: Observation) -> Action:
         """Return the hand's reference height [m] in each of the next n frames."""
-        target = observation[HumanObservation.TARGET]
+        target = observation[HumanObservation.TARGET].tolist()
         n = len(target)
         start, stop = self._frame, self._frame + n
         while len(self._gain) < stop:
@@ -80,46 +81,33 @@ class ScriptedHuman:
         wanted = self._correction + CORRECTION_GAIN * seen * n * FRAME
         correction = min(max(wanted, -CORRECTION_LIMIT), CORRECTION_LIMIT)
 
-        terms = np.empty(n + 3)
-        terms[0] = self._correction
-        terms[1] = correction - self._correction
-        terms[2] = self._error
-        terms[3] = target[0] - self._target
-        np.subtract(target[1:], target[:-1], out=terms[4:])
-        terms[3:] *= self._gain[start:stop]
-        offset = terms @ _response(n)
+        # Over the step the correction changes at a constant rate.
+        current, change = self._correction, (correction - self._correction) / n
+        error, before = self._error, self._target
+        reference = []
+        for height, gain, tremor in zip(
+            target, self._gain[start:stop], self._tremor[start:stop], strict=True
+        ):
+            error = self._kept * error + gain * (height - before)
+            current += change
+            reference.append(height + error + tremor + current)
+            before = height
 
         self._frame = stop
         self._correction = correction
-        self._error = float(offset[-1]) - correction
-        self._target = float(target[-1])
-        self._past_target = float(target[-1 - age])
-        offset += target
-        offset += self._tremor[start:stop]
-        return offset
+        self._error = error
+        self._target = before
+        self._past_target = target[-1 - age]
+        return np.array(reference)
 
     def _draw_block(self) -> None:
         """Draw the noise of the next ``BLOCK`` frames."""
         white = np.concatenate((self._white, self._rng.standard_normal(BLOCK)))
         self._white = white[BLOCK:]
-        gain = self.subject.motor_noise * np.convolve(white, _KERNEL, mode="valid")
+        smooth = dot(np.lib.stride_tricks.sliding_window_view(white, len(_KERNEL)), _KERNEL)
         first = len(self._tremor)
         omega = 2.0 * np.pi * self.subject.tremor_frequency
         time = FRAME * np.arange(first, first + BLOCK)
-        tremor = self.subject.tremor_amplitude * np.sin(omega * time + self._phase)
-        self._gain = np.concatenate((self._gain, gain))
-        self._tremor = np.concatenate((self._tremor, tremor))
-
-
-@lru_cache(maxsize=8)
-def _response(frames: int) -> NDArray[np.float64]:
-    """Return the offset in each frame (columns) per unit of each term of a step (rows).
-
-    Rows: the correction so far, its change (a ramp over the step), the position error so far, and
-    the new position error of each frame; the errors leak.
-    """
-    frame = np.arange(1, frames + 1)
-    decay = np.exp(-FRAME / LEAK)
-    age = frame - frame[:, np.newaxis]
-    errors = np.where(age >= 0, decay ** np.maximum(age, 0), 0.0)
-    return np.vstack((np.ones(frames), frame / frames, decay**frame, errors))
+        tremor = self.subject.tremor_amplitude * each(math.sin, omega * time + self._phase)
+        self._gain += (self.subject.motor_noise * smooth).tolist()
+        self._tremor += tremor.tolist()

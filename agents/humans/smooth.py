@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .lift import Lift, natural_stroke
+from .movement import Lift, natural_stroke
 from .plan import Plan, assemble, move, still
 from .subject import Subject
 

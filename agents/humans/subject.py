@@ -7,6 +7,7 @@ from typing import Final, Self
 
 import numpy as np
 
+from ...robots.arithmetic import dot
 from ..calibration import CALIBRATION
 from ..errors import InputError
 
@@ -122,7 +123,8 @@ class Subject:
         mean = table.mean(axis=0)
         mix = (table - mean) / np.sqrt(len(table) - 1)
         while True:
-            *values, lowest, highest = (mean + rng.standard_normal(len(table)) @ mix).tolist()
+            drawn = mean + dot(mix.T, rng.standard_normal(len(table)))
+            *values, lowest, highest = drawn.tolist()
             fewest, most = round(lowest), round(highest)
             try:
                 return cls(

@@ -1,7 +1,7 @@
 """Goes where the human is about to be."""
 
-from .anticipation import load_anticipation
-from .anticipation_controller import AnticipateParameters, AnticipationController
+from ..control.anticipation import load_anticipation
+from ..control.anticipation_controller import AnticipateParameters, AnticipationController
 
 
 class Anticipate(AnticipationController):

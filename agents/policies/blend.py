@@ -3,8 +3,8 @@
 import numpy as np
 
 from ..agent import Action, Observation, RobotObservation
+from ..control.predictor import Predictor, PredictorParameters
 from ..estimators.gain_control import gain_control
-from .predictor import Predictor, PredictorParameters
 from .reactive import Reactive
 
 

@@ -14,10 +14,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..agent import Action, Observation, RobotObservation
+from ..control.predictor import DEFAULT_PERIOD
 from ..errors import InputError
 from ..estimators.minimum_jerk_filter import MinimumJerkFilter, MinimumJerkFilterParameters
 from ..estimators.stroke_window import StrokeWindow, StrokeWindowParameters
-from .predictor import DEFAULT_PERIOD
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..agent import Action, Observation, RobotObservation
+from ..control.predictor import Predictor, PredictorParameters
 from ..errors import InputError
 from ..estimators.gain_control import gain_control
-from .predictor import Predictor, PredictorParameters
 
 
 @dataclass(frozen=True, kw_only=True)

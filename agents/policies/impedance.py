@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..agent import Action, Observation, RobotObservation
+from ..control.predictor import DEFAULT_PERIOD
 from ..errors import InputError
-from .predictor import DEFAULT_PERIOD
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,11 +13,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..agent import Action, Observation, RobotObservation
+from ..control.predictor import DEFAULT_PERIOD
 from ..errors import InputError
 from ..estimators.forecast_spread import ForecastSpread, ForecastSpreadParameters
 from ..estimators.minimum_jerk_fit import FEWEST, MinimumJerkFit, MinimumJerkFitParameters
 from ..estimators.stroke_window import StrokeWindow, StrokeWindowParameters
-from .predictor import DEFAULT_PERIOD
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..agent import Action, Observation, RobotObservation
-from .predictor import Predictor, PredictorParameters
+from ..control.predictor import Predictor, PredictorParameters
 
 
 class Proactive:

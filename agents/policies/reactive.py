@@ -1,24 +1,11 @@
 """The paper's reactive controller: a follower that was learned (section III.A)."""
 
-import json
 from collections.abc import Sequence
-from functools import cache
-from importlib.resources import files
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..agent import Action, Observation, RobotObservation
-from .q_learning import ACTIONS, Q_PARAMETERS, QParameters, state_of
-
-
-@cache
-def learned_table() -> NDArray[np.float64]:
-    """Return the shipped Q-table, as ``colift learn reactive`` learned it; states x actions."""
-    text = files(__package__).joinpath("data", "reactive.json").read_text()
-    table = np.array(json.loads(text)["table"])
-    table.flags.writeable = False
-    return table
+from ..control.q_learning import ACTIONS, Q_PARAMETERS, QParameters, learned_table, state_of
 
 
 class Reactive:

@@ -3,8 +3,8 @@
 import numpy as np
 
 from ..agent import Action, Observation
-from .task import load_task
-from .task_controller import TaskController, TaskModelParameters
+from ..control.task import load_task
+from ..control.task_controller import TaskController, TaskModelParameters
 
 
 class TaskModel:

@@ -10,6 +10,7 @@ from typing import Any, Final
 from urllib.parse import urlsplit
 
 from ..errors import InputError
+from ..loading.parameters import merged
 from ..registry import POLICIES, own_entries
 from .packages import PACKAGES, installed
 
@@ -87,6 +88,17 @@ def entry_point(value: Any) -> str:
     return value
 
 
+def parameters(value: Any) -> str:
+    """Return what is set of the class, in the order of the names."""
+    told = 'a text such as "gain=1.2,lead=0.25", or empty'
+    if not isinstance(value, str) or len(value) > LONGEST_TEXT:
+        raise _wrong(value, told)
+    try:
+        return merged(value)
+    except InputError:
+        raise _wrong(value, told) from None
+
+
 def packages(value: Any) -> tuple[str, ...]:
     """Return the packages that the policy needs."""
     known = ", ".join(PACKAGES)
@@ -94,7 +106,7 @@ def packages(value: Any) -> tuple[str, ...]:
         raise _wrong(value, f"a list of some of: {known}")
     for each in value:
         if not isinstance(each, str) or each not in PACKAGES:
-            raise InputError(f"has {shown(each)}, which a sandbox does not have; it has {known}")
+            raise InputError(f"has {shown(each)}, which a board need not have; known: {known}")
         if not installed(each):
             raise InputError(f"has {each!r}, which is not installed here: pip install {each}")
     return tuple(dict.fromkeys(value))

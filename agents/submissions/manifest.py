@@ -1,6 +1,5 @@
 """``policy.toml``: what a submission says of itself."""
 
-import difflib
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass
@@ -8,6 +7,7 @@ from dataclasses import fields as fields_of
 from typing import Any, Final
 
 from ..errors import InputError
+from ..near_names import did_you_mean
 from . import fields
 
 MANIFEST: Final = "policy.toml"
@@ -35,6 +35,8 @@ class Manifest:
     """Where to read more."""
     entry_point: str = "policy:Policy"
     """``module:Class``, the module a file of the folder."""
+    parameters: str = ""
+    """What is set of the class: ``name=value,name=value``, as after a comma on the command line."""
     packages: tuple[str, ...] = ()
     """What it needs of :data:`.packages.PACKAGES`."""
     preload: bool = False
@@ -49,6 +51,7 @@ READ: Final[Mapping[str, Callable[[Any], Any]]] = {
     "trained_on": fields.text,
     "link": fields.link,
     "entry_point": fields.entry_point,
+    "parameters": fields.parameters,
     "packages": fields.packages,
     "preload": fields.flag,
 }
@@ -85,9 +88,10 @@ def read_manifest(data: bytes, where: str = MANIFEST) -> Manifest:
         raise InputError(f"{where}: lists or tables inside each other too deep") from error
     for key in content:
         if key not in READ:
-            near = difflib.get_close_matches(key, READ, n=1)
-            told = f"did you mean {near[0]}?" if near else f"known: {', '.join(READ)}"
-            raise InputError(f"{where}: unknown key {fields.shown(key)}; {told}")
+            near = did_you_mean(key, READ)
+            raise InputError(
+                f"{where}: unknown key {fields.shown(key)}; {near}known: {', '.join(READ)}"
+            )
     missing = [key for key in REQUIRED if key not in content]
     if missing:
         raise InputError(f"{where}: {missing[0]} is missing; it must have {', '.join(REQUIRED)}")

@@ -1,16 +1,16 @@
 """Finds a module's source without running any of it, as an import would."""
 
-import hashlib
 import importlib.util
 from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 
 from ..errors import InputError
-from ..isolation.view import view
+from ..identity import source_hash
+from ..sandbox.host.view import view
 
 
 def module_digest(name: str) -> str:
-    """Return the SHA-256 (16 hexadecimal digits) of a module's source file.
+    """Return the hash of what a module's source file does; see :func:`.source_hash`.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def module_digest(name: str) -> str:
             f"module {name!r} is {source}, which a sandbox does not see: name the file, as in "
             f"{source.name}:Class, make it a submission, or install it"
         )
-    return hashlib.sha256(source.read_bytes()).hexdigest()[:16]
+    return source_hash(source.read_bytes())
 
 
 def _source(name: str) -> Path:

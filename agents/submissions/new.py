@@ -1,9 +1,11 @@
 """A template of a submission, that works as it is."""
 
+import json
 import re
+from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from ..errors import InputError
 from . import fields
@@ -15,8 +17,22 @@ PLACEHOLDER: Final = "my-policy"
 AUTHOR: Final = "Your Name"
 """Its author there."""
 
-FILES: Final = (MANIFEST, "policy.py")
+DESCRIPTION: Final = "Takes away a fixed share of the height difference that it sees."
+"""Its description there."""
+
+POLICY: Final = "policy.py"
+"""The file of the policy."""
+
+COMMENTS: Final = 34
+"""Column of the comments in the manifest."""
+
+FILES: Final = (MANIFEST, POLICY)
 """The files of the template."""
+
+
+def template(name: str) -> str:
+    """Return the text of one of the template's :data:`FILES`."""
+    return files(__package__).joinpath("template", name).read_text()
 
 
 def write_template(folder: Path) -> None:
@@ -33,19 +49,50 @@ def write_template(folder: Path) -> None:
     InputError
         If something is there already, or it cannot be written.
     """
+    write_files(folder, template(POLICY).encode(), {})
+
+
+def write_files(folder: Path, policy: bytes, content: Mapping[str, Any]) -> None:
+    """Write a new submission.
+
+    Parameters
+    ----------
+    folder
+        As for :func:`write_template`.
+    policy
+        The text of its policy.
+    content
+        What the manifest has otherwise than the template's.
+
+    Raises
+    ------
+    InputError
+        As :func:`write_template`.
+    """
     try:
         if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
             raise InputError(f"{folder} is there already; name a new folder")
         folder.mkdir(parents=True, exist_ok=True)
         if any(folder.iterdir()):
             raise InputError(f"{folder} is not empty; name a new folder")
-        for name in FILES:
-            text = files(__package__).joinpath("template", name).read_text()
-            if name == MANIFEST:
-                text = text.replace(PLACEHOLDER, _name(folder))
-            (folder / name).write_text(text)
+        (folder / POLICY).write_bytes(policy)
+        (folder / MANIFEST).write_text(_manifest({"name": _name(folder), **content}))
     except OSError as error:
         raise InputError(f"cannot write to {folder}: {error.strerror}") from error
+
+
+def _manifest(content: Mapping[str, Any]) -> str:
+    """Return the template's manifest with other values, its comments where they were."""
+    lines = []
+    for line in template(MANIFEST).splitlines():
+        key, sign, _ = line.partition(" = ")
+        if sign and key in content:
+            _, _, comment = line.partition("  #")
+            written = json.dumps(content[key], ensure_ascii=False)  # TOML reads it as JSON does.
+            line = f"{key} = {written}".ljust(COMMENTS if comment else 0)
+            line += f"# {comment.strip()}" if comment else ""
+        lines.append(line)
+    return "\n".join(lines) + "\n"
 
 
 def _name(folder: Path) -> str:

@@ -15,12 +15,16 @@ PACKAGES: Final[Mapping[str, str]] = {
     "scikit-learn": "sklearn",
     "scipy": "scipy",
 }
-"""What a sandbox has, by the name in package registries, and the name it is imported by.
+"""What every sandbox has, by the name in package registries, and the name it is imported by.
 
 All come with colift, but for scikit-learn, which comes with its extra ``learn``."""
 
 ALWAYS: Final = frozenset(sys.stdlib_module_names) | {"colift"}
 """What every policy may import: the standard library and ``colift.agents``."""
+
+
+SOURCE_BYTES: Final = 2**20
+"""Largest source file that is read for its imports [bytes]: Python needs 500 times as much."""
 
 
 def installed(package: str) -> bool:
@@ -46,14 +50,25 @@ def undeclared(folder: Path, contents: Contents, packages: tuple[str, ...]) -> I
     for path in contents.paths:
         if not path.endswith(".py"):
             continue
-        for module in sorted(_imported((folder / path).read_bytes()) - allowed):
+        with (folder / path).open("rb") as file:
+            source = file.read(SOURCE_BYTES + 1)
+        if len(source) > SOURCE_BYTES:
+            yield f"{path} is larger than 1 MiB; put its data into a file that is no source"
+            continue
+        for module in sorted(_imported(source) - allowed):
             if module in names:
                 yield f"{path} imports {module}: add {names[module]!r} to packages"
             else:
                 yield (
-                    f"{path} imports {module}, which a sandbox does not have; it has "
-                    f"{', '.join(PACKAGES)}"
+                    f"{path} imports {module}, which a submission cannot ask for: whether it is "
+                    f"there differs from board to board; what it can: {', '.join(PACKAGES)}"
                 )
+
+
+def needed(source: bytes) -> tuple[str, ...]:
+    """Return which of :data:`PACKAGES` a source imports."""
+    imported = _imported(source)
+    return tuple(package for package, module in PACKAGES.items() if module in imported)
 
 
 def _imported(source: bytes) -> set[str]:

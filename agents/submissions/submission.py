@@ -1,19 +1,30 @@
 """A submission: a folder with ``policy.toml`` and ``policy.py``, as a policy that can be run."""
 
+import hashlib
 import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
 from ..errors import InputError
-from ..isolation.sandboxed import SandboxedPolicy
+from ..loading.parameters import merged
+from ..sandbox.host.levels import strongest
+from ..sandbox.host.policy import SandboxedPolicy
 from .folder import Contents, read_folder
+from .from_file import classes
 from .manifest import MANIFEST, Manifest, read_manifest
 from .snapshot import snapshot
 from .trusted import TrustedSubmission
 
 DIGEST: Final = 16
 """Hexadecimal digits of the digests in tables."""
+
+
+def digest_with(source: str, parameters: str) -> str:
+    """Return the digest of a source with parameters as they are written; of the source if none."""
+    if not parameters:
+        return source
+    return hashlib.sha256(f"{source},{parameters}".encode()).hexdigest()[:DIGEST]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,25 +41,36 @@ class Submission:
         """The digest in tables: the beginning of that of all names and bytes."""
         return self.contents.digest[:DIGEST]
 
-    def sandboxed(self, rung: str | None = None) -> SandboxedPolicy:
-        """Return the policy on a rung of isolation; None is the strongest that works here."""
+    def sandboxed(self, level: str | None = None, parameters: str = "") -> SandboxedPolicy:
+        """Return the policy at an isolation level; None is the strongest that works here.
+
+        ``parameters`` are set beside those of the manifest, or instead of them.
+        """
         return SandboxedPolicy(
-            name=self.manifest.name,
+            name=self._name(parameters),
             place=self.manifest.entry_point,
+            parameters=merged(self.manifest.parameters, parameters),
             folder=self.folder,
-            source_digest=self.digest,
+            source_digest=self._digest(parameters),
             preload=self.manifest.preload,
-            rung=rung,
+            isolation=level or strongest(),
         )
 
-    def trusted(self) -> TrustedSubmission:
+    def trusted(self, parameters: str = "") -> TrustedSubmission:
         """Return the policy to run in this process, for those who trust it."""
         return TrustedSubmission(
-            name=self.manifest.name,
+            name=self._name(parameters),
             entry_point=self.manifest.entry_point,
+            parameters=merged(self.manifest.parameters, parameters),
             folder=self.folder,
-            source_digest=self.digest,
+            source_digest=self._digest(parameters),
         )
+
+    def _name(self, parameters: str) -> str:
+        return f"{self.manifest.name},{parameters}" if parameters else self.manifest.name
+
+    def _digest(self, parameters: str) -> str:
+        return digest_with(self.digest, merged(parameters))
 
 
 def open_submission(folder: Path) -> Submission:
@@ -59,6 +81,8 @@ def open_submission(folder: Path) -> Submission:
     InputError
         As :func:`read_submission`, or if the copy cannot be written.
     """
+    if folder.is_file():
+        raise InputError(_a_file(folder))
     if folder.is_dir() and not os.path.lexists(folder / MANIFEST):
         raise _without_manifest(str(folder))  # Before a large folder of something else is read.
     place, contents = snapshot(folder)
@@ -74,8 +98,22 @@ def read_submission(folder: Path) -> Submission:
         If the folder, its manifest or its files are not what they must be; the message names the
         file, the key and what would be right.
     """
+    if folder.is_file():
+        raise InputError(_a_file(folder))
     contents = read_folder(folder)
     return _submission(folder.absolute(), contents, str(folder))
+
+
+def _a_file(path: Path) -> str:
+    """Return how a file becomes a submission."""
+    told = f"{path} is a file; a submission is a folder"
+    if path.suffix != ".py":
+        return told
+    try:
+        name = next(reversed(classes(path)), "Class")
+    except InputError:
+        name = "Class"
+    return f"{told}, which 'colift new DIR --from {path}:{name}' makes of it"
 
 
 def _without_manifest(shown: str) -> InputError:

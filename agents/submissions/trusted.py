@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Final
 
 from ..agent import Agent
-from ..policies.in_process import InProcess
-from ..policies.loading import PolicySpec
+from ..loading.loading import PolicySpec
+from ..spec import InProcess
 
 _importing: Final = threading.Lock()
 """Where modules are found, and the folder we are in, belong to all threads."""
@@ -31,20 +31,27 @@ class TrustedSubmission(InProcess):
     entry_point: str
     """``module:Class``, the module a file of the folder."""
     source_digest: str
+    parameters: str = ""
+    """What is set of it: ``parameter=value,parameter=value``."""
 
     def digest(self) -> str:
         """Return the hash of the folder."""
         return self.source_digest
 
     def check(self) -> None:
-        """Raise an InputError if its class cannot be loaded."""
+        """Raise an InputError if its class cannot be loaded, or has no such parameter."""
         with _imports_from(self.folder):
-            PolicySpec(text=self.entry_point).load()
+            self._spec.check()
 
     def make(self) -> Agent:
         """Return a new policy object."""
         with _imports_from(self.folder):
-            return PolicySpec(text=self.entry_point).make()
+            return self._spec.make()
+
+    @property
+    def _spec(self) -> PolicySpec:
+        comma = "," if self.parameters else ""
+        return PolicySpec(text=f"{self.entry_point}{comma}{self.parameters}")
 
 
 @contextmanager

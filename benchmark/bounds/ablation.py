@@ -8,16 +8,16 @@ from typing import Any, Final
 
 import numpy as np
 
-from ...agents.policies.anticipation_controller import AnticipateParameters
-from ...agents.policies.senses import Window
-from ..anticipation_experience import Experience, Timing
-from ..anticipation_learning import HIDDEN, WAYS, Lesson, learned
-from ..runner import Run, run_suite
-from ..scenario import CONTROL_PERIOD
-from ..statistics import PairedDifference, paired_difference
-from ..suite import BEHAVIOURS, Suite
-from ..summary import cell
-from .foreseer import Foreseer
+from ...agents.control.anticipation_controller import AnticipateParameters
+from ...agents.control.senses import Window
+from ..episode.scenario import CONTROL_PERIOD
+from ..execution.runner import Run, run_suite
+from ..results.summary import cell
+from ..statistics import Estimate, paired_difference
+from ..suites.suite import BEHAVIOURS, Suite
+from ..training.anticipation import HIDDEN, WAYS, Lesson, learned
+from ..training.experience import Experience, Timing
+from .causal import Foreseer
 
 WHOLE: Final = "whole"
 
@@ -68,9 +68,9 @@ class Ablation:
     name: str
     rmse_mm: float
     sparc: float
-    worse_mm: PairedDifference | None
+    worse_mm: Estimate | None
     """RMSE minus that of the whole, lift by lift; none for the whole itself."""
-    rougher: PairedDifference | None
+    rougher: Estimate | None
     """SPARC of the whole minus its own, over the lifts in which both move along."""
 
 

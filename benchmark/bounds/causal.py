@@ -1,12 +1,44 @@
-"""The learned causal bound: how level a robot can be that sees what a robot may see."""
+"""The causal bound, learned from all that can be seen, and the bounds by name."""
 
+import hashlib
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
 from functools import cache
 from importlib.resources import files
 from typing import Final
 
-from ...agents.policies.anticipation import read_anticipation
-from ...agents.policies.anticipation_controller import AnticipateParameters
-from .foreseer import Foreseer
+from ...agents.agent import Agent
+from ...agents.control.anticipation import Anticipation, anticipation_json, read_anticipation
+from ...agents.control.anticipation_controller import AnticipateParameters, AnticipationController
+from ...agents.errors import InputError
+from ...agents.spec import InProcess
+from ..comparison.contest import Bound
+from ..execution.runner import Run, run_suite
+from ..suites.suite import Suite
+from .oracle import ORACLE, oracle_run
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Foreseer(InProcess):
+    """The control of :class:`.Anticipate` with a given model, as :class:`.AgentSpec`."""
+
+    name: str
+    model: Anticipation
+    parameters: AnticipateParameters = field(default_factory=AnticipateParameters)
+
+    def check(self) -> None:
+        """Do nothing: its parts have checked themselves."""
+
+    def digest(self) -> str:
+        """Return a hash of model and parameters."""
+        told = f"{anticipation_json(self.model)}{self.parameters}"
+        return hashlib.sha256(told.encode()).hexdigest()[:16]
+
+    def make(self) -> Agent:
+        """Return a new robot."""
+        return AnticipationController(self.model, self.parameters)
+
 
 CAUSAL_BOUND: Final = "causal_bound"
 
@@ -30,7 +62,36 @@ def causal_bound() -> Foreseer:
     It is an estimate, not a proof: what a larger network than the policy's learns in the same way,
     from other lifts, with nothing given away for smoothness.
     """
-    text = files(f"{__package__.rpartition('.')[0]}").joinpath("data", "causal_bound.json")
+    text = files(__package__).joinpath("data", "causal_bound.json")
     return Foreseer(
         name=CAUSAL_BOUND, model=read_anticipation(text.read_text()), parameters=ONLY_LEVEL
     )
+
+
+def causal_run(
+    suite: Suite,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> Run:
+    """Return the causal bound's run on a suite; arguments as for :func:`.run_suite`.
+
+    Raises
+    ------
+    InputError
+        If the suite has another latency or control period than it was learned with.
+    """
+    bound = causal_bound()
+    learned = bound.model.latency, bound.model.window.interval
+    for scenario in suite.scenarios:
+        found = scenario.latency, scenario.control_period
+        if found != learned:
+            raise InputError(
+                f"{CAUSAL_BOUND} was learned with a latency and a control period of {learned} s, "
+                f"{scenario.name} has {found} s; 'colift sweep' learns others"
+            )
+    return run_suite(bound, suite, executor=executor, progress=progress)
+
+
+BOUNDS: Final[Mapping[str, Bound]] = {CAUSAL_BOUND: causal_run, ORACLE: oracle_run}
+"""What `compare --bounds` shows. They are in no registry: no board can take them."""

@@ -6,9 +6,9 @@ from typing import Final
 
 import numpy as np
 
-from ..catalogue import RECORDED
 from ..comparison.contest import Contest, Entry
-from ..statistics import FloatArray, Interval, paired_difference, ratio_of_means_ci, share_better
+from ..statistics import FloatArray, Interval, paired_difference, ratio_of_means, share_better
+from ..suites.catalogue import RECORDED
 from .causal import CAUSAL_BOUND
 
 POLICY: Final = "anticipate"
@@ -63,14 +63,9 @@ def claims(contest: Contest) -> tuple[Claim, ...]:
 
     def ratio(text: str, other: FloatArray, chosen: FloatArray, limit: float) -> None:
         some = [cell for cell, taken in zip(cells, chosen, strict=True) if taken]
-        found.append(
-            Claim(
-                text=f"RMSE over that of {text}",
-                value=float(mine[chosen].mean() / other[chosen].mean()),
-                ci95=ratio_of_means_ci(mine[chosen], other[chosen], some),
-                limit=limit,
-            )
-        )
+        of = ratio_of_means(mine[chosen], other[chosen], some)
+        text = f"RMSE over that of {text}"
+        found.append(Claim(text=text, value=of.mean, ci95=of.ci95, limit=limit))
 
     everything = np.full(len(cells), True)
     for behaviour in dict.fromkeys(behaviours.tolist()):

@@ -3,9 +3,9 @@
 from typing import Final
 
 from ...agents.errors import InputError
-from ..anticipation_learning import LAST_SEED
-from ..catalogue import make_scenario
-from ..suite import BEHAVIOURS, Suite
+from ..suites.catalogue import make_scenario
+from ..suites.suite import BEHAVIOURS, Suite
+from ..training.anticipation import LAST_SEED
 
 FIRST_SEED: Final = LAST_SEED + 1
 """Seed of the first person and of the first lift: no learning takes seeds from here on."""

@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...agents.agent import FRAME, Action, Observation, RobotObservation
-from ...agents.policies.loading import source_digest
-from ...agents.policies.preview import preview_gains
-from ...agents.policies.senses import ARM_LAG
-from ..episode import Episode, run_episode
-from ..lift import Lift
-from ..runner import Run
-from ..scenario import Scenario
-from ..suite import Suite
+from ...agents.control.preview import preview_gains
+from ...agents.control.senses import ARM_LAG
+from ...agents.loading.loading import source_digest
+from ..episode.episode import Episode, run_episode
+from ..episode.lift import Lift
+from ..episode.scenario import Scenario
+from ..execution.runner import Run
+from ..suites.suite import Suite
 
 ORACLE: Final = "oracle"
 

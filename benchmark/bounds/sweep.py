@@ -8,15 +8,15 @@ from typing import Final
 
 import numpy as np
 
-from ...agents.policies.loading import PolicySpec
-from ..agent_spec import AgentSpec
-from ..anticipation_experience import Timing
-from ..anticipation_learning import ROUNDS, learn_anticipation
-from ..references import human_team_run
-from ..runner import Run, run_suite
-from ..suite import Suite
+from ...agents.loading.loading import PolicySpec
+from ...agents.spec import AgentSpec
+from ..execution.runner import Run, run_suite
+from ..results.baselines import human_team_run
+from ..suites.suite import Suite
+from ..training.anticipation import ROUNDS, learn_anticipation
+from ..training.experience import Timing
 from . import causal
-from .foreseer import Foreseer
+from .causal import Foreseer
 from .oracle import ORACLE, oracle_run
 
 LATENCIES: Final = (0.0, 0.05, 0.1, 0.15, 0.2)

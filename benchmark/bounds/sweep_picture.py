@@ -9,9 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from ..rendering.axes import plain
-from ..rendering.palette import FAINT, HUMAN, INK, PAPER, ROBOT
-from ..scenario import CONTROL_PERIOD, LATENCY
+from ..episode.scenario import CONTROL_PERIOD, LATENCY
+from ..rendering.style import FAINT, HUMAN, INK, PAPER, ROBOT, plain
 from .causal import CAUSAL_BOUND
 from .oracle import ORACLE
 from .sweep import Swept

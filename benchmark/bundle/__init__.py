@@ -12,10 +12,10 @@ file               content
 ================== ===============================================================================
 """
 
+from ..execution.provenance import fingerprint
 from .content import results
 from .differences import Difference, differences
-from .files import FILES, check_target, read_files
-from .fingerprint import fingerprint
+from .files import FILES, check_target, check_unfinished, read_files
 from .reading import Bundle, parse, read_bundle
 from .recipe import Recipe
 from .table import one_line
@@ -27,6 +27,7 @@ __all__ = [
     "Difference",
     "Recipe",
     "check_target",
+    "check_unfinished",
     "differences",
     "fingerprint",
     "one_line",

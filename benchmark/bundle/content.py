@@ -4,12 +4,13 @@ from collections.abc import Mapping
 from importlib.metadata import version
 from typing import Any
 
-from ..references import HUMAN_HUMAN, Reference
-from ..runner import Run
-from ..scores import SCORING
-from ..statistics import stratified_bootstrap
-from ..suite import Suite
-from ..summary import group, summarise
+from ...agents.hardware.decisions import POLICY_SHARE
+from ..episode.scores import SCORING
+from ..execution.runner import Run
+from ..results.baselines import HUMAN_HUMAN, Reference
+from ..results.summary import group, summarise
+from ..suites.suite import Suite
+from .table import one_line
 
 
 def results(run: Run, references: Mapping[str, Reference]) -> dict[str, Any]:
@@ -22,7 +23,7 @@ def results(run: Run, references: Mapping[str, Reference]) -> dict[str, Any]:
     run
         The policy's episodes.
     references
-        Other agents on the same episodes, by name; see :mod:`colift.benchmark.references`.
+        Other agents on the same episodes, by name; see :mod:`colift.benchmark.results.baselines`.
     """
     team = references.get(HUMAN_HUMAN)
     summary = summarise(run.episodes, team.rmse_mm if team else None)
@@ -33,8 +34,8 @@ def results(run: Run, references: Mapping[str, Reference]) -> dict[str, Any]:
         "suite_digest": run.suite.digest,
         "scoring": SCORING,
         "complete": run.complete,
-        "policy": {"name": run.policy, "digest": run.policy_digest},
-        "isolation": run.isolation,
+        "policy": {"name": one_line(run.policy), "digest": run.policy_digest},
+        "isolation": one_line(run.isolation),
         "evaluator_faults": run.faults,
         "summary": summary,
         "groups": group(run.episodes, team.by_cell() if team else None),
@@ -45,11 +46,13 @@ def results(run: Run, references: Mapping[str, Reference]) -> dict[str, Any]:
 def real_time(p99_ms: float | None, suite: Suite) -> bool | None:
     """Return whether a policy keeps up with a real robot; None if it never acted.
 
-    It does if the 99th percentile of its time per step [ms] is below the control period.
+    It does if the 99th percentile of its time per step [ms], over all steps of all lifts, is no
+    more than the share of the control period that the real-time loop waits for an answer.
     """
     if p99_ms is None:
         return None
-    return p99_ms < 1000 * min(scenario.control_period for scenario in suite.scenarios)
+    period = min(scenario.control_period for scenario in suite.scenarios)
+    return p99_ms <= 1000 * POLICY_SHARE * period
 
 
 def with_circumstances(
@@ -61,7 +64,10 @@ def with_circumstances(
     name and digest, the isolation and the faults come with the run.)
     """
     step_ms = claimed["summary"]["step_ms"]
-    timed = {"step_ms": step_ms, "real_time": real_time(step_ms["p99"], suite)}
+    timed = {
+        "step_ms": {name: step_ms[name] for name in ("p50", "p99")},
+        "real_time": real_time(step_ms["p99"], suite),
+    }
     return {
         **content,
         "colift": claimed["colift"],
@@ -72,9 +78,8 @@ def with_circumstances(
 def _reference(reference: Reference) -> dict[str, Any]:
     return {
         "rmse_mm": {
-            "mean": reference.mean,
-            "ci95": list(stratified_bootstrap(reference.rmse_mm, reference.cells)),
+            "mean": reference.estimate.mean,
+            "ci95": list(reference.estimate.ci95),
         },
-        "sparc": {"mean": reference.sparc},
-        "human_force_n": {"mean": reference.human_force_n},
+        **{name: {"mean": mean} for name, mean in reference.means.items()},
     }

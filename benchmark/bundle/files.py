@@ -1,5 +1,6 @@
 """The files of a bundle: written all or nothing, read without trust."""
 
+import json
 import os
 import shutil
 import stat
@@ -51,6 +52,27 @@ def check_target(folder: Path) -> None:
             pass
     except OSError as error:
         raise InputError(f"cannot write to {folder.parent}: {error.strerror}") from error
+
+
+def check_unfinished(folder: Path) -> None:
+    """Refuse a folder that holds a finished bundle.
+
+    Raises
+    ------
+    InputError
+        If it does, or if it cannot be told whether the bundle there is finished.
+    """
+    try:
+        content = json.loads((folder / RESULTS).read_bytes())
+    except FileNotFoundError:
+        return
+    except (OSError, ValueError):
+        content = {}
+    if isinstance(content, dict) and content.get("complete") is False:
+        return
+    raise InputError(
+        f"{folder} holds a finished result bundle: name a new folder, or replace it by --force"
+    )
 
 
 def write_files(folder: Path, files: Mapping[str, bytes]) -> None:

@@ -16,13 +16,12 @@ def dump_json(content: Any) -> bytes:
 
 
 def parse_json(data: bytes, file: str) -> dict[str, Any]:
-    """Return the object that a JSON text is.
+    """Return the object that a JSON text of :func:`dump_json` is.
 
     Raises
     ------
     InputError
-        If it is none; also for NaN, infinite numbers and names that are given twice, which other
-        readers of JSON take differently.
+        If it is none, or written in any other way, which other readers might take differently.
     """
     try:
         content = json.loads(
@@ -31,10 +30,15 @@ def parse_json(data: bytes, file: str) -> dict[str, Any]:
             parse_float=_finite,
             object_pairs_hook=_without_repetition,
         )
+        as_written = dump_json(content)
     except (ValueError, RecursionError) as error:
         raise InputError(f"{file}: not JSON as it must be: {error}") from None
     if not isinstance(content, dict):
         raise InputError(f"{file}: must be one object {{...}}")
+    if as_written != data:
+        lines = zip(as_written.split(b"\n"), data.split(b"\n"), strict=False)
+        line = next((i for i, (a, b) in enumerate(lines, 1) if a != b), data.count(b"\n") + 1)
+        raise InputError(f"{file}: line {line} is not as colift writes it")
     return content
 
 

@@ -1,21 +1,31 @@
 """Reading a bundle, whoever wrote it."""
 
 import hashlib
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from ...agents.errors import InputError
-from ..episode import Episode
-from ..runner import Run
+from ..episode.episode import Episode
+from ..execution.runner import Run
 from .arrays import parse_arrays
 from .files import EPISODES, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, read_files
-from .json_text import checked, parse_json, pick
+from .json_text import checked, dump_json, parse_json, pick
 from .recipe import Recipe
 from .table import parse_table
-from .traces import parse_traces
-from .writing import FORMAT
+from .traces import LARGEST_LIFT, parse_traces
+from .writing import FORMAT, kept_logs
+
+LONGEST_LINE: Final = 1000
+"""Characters that a name of a policy, a version or an isolation may have."""
+
+MOST_COUNTED: Final = 10**6
+"""Largest number of what is only counted, such as faults of the machine."""
+
+MOST_PLATFORM: Final = 100
+"""Entries that a platform's fingerprint may have."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -99,6 +109,8 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
     """
     manifest = parse_json(files[MANIFEST], MANIFEST)
     form = pick(manifest, "format", int, MANIFEST)
+    if form == FORMAT and [*manifest] != ["format", "platform", "recipe", "sha256"]:
+        raise InputError(f"{MANIFEST}: it has other names than colift writes: {_shown(manifest)}")
     if form != FORMAT:
         raise InputError(f"{MANIFEST}: the bundle has format {form}, must be {FORMAT}")
     if manifest.get("recipe", 0) is None:
@@ -108,37 +120,64 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
         )
     recipe = Recipe.parse(pick(manifest, "recipe", dict, MANIFEST), files.get(RECORDINGS))
     platform = {
-        name: checked(value, str, f"{MANIFEST}: platform.{name!r:.80}")
+        name: _line(value, f"{MANIFEST}: platform.{name!r:.80}")
         for name, value in pick(manifest, "platform", dict, MANIFEST).items()
     }
-    traces, places = parse_traces(parse_arrays(files[TRACES], TRACES))
-    if places[-1] >= len(recipe.scenarios) * len(recipe.seeds):
+    if len(platform) > MOST_PLATFORM:
+        raise InputError(f"{MANIFEST}: platform has more than {MOST_PLATFORM} entries")
+    lifts = len(recipe.scenarios) * len(recipe.seeds)
+    traces, places = parse_traces(parse_arrays(files[TRACES], TRACES, LARGEST_LIFT * lifts))
+    if places[-1] >= lifts:
         raise InputError(f"{TRACES}: the suite has no place {places[-1]}")
     logs = _logs(files[LOGS], len(traces)) if LOGS in files else [""] * len(traces)
+    episodes = parse_table(files[EPISODES], traces, logs)
+    kept = kept_logs(episodes)
+    if LOGS in files and (not kept or files[LOGS] != dump_json(kept)):
+        raise InputError(f"{LOGS}: not the end of what was printed in lifts that failed, in order")
     return Bundle(
-        results=_results(files[RESULTS]),
-        episodes=parse_table(files[EPISODES], traces, logs),
+        results=_results(files[RESULTS], acted=any(len(trace.action) for trace in traces)),
+        episodes=episodes,
         places=places,
         recipe=recipe,
         platform=platform,
     )
 
 
-def _results(data: bytes) -> dict[str, Any]:
-    """Return ``results.json``, with that checked which no simulation can tell."""
+def _results(data: bytes, *, acted: bool) -> dict[str, Any]:
+    """Return ``results.json``, with that checked which no simulation can tell.
+
+    ``acted`` is whether the policy acted in any lift.
+    """
     content = parse_json(data, RESULTS)
     for path in ("colift", "suite", "suite_digest", "policy.name", "policy.digest", "isolation"):
-        pick(content, path, str, RESULTS)
-    pick(content, "scoring", int, RESULTS)
+        _line(pick(content, path, str, RESULTS), f"{RESULTS}: {path}")
     pick(content, "complete", bool, RESULTS)
     pick(content, "references", dict, RESULTS)
-    if pick(content, "evaluator_faults", int, RESULTS) < 0:
-        raise InputError(f"{RESULTS}: evaluator_faults must not be negative")
-    for path in ("summary.step_ms.p50", "summary.step_ms.p99"):
-        time = pick(content, path, (float, type(None)), RESULTS)
-        if time is not None and time < 0:
-            raise InputError(f"{RESULTS}: {path} must not be negative")
+    for path in ("scoring", "evaluator_faults"):
+        if not 0 <= pick(content, path, int, RESULTS) <= MOST_COUNTED:
+            raise InputError(f"{RESULTS}: {path} must be from 0 to {MOST_COUNTED}")
+    p50, p99 = (
+        pick(content, f"summary.step_ms.{name}", (float, type(None)), RESULTS)
+        for name in ("p50", "p99")
+    )
+    if p50 is None or p99 is None:
+        if acted or p50 is not p99:
+            raise InputError(f"{RESULTS}: summary.step_ms is missing, but the policy acted")
+    elif not (math.copysign(1.0, p50) > 0 and p50 <= p99):
+        raise InputError(f"{RESULTS}: summary.step_ms must have 0 <= p50 <= p99, got {p50}, {p99}")
     return content
+
+
+def _line(value: object, what: str) -> str:
+    """Return a text that may be printed in a line."""
+    text = checked(value, str, what)
+    if len(text) > LONGEST_LINE or not text.isprintable():
+        raise InputError(f"{what} must be at most {LONGEST_LINE} printable characters")
+    return text
+
+
+def _shown(names: Iterable[str]) -> str:
+    return f"{', '.join(names)!r:.80}"
 
 
 def _logs(data: bytes, episodes: int) -> list[str]:

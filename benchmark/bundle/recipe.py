@@ -10,9 +10,9 @@ from typing import Any, Final, Self, cast
 from ...agents.errors import InputError
 from ...agents.humans import Recorded, load_recordings
 from ...agents.humans.recordings import COLUMNS
-from ..catalogue import RECORDED, make_scenario, make_subject
-from ..scenario import Scenario
-from ..suite import Suite
+from ..episode.scenario import Scenario
+from ..suites.catalogue import RECORDED, make_scenario, make_subject
+from ..suites.suite import LONGEST_SUITE_NAME, Suite, plain_name
 from ..world import Partner
 from .files import MANIFEST, RECORDINGS
 from .json_text import checked, pick
@@ -134,8 +134,14 @@ class Recipe:
             raise InputError(f"{MANIFEST}: seeds must be from 0 to 2^{SEED_BITS} - 1")
         if max(map(len, scenarios)) > LONGEST_NAME:
             raise InputError(f"{MANIFEST}: a scenario's name is too long")
-        return cls(
-            name=pick(content, "suite", str, MANIFEST),
+        name = pick(content, "suite", str, MANIFEST)
+        if not name or plain_name(name) != name:
+            raise InputError(
+                f"{MANIFEST}: the suite's name is {name!a:.80}, must be 1 to "
+                f"{LONGEST_SUITE_NAME} letters, digits, single blanks or ._()[]:,+- of ASCII"
+            )
+        recipe = cls(
+            name=name,
             scenarios=tuple(_names(name) for name in scenarios),
             seeds=tuple(seeds),
             partner=pick(content, "partner", str, MANIFEST),
@@ -143,6 +149,9 @@ class Recipe:
             latency=pick(content, "latency", float, MANIFEST),
             recordings=recordings,
         )
+        if recipe.plain() != content:
+            raise InputError(f"{MANIFEST}: the recipe is not as colift writes it")
+        return recipe
 
 
 def _names(name: str) -> tuple[str, str, str]:

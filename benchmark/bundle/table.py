@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from typing import Final
 
 from ...agents.errors import InputError
-from ..episode import Episode
-from ..scores import Scores
-from ..summary import METRICS
-from ..trace import Trace
+from ..episode.episode import Episode
+from ..episode.scores import METRICS, Scores
+from ..episode.trace import Trace
 from .files import EPISODES, TRACES
 
 FIELDS: Final = ("behaviour", "subject", "trial", "seed", *METRICS, "reached", "failure")
@@ -82,9 +81,9 @@ def _episode(row: list[str], trace: Trace, log: str, where: str) -> Episode:
         raise InputError(f"{where}: {len(row)} fields, must be {len(FIELDS)}")
     values = dict(zip(FIELDS, row, strict=True))
     scores = {name: _number(values[name], f"{where}: {name}") for name in METRICS}
-    missing = [name for name in _ALWAYS if math.isnan(scores[name])]
-    if missing:
-        raise InputError(f"{where}: {missing[0]} is missing")
+    for metric in METRICS.values():
+        if metric.missing == "never" and math.isnan(scores[metric.name]):
+            raise InputError(f"{where}: {metric.name} is missing")
     return Episode(
         behaviour=values["behaviour"],
         subject=values["subject"],
@@ -96,10 +95,6 @@ def _episode(row: list[str], trace: Trace, log: str, where: str) -> Episode:
         step_times=(),
         log=log,
     )
-
-
-_ALWAYS: Final = ("rmse_mm", "abs_error_mm", "short_of_goal_mm")
-"""The scores that every episode has."""
 
 
 def _number(text: str, what: str) -> float:

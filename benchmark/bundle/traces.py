@@ -10,17 +10,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...agents.errors import InputError
-from ..recorder import HASH_BYTES
-from ..trace import Trace
+from ..episode.recorder import HASH_BYTES
+from ..episode.trace import Trace
 from .arrays import Arrays
 from .files import TRACES
 
 INTERNALS: Final = "internals/"
 
-_PLAIN_NAME: Final = re.compile(r"[A-Za-z0-9_.-]{1,64}", re.ASCII)
+_PLAIN_NAME: Final = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,63}", re.ASCII)
+
+_NAN: Final = np.array(math.nan, dtype="<f8").view("<u8")
 
 MOST_INTERNALS: Final = 100
 """Numbers a policy may report of itself that are kept."""
+
+LARGEST_LIFT: Final = 2**24
+"""Bytes that a lift's arrays may take: 120 s with a decision every frame and as many internals as
+there may be take 11 MB."""
 
 BY_STEP: Final = ("action", "human_action")
 """Series with a row a step; the others have a number a frame."""
@@ -48,7 +54,9 @@ def dump_traces(traces: Sequence[Trace], places: Sequence[int]) -> Arrays:
         parts = [
             trace.internals.get(name, np.full(len(trace.action), math.nan)) for trace in traces
         ]
-        arrays[INTERNALS + name] = np.concatenate(parts).astype("<f8")
+        values = np.concatenate(parts).astype("<f8")
+        values[np.isnan(values)] = math.nan  # There are 2^53 of them.
+        arrays[INTERNALS + name] = values
     return arrays
 
 
@@ -78,6 +86,8 @@ def parse_traces(arrays: Arrays) -> tuple[tuple[Trace, ...], tuple[int, ...]]:
     state = _taken(arrays, "state", "|u1", 2)
     if state.shape != (sum(steps), HASH_BYTES):
         raise InputError(f"{TRACES}: state has the shape {state.shape}")
+    if len(arrays) > MOST_INTERNALS:
+        raise InputError(f"{TRACES}: {len(arrays)} internals, at most {MOST_INTERNALS} are kept")
     internals = {name: _said(arrays, name, sum(steps)) for name in sorted(arrays)}
     traces = []
     last_frame = last_step = 0
@@ -127,4 +137,6 @@ def _said(arrays: Arrays, name: str, length: int) -> NDArray[np.float64]:
     array: NDArray[np.float64] = _taken(arrays, name, "<f8", 1)
     if len(array) != length:
         raise InputError(f"{TRACES}: {name} has {len(array)} rows, must have {length}")
+    if (array.view("<u8")[np.isnan(array)] != _NAN).any():
+        raise InputError(f"{TRACES}: {name} has a NaN that is not as colift writes it")
     return array

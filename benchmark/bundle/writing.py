@@ -5,11 +5,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from ..episode import Episode
-from ..runner import Run
+from ..episode.episode import Episode
+from ..execution.provenance import fingerprint
+from ..execution.runner import Run
 from .arrays import dump_arrays
 from .files import EPISODES, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, write_files
-from .fingerprint import fingerprint
 from .json_text import dump_json
 from .recipe import Recipe
 from .table import dump_table
@@ -62,7 +62,7 @@ def write_bundle(
     }
     if recipe is not None and recipe.recordings is not None:
         files[RECORDINGS] = recipe.recordings
-    logs = _logs(run.episodes)
+    logs = kept_logs(run.episodes)
     if logs:
         files[LOGS] = dump_json(logs)
     manifest = {
@@ -88,7 +88,7 @@ def places(run: Run) -> list[int]:
     return found
 
 
-def _logs(episodes: Sequence[Episode]) -> dict[str, str]:
+def kept_logs(episodes: Sequence[Episode]) -> dict[str, str]:
     """Return what failed policies had printed, by the row of ``episodes.csv``, from 1."""
     failed = [
         (row, episode.log)

@@ -1,24 +1,28 @@
-"""Policies on the same episodes, and what remains of their runs."""
+"""Policies on the same episodes: played now, or stored in bundles."""
 
-from collections.abc import Callable, Mapping
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Final, Protocol
 
 import numpy as np
 
-from ..agent_spec import AgentSpec
-from ..references import (
+from ...agents.errors import InputError
+from ...agents.spec import AgentSpec
+from ..bundle import FILES, read_bundle
+from ..episode.scores import SCORING, Scores
+from ..execution.runner import Run, run_suite
+from ..results.baselines import (
     HUMAN_HUMAN,
     Reference,
     human_team_run,
     shipped_bounds,
     shipped_references,
 )
-from ..runner import Run, run_suite
-from ..scores import Scores
-from ..suite import Suite
-from ..summary import Cell, cell
+from ..results.summary import Cell, cell
+from ..suites.suite import Suite
 
 TEAM: Final = "human-human team"
 
@@ -89,6 +93,7 @@ def play_contest(
     policies: Mapping[str, AgentSpec],
     suite: Suite,
     *,
+    stored: Sequence[Entry] = (),
     bounds: Mapping[str, Bound] | None = None,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
@@ -101,6 +106,8 @@ def play_contest(
         Where each policy is, by the name that tables use.
     suite, executor, progress
         As for :func:`.run_suite`.
+    stored
+        Policies that have played the suite before.
     bounds
         Bounds to play, by name, if there are none shipped: those are there in any case.
 
@@ -123,7 +130,7 @@ def play_contest(
         team = Reference.of(_complete(human_team_run(suite, executor=executor, progress=progress)))
     else:
         team = shipped[HUMAN_HUMAN]
-    return Contest(suite=suite, entries=tuple(entries), team=team, bounds=bounding)
+    return Contest(suite=suite, entries=(*entries, *stored), team=team, bounds=bounding)
 
 
 def play_bounds(
@@ -144,3 +151,62 @@ def _complete(run: Run) -> Run:
     if not run.complete:
         raise KeyboardInterrupt
     return run
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Stored:
+    """A bundle's scores, as it claims them, and the suite that they are of."""
+
+    folder: Path
+    entry: Entry
+    suite: Suite
+
+
+def is_bundle(folder: Path) -> bool:
+    """Return whether a folder has the files of a bundle; they are not read."""
+    return all((folder / name).is_file() for name in FILES)
+
+
+def read_stored(folder: Path) -> Stored:
+    """Return the scores in a bundle.
+
+    Raises
+    ------
+    InputError
+        If it is damaged, not complete, or its scores are not those of this version of colift.
+    """
+    try:
+        bundle = read_bundle(folder)
+        run = bundle.run()
+    except InputError as error:
+        raise InputError(f"{folder}: {error}") from error
+    content = bundle.results
+    if not (content["complete"] and run.complete):
+        raise InputError(
+            f"{folder} has {len(run.episodes)} of {run.suite.size} lifts: run the rest"
+        )
+    if content["scoring"] != SCORING:
+        raise InputError(
+            f"{folder} has scores of version {content['scoring']}, this colift computes version "
+            f"{SCORING}: colift verify {folder} --rescore DIR writes a bundle with them"
+        )
+    if content["suite_digest"] != run.suite.digest:
+        raise InputError(
+            f"{folder} was played on {content['suite']} with digest {content['suite_digest']}; "
+            f"here that suite has digest {run.suite.digest}: run the policy again"
+        )
+    step = content["summary"]["step_ms"]
+    entry = Entry.of(run.policy, run)
+    if step["p50"] is not None and step["p99"] is not None:
+        entry = dataclasses.replace(entry, step_ms=(step["p50"], step["p99"]))
+    return Stored(folder=folder, entry=entry, suite=run.suite)
+
+
+def check_suite(stored: Sequence[Stored], suite: Suite) -> None:
+    """Raise an InputError if a bundle is of other lifts than those of a suite."""
+    for each in stored:
+        if each.suite.digest != suite.digest:
+            raise InputError(
+                f"{each.folder} has the lifts of {each.suite.name} (digest {each.suite.digest}), "
+                f"not of {suite.name} (digest {suite.digest}): policies are compared on the same"
+            )

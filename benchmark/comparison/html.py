@@ -1,30 +1,21 @@
 """The comparison as one HTML file that needs nothing else."""
 
 from collections.abc import Sequence
-from html import escape
 from importlib.metadata import version
 from typing import Final
 
-from ..rendering.page import cell, page, row, table
-from ..rendering.palette import FAINT, HUMAN, INK, LINE, PAPER, ROBOT, SKY
+from markupsafe import Markup, escape
+
+from ..episode.scores import BOARD, Metric
+from ..rendering.page import Cell, Row, render
+from ..rendering.style import FAINT, HUMAN, INK, LINE, PAPER, ROBOT, SKY
+from ..statistics import Estimate
+from . import words
 from .comparison import Comparison
 from .contest import Entry
 from .picture import comparison_figure, svg
-from .standing import Estimate, Scope, Standing
-from .words import (
-    AGAINST_CAPTION,
-    HOW_TO_READ,
-    PICTURE_CAPTION,
-    RANKS_CAPTION,
-    between,
-    failures,
-    p_value,
-    parts_caption,
-    probability,
-    provenance,
-    title,
-    verdict,
-)
+from .standing import MetricMean, Scope, Standing
+from .words import between, digits, p_value, probability
 
 COLOURS: Final = {
     INK: "--ink",
@@ -37,134 +28,138 @@ COLOURS: Final = {
 }
 """The page's name for each colour of a picture: it is another in the dark."""
 
-RANKS: Final = ("policy", "rank", "RMSE mm", "vs_human", "SPARC", "human force N", "step ms")
+RANKS: Final = (
+    "policy",
+    "rank",
+    "RMSE mm",
+    "vs_human",
+    *(each.heading for each in BOARD),
+    "step ms",
+)
+SIZES: Final = (("wide", 8.4, 5.6), ("narrow", 4.0, 5.2))
+"""The picture on wide and on narrow pages: width and height [inches]."""
+
 AGAINST: Final = ("policy", "behind the best mm", "p", "better than the best", "better than humans")
 
 
 def html_page(comparison: Comparison) -> str:
     """Return the page: picture, ranks, differences, tables by behaviour and by subject."""
-    name = f"{title(comparison)}, compared"
-    sentences = "".join(f"<li>{escape(sentence)}</li>" for sentence in HOW_TO_READ)
-    failed = "".join(f"<p>{escape(sentence)}</p>" for sentence in failures(comparison))
-    parts = "".join(
-        f"<h2>By {kind}</h2>\n<p>{escape(parts_caption(kind))}</p>\n{_parts(comparison, scopes)}\n"
-        for kind, scopes in (
-            ("behaviour", comparison.behaviours),
-            ("subject", comparison.subjects),
-        )
+    kinds = (("behaviour", comparison.behaviours), ("subject", comparison.subjects))
+    return render(
+        __package__,
+        "compare.html",
+        title=f"{words.title(comparison)}, compared",
+        words=words,
+        verdict=words.verdict(comparison),
+        odd=(*words.failures(comparison), *words.oddities(comparison)),
+        pictures=[_picture(comparison, *size) for size in SIZES],
+        ranks_header=RANKS,
+        ranks=_ranks(comparison),
+        against_header=AGAINST,
+        against=_against(comparison),
+        parts=[
+            {
+                "kind": kind,
+                "caption": words.parts_caption(kind, scopes),
+                "header": ("policy", *(scope.name for scope in scopes)),
+                "rows": _parts(comparison, scopes),
+            }
+            for kind, scopes in kinds
+        ],
+        provenance=words.provenance(comparison, version("colift")),
     )
-    body = f"""<h1>{escape(name)}</h1>
-<p>{escape(verdict(comparison))}</p>
-{failed}
-{_picture(comparison)}
-<h2>Ranks</h2>
-<p>{escape(RANKS_CAPTION)}</p>
-{_ranks(comparison)}
-<h2>Against the best, and against people</h2>
-<p>{escape(AGAINST_CAPTION)}</p>
-{_against(comparison)}
-{parts}
-<h2>How to read it</h2>
-<ul>{sentences}</ul>
-<p class="faint">{escape(provenance(comparison, version("colift")))}</p>"""
-    return page(name, body)
 
 
-def _picture(comparison: Comparison) -> str:
-    """Return the picture twice, for wide and for narrow pages; the page shows one of them."""
-    sizes = (("wide", 8.4, 5.6), ("narrow", 4.0, 5.2))
-    drawn = []
-    for kind, width, height in sizes:
-        text = svg(comparison_figure(comparison, width=width, height=height), kind)
-        for colour, name in COLOURS.items():
-            text = text.replace(colour.lower(), f"var({name})")
-        label = f'<svg class="{kind}" role="img" aria-label="{escape(PICTURE_CAPTION)}"'
-        drawn.append(text.replace("<svg", label, 1))
-    caption = f"<figcaption>{escape(PICTURE_CAPTION)}</figcaption>"
-    return f"<figure>{''.join(drawn)}{caption}</figure>"
+def _picture(comparison: Comparison, kind: str, width: float, height: float) -> Markup:
+    """Return the picture for wide or for narrow pages; the page shows one of them."""
+    text = svg(comparison_figure(comparison, width=width, height=height), kind)
+    for colour, name in COLOURS.items():
+        text = text.replace(colour.lower(), f"var({name})")
+    label = f'<svg class="{kind}" role="img" aria-label="{escape(words.PICTURE_CAPTION)}"'
+    return Markup(text.replace("<svg", label, 1))
 
 
-def _ranks(comparison: Comparison) -> str:
+def _ranks(comparison: Comparison) -> list[Row]:
     entries = {entry.name: entry for entry in comparison.contest.entries}
-    rows = [_rank_row(s, entries[s.name]) for s in comparison.overall.standings]
+    rows = [_rank_row(comparison.overall, s, entries[s.name]) for s in comparison.overall.standings]
     rows += [_reference_row(comparison, name) for name in comparison.contest.references]
-    return table(RANKS, rows)
+    return rows
 
 
-def _reference_row(comparison: Comparison, name: str) -> str:
+def _reference_row(comparison: Comparison, name: str) -> Row:
     reference, overall = comparison.contest.references[name], comparison.overall
     rmse = overall.references_rmse_mm[name]
     cells = [
-        cell(""),
+        Cell(""),
         _estimate(rmse, ".2f"),
-        cell(f"{rmse.mean / overall.team_rmse_mm.mean:.2g}"),
-        cell("none" if reference.sparc is None else f"{reference.sparc:.2f}"),
-        cell(f"{reference.human_force_n:.2f}"),
-        cell(""),
+        Cell(f"{rmse.mean / overall.team_rmse_mm.mean:.2g}"),
+        *(Cell(metric.text(reference.means[metric.name])) for metric in BOARD),
+        Cell(""),
     ]
-    return row(name, cells, kind="reference")
+    return Row(name, cells, kind="reference")
 
 
-def _rank_row(standing: Standing, entry: Entry) -> str:
-    force, steps = standing.human_force_n, entry.step_ms
-    return row(
+def _rank_row(overall: Scope, standing: Standing, entry: Entry) -> Row:
+    steps = entry.step_ms
+    return Row(
         standing.name,
         [
-            cell(str(standing.rank), best=standing.rank == 1),
+            Cell(str(standing.rank) if overall.decisive else "", best=overall.best(standing)),
             _estimate(standing.rmse_mm, ".2f"),
             _estimate(standing.vs_human, ".2f"),
-            _smoothness(standing),
-            cell("none" if force is None else f"{force:.2f}"),
-            cell("none") if steps is None else cell(f"{steps[0]:.3f}", f"{steps[1]:.3f}"),
+            *(_metric(metric, standing.metrics[metric.name]) for metric in BOARD),
+            Cell("none") if steps is None else Cell(f"{steps[0]:.3f}", f"{steps[1]:.3f}"),
         ],
     )
 
 
-def _smoothness(standing: Standing) -> str:
-    if standing.sparc is None:
-        return cell("none")
-    if standing.sparc_missing:
-        return cell(f"{standing.sparc.mean:.2f}", f"none in {standing.sparc_missing} lifts")
-    return _estimate(standing.sparc, ".2f")
+def _metric(metric: Metric, mean: MetricMean) -> Cell:
+    if mean.estimate is None or mean.missing:
+        under = f"none in {mean.missing} lifts" if mean.estimate else ""
+        return Cell(metric.text(mean.mean), under)
+    return _estimate(mean.estimate, f".{metric.digits}f")
 
 
-def _against(comparison: Comparison) -> str:
+def _against(comparison: Comparison) -> list[Row]:
     rows = []
     for standing in comparison.overall.standings:
-        behind, better = standing.to_best, cell(probability(standing.better_than_human))
+        behind, better = standing.to_best, Cell(probability(standing.better_than_human))
         if behind is None:
-            cells = [cell("best", best=True), cell(""), cell("")]
+            cells = [Cell("best", best=True), Cell(""), Cell("")]
         else:
             cells = [
-                cell(f"{behind.mean:+.2f}", between(behind.ci95, "+.2f")),
-                cell(p_value(behind.p)),
-                cell(f"{behind.share_better:.0%}"),
+                Cell(f"{behind.mean:+.2f}", between(behind.ci95, "+.2f")),
+                Cell(p_value(behind.p)),
+                Cell(f"{behind.share_better:.0%}"),
             ]
-        rows.append(row(standing.name, [*cells, better]))
-    return table(AGAINST, rows)
+        rows.append(Row(standing.name, [*cells, better]))
+    return rows
 
 
-def _parts(comparison: Comparison, scopes: Sequence[Scope]) -> str:
-    header = ("policy", *(scope.name for scope in scopes))
+def _parts(comparison: Comparison, scopes: Sequence[Scope]) -> list[Row]:
     columns = [{standing.name: standing for standing in scope.standings} for scope in scopes]
-    rows = [
-        row(standing.name, [_part(column[standing.name]) for column in columns])
-        for standing in comparison.overall.standings
-    ]
+    rows = []
+    for standing in comparison.overall.standings:
+        parts = [
+            _part(scope, column[standing.name])
+            for scope, column in zip(scopes, columns, strict=True)
+        ]
+        rows.append(Row(standing.name, parts))
     for name in scopes[0].references_rmse_mm:
-        errors = [_estimate(scope.references_rmse_mm[name], ".1f") for scope in scopes]
-        rows.append(row(name, errors, kind="reference"))
-    return table(header, rows)
+        means = [scope.references_rmse_mm[name] for scope in scopes]
+        errors = [_estimate(mean, digits(mean.mean)) for mean in means]
+        rows.append(Row(name, errors, kind="reference"))
+    return rows
 
 
-def _part(standing: Standing) -> str:
+def _part(scope: Scope, standing: Standing) -> Cell:
     behind = standing.to_best
     under = "best"
     if behind is not None:
         interval = between(behind.ci95, "+.1f")
         under = f"{behind.mean:+.1f}" + (f" ({interval})" if interval else "")
-    return cell(f"{standing.rmse_mm.mean:.1f}", under, best=standing.rank == 1)
+    return Cell(f"{standing.rmse_mm.mean:.1f}", under, best=scope.best(standing))
 
 
-def _estimate(estimate: Estimate, digits: str) -> str:
-    return cell(f"{estimate.mean:{digits}}", between(estimate.ci95, digits))
+def _estimate(estimate: Estimate, digits: str) -> Cell:
+    return Cell(f"{estimate.mean:{digits}}", between(estimate.ci95, digits))

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.text import Text
 
 from ..rendering.labels import nearest, place_labels
-from ..rendering.palette import FAINT, INK
+from ..rendering.style import FAINT, INK
 from .scale import Box, Scale, Spot
 
 LETTERS: Final = 9.0

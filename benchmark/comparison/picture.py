@@ -13,8 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
 
-from ..rendering.axes import plain
-from ..rendering.palette import FAINT, HUMAN, INK, LINE, PAPER, ROBOT, SKY
+from ..rendering.style import FAINT, HUMAN, INK, LINE, PAPER, ROBOT, SKY, plain
 from .comparison import Comparison
 from .names import LETTERS, MARKER, write_names
 from .scale import Box, Scale, Spot, make_scale, spots

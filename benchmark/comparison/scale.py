@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ..rendering.palette import FAINT, HUMAN, ROBOT
+from ..rendering.style import FAINT, HUMAN, ROBOT
 from ..statistics import Interval
 from .comparison import Comparison
 from .contest import TEAM
@@ -98,7 +98,7 @@ def spots(comparison: Comparison) -> list[Spot]:
                 name=name,
                 x=rmse.mean,
                 x_bar=rmse.ci95,
-                y=references[name].sparc,
+                y=references[name].means["sparc"],
                 y_bar=None,
                 colour=HUMAN,
                 marker="D" if name == TEAM else "s",

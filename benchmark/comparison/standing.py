@@ -6,45 +6,39 @@ from typing import Literal
 
 import numpy as np
 
+from ..episode.scores import BOARD
+from ..results.summary import Cell
 from ..statistics import (
+    Estimate,
     FloatArray,
-    Interval,
+    PairedDifference,
+    decisive,
     holm_correction,
-    paired_difference,
+    mean_of,
+    mean_with_missing,
     permutation_ps_against,
     probability_better,
     rank_groups,
-    ratio_of_means_ci,
-    share_better,
-    stratified_bootstrap,
+    ratio_of_means,
 )
-from ..summary import Cell
 from .contest import TEAM, Contest, Entry
 
 Kind = Literal["all", "behaviour", "subject"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Estimate:
-    """A mean over episodes."""
+class MetricMean:
+    """The mean of a metric that some lifts do not have."""
 
-    mean: float
-    ci95: Interval
-    """95 % confidence interval, by bootstrap over the seeds within behaviour and subject."""
+    estimate: Estimate | None
+    """Over the lifts that have one; None if none has."""
+    missing: int
+    """Lifts that have none."""
 
-
-@dataclass(frozen=True, kw_only=True)
-class Difference:
-    """How far a policy is behind the best, lift by lift."""
-
-    mean: float
-    """Mean of its RMSE minus the best's [mm]."""
-    ci95: Interval
-    """95 % confidence interval of the mean [mm]."""
-    p: float
-    """p value of "they do not differ", by sign flips, Holm-corrected for the policies compared."""
-    share_better: float
-    """Share of the lifts in which it is better than the best, ties counted half."""
+    @property
+    def mean(self) -> float | None:
+        """The mean alone."""
+        return None if self.estimate is None else self.estimate.mean
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,14 +55,23 @@ class Standing:
     """RMSE over that of the human-human team: below 1 is better than a human partner."""
     better_than_human: float
     """Probability that its mean RMSE on such lifts is below the human-human team's."""
-    sparc: Estimate | None
-    """Smoothness, over the lifts that have one; nothing if none has."""
-    sparc_missing: int
-    """Lifts without smoothness: the robot did not move along, or failed."""
-    human_force_n: float | None
-    """Mean of the rms force at the human's hands [N]."""
-    to_best: Difference | None
-    """Against the first in the order; nothing for the first itself."""
+    metrics: Mapping[str, MetricMean]
+    """The other metrics that boards show."""
+    clipped: float | None
+    """Share of its actions that were cut; nothing if it never acted."""
+    to_best: PairedDifference | None
+    """RMSE minus that of the first in the order [mm], p Holm-corrected for the policies compared;
+    None for the first itself."""
+
+    @property
+    def sparc(self) -> Estimate | None:
+        """Smoothness, over the lifts that have one; None if none has."""
+        return self.metrics["sparc"].estimate
+
+    @property
+    def sparc_missing(self) -> int:
+        """Lifts without smoothness: the robot did not move along, or failed."""
+        return self.metrics["sparc"].missing
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,11 +86,17 @@ class Scope:
     """RMSE of each of :attr:`.Contest.references`."""
     standings: tuple[Standing, ...]
     """In the order of the mean RMSE, the best first."""
+    decisive: bool
+    """Whether the episodes are enough to tell any policy from the best; else ranks say nothing."""
 
     @property
     def team_rmse_mm(self) -> Estimate:
         """RMSE of the human-human team."""
         return self.references_rmse_mm[TEAM]
+
+    def best(self, standing: Standing) -> bool:
+        """Whether a policy is the best here or cannot be told from it, as far as that is known."""
+        return self.decisive and standing.rank == 1
 
 
 def scope(contest: Contest, kind: Kind, name: str, members: Sequence[int]) -> Scope:
@@ -116,32 +125,28 @@ def scope(contest: Contest, kind: Kind, name: str, members: Sequence[int]) -> Sc
         name=name,
         episodes=len(members),
         references_rmse_mm={
-            name: _estimate(np.array(reference.rmse_mm)[chosen], cells)
+            name: mean_of(np.array(reference.rmse_mm)[chosen], cells)
             for name, reference in contest.references.items()
         },
         standings=tuple(
             _standing(entries[name], chosen, cells, team, ranks[name], difference)
             for name, difference in zip(order, differences, strict=True)
         ),
+        decisive=decisive(len(errors), len(members)),
     )
 
 
-def _to_best(errors: Sequence[FloatArray], cells: Sequence[Cell]) -> list[Difference | None]:
+def _to_best(errors: Sequence[FloatArray], cells: Sequence[Cell]) -> list[PairedDifference | None]:
     """Return the difference of each policy to the first."""
     best, *others = errors
     ps = holm_correction(permutation_ps_against(best, others))
-    differences: list[Difference | None] = [None]
-    for error, p in zip(others, ps, strict=True):
-        difference = paired_difference(error, best, cells)
-        differences.append(
-            Difference(
-                mean=difference.mean,
-                ci95=difference.ci95,
-                p=float(p),
-                share_better=share_better(error, best),
-            )
-        )
-    return differences
+    return [
+        None,
+        *(
+            PairedDifference.of(error, best, cells, float(p))
+            for error, p in zip(others, ps, strict=True)
+        ),
+    ]
 
 
 def _standing(
@@ -150,33 +155,32 @@ def _standing(
     cells: Sequence[Cell],
     team: FloatArray,
     rank: int,
-    to_best: Difference | None,
+    to_best: PairedDifference | None,
 ) -> Standing:
     rmse = _values(entry, "rmse_mm")[chosen]
-    sparc = _values(entry, "sparc")[chosen]
-    force = _values(entry, "human_force_n")[chosen]
-    moved = ~np.isnan(sparc)
-    felt = force[~np.isnan(force)]
     return Standing(
         name=entry.name,
         rank=rank,
         failed=sum(entry.failures[i] is not None for i in chosen),
-        rmse_mm=_estimate(rmse, cells),
-        vs_human=Estimate(
-            mean=float(rmse.mean() / team.mean()), ci95=ratio_of_means_ci(rmse, team, cells)
-        ),
+        rmse_mm=mean_of(rmse, cells),
+        vs_human=ratio_of_means(rmse, team, cells),
         better_than_human=probability_better(rmse, team, cells),
-        sparc=_estimate(sparc[moved], [c for c, m in zip(cells, moved, strict=True) if m])
-        if moved.any()
-        else None,
-        sparc_missing=int((~moved).sum()),
-        human_force_n=float(felt.mean()) if felt.size else None,
+        metrics={
+            metric.name: _metric_mean(_values(entry, metric.name)[chosen], cells)
+            for metric in BOARD
+        },
+        clipped=mean_with_missing(_values(entry, "clipped")[chosen]).mean,
         to_best=to_best,
     )
 
 
-def _estimate(values: FloatArray, cells: Sequence[Cell]) -> Estimate:
-    return Estimate(mean=float(values.mean()), ci95=stratified_bootstrap(values, cells))
+def _metric_mean(values: FloatArray, cells: Sequence[Cell]) -> MetricMean:
+    known = ~np.isnan(values)
+    some = [cell for cell, there in zip(cells, known, strict=True) if there]
+    return MetricMean(
+        estimate=mean_of(values[known], some) if some else None,
+        missing=len(values) - len(some),
+    )
 
 
 def _values(entry: Entry, metric: str) -> FloatArray:

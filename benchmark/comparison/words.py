@@ -1,9 +1,13 @@
 """The words of a comparison: what its table, picture and page say in sentences."""
 
+from collections.abc import Sequence
 from typing import Final
 
+from ...agents.actions import HAND_SPEED
+from ..episode.scores import MOSTLY_CLIPPED
 from .comparison import Comparison
 from .contest import TEAM
+from .standing import Scope
 
 SURE: Final = 0.975
 """Probability above which the 95 % interval of a difference leaves zero out."""
@@ -64,7 +68,9 @@ def verdict(comparison: Comparison) -> str:
         f"{best.vs_human.mean:.2f} times the {TEAM}'s {overall.team_rmse_mm.mean:.1f} mm."
     )
     equals = [standing.name for standing in others if standing.rank == best.rank]
-    if equals:
+    if not overall.decisive:
+        told += f" But {overall.episodes} lifts are too few to tell policies apart."
+    elif equals:
         told += f" {_listed(equals)} cannot be told from it."
     if best.better_than_human > SURE:
         return f"{told} It is more level than two people."
@@ -90,10 +96,27 @@ def failures(comparison: Comparison) -> list[str]:
     return told
 
 
+def oddities(comparison: Comparison) -> list[str]:
+    """Return a sentence for each policy whose actions hardly are in metres."""
+    return [
+        f"{standing.name}: {100 * standing.clipped:.0f} % of its actions were cut to what the "
+        f"hands can go ({HAND_SPEED:g} m/s): are they in metres, and changes of the height?"
+        for standing in comparison.overall.standings
+        if standing.clipped is not None and standing.clipped > MOSTLY_CLIPPED
+    ]
+
+
 def provenance(comparison: Comparison, version: str) -> str:
     """Return what the comparison was made from."""
     suite, lifts = comparison.contest.suite, comparison.overall.episodes
     return f"colift {version}, suite {suite.name}, digest {suite.digest}, {lifts} lifts"
+
+
+def digits(value: float) -> str:
+    """Return the format of a positive number in which it has two digits or more."""
+    if value < 1:
+        return ".2f"
+    return ".1f" if value < 100 else ".0f"
 
 
 def between(interval: tuple[float, float], digits: str) -> str:
@@ -114,12 +137,35 @@ def probability(value: float) -> str:
     return "> 0.99" if value >= 0.995 else f"{value:.2f}"
 
 
-def parts_caption(kind: str) -> str:
+def parts_caption(kind: str, scopes: Sequence[Scope]) -> str:
     """Return how to read the table of one kind of scope, such as behaviours."""
-    return (
+    told = (
         f"RMSE in mm for each {kind}, and below it how far that is behind the best there, with the "
-        "95 % interval. Bold: the best, and those of its rank."
+        "95 % interval."
     )
+    return f"{told} {marks_caption('Bold', scopes)}"
+
+
+def marks_caption(mark: str, scopes: Sequence[Scope]) -> str:
+    """Return what a mark of the best says, or why there is none."""
+    told = f"{mark}: the best, and those that cannot be told from it."
+    few = [scope for scope in scopes if not scope.decisive]
+    if not few:
+        return told
+    if len(few) == len(scopes):
+        lifts = " or ".join(map(str, sorted({scope.episodes for scope in few})))
+        return (
+            f"None is marked as the best: {lifts} lifts in a column are too few to tell policies "
+            "apart at 5 %."
+        )
+    return f"{told} No mark where lifts are too few for that: {_listed([s.name for s in few])}."
+
+
+def undecided(overall: Scope) -> str:
+    """Return that there are no ranks, if there are none."""
+    if overall.decisive:
+        return ""
+    return f"No ranks: {overall.episodes} lifts are too few to tell policies apart at 5 %."
 
 
 def _listed(names: list[str]) -> str:

@@ -5,16 +5,20 @@ from typing import Any
 import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
-from pettingzoo import ParallelEnv
+from pettingzoo import AECEnv, ParallelEnv
+from pettingzoo.utils import OrderEnforcingWrapper, parallel_to_aec
 
 from ...agents.agent import Action, Observation
 from ...agents.humans import ScriptedHuman
-from ..catalogue import make_scenario
-from ..lift import Lift
+from ..episode.lift import Lift
+from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..rendering.scene import Scene, check_render_mode
-from ..scenario import CONTROL_PERIOD, LATENCY, Scenario
+from ..suites.catalogue import make_scenario
 from ..world import Partner
-from .spaces import (
+from .settings import (
+    check_names,
+    check_options,
+    check_times,
     human_action_space,
     human_observation_space,
     robot_action_space,
@@ -37,8 +41,8 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
     4   time [s]
     === ======================================================================
 
-    Robot's action, shape ``(1,)``: change of the hand command in this step [m], within
-    +-0.04 for a period of 100 ms (0.4 m/s).
+    Robot's action, shape ``(1,)`` or a plain number: change of the hand command in this step [m],
+    cut to +-0.04 for a period of 100 ms (0.4 m/s; see :func:`~colift.agents.actions.action_limit`).
 
     Human's observation for ``n`` frames a step (10 for a period of 100 ms), slices of
     :class:`~colift.agents.agent.HumanObservation`, histories oldest first:
@@ -66,7 +70,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
     Parameters
     ----------
     scenario
-        The lift, see :class:`~colift.benchmark.scenario.Scenario`.
+        The lift, see :class:`~colift.benchmark.episode.scenario.Scenario`.
     render_mode
         ``None``, ``"rgb_array"`` (headless) or ``"human"`` (a window).
     """
@@ -97,6 +101,10 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         self._rng = np.random.default_rng()
         self._scene: Scene | None = None
 
+    def __reduce__(self) -> tuple[type["ParallelLift"], tuple[Scenario, str | None]]:
+        """Let copies and pickles be new environments, to be reset: no two share a world."""
+        return type(self), (self.lift.scenario, self.render_mode)
+
     def observation_space(self, agent: str) -> Box:
         """Return the observation space of ``agent``."""
         return self.observation_spaces[agent]
@@ -112,7 +120,14 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
 
         Without a seed the episode follows from the last seed given, or from the system's
         entropy if there was none.
+
+        Raises
+        ------
+        InputError
+            If an option names a setting such as ``subject``: those are settled when the
+            environment is made. Other options are ignored.
         """
+        check_options(options, others=True)
         if seed is not None:
             self._rng = np.random.default_rng(seed)
         else:
@@ -227,5 +242,12 @@ def parallel_env(
     InputError
         If a name is unknown (the message lists the known ones) or a time is out of range.
     """
+    check_names(scenario=scenario, subject=subject, partner=partner)
+    check_times(control_period=control_period, latency=latency)
     made = make_scenario(scenario, subject, partner, control_period, latency)
     return ParallelLift(made, render_mode)
+
+
+def env(**settings: Any) -> AECEnv[str, Any, Any]:
+    """Return the AEC environment; ``settings`` are those of :func:`.parallel_env`."""
+    return OrderEnforcingWrapper(parallel_to_aec(parallel_env(**settings)))

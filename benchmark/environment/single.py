@@ -1,21 +1,36 @@
 """The Gymnasium view: the robot is the agent, the scripted human is part of the world."""
 
-from typing import Any
+from typing import Any, Final
 
 import gymnasium
 import numpy as np
 from gymnasium.spaces import Space
 from numpy.typing import NDArray
 
-from ...agents.agent import Action, Observation
+from ...agents.agent import Action, Agent, Observation
+from ...agents.errors import InputError
 from .parallel import HUMAN, ROBOT, parallel_env
+from .settings import SETTINGS, check_options
+
+_KNOWN: Final = ", ".join(name for name in SETTINGS if name != "partner")
 
 
 class RobotEnv(gymnasium.Env[Observation, Action]):
     """The lift for one agent, the robot: ``gymnasium.make("colift/Lift-v0")``.
 
-    Spaces and rewards are the robot's of :class:`.ParallelLift`. Only a NAO can be the partner
-    here, and ``settings`` are otherwise those of :func:`.parallel_env`.
+    Spaces and rewards are the robot's of :class:`.ParallelLift`.
+
+    Parameters
+    ----------
+    render_mode
+        ``None``, ``"rgb_array"`` or ``"human"``.
+    settings
+        Those of :func:`.parallel_env` but ``partner``, which is a NAO here.
+
+    Raises
+    ------
+    InputError
+        If there is no such setting, or as :func:`.parallel_env`.
     """
 
     metadata: dict[str, Any] = {  # noqa: RUF012 - Gymnasium's convention
@@ -24,15 +39,31 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
     }
 
     def __init__(self, render_mode: str | None = None, **settings: Any) -> None:
+        if settings.get("partner", "nao") != "nao":
+            raise InputError(
+                f"partner must be 'nao' here, got {settings['partner']!r}: colift.parallel_env has "
+                "lifts of two humans"
+            )
+        unknown = settings.keys() - set(SETTINGS)
+        if unknown:
+            raise InputError(f"no such setting: {', '.join(sorted(unknown))}; known: {_KNOWN}")
         self._env = parallel_env(render_mode=render_mode, **settings)
         self.render_mode = render_mode
         self.observation_space: Space[Any] = self._env.observation_space(ROBOT)
         self.action_space: Space[Any] = self._env.action_space(ROBOT)
+        self._human: Agent | None = None
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
-        """Begin an episode, see :meth:`.ParallelLift.reset`."""
+        """Begin an episode, see :meth:`.ParallelLift.reset`.
+
+        Raises
+        ------
+        InputError
+            If there are options: there is nothing that they could change.
+        """
+        check_options(options, others=False)
         super().reset(seed=seed)
         observations, infos = self._env.reset(seed=seed)
         self._human = self._env.scripted_human()
@@ -40,7 +71,17 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
         return observations[ROBOT], infos[ROBOT]
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        """Advance by one control period, see :meth:`.ParallelLift.step`."""
+        """Advance by one control period, see :meth:`.ParallelLift.step`.
+
+        Raises
+        ------
+        ValueError
+            If the action is of the wrong shape or not finite.
+        RuntimeError
+            If the episode is over, or none has begun.
+        """
+        if self._human is None:
+            raise RuntimeError("the episode has not begun: call reset() first")
         human = self._human.act(self._human_observation)
         observations, rewards, terminated, truncated, infos = self._env.step(
             {HUMAN: human, ROBOT: action}

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...agents.agent import FRAME
-from ..lift import Lift, body_parameters
-from ..scenario import Scenario
+from ..episode.lift import Lift, body_parameters
+from ..episode.scenario import Scenario
 from ..world import SERVO, Servo
 from .joint_arms import JointArms, JointWorld
 

@@ -4,15 +4,17 @@ A libqi server offers the NAOqi services, an outlet of the Lab Streaming Layer t
 them the simulated world runs in real time.
 """
 
+import threading
 import time
 from typing import Any, Final
 
 from ...agents.agent import FRAME
 from ...agents.errors import InputError
-from ...agents.hardware.missing import load
-from ...agents.hardware.naoqi_session import one_line, quiet
+from ...agents.hardware.missing import import_optional
+from ...agents.hardware.nao.session import first_line, quiet
 from ...agents.hardware.operator import StopButton
-from .laboratory import Conditions, Laboratory
+from .gate import behind
+from .laboratory import FAULTS, Conditions, Laboratory
 from .outlet import Outlet
 from .services import Log
 
@@ -43,7 +45,15 @@ class Emulator:
     def __init__(self, conditions: Conditions, *, url: str, stream: str, log: Log) -> None:
         self._log = log
         self._laboratory = Laboratory(conditions, now=time.monotonic, pause=_pause, log=log)
-        self._session: Any = _serve(url, self._laboratory.services)
+        self._alive = threading.Event()
+        self._alive.set()
+        self._session: Any = _serve(
+            url,
+            {
+                name: service if name == FAULTS else behind(service, self._alive)
+                for name, service in self._laboratory.services.items()
+            },
+        )
         self._outlet = Outlet(stream)
 
     def run(self, button: StopButton) -> None:
@@ -55,10 +65,11 @@ class Emulator:
                 behind += 1
                 self._log(f"behind the clock, {behind} times")
             faults = self._laboratory.frame()
-            if "silence" in faults:
-                self._laboratory.answering.clear()
-            else:
-                self._laboratory.answering.set()
+            for kind, event in (("silence", self._laboratory.answering), ("hang", self._alive)):
+                if kind in faults:
+                    event.clear()
+                else:
+                    event.set()
             if "disconnect" in faults:
                 self._session.close()
             if "stream-end" in faults:
@@ -70,6 +81,7 @@ class Emulator:
     def close(self) -> None:
         """Close the connections and the world."""
         self._laboratory.answering.set()
+        self._alive.set()
         self._session.close()
         self._outlet.close()
         self._laboratory.close()
@@ -83,12 +95,12 @@ def _pause(seconds: float) -> None:
 def _serve(url: str, services: dict[str, Any]) -> Any:
     """Return a libqi session that offers the services."""
     quiet()
-    qi = load("qi")
+    qi = import_optional("qi")
     session = qi.Session()
     try:
         session.listenStandalone(url)
     except RuntimeError as error:
-        raise InputError(f"cannot listen at {url}: {one_line(error)}") from error
+        raise InputError(f"cannot listen at {url}: {first_line(error)}") from error
     for name, service in services.items():
         session.registerService(name, service)
     return session

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from ...agents.errors import InputError
 from ...agents.hardware.loop import DEAD_TIME
 from ...agents.hardware.plausibility import seen
-from ...agents.hardware.recording import Recording
-from ...robots.arm_kinematics import arm_path
+from ...agents.hardware.recording import TrialRecording
+from ...robots.nao.kinematics import arm_path
 from ..world.table import WEIGHT_SHARE
 
 FEWEST: Final = 20
@@ -47,7 +47,7 @@ class Estimates:
     """Standard deviation of an end's height [m]: ``MOCAP_NOISE``."""
 
 
-def estimate(recordings: Sequence[Recording]) -> Estimates:
+def estimate_setup(recordings: Sequence[TrialRecording]) -> Estimates:
     """Return the numbers that some trials give.
 
     Raises
@@ -78,7 +78,7 @@ def estimate(recordings: Sequence[Recording]) -> Estimates:
     )
 
 
-def _noise(recording: Recording) -> float:
+def _noise(recording: TrialRecording) -> float:
     """Return the noise of a height from its third differences [m], which motion hardly enters.
 
     They have the variance 20 s^2 for white noise of the variance s^2; the median of their size is
@@ -91,7 +91,7 @@ def _noise(recording: Recording) -> float:
     return float(np.median(np.abs(differences)) / 0.6745 / math.sqrt(20))
 
 
-def _ramps(recording: Recording, times: NDArray[np.float64]) -> NDArray[np.float64]:
+def _ramps(recording: TrialRecording, times: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the commanded height at some times [m]: each command a ramp over its period."""
     period = recording.record.period
     knots, heights = [], []
@@ -104,7 +104,7 @@ def _ramps(recording: Recording, times: NDArray[np.float64]) -> NDArray[np.float
     return at
 
 
-def _delay(recording: Recording) -> float:
+def _delay(recording: TrialRecording) -> float:
     """Return the delay [s] at which the robot's end fits its commands best, up to an offset."""
     frames = np.array([s for s in recording.record.samples if seen(s)])
     commands = [step.command for step in recording.record.steps]
@@ -122,7 +122,7 @@ def _delay(recording: Recording) -> float:
     return float(delays[int(np.argmin(misfits))])
 
 
-def _servo(recordings: Sequence[Recording]) -> tuple[float, float, float]:
+def _servo(recordings: Sequence[TrialRecording]) -> tuple[float, float, float]:
     """Return stiffness [Nm/rad], time constant [s] and mean sag [m] of the arms.
 
     A set-point s at height h, moving at v, is ahead of the hands by

@@ -8,19 +8,29 @@ from ...agents.errors import InputError
 
 KINDS: Final = {
     "dropout": "the motion capture sends nothing",
+    "slow": "the motion capture sends only each VALUE-th frame (default 10)",
     "nan": "the motion capture does not see the human's end (NaN)",
+    "freeze": "the motion capture repeats where the first VALUE markers were (default 4, all)",
+    "unit-change": "the motion capture sends millimetres instead of metres",
+    "future-stamps": "the motion capture's time stamps are VALUE s ahead (default 5)",
+    "nan-stamps": "the motion capture's time stamps are no numbers",
     "swap": "the motion capture takes the ends for each other",
     "drift": "the motion capture drifts upwards by VALUE m/s (default 0.05)",
     "latency": "the motion capture comes VALUE s later (default 0.25)",
     "jitter": "the motion capture comes up to VALUE s later, at random (default 0.05)",
     "disconnect": "the robot's connection is closed, for good",
     "silence": "the robot does not answer where its joints are",
+    "hang": "the robot answers nothing at all",
+    "foreign-setpoint": "somebody else moves the left shoulder to VALUE rad (default 0.5)",
     "stream-end": "the stream is closed, for good",
     "motor-off": "the robot's motors have no stiffness",
 }
 """The faults by name: what each does."""
 
-DEFAULTS: Final = {"drift": 0.05, "latency": 0.25, "jitter": 0.05}
+DEFAULTS: Final = {
+    "slow": 10.0, "freeze": 4.0, "future-stamps": 5.0, "drift": 0.05, "latency": 0.25,
+    "jitter": 0.05, "foreign-setpoint": 0.5,
+}  # fmt: skip
 """Values of the faults that have one."""
 
 

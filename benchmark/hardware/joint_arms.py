@@ -6,7 +6,7 @@ from typing import ClassVar, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ...robots.arm_kinematics import ARM_JOINTS, MIRROR, arm_path, gravity_torque, vertical_lever
+from ...robots.nao.kinematics import ARM_JOINTS, MIRROR, arm_path, gravity_torque, vertical_lever
 from ..world import World
 from ..world.bullet import pybullet
 from ..world.nao_arms import NaoArms

@@ -9,7 +9,7 @@ import threading
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
-from ...robots.nao_facts import JOINTS
+from ...robots.nao.facts import JOINTS
 
 TICK: Final = 0.02
 """Cycle of ALMotion [s]: it takes commands in and moves set-points at 50 Hz."""
@@ -154,9 +154,14 @@ class JointMotion:
             self._off = off
 
     def moving(self, names: Sequence[str]) -> bool:
-        """Return whether one of the joints is on its way, or its stiffness is."""
+        """Return whether one of the joints is on its way."""
         with self._lock:
-            return any(joint in self._moves or joint in self._ramps for joint in names)
+            return any(joint in self._moves for joint in names)
+
+    def stiffening(self, names: Sequence[str]) -> bool:
+        """Return whether the stiffness of one of the joints is on its way."""
+        with self._lock:
+            return any(joint in self._ramps for joint in names)
 
     def set_points(self, names: Sequence[str]) -> list[float]:
         """Return set-points [rad]."""

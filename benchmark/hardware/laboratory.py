@@ -12,8 +12,8 @@ from typing import Any, Final
 import numpy as np
 
 from ...agents.agent import FRAME
-from ...robots.arm_kinematics import ARM_JOINTS, arm_path
-from ..scenario import Scenario
+from ...robots.nao.kinematics import ARM_JOINTS, arm_path
+from ..episode.scenario import Scenario
 from .emulated_lift import EmulatedLift
 from .faults import Fault, Schedule
 from .joint_motion import TICK, JointMotion
@@ -22,6 +22,7 @@ from .services import (
     FaultService,
     LifeService,
     Log,
+    MemoryService,
     MotionService,
     Pause,
     PostureService,
@@ -31,7 +32,13 @@ from .services import (
 
 NAMES: Final = list(ARM_JOINTS)
 
+FAULTS: Final = "ColiftFaults"
+"""Name of the service that faults are requested of."""
+
 FRAMES_PER_TICK: Final = round(TICK / FRAME)
+
+FOREIGN_FRACTION: Final = 0.1
+"""Fraction of its greatest speed at which somebody else moves a joint: 0.8 rad/s."""
 
 CAPTURE_LATENCY: Final = 0.01
 """Time from a motion-capture frame to its sending [s]."""
@@ -84,11 +91,12 @@ class Laboratory:
         self.answering.set()
         self.services: dict[str, Any] = {
             "ALMotion": MotionService(self._motion, log, pause, self.answering),
+            "ALMemory": MemoryService(log),
             "ALRobotPosture": PostureService(),
             "ALAutonomousLife": LifeService(),
             "ALTextToSpeech": SpeechService(self._heard, log, pause),
             "ALSystem": SystemService(),
-            "ColiftFaults": FaultService(self.request),
+            FAULTS: FaultService(self.request),
         }
         """NAOqi's services by name, and the one that faults are requested of."""
 
@@ -153,6 +161,8 @@ class Laboratory:
             if fault not in self._told:
                 self._told.add(fault)
                 self._log(f"fault {fault.kind}")
+            if fault.kind == "foreign-setpoint":
+                self._motion.set_angles(NAMES[:1], [fault.value], FOREIGN_FRACTION)
         self._motion.motors_off(any(fault.kind == "motor-off" for fault in active))
         return active
 

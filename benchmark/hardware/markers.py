@@ -6,10 +6,10 @@ from typing import Final
 
 import numpy as np
 
-from ...robots.arm_kinematics import GRIP_X, REST_Z
-from ...robots.nao_facts import TORSO_HEIGHT
-from ..lift import MOCAP_NOISE
-from ..seeding import derive_seed
+from ...robots.nao.facts import TORSO_HEIGHT
+from ...robots.nao.kinematics import GRIP_X, REST_Z
+from ..episode.lift import MOCAP_NOISE
+from ..episode.seeding import derive_seed
 from ..world.table import TABLE_LENGTH
 from .faults import Fault
 
@@ -29,7 +29,7 @@ MARKER_NOISE: Final = MOCAP_NOISE * 2**0.5
 simulated motion capture."""
 
 Row = tuple[float, list[float]]
-"""When a frame was captured [s], and x, y and z of each marker [m]."""
+"""When a frame is said to have been captured [s], and x, y and z of each marker [m]."""
 
 
 class Markers:
@@ -46,6 +46,8 @@ class Markers:
         self._rng = np.random.default_rng(derive_seed(0, "hardware/markers"))
         self._waiting: deque[tuple[float, Row]] = deque()
         self._due = 0.0
+        self._frames = 0
+        self._heights: list[float] = []
 
     def capture(
         self, now: float, human_end: float, robot_end: float, faults: Sequence[Fault]
@@ -72,17 +74,29 @@ class Markers:
         for (marker, (x, y)), noise in zip(MARKERS.items(), noises, strict=True):
             z = REST_HEIGHT + (human_end if marker.startswith("H") else robot_end)
             row += [x + noise[0], y + noise[1], z + noise[2]]
+        frozen = round(active["freeze"].value) if "freeze" in active else 0
+        row[2 : 3 * frozen : 3] = self._heights[:frozen]
+        self._heights = row[2::3]
         if "nan" in active:
             row[:6] = [np.nan] * 6
+        if "unit-change" in active:
+            row = [1000 * value for value in row]
+        stamp = now
+        if "future-stamps" in active:
+            stamp += active["future-stamps"].value
+        if "nan-stamps" in active:
+            stamp = np.nan
         delay = self._latency
         if "latency" in active:
             delay += active["latency"].value
         if "jitter" in active:
             delay += float(self._rng.uniform(0.0, active["jitter"].value))
-        if "dropout" not in active:
+        self._frames += 1
+        left_out = "slow" in active and self._frames % round(active["slow"].value)
+        if "dropout" not in active and not left_out:
             # A network may hold a frame up, but does not change the order.
             self._due = max(self._due, now + delay)
-            self._waiting.append((self._due, (now, row)))
+            self._waiting.append((self._due, (stamp, row)))
 
     def due(self, now: float) -> Iterator[Row]:
         """Yield the frames that are to be sent now, oldest first."""

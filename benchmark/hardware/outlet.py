@@ -4,7 +4,7 @@ import time
 from typing import Any
 
 from ...agents.agent import FRAME
-from ...agents.hardware.missing import load
+from ...agents.hardware.missing import import_optional
 from .markers import MARKERS, Row
 
 
@@ -23,7 +23,7 @@ class Outlet:
     """
 
     def __init__(self, name: str) -> None:
-        self._lsl = lsl = load("pylsl")
+        self._lsl = lsl = import_optional("pylsl")
         info = lsl.StreamInfo(
             name, "MoCap", 3 * len(MARKERS), 1 / FRAME, lsl.cf_double64, f"colift-emulator-{name}"
         )

@@ -3,13 +3,13 @@
 libqi binds the public methods of these classes under their own names, hence the spelling.
 """
 
-# ruff: noqa: N802, N803
+# ruff: noqa: A002, N802, N803
 
 import threading
 from collections.abc import Callable
 from typing import Any, Final
 
-from ...robots.nao_facts import JOINTS
+from ...robots.nao.facts import JOINTS
 from .joint_motion import BODY, TICK, JointMotion, MotionError, joint_names, spread
 
 VERSION: Final = "2.8.7-emulated"
@@ -72,7 +72,7 @@ class MotionService:
         values = spread(angles, len(joints), "angles")
         self._log(f"motion angleInterpolationWithSpeed {maxSpeedFraction:.4f}")
         self._motion.set_angles(joints, values, float(maxSpeedFraction))
-        self._wait(joints)
+        self._wait(self._motion.moving, joints)
 
     def setStiffnesses(self, names: Any, stiffnesses: Any) -> None:
         """Set stiffnesses; does not block."""
@@ -87,12 +87,12 @@ class MotionService:
         self._log(f"stiffness {stiffnessLists:g} {timeLists:g}")
         values = [float(stiffnessLists)] * len(joints)
         self._motion.set_stiffness(joints, values, float(timeLists))
-        self._wait(joints)
+        self._wait(self._motion.stiffening, joints)
 
-    def _wait(self, joints: list[str]) -> None:
-        """Wait until the joints are still, or all motion is killed."""
+    def _wait(self, going_on: Callable[[list[str]], bool], joints: list[str]) -> None:
+        """Wait as long as something goes on with the joints, or until all motion is killed."""
         self._killed.clear()
-        while self._motion.moving(joints) and not self._killed.is_set():
+        while going_on(joints) and not self._killed.is_set():
             self._pause(TICK)
 
     def killAll(self) -> None:
@@ -114,14 +114,14 @@ class MotionService:
         self._log("wakeUp")
         self._awake = True
         self._motion.set_stiffness(BODY, [1.0] * len(BODY), 0.5)
-        self._wait(list(BODY))
+        self._wait(self._motion.stiffening, list(BODY))
 
     def rest(self) -> None:
         """Switch the motors off."""
         self._log("rest")
         self._awake = False
         self._motion.set_stiffness(BODY, [0.0] * len(BODY), 0.5)
-        self._wait(list(BODY))
+        self._wait(self._motion.stiffening, list(BODY))
 
     def getFallManagerEnabled(self) -> bool:
         """Return that the fall manager is on."""
@@ -136,6 +136,38 @@ class MotionService:
     def getSmartStiffnessEnabled(self) -> bool:
         """Return that smart stiffness is off: the emulated motors do not save power."""
         return False
+
+
+class MemoryService:
+    """ALMemory: what is known by a name, for everybody."""
+
+    __qi_threading__ = "multi"
+
+    def __init__(self, log: Log) -> None:
+        self._log = log
+        self._data: dict[str, Any] = {}
+
+    def insertData(self, key: str, value: Any) -> None:
+        """Keep a value by a key."""
+        known = self._data.get(key)
+        self._data[key] = value
+        # A heartbeat changes the last of some values, and nothing that is to be told.
+        if not (isinstance(known, list) and isinstance(value, list) and known[:-1] == value[:-1]):
+            self._log(f"memory {key}: {value}")
+
+    def getData(self, key: str) -> Any:
+        """Return the value of a key."""
+        if key not in self._data:
+            raise MotionError(f"ALMemory: there is no data by the key {key!r}")
+        return self._data[key]
+
+    def getDataList(self, filter: str) -> list[str]:
+        """Return the keys that a text is part of."""
+        return [key for key in list(self._data) if filter in key]
+
+    def removeData(self, key: str) -> None:
+        """Forget a key."""
+        self._data.pop(key, None)
 
 
 class PostureService:

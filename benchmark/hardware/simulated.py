@@ -8,12 +8,13 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ...agents.agent import FRAME
-from ...agents.hardware.naoqi_session import ANSWER_TIME
+from ...agents.hardware.ends import Height, MarkerEnds
+from ...agents.hardware.nao.session import ANSWER_TIME
 from ...agents.hardware.operator import StopButton
 from ...agents.hardware.ports import CaptureLostError, RobotLostError, Sample
 from .joint_motion import MotionError
 from .laboratory import Conditions, Laboratory
-from .markers import REST_HEIGHT
+from .markers import MARKERS, REST_HEIGHT
 
 
 class SimulatedLaboratory:
@@ -42,7 +43,8 @@ class SimulatedLaboratory:
         self._faults: set[str] = set()
         self._closed: set[str] = set()
         self._pending: list[Sample] = []
-        self._rest = REST_HEIGHT, REST_HEIGHT
+        markers = [Height(marker, 3 * k + 2, 1.0) for k, marker in enumerate(MARKERS)]
+        self._ends = MarkerEnds(markers[:2], markers[2:], REST_HEIGHT)
         self._laboratory = Laboratory(conditions, now=self.now, pause=self._pass, log=log)
         self.info: dict[str, object] = {"name": "world", "type": "MoCap", "rate_hz": 1 / FRAME}
 
@@ -62,13 +64,8 @@ class SimulatedLaboratory:
             self._frames += 1
             self._faults = self._laboratory.frame()
             self._closed |= self._faults & {"disconnect", "stream-end"}
-            self._pending += map(self._sample, self._laboratory.due())
-
-    def _sample(self, row: tuple[float, list[float]]) -> Sample:
-        captured, values = row
-        h1, h2, r1, r2 = values[2::3]
-        human, robot = self._rest
-        return Sample(captured, (h1 + h2) / 2 - human, (r1 + r2) / 2 - robot)
+            for captured, row in self._laboratory.due():
+                self._pending.append(self._ends.sample(captured, row))
 
     def request(self, fault: str) -> float:
         """Let a fault come, whose time counts from now; return the time [s]."""
@@ -83,8 +80,12 @@ class SimulatedLaboratory:
 
     def set_rest(self, human_end: float, robot_end: float) -> None:
         """Displace the zero of the ends' heights [m]."""
-        human, robot = self._rest
-        self._rest = human + human_end, robot + robot_end
+        self._ends.set_rest(human_end, robot_end)
+
+    @property
+    def unseen(self) -> str:
+        """Which markers were not seen in the newest frame; see :class:`.MotionCapture`."""
+        return self._ends.unseen
 
     def has(self, service: str) -> bool:
         """Return whether the robot offers a service."""
@@ -100,7 +101,8 @@ class SimulatedLaboratory:
         """Call several methods; see :class:`.Naoqi`."""
         if "disconnect" in self._closed:
             raise RobotLostError(f"no connection to {self.url}")
-        if "silence" in self._faults and any(name == "getAngles" for name, *_ in calls):
+        silent = "silence" in self._faults and any(name == "getAngles" for name, *_ in calls)
+        if silent or "hang" in self._faults:
             self._pass(within)
             raise RobotLostError(f"no answer of {self.url} within {within:g} s")
         module = self._laboratory.services[service]

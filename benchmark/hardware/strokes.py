@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...agents.agent import FRAME
-from ..metrics import Stroke
+from ..episode.metrics import Stroke
 
 SMOOTHING: Final = 0.02
 """Standard deviation [s] of the Gaussian kernel that takes the noise of the motion capture away

@@ -14,6 +14,8 @@ def timing_report(records: Sequence[Record]) -> dict[str, Any]:
 
     ================= ============================================================================
     sensing_age_ms    age of the newest motion-capture frame when a step begins
+    lowest_rate_hz    fewest frames of any second
+    misdated          frames whose time stamps were ahead of the clock, or no numbers
     state_ms          what reading the robot takes
     policy_ms         what the policy takes, where it answered
     command_ms        what giving a command takes, where one was given
@@ -32,6 +34,8 @@ def timing_report(records: Sequence[Record]) -> dict[str, Any]:
     return {
         "steps": len(steps),
         "sensing_age_ms": percentiles([step.sensing_age for step in steps]),
+        "lowest_rate_hz": min((s.rate for s in steps if np.isfinite(s.rate)), default=None),
+        "misdated": sum(record.misdated for record in records),
         "state_ms": percentiles([step.state_time for step in steps]),
         "policy_ms": percentiles([step.policy_time for step in acted]),
         "command_ms": percentiles([step.command_time for step in acted]),

@@ -18,17 +18,18 @@ from numpy.typing import NDArray
 from ...agents.agent import FRAME
 from ...agents.errors import InputError
 from ...agents.hardware.plausibility import seen
+from ...agents.hardware.ports import Sample
 from ...agents.hardware.record import Record
 from ...agents.humans import SUBJECTS, Plan, Subject
-from .. import metrics
-from ..episode import Episode
-from ..recorder import HASH_BYTES
-from ..runner import Run
-from ..scenario import Scenario
-from ..scores import Scores
-from ..smoothness import ldlj, sparc
-from ..suite import Suite
-from ..trace import Trace
+from ..episode import metrics
+from ..episode.episode import Episode
+from ..episode.recorder import HASH_BYTES
+from ..episode.scenario import Scenario
+from ..episode.scores import Scores
+from ..episode.smoothness import ldlj, sparc
+from ..episode.trace import Trace
+from ..execution.runner import Run
+from ..suites.suite import Suite
 from ..world.table import TABLE_LENGTH
 from .strokes import find_strokes, smoothed
 
@@ -143,9 +144,17 @@ def _trace(record: Record) -> Trace:
     )
 
 
+def possible(sample: Sample) -> bool:
+    """Return whether a frame shows both ends, no further apart than the table is long.
+
+    The frames of a trial that was stopped may show anything.
+    """
+    return seen(sample) and abs(sample.human_end - sample.robot_end) <= TABLE_LENGTH
+
+
 def _resampled(record: Record, frames: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return both ends' heights at the ends of frames, linear between those that were captured."""
-    samples = sorted(filter(seen, record.samples))
+    samples = sorted(filter(possible, record.samples))
     if not samples or not frames:
         return np.zeros(frames), np.zeros(frames)
     times, human, robot = np.array(samples).T

@@ -8,16 +8,15 @@ from dataclasses import dataclass
 from typing import Final
 
 from ...agents.humans import Behaviour, Jerky, Pause
-from ...agents.policies.loading import PolicySpec
-from ..agent_spec import AgentSpec
-from ..learning import LearningTrial, learning_trials
-from ..references import human_team_run
-from ..runner import Run, run_suite
-from ..scenario import Scenario
-from ..suite import Suite
-from .published import FORGETTING_FACTORS
-from .sampled import SampledLift, sampled_lifts
-from .watched import WatchedBlend
+from ...agents.loading.loading import PolicySpec
+from ...agents.spec import AgentSpec
+from ..episode.scenario import Scenario
+from ..execution.runner import Run, run_suite
+from ..results.baselines import human_team_run
+from ..suites.suite import Suite
+from ..training.q_learning import LearningTrial, learning_trials
+from .table_one import FORGETTING_FACTORS
+from .watched import SampledLift, sampled_lifts, watched_blend
 
 PAUSE: Final = Pause(length=(2.0, 2.0), lowering_share=0.0)
 """Figure 6: a pause of 2 s on the way up."""
@@ -26,7 +25,7 @@ LONG_PAUSE: Final = Pause(length=(8.0, 8.0), lowering_share=0.0)
 """Long enough for the slowest confidence of figure 7 to settle."""
 
 REACTIVE: Final = PolicySpec(text="reactive")
-BLEND: Final = WatchedBlend()
+BLEND: Final = watched_blend()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -129,7 +128,7 @@ def gather(
         rests=sampled_lifts(run(BLEND, behaving(suite, "pause", LONG_PAUSE, effort.rest))),
         jerky_reactive=run(REACTIVE, jerky),
         jerky_blend=run(BLEND, jerky),
-        forgetting={phi: run(WatchedBlend(forgetting=phi), some) for phi in FORGETTING_FACTORS},
+        forgetting={phi: run(watched_blend(phi), some) for phi in FORGETTING_FACTORS},
         timing={
             timing: run(
                 REACTIVE if timing.policy == "reactive" else BLEND,

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...agents.control.predictor import PredictorParameters
 from ...agents.estimators.confidence import Confidence, likelihood
 from ...agents.estimators.motion_filter import MotionFilter
-from ...agents.policies.predictor import PredictorParameters
 
 Series = NDArray[np.float64]
 

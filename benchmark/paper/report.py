@@ -4,19 +4,28 @@ import csv
 import dataclasses
 import io
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
+
 from ...agents.errors import InputError
-from .claims import Claim, all_claims
+from ..episode.episode import Episode
 from .evidence import Evidence
-from .figures.all import all_pictures
-from .figures.picture import Picture
-from .html import html_page
-from .markdown import markdown_page
+from .exhibits import Claim, Picture
+from .pages import report_pages
 from .table_one import TableOne, table_one
+from .topics.confidence import confidence_claims, confidence_picture, pause_picture
+from .topics.forgetting import forgetting_claims, forgetting_picture
+from .topics.learning import learning_claims, learning_picture
+from .topics.performance import comparison_picture, error_limit, performance_claims, team_picture
+from .topics.prediction import prediction_claims, prediction_picture
+from .topics.table import table_claims, table_picture
+from .topics.timing import timing_claims, timing_picture, timing_results
+from .watched import SampledLift
 
 PAGES: Final = ("report.html", "report.md", "claims.json")
 """The files of a report beside the figures, each a PNG and a CSV."""
@@ -73,8 +82,7 @@ def write_report(report: Report, folder: Path) -> None:
         (folder / f"{picture.name}.png").write_bytes(drawn[picture.name])
         _write_csv(folder / f"{picture.name}.csv", picture)
     pages = (
-        html_page(report.table, report.pictures, drawn, report.claims, report.provenance),
-        markdown_page(report.table, report.pictures, report.claims, report.provenance),
+        *report_pages(report.table, report.pictures, drawn, report.claims, report.provenance),
         json.dumps(claims_json(report), indent=2, allow_nan=False, ensure_ascii=False) + "\n",
     )
     for name, content in zip(PAGES, pages, strict=True):
@@ -103,3 +111,50 @@ def _write_csv(path: Path, picture: Picture) -> None:
 
 def _cell(value: float | str) -> float | str:
     return "" if value != value else value
+
+
+def all_pictures(evidence: Evidence, table: TableOne) -> list[Picture]:
+    """Return all figures in the report's order.
+
+    Where a figure shows one lift, it is the one with the median error of its experiment: neither
+    the best nor the worst. Figures 4, 5, 8 and 9 show the same lift.
+    """
+    shown = median_lift([lift.episode for lift in evidence.lifts])
+    lift, reactive = evidence.lifts[shown], evidence.reactive.episodes[shown]
+    return [
+        table_picture(table),
+        prediction_picture(lift),
+        confidence_picture(lift),
+        pause_picture(_median(evidence.pauses)),
+        forgetting_picture(_median(evidence.rests)),
+        comparison_picture(lift.episode, reactive),
+        team_picture(evidence.team.episodes[shown], error_limit(lift.episode, reactive)),
+        learning_picture(evidence.learning),
+        timing_picture(timing_results(evidence.timing)),
+    ]
+
+
+def median_lift(episodes: Sequence[Episode]) -> int:
+    """Return the index of the episode with the (lower) median error."""
+    order = np.argsort([episode.scores.rmse_mm for episode in episodes], kind="stable")
+    return int(order[(len(order) - 1) // 2])
+
+
+def _median(lifts: Sequence[SampledLift]) -> SampledLift:
+    return lifts[median_lift([lift.episode for lift in lifts])]
+
+
+__all__ = ["Claim", "all_claims"]
+
+
+def all_claims(evidence: Evidence, table: TableOne) -> list[Claim]:
+    """Return every claim of the paper, measured, in the order of the paper's section IV."""
+    return [
+        *learning_claims(evidence.learning),
+        *prediction_claims(evidence.lifts),
+        *confidence_claims(evidence.lifts, evidence.pauses),
+        *forgetting_claims(evidence.rests, evidence.pauses, evidence.forgetting),
+        *table_claims(table),
+        *performance_claims(evidence),
+        *timing_claims(evidence.timing),
+    ]

@@ -1,13 +1,22 @@
-"""The blend policy, watched: what it saw goes into the trace with what it thought."""
+"""The watched blend policy, and its lifts step by step, next to what the human meant to do."""
 
 import dataclasses
+import math
 from dataclasses import dataclass
+from functools import partial
 
-from ...agents.agent import Action, Agent, Observation, RobotObservation
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...agents.agent import Action, Observation, RobotObservation
+from ...agents.control.predictor import PredictorParameters
+from ...agents.humans import Plan
+from ...agents.loading.loading import InMemorySpec
 from ...agents.policies.blend import Blend
-from ...agents.policies.in_process import InProcess
-from ...agents.policies.loading import source_digest
-from ...agents.policies.predictor import PredictorParameters
+from ..episode.episode import Episode
+from ..episode.lift import Lift
+from ..episode.scenario import Scenario
+from ..execution.runner import Run
 
 
 class Watched:
@@ -30,24 +39,101 @@ class Watched:
         return {**self._blend.internals(), "sample": self._sample}
 
 
-@dataclass(frozen=True, kw_only=True)
-class WatchedBlend(InProcess):
-    """Where the watched blend policy comes from, as :class:`.AgentSpec`."""
+def watched_blend(forgetting: float | None = None) -> InMemorySpec:
+    """Return where the watched blend policy comes from.
 
-    name: str = "blend"
-    forgetting: float | None = None
-    """phi of eq. 7; the policy's own by default."""
+    Parameters
+    ----------
+    forgetting
+        phi of eq. 7; the policy's own by default.
+    """
+    return InMemorySpec(name="blend", factory=partial(_watched, forgetting), source=Blend)
 
-    def check(self) -> None:
-        """Accept it: the class is here."""
 
-    def digest(self) -> str:
-        """Return the hash of the blend policy's source."""
-        return source_digest(Blend)
+def _watched(forgetting: float | None) -> Watched:
+    parameters = PredictorParameters()
+    if forgetting is not None:
+        parameters = dataclasses.replace(parameters, forgetting=forgetting)
+    return Watched(Blend(parameters=parameters))
 
-    def make(self) -> Agent:
-        """Return a new policy object."""
-        parameters = PredictorParameters()
-        if self.forgetting is not None:
-            parameters = dataclasses.replace(parameters, forgetting=self.forgetting)
-        return Watched(Blend(parameters=parameters))
+
+Series = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SampledLift:
+    """An episode, seen through the samples that the robot got; m steps."""
+
+    scenario: Scenario
+    episode: Episode
+    plan: Plan
+    """What the human meant to do."""
+
+    @property
+    def samples(self) -> Series:
+        """(m,) measured height of the human's end [m]."""
+        return self.episode.trace.internals["sample"]
+
+    @property
+    def confidence(self) -> Series:
+        """(m,) confidence in the prediction of the next sample (eq. 7)."""
+        return self.episode.trace.internals["confidence"]
+
+    @property
+    def predicted(self) -> Series:
+        """(m,) what was predicted of each sample, one step earlier [m]; NaN for the first."""
+        return self.one_step_ahead("prediction")
+
+    def one_step_ahead(self, name: str) -> Series:
+        """Return an internal in the step in which it can be checked; NaN for the first."""
+        return np.concatenate(([np.nan], self.episode.trace.internals[name][:-1]))
+
+    @property
+    def errors(self) -> Series:
+        """(m,) measured minus predicted height [m]; NaN for the first."""
+        return self.samples - self.predicted
+
+    @property
+    def sample_frames(self) -> NDArray[np.int64]:
+        """(m,) frame that each sample shows, negative before the beginning."""
+        scenario = self.scenario
+        steps = np.arange(len(self.samples), dtype=np.int64)
+        return steps * scenario.frames_per_step - 1 - scenario.latency_frames
+
+    @property
+    def speed(self) -> Series:
+        """(m,) speed of the human's end when the sample was taken [m/s]."""
+        frames = self.sample_frames
+        return np.where(frames < 0, 0.0, np.abs(self.episode.trace.human_velocity[frames]))
+
+    def step_showing(self, frame: int) -> int:
+        """Return the first step whose sample shows the frame or a later one."""
+        scenario = self.scenario
+        return math.ceil((frame + 1 + scenario.latency_frames) / scenario.frames_per_step)
+
+    def event(self, name: str) -> int:
+        """Return the first frame of the event of that name."""
+        return dict(self.plan.events)[name]
+
+    @property
+    def first_motion(self) -> int:
+        """The first step whose sample shows the human on the move."""
+        return self.step_showing(self.plan.strokes[0][0])
+
+
+def sampled_lifts(run: Run) -> list[SampledLift]:
+    """Return the lifts of a complete run of :func:`watched_blend`, in its order."""
+    remaining = iter(run.episodes)
+    found = []
+    for scenario in run.suite.scenarios:
+        lift = Lift(scenario)
+        for seed in run.suite.seeds:
+            lift.reset(seed)
+            found.append(SampledLift(scenario=scenario, episode=next(remaining), plan=lift.plan))
+        lift.close()
+    return found
+
+
+def rms(values: ArrayLike) -> float:
+    """Return the root mean square of the values, those that are missing (NaN) left out."""
+    return float(np.sqrt(np.nanmean(np.square(np.asarray(values, dtype=np.float64)))))

@@ -8,9 +8,9 @@ import matplotlib
 from PIL import Image, ImageDraw, ImageFont
 
 from ...agents.agent import FRAME
-from ..episode import Episode
+from ..episode.episode import Episode
 from ..world import Partner
-from .palette import FAINT, HUMAN, INK, PAPER, ROBOT
+from .style import FAINT, HUMAN, INK, PAPER, ROBOT
 
 PARTNERS: Final[dict[Partner, str]] = {"nao": "robot", "human": "partner"}
 """What the holder of the far end is called."""

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from ...agents.agent import FRAME
-from ..trace import Trace
-from .palette import FAINT, HUMAN, INK, LINE, PAPER, ROBOT
+from ..episode.trace import Trace
+from .style import FAINT, HUMAN, INK, LINE, PAPER, ROBOT
 
 DPI: Final = 100
 LETTERS: Final = 8.5

@@ -10,12 +10,12 @@ from PIL import Image
 
 from ...agents.agent import FRAME
 from ...agents.errors import InputError
-from ..episode import Episode
-from ..scenario import Scenario
+from ..episode.episode import Episode
+from ..episode.scenario import Scenario
 from .caption import PARTNERS, readout, title
 from .curves import Curves
-from .palette import PAPER
 from .scene import Picture, Scene
+from .style import PAPER
 from .writing import check_target, write
 
 FPS: Final = 12.5

@@ -1,101 +1,89 @@
-"""Pages that need nothing else: style, pictures and tables are in the one file."""
+"""Pages from Jinja templates, and their tables.
 
-import re
-from collections.abc import Sequence
-from html import escape
-from typing import Final
-
-STYLE: Final = """
-:root { color-scheme: light dark; --ink: #22262e; --faint: #5b6472; --line: #d7dbe0;
-  --paper: #ffffff; --card: #f2f4f7; --sky: #eff2f6; --human: #0072b2; --robot: #c25100; }
-@media (prefers-color-scheme: dark) {
-  :root { --ink: #e4e7ec; --faint: #a2abb8; --line: #3a414d; --paper: #15181d; --card: #20262e;
-    --sky: #1d222a; --human: #56b4e9; --robot: #ff9a5c; } }
-* { box-sizing: border-box; }
-body { margin: 0; background: var(--paper); color: var(--ink);
-  font: 16px/1.55 system-ui, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif; }
-main { max-width: 66rem; margin: 0 auto; padding: 2.5rem 1.25rem 5rem; }
-h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 1rem; text-wrap: balance; }
-h2 { font-size: 1.3rem; margin: 3rem 0 0.75rem; padding-top: 1rem;
-  border-top: 1px solid var(--line); }
-p, li { max-width: 46rem; }
-p { margin: 0.6rem 0; }
-.faint, figcaption { color: var(--faint); font-size: 0.9rem; }
-.scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 0.9rem;
-  margin: 1rem 0; white-space: nowrap; }
-th, td { padding: 0.35rem 0.65rem; text-align: right; border-bottom: 1px solid var(--line);
-  vertical-align: top; }
-thead th { font-weight: 600; color: var(--faint); vertical-align: bottom; }
-tbody th { font-weight: 500; text-align: left; position: sticky; left: 0;
-  background: var(--paper); white-space: normal; overflow-wrap: break-word; min-width: 8rem; }
-thead th:first-child { text-align: left; }
-td small { display: block; font-size: 0.8rem; color: var(--faint); }
-td.best { background: var(--card); }
-td.best b { color: var(--robot); }
-tr.reference th, tr.reference td { color: var(--human); }
-figure { margin: 1.5rem 0 2rem; }
-figure svg { display: block; width: 100%; height: auto; }
-figure svg text { font-family: inherit !important; }
-figure svg.wide { max-width: 56rem; }
-figure svg.narrow { display: none; }
-@media (max-width: 40rem) {
-  main { padding: 1.5rem 1rem 4rem; }
-  figure svg.wide { display: none; }
-  figure svg.narrow { display: block; } }
+A page that is one file requests nothing from elsewhere: its template extends ``page.html``, whose
+content security policy allows the style in it and no more.
 """
 
+import base64
+import functools
+import hashlib
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+from importlib.resources import files
+from typing import Any
 
-def page(title: str, body: str, *, style: str = "") -> str:
-    """Return an HTML page that requests nothing from elsewhere.
+from jinja2 import (
+    ChoiceLoader,
+    Environment,
+    PackageLoader,
+    StrictUndefined,
+    select_autoescape,
+)
+from markupsafe import Markup, escape
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell of a table: its value, and a line in small letters under it, as plain text."""
+
+    value: str
+    under: str = ""
+    best: bool = False
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row of a table; ``kind`` is its class, such as ``reference``."""
+
+    name: str
+    cells: Sequence[Cell]
+    kind: str = ""
+
+
+def render(package: str, template: str, **content: Any) -> str:
+    """Return a page.
 
     Parameters
     ----------
-    title
-        Title as plain text.
-    body
-        Content as HTML.
-    style
-        CSS that only this page needs.
+    package
+        The package with the folder ``templates`` that the template is in.
+    template
+        Its name; text is escaped if it ends in ``.html``, ``.svg`` or ``.xml``.
+    content
+        What the template shows, by name.
     """
-    return (
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f"<title>{escape(title)}</title><style>{STYLE}{style}</style></head>\n"
-        f"<body><main>\n{body}\n</main></body></html>\n"
+    return environment(package).get_template(template).render(**content)
+
+
+@functools.cache
+def environment(package: str) -> Environment:
+    """Return the templates of a package, which can extend and import those of this one."""
+    made = Environment(
+        loader=ChoiceLoader([PackageLoader(each, "templates") for each in (package, __package__)]),
+        autoescape=select_autoescape(["html", "svg", "xml"]),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
     )
+    made.filters.update(breakable=_breakable, hash=content_hash)
+    made.globals.update(style=Markup(style()), version=version("colift"))
+    return made
 
 
-def table(header: Sequence[str], rows: Sequence[str]) -> str:
-    """Return a table that scrolls where the page is narrow.
-
-    Parameters
-    ----------
-    header
-        Columns' titles as plain text.
-    rows
-        Rows as HTML, each of :func:`row`.
-    """
-    head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
-    body = "\n".join(rows)
-    return (
-        f'<div class="scroll"><table><thead><tr>{head}</tr></thead>\n'
-        f"<tbody>{body}</tbody></table></div>"
-    )
+def style() -> str:
+    """Return the style sheet of pages that are one file."""
+    return files(__package__).joinpath("templates", "page.css").read_text(encoding="utf-8")
 
 
-def row(name: str, cells: Sequence[str], *, kind: str = "") -> str:
-    """Return a row: its name as plain text, its cells as HTML, each of :func:`cell`.
-
-    ``kind`` is its class, such as ``reference``.
-    """
-    marked = f' class="{kind}"' if kind else ""
-    breakable = re.sub("([,_])", r"\1<wbr>", escape(name))
-    return f"<tr{marked}><th>{breakable}</th>{''.join(cells)}</tr>"
+def content_hash(text: str) -> Markup:
+    """Return the hash by which a content security policy allows a style or a script."""
+    digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+    return Markup(f"'sha256-{digest}'")
 
 
-def cell(value: str, under: str = "", *, best: bool = False) -> str:
-    """Return a cell: its value, and what is written small under it, as plain text."""
-    told = f"<b>{escape(value)}</b>" if best else escape(value)
-    small = f"<small>{escape(under)}</small>" if under else ""
-    return f"<td{' class=best' if best else ''}>{told}{small}</td>"
+def _breakable(name: str) -> Markup:
+    """Return a name that may be broken after a comma or an underscore."""
+    return Markup(re.sub("([,_])", r"\1<wbr>", str(escape(name))))

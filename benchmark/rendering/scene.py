@@ -6,19 +6,19 @@ import os
 from typing import Final
 
 import numpy as np
-import pybullet
 from numpy.typing import NDArray
 from PIL import Image, ImageColor
 
 from ...agents.errors import InputError
-from ...robots.arm_kinematics import ARM_JOINTS, GRIP_X, REST_Z, STROKE, arm_path
-from ...robots.nao_facts import TORSO_HEIGHT
-from ...robots.urdf import nao_urdf_path
+from ...robots.nao.facts import TORSO_HEIGHT
+from ...robots.nao.kinematics import ARM_JOINTS, GRIP_X, REST_Z, STROKE, arm_path
+from ...robots.nao.urdf import nao_urdf_path
 from ..world import Partner
+from ..world.bullet import pybullet
 from ..world.table import TABLE_LENGTH
 from .mannequin import Mannequin
-from .palette import HUMAN, ROBOT, SKY, rgba
 from .solids import box, disc
+from .style import HUMAN, ROBOT, SKY, rgba
 
 Picture = NDArray[np.uint8]
 

@@ -8,8 +8,9 @@ import math
 from typing import Final
 
 import numpy as np
-import pybullet
 from numpy.typing import NDArray
+
+from ..world.bullet import pybullet
 
 Point = NDArray[np.float64]
 Colour = tuple[float, float, float, float]

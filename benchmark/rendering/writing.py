@@ -10,6 +10,7 @@ import numpy as np
 from PIL import Image
 
 from ...agents.errors import InputError
+from ...agents.extras import how_to_install
 from .scene import Picture
 
 COLOURS: Final = 256
@@ -135,4 +136,4 @@ def _ffmpeg() -> ModuleType:
     try:
         return importlib.import_module("imageio_ffmpeg")
     except ImportError as error:
-        raise InputError("mp4 needs the extra: install colift[video]") from error
+        raise InputError(f"mp4 needs imageio-ffmpeg: {how_to_install('video')}") from error

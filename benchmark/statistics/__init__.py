@@ -19,34 +19,38 @@ NeurIPS 34 (interquartile mean, bootstrap stratified over tasks, probability of 
 """
 
 from .averages import MeanWithMissing, interquartile_mean, mean_with_missing
-from .bootstrap import (
+from .bootstrap import stratified_bootstrap
+from .estimate import (
+    Estimate,
     PairedDifference,
-    difference_of_means_ci,
+    difference_of_means,
+    mean_of,
     paired_difference,
-    ratio_of_means_ci,
-    stratified_bootstrap,
+    ratio_of_means,
 )
-from .holm import holm_correction
-from .permutation import paired_permutation_p, permutation_ps_against
-from .ranking import rank_groups
+from .permutation import holm_correction, paired_permutation_p, permutation_ps_against
+from .ranking import decisive, rank_groups
 from .samples import FloatArray, Interval
 from .superiority import probability_better, share_better
 
 __all__ = [
+    "Estimate",
     "FloatArray",
     "Interval",
     "MeanWithMissing",
     "PairedDifference",
-    "difference_of_means_ci",
+    "decisive",
+    "difference_of_means",
     "holm_correction",
     "interquartile_mean",
+    "mean_of",
     "mean_with_missing",
     "paired_difference",
     "paired_permutation_p",
     "permutation_ps_against",
     "probability_better",
     "rank_groups",
-    "ratio_of_means_ci",
+    "ratio_of_means",
     "share_better",
     "stratified_bootstrap",
 ]

@@ -1,6 +1,5 @@
 """Averages that hold up when some lifts fail, or have no value."""
 
-import math
 from dataclasses import dataclass
 from typing import overload
 
@@ -15,8 +14,8 @@ from .samples import FloatArray
 class MeanWithMissing:
     """Mean of a metric that some episodes do not have."""
 
-    mean: float
-    """Mean over the episodes that have a value; NaN if none has."""
+    mean: float | None
+    """Mean over the episodes that have a value; None if none has."""
     missing: int
     """Episodes without a value. Rank by this first."""
 
@@ -75,5 +74,5 @@ def mean_with_missing(values: ArrayLike) -> MeanWithMissing:
     """
     x = np.asarray(values, dtype=np.float64)
     present = x[~np.isnan(x)]
-    mean = float(present.mean()) if present.size else math.nan
+    mean = float(present.mean()) if present.size else None
     return MeanWithMissing(mean=mean, missing=x.size - present.size)

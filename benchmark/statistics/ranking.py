@@ -1,21 +1,34 @@
 """Ranks that say no more than the episodes do: policies that cannot be told apart share one."""
 
 from collections.abc import Mapping
+from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .holm import holm_correction
-from .permutation import permutation_ps_against
+from .permutation import holm_correction, permutation_ps_against
 from .samples import paired
 
 RankGroups = tuple[tuple[str, ...], ...]
+
+LEVEL: Final = 0.05
+"""Largest corrected p value at which two policies can be told apart."""
+
+
+def decisive(policies: int, episodes: int, *, level: float = LEVEL) -> bool:
+    """Return whether :func:`rank_groups` could tell the best from any other at all.
+
+    Of n episodes there are 2^n sign flips, and the smallest two-sided p value is 2^(1 - n): all
+    differences have the same sign. With k policies behind the best, Holm's correction makes k times
+    that of it. Three episodes are never enough, six are for one policy behind the best.
+    """
+    return (policies - 1) * 2.0 ** (1 - episodes) <= level
 
 
 def rank_groups(
     errors: Mapping[str, ArrayLike],
     *,
-    level: float = 0.05,
+    level: float = LEVEL,
     resamples: int = 10_000,
     seed: int = 0,
 ) -> RankGroups:

@@ -18,8 +18,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .resampling import Cells, cells_of, expanded, resample
-from .samples import paired
+from .samples import Cells, cells_of, expanded, paired, resample
 
 DEVIATES: Final = np.linspace(-8.0, 8.0, 3201)
 """Normal deviates between which :func:`.expanded` is inverted; 8 lies beyond any resampling."""

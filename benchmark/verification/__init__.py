@@ -5,7 +5,7 @@ human did must be what it does. That proves that the scores follow from the acti
 end. It does not prove who produced them: only a board's own run does.
 """
 
-from .verdict import PROVES, UNPROVEN, Finding, Verdict
+from .verdict import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Finding, Verdict
 from .verify import verify
 
-__all__ = ["PROVES", "UNPROVEN", "Finding", "Verdict", "verify"]
+__all__ = ["ACTIONS_FROM_LOG", "PROVES", "UNPROVEN", "Finding", "Verdict", "verify"]

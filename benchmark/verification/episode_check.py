@@ -1,20 +1,22 @@
-"""The check of some episodes of one scenario: what a worker does at a time."""
+"""Simulation of the episodes of a bundle once more, here or on any executor, and their check."""
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass
 
-from ...agents.errors import InputError
-from ..bundle import one_line
+from ...agents.errors import EvaluatorFault, InputError, told
+from ..bundle import Bundle, one_line
 from ..bundle.files import EPISODES, MANIFEST, TRACES
-from ..episode import Episode
-from ..lift import Lift
-from ..replay import ReplayError, replay
-from ..scenario import Scenario
-from ..scores import Scores, score
-from ..trace import Trace
-from .bits import Place, first_difference
-from .tolerance import beyond_tolerance
+from ..episode.episode import Episode
+from ..episode.lift import Lift
+from ..episode.replay import ReplayError, replay
+from ..episode.scenario import Scenario
+from ..episode.scores import Scores, score
+from ..episode.trace import Trace
+from ..execution.tasks import SEEDS_PER_TASK
+from ..suites.suite import Suite
+from .deviation import Place, beyond_tolerance, first_difference
 from .verdict import Finding
 
 
@@ -94,3 +96,63 @@ def _first(logged: Trace, error: ReplayError, *, same_platform: bool) -> Place:
     """Return where actions that cannot be replayed to the end are wrong first, and how."""
     differs = first_difference if same_platform else beyond_tolerance
     return differs(logged.until(error.step), error.found) or (error.step, error.message)
+
+
+def simulate(
+    bundle: Bundle,
+    suite: Suite,
+    *,
+    same_platform: bool,
+    executor: Executor | None,
+    progress: Callable[[int], None],
+) -> list[Checked]:
+    """Return what the replay of each episode shows, in the order of the bundle.
+
+    Raises
+    ------
+    EvaluatorFault
+        If a worker died.
+    """
+    found: list[Checked] = []
+    for part in _parts(episode_checks(bundle, suite, same_platform), executor):
+        found += part
+        progress(len(part))
+    return sorted(found, key=lambda checked: checked.place)
+
+
+def episode_checks(bundle: Bundle, suite: Suite, same_platform: bool) -> list[EpisodeCheck]:
+    """Return the work, cut as :func:`.tasks.tasks` cuts that of a run."""
+    seeds = len(suite.seeds)
+    members: dict[tuple[int, int], list[int]] = {}
+    for i, place in enumerate(bundle.places):
+        row, column = divmod(place, seeds)
+        members.setdefault((row, column // SEEDS_PER_TASK), []).append(i)
+    return [
+        EpisodeCheck(
+            scenario=suite.scenarios[row],
+            seeds=tuple(suite.seeds[bundle.places[i] % seeds] for i in some),
+            places=tuple(bundle.places[i] for i in some),
+            episodes=tuple(bundle.episodes[i] for i in some),
+            same_platform=same_platform,
+        )
+        for (row, _), some in members.items()
+    ]
+
+
+def _parts(
+    checks: Sequence[EpisodeCheck], executor: Executor | None
+) -> Iterator[Sequence[Checked]]:
+    if executor is None:
+        for check in checks:
+            for checked in check.results():
+                yield [checked]
+        return
+    futures = [executor.submit(check) for check in checks]
+    try:
+        for future in as_completed(futures):
+            yield future.result()
+    except Exception as error:
+        raise EvaluatorFault(f"a worker of the verification failed: {told(error)}") from error
+    finally:
+        for future in futures:
+            future.cancel()

@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from ..bundle import one_line
-from ..runner import Run
+from ..execution.provenance import POLICIES_ONLY
+from ..execution.runner import Run
 
 PROVES: Final = (
     "This proves that the scores follow from the logged actions, not who produced them: only a "
@@ -14,7 +15,14 @@ PROVES: Final = (
 
 UNPROVEN: Final = (
     "Taken as said: the policy's name and digest, its step times, what it reports or prints of "
-    "itself, why it failed, the isolation."
+    "itself, why it failed, the isolation, the evaluator's faults, the version of colift, the "
+    "platform."
+)
+
+ACTIONS_FROM_LOG: Final = (
+    "The policy's actions are from the log: with other code for linear algebra or functions of "
+    "arrays, a policy that uses them may act otherwise in the last bits. The humans, the world and "
+    "the scores use none."
 )
 
 
@@ -43,6 +51,8 @@ class Verdict:
 
     findings: tuple[Finding, ...]
     """What is wrong; empty if the bundle is verified."""
+    suite: str = ""
+    """What was played: the name of a shipped suite by its digest, or what suite it is in words."""
     run: Run | None = None
     """The episodes with the scores that the present code finds; None if a replay failed."""
     results: dict[str, Any] | None = None
@@ -58,6 +68,11 @@ class Verdict:
     scoring: tuple[int, int] | None = None
     """The version of the scores in the bundle and here, if they differ: the bundle's scores were
     then not compared, and ``results`` has the present ones."""
+
+    @property
+    def policies_differ(self) -> bool:
+        """Whether a policy that is asked again may act otherwise here than there."""
+        return any(name in POLICIES_ONLY for name in self.other_platform)
 
     @property
     def ok(self) -> bool:
@@ -82,6 +97,7 @@ class Verdict:
                 }
                 for each in self.findings
             ],
+            "suite": self.suite or None,
             "episodes": None if self.run is None else len(self.run.episodes),
             "bit_equal": self.bit_equal,
             "tolerance_mm": self.tolerance_mm,
@@ -92,7 +108,9 @@ class Verdict:
             "scoring": None
             if self.scoring is None
             else {"bundle": self.scoring[0], "here": self.scoring[1]},
-            "results": self.results,
+            "actions": ACTIONS_FROM_LOG if self.policies_differ else None,
+            # A suite of one's own may have any name, such as one that looks like a shipped one's.
+            "results": self.results and {**self.results, "suite": self.suite},
             "proves": PROVES,
             "unproven": UNPROVEN,
         }

@@ -8,16 +8,15 @@ from pathlib import Path
 from typing import Any, Final
 
 from ...agents.errors import InputError
-from ..bundle import Bundle, fingerprint, one_line, parse, read_files
+from ..bundle import Bundle, one_line, parse, read_files
 from ..bundle.files import LARGEST
 from ..bundle.reading import wrong_hashes
-from ..runner import Run
-from ..scores import SCORING
-from .episode_check import Checked
-from .score_check import rebuilt, score_findings
-from .simulation import simulate
-from .suite_check import episode_findings, suite_findings
-from .tolerance import HEIGHT
+from ..episode.scores import SCORING
+from ..execution.provenance import POLICIES_ONLY, fingerprint
+from ..execution.runner import Run
+from .content_check import episode_findings, rebuilt, score_findings, suite_findings, suite_label
+from .deviation import HEIGHT
+from .episode_check import Checked, simulate
 from .verdict import Finding, Verdict
 
 MOST_FINDINGS: Final = 20
@@ -33,8 +32,8 @@ def verify(
     """Return whether a bundle's scores follow from the actions in it.
 
     Every file's hash is checked, the suite is made again from its recipe, every episode is
-    simulated again (:func:`.replay`) and scored again, and every number is compared. On the
-    platform that the bundle comes from every bit must be equal, on another one a tolerance holds.
+    simulated again (:func:`.replay`) and scored again, and every number is compared. Every bit must
+    be equal; only lifts from another platform that differ in some have a tolerance.
     References that are not shipped are played again.
 
     Parameters
@@ -70,8 +69,9 @@ def verify(
     except InputError as error:
         return Verdict(findings=(*findings[: MOST_FINDINGS - 1], _malformed(error)))
     other = _other_platform(bundle)
+    same_platform = set(other) <= set(POLICIES_ONLY)
     checked = simulate(
-        bundle, run.suite, same_platform=not other, executor=executor, progress=progress
+        bundle, run.suite, same_platform=same_platform, executor=executor, progress=progress
     )
     findings += [each.finding for each in checked if each.finding is not None]
     bit_equal = all(each.bit_equal for each in checked)
@@ -85,14 +85,16 @@ def verify(
             findings.append(_malformed(error))
         else:
             if not outdated:
-                wrong = score_findings(bundle, scored, content, same_platform=not other)
+                exact = same_platform or bit_equal
+                wrong = score_findings(bundle, scored, content, exact=exact)
                 findings += itertools.islice(wrong, MOST_FINDINGS)
     return Verdict(
         findings=tuple(findings[:MOST_FINDINGS]),
         run=scored,
+        suite=suite_label(run.suite),
         results=content,
         bit_equal=bit_equal,
-        tolerance_mm=1000 * HEIGHT if other and not bit_equal else None,
+        tolerance_mm=None if same_platform or bit_equal else 1000 * HEIGHT,
         platform=bundle.platform,
         other_platform=other,
         scoring=(bundle.results["scoring"], SCORING) if outdated else None,

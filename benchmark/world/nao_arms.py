@@ -4,15 +4,9 @@ import math
 from typing import ClassVar, Final
 
 from ...agents.agent import FRAME
-from ...robots.arm_kinematics import (
-    ARM_JOINTS,
-    GRIP_X,
-    GRIP_Y,
-    REST_Z,
-    arm_path,
-)
-from ...robots.nao_facts import HAND_OFFSET_X, HAND_OFFSET_Z, JOINTS
-from ...robots.urdf import arms_only_urdf
+from ...robots.nao.facts import HAND_OFFSET_X, HAND_OFFSET_Z, JOINTS
+from ...robots.nao.kinematics import ARM_JOINTS, GRIP_X, GRIP_Y, REST_Z, arm_path
+from ...robots.nao.urdf import arms_only_urdf
 from .bullet import pybullet
 from .engine import Vector, load_urdf_text
 from .physics import Physics

@@ -1,7 +1,8 @@
 """The world: two holders and a table, stepped one motion-capture frame at a time."""
 
 import math
-from collections.abc import Callable, Sequence
+import weakref
+from collections.abc import Sequence
 from typing import ClassVar, Final, Literal
 
 import numpy as np
@@ -44,8 +45,6 @@ class World:
     forces [N] of the hands on the table, upwards positive.
 
     ``hand_height`` is the present height of the partner's hands, of a NAO from its encoders.
-
-    ``step_engine`` is called with the client for each physics step; a clock can be put there.
 
     ============== =====================================================
     human_end      height of the human's table end
@@ -90,7 +89,9 @@ class World:
         if (partner == "human") != (second_human is not None):
             raise ValueError(f"second_human is for partner='human', got partner={partner!r}")
         self.client = new_client(physics)
-        self.step_engine: Callable[[int], None] = pybullet.stepSimulation
+        # A world that nobody has any more takes its 30 MB with it, closed or not.
+        self._release = weakref.finalize(self, disconnect, self.client)
+        self._release.atexit = False
         self._step = physics.step
         self._begins = [i / physics.steps_per_frame for i in range(physics.steps_per_frame)]
         self._body = HumanBody(human, physics.step)
@@ -148,8 +149,8 @@ class World:
         stiffness, damping = self._pitch_gain, self._pitch_rate_gain
         sin, cos = math.sin, math.cos
         body, far, begins = self._body, self._far, self._begins
-        control, advance = pybullet.setJointMotorControlArray, self.step_engine
-        states = pybullet.getJointStates
+        control, states = pybullet.setJointMotorControlArray, pybullet.getJointStates
+        step_engine = pybullet.stepSimulation
         human_end, robot_end = self.human_end, self.robot_end
         human_force, robot_force = self.human_force, self.robot_force
         human_velocity, robot_velocity = self.human_velocity, self.robot_velocity
@@ -170,7 +171,7 @@ class World:
                 torque = lever * far_arms - stiffness * pitch - damping * pitch_rate
                 forces = [arms + weight + far_arms, torque]
                 control(tree, _JOINTS, _TORQUE, forces=forces, physicsClientId=client)
-                advance(client)
+                step_engine(client)
                 (height, velocity, _, _), (pitch, pitch_rate, _, _) = states(tree, _JOINTS, client)
                 lever = TABLE_LENGTH * cos(pitch)
                 far_height = height + TABLE_LENGTH * sin(pitch)
@@ -209,4 +210,4 @@ class World:
 
     def close(self) -> None:
         """Disconnect from the engine; the world cannot be used afterwards."""
-        disconnect(self.client)
+        self._release()

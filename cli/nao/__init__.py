@@ -8,8 +8,8 @@ app = typer.Typer(
     help="Take a policy to a real NAO and a motion-capture system, or to emulated ones.",
     no_args_is_help=True,
 )
-app.command()(run.run)
-app.command()(check.check)
-app.command()(emulate.emulate)
-app.command()(replay.replay)
-app.command()(calibrate.calibrate)
+app.command("run")(run.run_on_robot)
+app.command("check")(check.check_setup)
+app.command("emulate")(emulate.emulate)
+app.command("replay")(replay.replay_recording)
+app.command("calibrate")(calibrate.calibrate_setup)

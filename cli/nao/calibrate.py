@@ -7,25 +7,24 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich import box
-from rich.console import Console
 from rich.table import Table
 
 from ...agents.hardware.recording import read_recording
-from ...benchmark.hardware.estimates import Estimates, estimate
-from ...benchmark.lift import MOCAP_NOISE
-from ...benchmark.scenario import LATENCY
+from ...benchmark.episode.lift import MOCAP_NOISE
+from ...benchmark.episode.scenario import LATENCY
+from ...benchmark.hardware.estimates import Estimates, estimate_setup
 from ...benchmark.world import SERVO
+from ..printing import show, table
 
 
-def calibrate(
+def calibrate_setup(
     recordings: Annotated[
         list[Path], typer.Argument(metavar="CSV...", help="Trials of 'nao run --record'.")
     ],
     as_json: Annotated[bool, typer.Option("--json", help="Print the numbers alone.")] = False,
 ) -> None:
     """Estimate latency, sag and noise from trials, as numbers for the simulated world."""
-    found = estimate([read_recording(path) for path in recordings])
+    found = estimate_setup([read_recording(path) for path in recordings])
     if as_json:
         plain = {
             name: value if math.isfinite(value) else None
@@ -33,32 +32,34 @@ def calibrate(
         }
         print(json.dumps(plain, indent=2, allow_nan=False))
         return
-    console = Console()
-    console.print(_table(found))
-    console.print(
-        f"To simulate this laboratory: colift run POLICY --latency {found.latency:.2f}",
-        highlight=False,
-    )
+    show(_table(found))
+    print(f"To simulate this laboratory: colift run POLICY --latency {found.latency:.2f}")
 
 
 def _table(found: Estimates) -> Table:
-    table = Table(box=box.SIMPLE_HEAD)
-    table.add_column("")
-    table.add_column("measured", justify="right")
-    table.add_column("simulated", justify="right")
     ms, mm = 1000.0, 1000.0
-    for name, value, simulated in (
-        ("age of the newest frame", f"{ms * found.capture_age:.0f} ms", ""),
-        ("latency", f"{ms * found.latency:.0f} ms", f"{ms * LATENCY:.0f} ms"),
-        ("table end behind its commands", f"{ms * found.follow_delay:.0f} ms", ""),
-        ("servo's time constant", f"{ms * found.servo_time:.0f} ms", f"{ms * SERVO.time:.0f} ms"),
-        ("servo's stiffness", f"{found.stiffness:.1f} Nm/rad", f"{SERVO.stiffness:.1f} Nm/rad"),
-        ("mean sag", f"{mm * found.sag:.1f} mm", ""),
+    return table(
+        "",
+        ("", "measured", "simulated"),
         (
-            "motion-capture noise",
-            f"{mm * found.capture_noise:.2f} mm",
-            f"{mm * MOCAP_NOISE:.2f} mm",
+            ("age of the newest frame", f"{ms * found.capture_age:.0f} ms", ""),
+            ("latency", f"{ms * found.latency:.0f} ms", f"{ms * LATENCY:.0f} ms"),
+            ("table end behind its commands", f"{ms * found.follow_delay:.0f} ms", ""),
+            (
+                "servo's time constant",
+                f"{ms * found.servo_time:.0f} ms",
+                f"{ms * SERVO.time:.0f} ms",
+            ),
+            (
+                "servo's stiffness",
+                f"{found.stiffness:.1f} Nm/rad",
+                f"{SERVO.stiffness:.1f} Nm/rad",
+            ),
+            ("mean sag", f"{mm * found.sag:.1f} mm", ""),
+            (
+                "motion-capture noise",
+                f"{mm * found.capture_noise:.2f} mm",
+                f"{mm * MOCAP_NOISE:.2f} mm",
+            ),
         ),
-    ):
-        table.add_row(name, value, simulated)
-    return table
+    )

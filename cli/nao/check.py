@@ -10,10 +10,12 @@ import typer
 from rich.console import Console
 
 from ...agents.errors import InputError
+from ...agents.extras import how_to_install
+from ...agents.hardware.claim import BEAT, holder
 from ...agents.hardware.clocks import MonotonicClock
 from ...agents.hardware.lsl import LslCapture
-from ...agents.hardware.naoqi import NaoqiArm
-from ...agents.hardware.ports import RobotLostError
+from ...agents.hardware.nao.naoqi import NaoqiArm
+from ...agents.hardware.ports import Naoqi, RobotLostError
 from ...agents.hardware.safety import LOWEST_STIFFNESS
 from ...agents.hardware.setup import measure_rest
 from .connections import layout_of, open_capture, open_robot
@@ -25,7 +27,7 @@ Line = tuple[bool, str, str]
 """Whether it is well, what it is, and what was found or is missing."""
 
 
-def check(
+def check_setup(
     robot: Annotated[
         str, typer.Option(metavar="URL", help="Where the robot's NAOqi listens.")
     ] = "tcp://127.0.0.1:9559",
@@ -41,7 +43,7 @@ def check(
     console = Console()
     well = True
     for part, lines in (
-        ("packages", packages),
+        ("packages", package_lines),
         ("robot", lambda: robot_lines(open_robot(robot))),
         ("motion capture", lambda: capture_lines(open_capture(mocap, layout))),
     ):
@@ -61,13 +63,13 @@ def _reported(part: str, lines: Callable[[], Iterator[Line]]) -> Iterator[Line]:
         yield False, part, str(error)
 
 
-def packages() -> Iterator[Line]:
+def package_lines() -> Iterator[Line]:
     """Yield the versions of what hardware needs."""
     for name in ("qi", "pylsl"):
         try:
             yield True, name, version(name)
         except PackageNotFoundError:
-            yield False, name, "not installed; say: pip install 'colift[nao]'"
+            yield False, name, f"not installed; say: {how_to_install('nao')}"
 
 
 def robot_lines(arm: NaoqiArm) -> Iterator[Line]:
@@ -102,6 +104,7 @@ def robot_lines(arm: NaoqiArm) -> Iterator[Line]:
         yield on, name, "on" if on else "off: switch it on"
     smart = arm.motion("getSmartStiffnessEnabled", within=2.0)
     yield True, "smart stiffness", "on: the arms give way more at rest" if smart else "off"
+    yield commander(session)
     times = []
     for _ in range(READINGS):
         begin = time.monotonic()
@@ -110,6 +113,17 @@ def robot_lines(arm: NaoqiArm) -> Iterator[Line]:
     yield True, "reading the robot", _milliseconds(times)
     speech = session.has("ALTextToSpeech")
     yield True, "speech", "says 'Go'" if speech else "none: tell the person yourself"
+
+
+def commander(session: Naoqi) -> Line:
+    """Return who commands the robot: a claim counts if it has a heartbeat."""
+    first = holder(session)
+    if not first.name:
+        return True, "commanded by", "nobody"
+    time.sleep(3 * BEAT)
+    if holder(session) == first:
+        return True, "commanded by", f"nobody; {first.name} did, and has not let go"
+    return False, "commanded by", f"{first.name}: one at a time, end that first"
 
 
 def capture_lines(capture: LslCapture) -> Iterator[Line]:

@@ -9,13 +9,13 @@ from ...agents.errors import InputError
 from ...agents.hardware.clocks import MonotonicClock
 from ...agents.hardware.decisions import Decider, Inline, Timed
 from ...agents.hardware.lsl import Layout, LslCapture
-from ...agents.hardware.naoqi import NaoqiArm
-from ...agents.hardware.naoqi_session import NaoqiSession
+from ...agents.hardware.nao.naoqi import NaoqiArm
+from ...agents.hardware.nao.session import NaoqiSession
 from ...agents.hardware.operator import StopButton
 from ...agents.hardware.ports import Clock, RobotLostError, TableCapture
-from ...benchmark.catalogue import make_scenario
 from ...benchmark.hardware.laboratory import Conditions
 from ...benchmark.hardware.simulated import SimulatedLaboratory
+from ...benchmark.suites.catalogue import make_scenario
 
 WORLD: Final = "world"
 """What is typed for the simulated laboratory instead of a robot's address."""

@@ -6,11 +6,12 @@ from typing import Annotated
 
 import typer
 
+from ...agents.hardware.nao.session import leave
 from ...agents.hardware.operator import StopButton, armed
-from ...benchmark.catalogue import make_scenario
 from ...benchmark.hardware.emulator import Emulator
 from ...benchmark.hardware.faults import KINDS, parse_fault
 from ...benchmark.hardware.laboratory import CAPTURE_LATENCY, Conditions
+from ...benchmark.suites.catalogue import make_scenario
 
 
 def emulate(
@@ -57,3 +58,4 @@ def emulate(
             emulator.run(button)
     finally:
         emulator.close()
+    leave(0)

@@ -6,13 +6,13 @@ from typing import Annotated
 
 import typer
 
-from ...agents.hardware.csv_replay import commands, replay_trial
+from ...agents.hardware.csv_replay import recorded_commands, replay_trial
 from ...agents.hardware.recording import read_recording
-from ...benchmark.episode import policy_seed
+from ...benchmark.episode.episode import policy_seed
 from ..policies import AUTO, choose_policy
 
 
-def replay(
+def replay_recording(
     recording: Annotated[
         Path, typer.Argument(metavar="CSV", help="A trial of 'nao run --record'.")
     ],
@@ -34,7 +34,7 @@ def replay(
     with spec.agent() as agent:
         agent.reset(policy_seed())
         played = replay_trial(recorded, agent)
-    there, here = commands(recorded.record), commands(played)
+    there, here = recorded_commands(recorded.record), recorded_commands(played)
     differing = [k for k, (a, b) in enumerate(zip(there, here, strict=False)) if a != b]
     if not differing and len(there) == len(here):
         print(f"{len(here)} steps, every command equal to the bit")

@@ -1,41 +1,45 @@
 """``colift nao run``: a policy on a robot."""
 
 import json
+import signal
 import sys
-from collections.abc import Iterator
-from contextlib import suppress
+from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager, nullcontext, suppress
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.console import Console
 
+from ...agents.hardware.claim import claimed
 from ...agents.hardware.loop import LoopSettings
 from ...agents.hardware.operator import StopButton, armed, await_enter
 from ...agents.hardware.record import Record
-from ...agents.hardware.recording import Recording, write_recording
+from ...agents.hardware.recording import TrialRecording, write_recording
 from ...agents.hardware.session import Session
 from ...agents.hardware.stops import StopTrialError
 from ...agents.hardware.trial_end import AfterDuration, AfterLift
-from ...benchmark.agent_spec import AgentSpec
+from ...agents.spec import AgentSpec
 from ...benchmark.bundle import check_target, results, write_bundle
-from ...benchmark.episode import policy_seed
+from ...benchmark.episode.episode import policy_seed
+from ...benchmark.execution.runner import Run
 from ...benchmark.hardware.timing import timing_report
 from ...benchmark.hardware.trial import episode, hardware_run, hardware_suite
+from ...benchmark.suites.suite import Suite
 from ..policies import AUTO, HELP, choose_policy
-from ..tables import results_table, standing
-from .connections import WORLD, layout_of, open_place
-from .reports import timing_table
+from ..printing import show
+from ..tables.results import results_table, standing, timing_table
+from .connections import WORLD, Place, layout_of, open_place
 
 
-def run(
+def run_on_robot(
     policy: Annotated[str, typer.Argument(help=HELP)],
     robot: Annotated[
         str,
         typer.Option(
             metavar="URL",
-            help="Where the robot's NAOqi listens; or world[:BEHAVIOUR[/SUBJECT]], a laboratory "
-            "that is simulated here, as fast as it goes, with a motion capture of its own.",
+            help="Where the robot's NAOqi listens; or 'world' or 'world:BEHAVIOUR/SUBJECT', a "
+            "laboratory that is simulated here, as fast as it goes, with a motion capture of its "
+            "own.",
         ),
     ] = "tcp://127.0.0.1:9559",
     mocap: Annotated[str, typer.Option(metavar="lsl:NAME", help="The motion capture.")] = (
@@ -83,7 +87,7 @@ def run(
     """Let a policy lift with a person, and score it; Ctrl-C or Enter stops everything.
 
     Exit codes: 0 done, 2 wrong usage or set-up, 10 operator, 11 robot lost, 12 motion capture lost,
-    13 motion capture not plausible, 14 policy, 15 motors.
+    13 motion capture not plausible, 14 policy, 15 motors, or somebody else commands the robot.
     """
     spec = choose_policy(policy, isolation)
     spec.check()
@@ -117,46 +121,43 @@ def run(
         asked_by=place.asked_by,
     )
     records: list[Record] = []
-    stopped: StopTrialError | None = None
+    ended: Exception | None = None
     try:
-        with armed(button):
-            for played in _trials(session, spec, trials, settings, duration):
-                records.append(played)
-                if record is not None:
-                    write_recording(
-                        record / f"lift-{len(records):02}.csv",
-                        Recording(
-                            policy=policy,
-                            limits=place.arm.limits,
-                            weight_offset=place.arm.weight_offset,
-                            dry=dry_run,
-                            record=played,
-                        ),
-                    )
-    except StopTrialError as stop:
-        stopped = stop
-        session.stop(stop)
+        with armed(button), _alone(place, dry_run):
+            try:
+                for played in _trials(session, spec, trials, settings, duration):
+                    records.append(played)
+                    if record is not None:
+                        _record(record, policy, session, played, number=len(records))
+            except StopTrialError as stop:
+                session.stop(stop)
+                raise
+            finally:
+                if not dry_run:
+                    session.finish(_nothing if unattended else _enter)
+    except Exception as error:
+        # What was lifted before is told all the same.
+        ended = error
     finally:
-        if not dry_run:
-            _release(session, wait=not unattended)
         place.capture.close()
-    if records:
-        episodes = [
-            episode(played, person=person, number=number) for number, played in enumerate(records)
-        ]
-        done = hardware_run(spec.name, spec.digest(), suite, episodes, spec.isolation)
-        content = results(done, {})
-        content["hardware"] = {
-            "robot": robot,
-            "motion_capture": place.capture.info,
-            "dry_run": dry_run,
-            "timing": timing_report(records),
-        }
-        if out is not None:
-            write_bundle(out, done, content)
-        _show(content, out, as_json)
-    if stopped is not None:
-        raise typer.Exit(int(stopped.stop))
+    about = {"robot": robot, "motion_capture": place.capture.info, "dry_run": dry_run}
+    try:
+        if records:
+            _report(_scored(spec, suite, records, person), records, about, out, as_json)
+    except Exception as error:
+        # A lift that was stopped is told by its exit code, whatever else fails.
+        if ended is None:
+            raise
+        _tell(f"there is no report: {error}")
+    if isinstance(ended, StopTrialError):
+        raise typer.Exit(int(ended.stop))
+    if ended is not None:
+        raise ended
+
+
+def _alone(place: Place, dry_run: bool) -> AbstractContextManager[None]:
+    """Return what keeps a robot that is real, and moves, to this one command."""
+    return nullcontext() if dry_run or place.simulated else claimed(place.arm, place.clock)
 
 
 def _trials(
@@ -179,28 +180,56 @@ def _trials(
         _tell(f"lift {number} of {trials}: {len(played.steps)} steps")
 
 
-def _release(session: Session, *, wait: bool) -> None:
-    """Let the arms go limp when the operator has taken the table."""
-    _tell("Take the table out of the hands: the arms go limp.")
-    if wait:
-        _tell("  Enter when it is out.")
-        with suppress(KeyboardInterrupt):
-            sys.stdin.readline()
-    session.finish()
+def _record(folder: Path, policy: str, session: Session, played: Record, *, number: int) -> None:
+    """Write a trial as a CSV file."""
+    write_recording(
+        folder / f"lift-{number:02}.csv",
+        TrialRecording(
+            policy=policy,
+            limits=session.limits,
+            weight_offset=session.arm.weight_offset,
+            dry=session.dry,
+            record=played,
+        ),
+    )
+
+
+def _scored(spec: AgentSpec, suite: Suite, records: Sequence[Record], person: str) -> Run:
+    """Return the trials as a run."""
+    episodes = [
+        episode(played, person=person, number=number) for number, played in enumerate(records)
+    ]
+    return hardware_run(spec.name, spec.digest(), suite, episodes, spec.isolation)
+
+
+def _enter() -> None:
+    """Wait until the operator has taken the table out; Ctrl-C counts as well."""
+    _tell("  Enter when it is out.")
+    armed_with = signal.signal(signal.SIGINT, signal.default_int_handler)
+    with suppress(KeyboardInterrupt):
+        sys.stdin.readline()
+    signal.signal(signal.SIGINT, armed_with)
+
+
+def _nothing() -> None:
+    """Do not wait: nobody is asked."""
 
 
 def _tell(line: str) -> None:
     print(line, file=sys.stderr, flush=True)
 
 
-def _show(content: dict[str, Any], out: Path | None, as_json: bool) -> None:
-    """Print the results."""
+def _report(
+    done: Run, records: Sequence[Record], about: dict[str, Any], out: Path | None, as_json: bool
+) -> None:
+    """Write the result bundle, and print the results."""
+    content = {**results(done, {}), "hardware": {**about, "timing": timing_report(records)}}
+    if out is not None:
+        write_bundle(out, done, content)
     if as_json:
         print(json.dumps(content, indent=2, allow_nan=False))
         return
-    console = Console()
-    console.print(results_table(content))
-    console.print(standing(content), highlight=False)
-    console.print(timing_table(content["hardware"]["timing"]))
+    timing = timing_table(content["hardware"]["timing"])
+    show(results_table(content), standing(content), timing)
     if out is not None:
-        console.print(f"Result bundle: {out}", highlight=False, soft_wrap=True)
+        print(f"Result bundle: {out}")

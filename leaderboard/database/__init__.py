@@ -1,1 +1,1 @@
-"""The tables of a board, in SQLite or PostgreSQL, and how they come to be."""
+"""Database of a board in SQLite or PostgreSQL: schema, migrations and queries."""

@@ -1,5 +1,7 @@
 """The connection to a board's database: its own SQLite file, or a PostgreSQL server."""
 
+import shutil
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -9,7 +11,8 @@ from typing import Final, Self
 import sqlalchemy as sa
 
 from ...agents.errors import InputError
-from .migration import upgrade
+from ...agents.extras import how_to_install
+from .migration import migrate
 from .transactions import make_engine, reading, writing
 
 URL: Final = "COLIFT_DATABASE_URL"
@@ -27,6 +30,8 @@ class Database:
     """An open database whose tables are as this colift needs them."""
 
     engine: sa.Engine
+    copy: "tempfile.TemporaryDirectory[str] | None" = None
+    """Holds the file, if it is a copy for one who cannot write to the board."""
 
     @classmethod
     def open(cls, folder: Path, url: str | None = None) -> Self:
@@ -51,9 +56,9 @@ class Database:
         try:
             engine = make_engine(place)
         except ImportError:
-            raise InputError(f"{shown} needs psycopg: pip install 'colift[board]'") from None
+            raise InputError(f"{shown} needs psycopg: {how_to_install('board')}") from None
         try:
-            upgrade(engine, shown)
+            migrate(engine, shown)
         except sa.exc.DBAPIError as error:
             engine.dispose()
             raise InputError(f"database {shown} cannot be opened: {error.orig}") from error
@@ -61,6 +66,24 @@ class Database:
             engine.dispose()
             raise
         return cls(engine)
+
+    @classmethod
+    def look(cls, folder: Path, url: str | None = None) -> Self:
+        """Return the database of a board in a folder that cannot be written.
+
+        SQLite needs to write beside the file in order to read it, so a copy is opened.
+        """
+        if url:
+            return cls.open(folder, url)
+        copy = tempfile.TemporaryDirectory(prefix="colift-")
+        try:
+            for name in (FILE, f"{FILE}-wal"):
+                if (folder / name).exists():
+                    shutil.copyfile(folder / name, Path(copy.name, name))
+            return cls(cls.open(Path(copy.name)).engine, copy)
+        except BaseException:
+            copy.cleanup()
+            raise
 
     @contextmanager
     def reading(self) -> Iterator[sa.Connection]:
@@ -80,6 +103,8 @@ class Database:
     def close(self) -> None:
         """Close all connections."""
         self.engine.dispose()
+        if self.copy is not None:
+            self.copy.cleanup()
 
 
 def _url(text: str) -> sa.URL:

@@ -109,6 +109,8 @@ jobs: Final = sa.Table(
     sa.Column("faults", sa.Integer, nullable=False),
     sa.Column("lost", sa.Integer, nullable=False),
     sa.Column("reason", sa.Text),
+    # Of the submission's files [bytes].
+    sa.Column("size", sa.Integer, nullable=False, server_default="0"),
     sa.UniqueConstraint("season", "submission"),
 )
 

@@ -9,6 +9,9 @@ import sqlalchemy as sa
 WAIT_S: Final = 60
 """How long a writer waits for the others [s], and how long one may do nothing."""
 
+CONNECT_S: Final = 5
+"""How long a server may take to be connected to [s]."""
+
 _LOCK: Final = 0x636F6C696674
 """Key of the lock that PostgreSQL's writers hold."""
 
@@ -33,7 +36,9 @@ def make_engine(url: sa.URL) -> sa.Engine:
         sa.event.listen(engine, "connect", _prepare_sqlite)
         sa.event.listen(engine, "begin", _begin_sqlite)
     else:
-        engine = sa.create_engine(url, pool_pre_ping=True)
+        engine = sa.create_engine(
+            url, pool_pre_ping=True, connect_args={"connect_timeout": CONNECT_S}
+        )
         sa.event.listen(engine, "connect", _prepare_postgresql)
     return engine
 

@@ -1,1 +1,1 @@
-"""The pages: templates, their style and scripts, and who serves or writes them."""
+"""Pages of a board: templates, formats and addresses."""

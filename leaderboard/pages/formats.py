@@ -1,14 +1,23 @@
-"""How numbers and times are written on the pages."""
+"""Formats of numbers and times on the pages."""
 
 from datetime import UTC, datetime
 from typing import Final
 
-from ...benchmark.comparison.standing import Estimate
+from ...benchmark.statistics import Estimate
+from ..board.standings import RankedRow
 
 NONE: Final = "\N{EN DASH}"
 """Stands for a number that is not there."""
 
 MINUS: Final = "\N{MINUS SIGN}"
+
+TEX: Final = {
+    "\\": r"\textbackslash{}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    **{letter: f"\\{letter}" for letter in "&%$#_{}"},
+}
+"""How TeX writes what it would take for a command."""
 
 
 def number(value: float | None, places: int = 1) -> str:
@@ -31,7 +40,7 @@ def interval(estimate: Estimate, places: int = 1) -> str:
     return f"{number(low, places)} to {number(high, places)}" if high > low else ""
 
 
-def p_value(p: float) -> str:
+def p_text(p: float) -> str:
     """Return a p value; small ones as a bound."""
     return "< 0.001" if p < 0.001 else f"{p:.3f}"
 
@@ -57,7 +66,40 @@ def words(name: str) -> str:
     return name.replace("_", " ")
 
 
+def mib(size: int) -> str:
+    """Return a number of bytes in MiB."""
+    return f"{size / 1048576:g} MiB"
+
+
+def badge_text(standing: RankedRow) -> str:
+    """Return what the badge of a row says."""
+    mm = f"{number(standing.row.hidden.rmse_mm.mean)} mm"
+    return (
+        f"{mm} · rank {standing.group}"
+        if standing.ranked and standing.group
+        else f"{mm} · not ranked"
+    )
+
+
+def tex(text: str) -> str:
+    """Return a text as TeX has it, whatever stands in it."""
+    return "".join(TEX.get(letter, letter) for letter in text)
+
+
 FILTERS: Final = {
-    each.__name__: each for each in (number, signed, interval, p_value, percent, day, minute, words)
+    each.__name__: each
+    for each in (
+        number,
+        signed,
+        interval,
+        p_text,
+        percent,
+        day,
+        minute,
+        words,
+        mib,
+        badge_text,
+        tex,
+    )
 }
 """The formats by name, for templates."""

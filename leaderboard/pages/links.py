@@ -1,58 +1,7 @@
-"""Where each page is: at the service, and in a folder of files."""
+"""Addresses of the pages: at the service, and in a folder of files."""
 
 from dataclasses import dataclass
-from typing import Protocol
 from urllib.parse import quote
-
-
-class Links(Protocol):
-    """The address of each page, as another page writes it."""
-
-    @property
-    def live(self) -> bool:
-        """Whether there is a service, which takes submissions."""
-
-    def board(self, season: str | None = None) -> str:
-        """Return where the table of a season is, by default that of the current one."""
-
-    def policy(self, season: str, digest: str) -> str:
-        """Return where the page of a submission is."""
-
-    def replays(self, season: str, digest: str) -> str:
-        """Return where the replays of a submission are."""
-
-    def replay(self, season: str, digest: str, name: str) -> str:
-        """Return where one of them is as a file of its own; see :func:`.replay_files`."""
-
-    def compare(self, season: str) -> str:
-        """Return where policies are compared; ``?p=DIGEST`` is added for each of them."""
-
-    def scenarios(self, season: str) -> str:
-        """Return where the list of the scenarios is."""
-
-    def scenario(self, season: str, behaviour: str, subject: str) -> str:
-        """Return where the page of a scenario is."""
-
-    def method(self) -> str:
-        """Return where the numbers are explained."""
-
-    def submit(self) -> str:
-        """Return where one submits."""
-
-    def job(self, job: str) -> str:
-        """Return where the page of a job is."""
-
-    def csv(self, season: str) -> str:
-        """Return where the table is as CSV."""
-
-    def json(self, season: str) -> str:
-        """Return where the table is as JSON."""
-
-    def bundle(self, season: str, digest: str) -> str:
-        """Return where the bundle of a public run is, as a zip archive."""
-
-    def asset(self, name: str) -> str:
-        """Return where a style, script or picture is."""
 
 
 @dataclass(frozen=True)
@@ -118,6 +67,26 @@ class ServiceLinks:
     def bundle(self, season: str, digest: str) -> str:
         """Return the API's archive."""
         return f"{self.root}/api/v1/entries/{quote(season)}/{quote(digest)}/bundle.zip"
+
+    def feed(self, season: str) -> str:
+        """Return ``/seasons/SEASON/feed.atom``."""
+        return f"{self._season(season)}/feed.atom"
+
+    def badge(self, season: str, digest: str) -> str:
+        """Return ``/seasons/SEASON/policies/DIGEST/badge.svg``."""
+        return f"{self.policy(season, digest)}/badge.svg"
+
+    def open(self) -> str:
+        """Return ``/open``."""
+        return f"{self.root}/open"
+
+    def template(self) -> str:
+        """Return ``/template.zip``."""
+        return f"{self.root}/template.zip"
+
+    def api(self) -> str:
+        """Return ``/api``."""
+        return f"{self.root}/api"
 
     def asset(self, name: str) -> str:
         """Return ``/static/NAME``."""
@@ -191,6 +160,30 @@ class SiteLinks:
         """Return ``data/SEASON-DIGEST.zip``."""
         return f"data/{season}-{digest[:16]}.zip"
 
+    def feed(self, season: str) -> str:
+        """Return ``data/SEASON.atom``."""
+        return f"data/{season}.atom"
+
+    def badge(self, season: str, digest: str) -> str:
+        """Return ``data/SEASON-DIGEST.svg``."""
+        return f"data/{season}-{digest[:16]}.svg"
+
+    def open(self) -> str:
+        """Return ``open.html``."""
+        return "open.html"
+
+    def template(self) -> str:
+        """Return ``data/template.zip``."""
+        return "data/template.zip"
+
+    def api(self) -> str:
+        """Return nothing."""
+        return ""
+
     def asset(self, name: str) -> str:
         """Return ``static/NAME``."""
         return f"static/{name}"
+
+
+Links = ServiceLinks | SiteLinks
+"""The address of each page, as another page writes it."""

@@ -1,19 +1,26 @@
 """From a view to a page."""
 
 import functools
-from importlib.metadata import version
-from typing import TYPE_CHECKING, Any
+import io
+import tempfile
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment
+from markupsafe import Markup
 
 from ...agents.errors import InputError
+from ...agents.extras import how_to_install
+from ...agents.submissions.new import PLACEHOLDER, write_template
+from ...benchmark.rendering.page import environment
 from ..replays.html import script_json
+from ..storage.archive import pack
 from .formats import FILTERS
 from .links import Links
 
-if TYPE_CHECKING:
-    from jinja2 import Environment
 
-
-def render(template: str, links: Links, **content: Any) -> str:
+def render_page(template: str, links: Links, **content: Any) -> str:
     """Return a page.
 
     Parameters
@@ -24,31 +31,41 @@ def render(template: str, links: Links, **content: Any) -> str:
         Where the other pages are.
     content
         What the template shows, by name.
-
-    Raises
-    ------
-    InputError
-        If Jinja is not installed.
     """
     return _environment().get_template(template).render(links=links, **content)
 
 
 @functools.cache
-def _environment() -> "Environment":
+def prose(name: str) -> Markup:
+    """Return a text of ``templates`` that is in Markdown, as HTML.
+
+    Raises
+    ------
+    InputError
+        If markdown-it is not installed.
+    """
     try:
-        from jinja2 import Environment, PackageLoader, StrictUndefined
-        from markupsafe import Markup, escape
+        from markdown_it import MarkdownIt
     except ModuleNotFoundError:
-        raise InputError("pages need Jinja: pip install 'colift[board]'") from None
-    environment = Environment(
-        loader=PackageLoader(__package__, "templates"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters.update(FILTERS)
-    environment.filters["breakable"] = lambda name: escape(name).replace("_", Markup("_<wbr>"))
-    environment.filters["data"] = lambda content: Markup(script_json(content))
-    environment.globals["version"] = version("colift")
-    return environment
+        raise InputError(f"pages need markdown-it: {how_to_install('board')}") from None
+    text = files(__package__).joinpath("templates", name).read_text(encoding="utf-8")
+    reader = MarkdownIt("commonmark", {"html": False}).enable("table")
+    return Markup(reader.render(text))
+
+
+@functools.cache
+def _environment() -> Environment:
+    made = environment(__package__)
+    made.filters.update(FILTERS, data=lambda content: Markup(script_json(content)))
+    return made
+
+
+@functools.cache
+def template_archive() -> bytes:
+    """Return what ``colift new`` writes, packed."""
+    buffer = io.BytesIO()
+    with tempfile.TemporaryDirectory(prefix="colift-") as temporary:
+        folder = Path(temporary, PLACEHOLDER)
+        write_template(folder)
+        pack(folder, buffer)
+    return buffer.getvalue()

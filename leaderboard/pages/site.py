@@ -9,20 +9,21 @@ from pathlib import Path
 from typing import Any, Final
 
 from ...agents.errors import InputError
-from ..archive import pack
-from ..board import Board
+from ..board.board import Board
+from ..records.season import SeasonInfo
 from ..replays.chosen import replays_of
 from ..replays.html import replay_files, replay_page
-from ..season import SeasonInfo
+from ..storage.archive import pack
 from ..views.board import board_view, ordered_seasons
 from ..views.compare import compare_view
+from ..views.exports import news_of, standings_csv, standings_json
 from ..views.lifts import is_whole
 from ..views.method import method_view
 from ..views.policy import PolicyView, policy_view
 from ..views.scenario import scenario_view, scenarios_view
-from ..views.table import standings_csv, standings_json
+from .formats import badge_text
 from .links import SiteLinks
-from .rendering import render
+from .rendering import prose, render_page, template_archive
 
 MARK: Final = "colift-site.txt"
 """Says that a folder holds a site, and may be replaced by another one."""
@@ -58,7 +59,7 @@ def write_site(board: Board, folder: Path) -> None:
 def _write(board: Board, folder: Path) -> None:
     (folder / "data").mkdir(parents=True)
     (folder / MARK).write_text("The pages of a colift board.\n", encoding="utf-8")
-    with as_file(files(__package__) / "static") as static:
+    with as_file(files("colift.leaderboard") / "static") as static:
         shutil.copytree(static, folder / "static")
     seasons = ordered_seasons(board)
     links = SiteLinks(seasons[0].name)
@@ -66,10 +67,12 @@ def _write(board: Board, folder: Path) -> None:
         for name, content in _season(board, info, links):
             (folder / name).write_text(content, encoding="utf-8")
         _write_bundles(board, info, links, folder)
+    (folder / links.template()).write_bytes(template_archive())
     view = method_view(board)
     for name, content in (
-        (links.method(), render("method.html", links, view=view)),
-        (links.submit(), render("submit.html", links, season=view.season, lifts=view.lifts)),
+        (links.method(), render_page("method.html", links, view=view)),
+        (links.open(), render_page("open.html", links, season=view.season, text=prose("open.md"))),
+        (links.submit(), render_page("submit.html", links, season=view.season, lifts=view.lifts)),
     ):
         (folder / name).write_text(content, encoding="utf-8")
 
@@ -77,10 +80,15 @@ def _write(board: Board, folder: Path) -> None:
 def _season(board: Board, info: SeasonInfo, links: SiteLinks) -> Iterator[Page]:
     """Yield the pages and the data of a season."""
     season = info.name
-    yield links.board(season), render("board.html", links, view=board_view(board, season))
+    yield links.board(season), render_page("board.html", links, view=board_view(board, season))
     yield links.csv(season), standings_csv(board, season)
     yield links.json(season), standings_json(board, season)
-    yield links.compare(season), render("compare.html", links, view=compare_view(board, season))
+    news = news_of(board, season)
+    yield links.feed(season), render_page("feed.xml", links, news=news, prefix="../")
+    yield (
+        links.compare(season),
+        render_page("compare.html", links, view=compare_view(board, season), asked=None),
+    )
     yield from _scenarios(board, info, links)
     for each in board.standings(season):
         digest = each.row.submission
@@ -88,8 +96,12 @@ def _season(board: Board, info: SeasonInfo, links: SiteLinks) -> Iterator[Page]:
         found = [] if bundle is None else _replays(bundle, each.row.name)
         view = policy_view(board, season, digest)
         if isinstance(view, PolicyView):
-            told = render("policy.html", links, view=view, has_replays=bool(found))
+            told = render_page("policy.html", links, view=view, has_replays=bool(found))
             yield links.policy(season, digest), told
+            yield (
+                links.badge(season, digest),
+                render_page("badge.svg", links, told=badge_text(each)),
+            )
         if found:
             yield links.replays(season, digest), replay_page(found)
         for name, replay in replay_files(found).items():
@@ -107,13 +119,13 @@ def _scenarios(board: Board, info: SeasonInfo, links: SiteLinks) -> Iterator[Pag
     view = scenarios_view(board, info.name)
     if view is None:
         told = f"This colift does not play the suite of season {info.name}."
-        yield links.scenarios(info.name), render("missing.html", links, season=info, told=told)
+        yield links.scenarios(info.name), render_page("missing.html", links, season=info, told=told)
         return
-    yield links.scenarios(info.name), render("scenarios.html", links, view=view)
+    yield links.scenarios(info.name), render_page("scenarios.html", links, view=view)
     for behaviour, subject in view.cells:
         name = links.scenario(info.name, behaviour, subject)
         one = scenario_view(board, info.name, behaviour, subject)
-        yield name, render("scenario.html", links, view=one)
+        yield name, render_page("scenario.html", links, view=one)
 
 
 def _write_bundles(board: Board, info: SeasonInfo, links: SiteLinks, folder: Path) -> None:

@@ -1,8 +1,8 @@
-"""The queue of a board: what waits, who works on it, and what has come of it."""
+"""The queue of a board: jobs, quotas and workers."""
 
 from .queue import Queue
 from .quota import NO_QUOTA, Quota, QuotaError
-from .work import FAULTS, LEASE, LOST, LostError, Work
+from .work import FAULTS, LEASE, LOST, LostError, WorkerQueue
 
 __all__ = [
     "FAULTS",
@@ -13,5 +13,5 @@ __all__ = [
     "Queue",
     "Quota",
     "QuotaError",
-    "Work",
+    "WorkerQueue",
 ]

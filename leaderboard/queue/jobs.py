@@ -1,31 +1,68 @@
-"""A job as the database has it."""
+"""Jobs as the database stores them, and the names of their workers."""
 
+import hashlib
+import os
+import socket
 from datetime import datetime
+from pathlib import Path
 from typing import Any, Final
 
-from ..entry import Entry
-from ..job import Job
-from ..store import Store
+from ..records.job import Job
+from ..records.season import BoardEntry
+from ..storage.store import Store
 
 REASON: Final = 2000
 """So many characters of a reason are kept."""
 
 
 def read_job(found: Any, store: Store) -> Job:
-    """Return the job that a row of the table is, with its log."""
+    """Return the job that a row of the table is, with its log, as everybody may read them."""
     own = {name: value for name, value in found.items() if name in Job.__dataclass_fields__}
-    return Job(**own, log=store.log(found["id"]))
+    texts = {"reason": found["reason"], "log": store.log(found["id"])}
+    told = {name: text and store.placeless(text) for name, text in texts.items()}
+    return Job(**{**own, **told})
 
 
-def outcome(entry: Entry, ended_at: datetime) -> dict[str, Any]:
+def outcome(entry: BoardEntry, ended_at: datetime) -> dict[str, Any]:
     """Return what a job is after its entry was made."""
     content: dict[str, Any] = {"state": "done", "reason": None, "ended_at": ended_at}
     if entry.row is None:
-        content |= {"state": "failed", "reason": clean(entry.refusal or "refused")}
+        content |= {"state": "failed", "reason": storable_reason(entry.refusal or "refused")}
     return content
 
 
-def clean(reason: str) -> str:
+def storable_reason(reason: str) -> str:
     """Return a reason as any database keeps it: no NUL, no half characters, not too long."""
     text = reason.replace("\0", "").encode(errors="replace").decode()
     return text if len(text) <= REASON else f"{text[: REASON - 3]}..."
+
+
+def this_worker() -> str:
+    """Return the name of this process: host, machine, process id, when it was started."""
+    pid = os.getpid()
+    return f"{socket.gethostname()}/{_machine()}/{pid}/{_started(pid)}"
+
+
+def is_gone(worker: str) -> bool:
+    """Return whether a worker was a process of this machine and is none any more."""
+    parts = worker.split("/")
+    if len(parts) != 4 or parts[1] != _machine() or not parts[2].isdecimal():
+        return False  # Elsewhere: only its silence tells.
+    return _started(int(parts[2])) != parts[3]
+
+
+def _machine() -> str:
+    """Return what the processes share whose ids mean the same to this one."""
+    boot = Path("/proc/sys/kernel/random/boot_id").read_text().strip()
+    space = Path("/proc/self/ns/pid").readlink()
+    return hashlib.sha256(f"{boot} {space}".encode()).hexdigest()[:12]
+
+
+def _started(pid: int) -> str | None:
+    """Return when a process was started, in ticks of this boot; None if it runs no more."""
+    try:
+        told = Path(f"/proc/{pid}/stat").read_text()
+    except OSError:
+        return None
+    state, *fields = told.rpartition(")")[2].split()
+    return None if state in "ZX" else fields[18]

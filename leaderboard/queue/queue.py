@@ -1,6 +1,7 @@
-"""What waits in a board's queue, and what has come of it."""
+"""The queue of a board, for submitters and readers."""
 
 import uuid
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Any
@@ -9,15 +10,15 @@ import sqlalchemy as sa
 
 from ...agents.errors import InputError
 from ...agents.submissions.submission import Submission
-from ..board import LOCAL, OWN, Board
-from ..database.reading import read_entries
-from ..database.recording import record_event
+from ..board.board import LOCAL, OWN, Board
+from ..database.queries import read_entries, record_event
 from ..database.schema import entries, jobs
-from ..evaluation import Entrant, amount
-from ..event import Event
-from ..job import Job, State
-from .jobs import outcome, read_job
-from .quota import Quota, admit
+from ..evaluation.entrant import Entrant
+from ..evaluation.evaluation import episode_count
+from ..records.job import HELD, Job, State
+from ..records.season import Event, Kind
+from .jobs import outcome, read_job, storable_reason
+from .quota import Quota, admit, in_turn, last_served
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,12 @@ class Queue:
     board: Board
     quota: Quota = field(default_factory=Quota)
 
-    def enqueue(self, submission: Submission, submitter: str = LOCAL) -> Job:
+    def enqueue(
+        self,
+        submission: Submission,
+        submitter: str = LOCAL,
+        place: Callable[[], object] = lambda: None,
+    ) -> Job:
         """Return the job of a submission in the current season; a new one if there is none.
 
         The same content has one job a season. If that ended by a fault of the evaluator, it is
@@ -36,24 +42,35 @@ class Queue:
         Parameters
         ----------
         submission
-            What :meth:`.Board.keep` has returned.
+            What is submitted.
         submitter
             Who submits it.
+        place
+            Called as soon as the submitter may have the job, before it is there for workers: puts
+            the files in their place, which those of :meth:`.Board.keep` have already.
 
         Raises
         ------
         QuotaError
-            If the submitter has too many open jobs or failures.
+            If the submitter has too many open jobs or failures, or too much is kept of them.
         InputError
             If the season cannot be played by this colift.
         """
-        return self._enqueue(submission.contents.digest, submission.manifest.name, submitter)
+        contents, name = submission.contents, submission.manifest.name
+        return self._enqueue(contents.digest, name, submitter, contents.size, place)
 
     def enqueue_own(self, entrant: Entrant) -> Job:
         """Return the job of one of the project's own policies, likewise; see :mod:`.own`."""
         return self._enqueue(entrant.digest, entrant.name, OWN)
 
-    def _enqueue(self, digest: str, name: str, submitter: str) -> Job:
+    def _enqueue(
+        self,
+        digest: str,
+        name: str,
+        submitter: str,
+        size: int = 0,
+        place: Callable[[], object] = lambda: None,
+    ) -> Job:
         season, now = self.board.season, self.board.clock()
         this = (jobs.c.season == season.name) & (jobs.c.submission == digest)
         fresh = _fresh(now)
@@ -61,11 +78,12 @@ class Queue:
             there = connection.execute(sa.select(jobs).where(this)).mappings().first()
             if there is None:
                 if submitter != OWN:
-                    admit(connection, submitter, self.quota, now)
+                    admit(connection, submitter, self.quota, now, size)
                 known = read_entries(
                     connection, entries.c.season == season.name, entries.c.submission == digest
                 )
                 fresh |= outcome(known[0], known[0].at) if known else {}
+                place()
                 connection.execute(
                     sa.insert(jobs).values(
                         id=uuid.uuid4().hex,
@@ -73,14 +91,17 @@ class Queue:
                         submission=digest,
                         name=name,
                         submitter=submitter,
-                        total=amount(season),
+                        total=episode_count(season),
                         submitted_at=now,
                         attempt=0,
+                        size=size,
                         **fresh,
                     )
                 )
-            elif there["state"] == "evaluator fault" and there["ended_at"] is not None:
-                connection.execute(sa.update(jobs).where(this).values(**fresh))
+            else:
+                place()  # The copy there may have been damaged since.
+                if there["state"] == "evaluator fault" and there["ended_at"] is not None:
+                    connection.execute(sa.update(jobs).where(this).values(**fresh))
             found = connection.execute(sa.select(jobs).where(this)).mappings().one()
         return self._job(found)
 
@@ -90,49 +111,112 @@ class Queue:
             found = connection.execute(sa.select(jobs).where(jobs.c.id == id)).mappings().first()
         return None if found is None else self._job(found)
 
-    def jobs(self, state: State | None = None, limit: int = 100) -> tuple[Job, ...]:
-        """Return the last jobs, of one state or of all, the newest first."""
+    def jobs(
+        self, state: State | None = None, limit: int = 100, submitter: str | None = None
+    ) -> tuple[Job, ...]:
+        """Return the last jobs, of one state and submitter or of all, the newest first."""
         query = sa.select(jobs).order_by(jobs.c.submitted_at.desc(), jobs.c.id).limit(limit)
         if state is not None:
             query = query.where(jobs.c.state == state)
+        if submitter is not None:
+            query = query.where(jobs.c.submitter == submitter)
         with self.board.database.reading() as connection:
             found = connection.execute(query).mappings().all()
         return tuple(map(self._job, found))
 
     def retry(self, id: str, who: str, why: str) -> None:  # noqa: A002
-        """Queue a job again that has ended without an entry, because its keeper wants so.
+        """Queue a job again that has ended without an entry, at the maintainer's request.
 
         Raises
         ------
         InputError
             If there is no such job.
         """
-        now = self.board.clock()
-        with self.board.database.writing() as connection:
-            found = connection.execute(sa.select(jobs).where(jobs.c.id == id)).mappings().first()
-            done = found is not None and read_entries(
-                connection,
+
+        def may(connection: sa.Connection, found: sa.RowMapping) -> bool:
+            this = (
                 entries.c.season == found["season"],
                 entries.c.submission == found["submission"],
             )
-            if found is None or found["ended_at"] is None or done:
-                raise InputError(f"no job {id!r} has ended without an entry")
-            connection.execute(sa.update(jobs).where(jobs.c.id == id).values(**_fresh(now)))
-            record_event(
-                connection,
-                Event(
-                    at=now,
-                    who=who,
-                    kind="retry",
-                    why=why,
-                    season=found["season"],
-                    submission=found["submission"],
-                    content=None,
-                ),
-            )
+            return found["ended_at"] is not None and not read_entries(connection, *this)
+
+        refusal = f"no job {id!r} has ended without an entry"
+        self._change(id, _fresh(self.board.clock()), "retry", who, why, may, refusal)
+
+    def cancel(self, id: str, who: str, why: str, submitter: str | None = None) -> Job:  # noqa: A002
+        """Take a job out of the queue that has not ended; a worker that has it stops.
+
+        It counts for no quota. The same content is not queued again in this season, unless by
+        :meth:`retry`.
+
+        Parameters
+        ----------
+        id
+            The job.
+        who, why
+            By whom and for what reason, for everybody to read.
+        submitter
+            Whose job it must be; None is anybody's.
+
+        Raises
+        ------
+        InputError
+            If there is no such job.
+        """
+
+        def may(connection: sa.Connection, found: sa.RowMapping) -> bool:
+            return submitter in (None, found["submitter"]) and found["ended_at"] is None
+
+        now = self.board.clock()
+        ended = {"state": "cancelled", "reason": storable_reason(f"{who}: {why}"), "ended_at": now}
+        refusal = f"no job {id!r} is in the queue; see: colift queue list"
+        return self._change(id, ended, "cancellation", who, why, may, refusal)
+
+    def _change(
+        self,
+        id: str,  # noqa: A002
+        values: Mapping[str, Any],
+        kind: Kind,
+        who: str,
+        why: str,
+        may: Callable[[sa.Connection, sa.RowMapping], bool],
+        refusal: str,
+    ) -> Job:
+        """Change a job that is there and may be changed, and note that as an event."""
+        this = jobs.c.id == id
+        with self.board.database.writing() as connection:
+            found = connection.execute(sa.select(jobs).where(this)).mappings().first()
+            if found is None or not may(connection, found):
+                raise InputError(refusal)
+            connection.execute(sa.update(jobs).where(this).values(**values))
+            record_event(connection, _event(found, self.board.clock(), kind, who, why))
+            return self._job({**found, **values})
+
+    def waiting(self) -> tuple[Job, ...]:
+        """Return the jobs that wait, in the order in which they are taken if none ends before."""
+        query = sa.select(jobs).where(jobs.c.ended_at.is_(None))
+        with self.board.database.reading() as connection:
+            found = [dict(each) for each in connection.execute(query).mappings()]
+            served = last_served(connection)
+        held = [each["submitter"] for each in found if each["state"] in HELD]
+        waiting = [each for each in found if each["state"] not in HELD]
+        return tuple(map(self._job, in_turn(waiting, held, served)))
 
     def _job(self, found: Any) -> Job:
         return read_job(found, self.board.store)
+
+
+def _event(job: Any, at: datetime, kind: Kind, who: str, why: str) -> Event:
+    """Return what happened to the submission of a job."""
+    return Event(
+        at=at,
+        who=who,
+        kind=kind,
+        why=why,
+        season=job["season"],
+        submission=job["submission"],
+        content=None,
+    )
 
 
 def _fresh(now: datetime) -> dict[str, Any]:

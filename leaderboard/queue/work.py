@@ -4,7 +4,7 @@ A worker has a job for as long as it gives signs of life. Every change is one tr
 first whether the job is still its worker's; so whoever was given up and comes back changes nothing.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -12,14 +12,14 @@ from typing import Any, Final
 
 import sqlalchemy as sa
 
-from ..board import Board
-from ..database.recording import record_entry
+from ..board.board import Board
+from ..database.queries import record_entry
 from ..database.schema import jobs
-from ..entry import Entry
-from ..evaluation import Stage
-from ..job import HELD, Job, State
-from ..worker_name import is_gone
-from .jobs import clean, outcome, read_job
+from ..evaluation.progress import Stage
+from ..records.job import HELD, Job, State
+from ..records.season import BoardEntry
+from .jobs import is_gone, outcome, read_job, storable_reason
+from .quota import in_turn, last_served
 
 LEASE: Final = timedelta(seconds=30)
 """So long after its worker's last sign of life a job is another's."""
@@ -28,11 +28,17 @@ FAULTS: Final = 3
 """How often a job is tried again after this machine failed it."""
 
 LOST: Final = 50
-"""How often a job is taken from a worker that gave no sign of life: one that takes its workers
-with it is not begun for ever."""
+"""Maximum number of times a job is reclaimed from a dead worker; stops jobs that crash every
+worker."""
 
 PAUSE: Final = timedelta(seconds=10)
 """Before the first try after a fault; each further one waits twice as long."""
+
+POSTPONED: Final = timedelta(minutes=1)
+"""Before the next try of what this machine cannot do at all, so that another may take it."""
+
+LONGEST: Final = max(PAUSE * 2**FAULTS, POSTPONED) + timedelta(seconds=30)
+"""No job waits longer for its next try; clocks may differ by some seconds."""
 
 VERIFYING: Final[Stage] = "verification"
 """The stage that is a state of its own."""
@@ -43,7 +49,7 @@ class LostError(Exception):
 
 
 @dataclass(frozen=True)
-class Work:
+class WorkerQueue:
     """The jobs of a board, for whoever works on them."""
 
     board: Board
@@ -52,8 +58,9 @@ class Work:
     def claim(self, worker: str, job: str | None = None) -> Job | None:
         """Return the job that a worker has now to do, or None if nothing waits.
 
-        The oldest of those that wait, or whose worker gave no sign of life for a lease, or was a
-        process of this machine that is gone.
+        Submitters take turns, see :func:`.in_turn`. What has a worker that gave no sign of life for
+        a lease, or was a process of this machine that is gone, waits again. A time that lies
+        further ahead than any can is of a clock that was wrong: it counts as passed.
 
         Parameters
         ----------
@@ -63,20 +70,16 @@ class Work:
             Id of the only one that is wanted; None is any.
         """
         now = self.board.clock()
-        waiting = (
-            jobs.c.state.in_(("queued", "evaluator fault"))
-            & jobs.c.ended_at.is_(None)
-            & (jobs.c.ready_at <= now)
-        )
-        held = jobs.c.state.in_(HELD)
-        query = sa.select(jobs).where(waiting | held).order_by(jobs.c.submitted_at, jobs.c.id)
-        if job is not None:
-            query = query.where(jobs.c.id == job)
+        passed = (jobs.c.ready_at <= now) | (jobs.c.ready_at > now + LONGEST)
+        waits = jobs.c.state.in_(("queued", "evaluator fault")) & jobs.c.ended_at.is_(None)
+        query = sa.select(jobs).where((waits & passed) | jobs.c.state.in_(HELD))
         with self.board.database.writing() as connection:
-            for found in connection.execute(query).mappings().all():
-                if found["state"] in HELD and not self._given_up(found, now):
-                    continue
-                this, lost = jobs.c.id == found["id"], found["lost"] + (found["state"] in HELD)
+            found = [dict(each) for each in connection.execute(query).mappings()]
+            held = [each for each in found if self._is_held(each, now)]
+            waiting = [each for each in found if each not in held and job in (None, each["id"])]
+            submitters = [each["submitter"] for each in held]
+            for each in in_turn(waiting, submitters, last_served(connection)):
+                this, lost = jobs.c.id == each["id"], each["lost"] + (each["state"] in HELD)
                 if lost > LOST:
                     told = f"{lost} workers that had it gave no sign of life any more"
                     ended = {"state": "evaluator fault", "reason": told, "ended_at": now}
@@ -86,14 +89,14 @@ class Work:
                     "state": "running",
                     "stage": None,
                     "done": 0,
-                    "started_at": found["started_at"] or now,
+                    "started_at": each["started_at"] or now,
                     "heartbeat_at": now,
                     "worker": worker,
-                    "attempt": found["attempt"] + 1,
+                    "attempt": each["attempt"] + 1,
                     "lost": lost,
                 }
                 connection.execute(sa.update(jobs).where(this).values(**taken))
-                return read_job({**found, **taken}, self.board.store)
+                return read_job({**each, **taken}, self.board.store)
         return None
 
     def told(
@@ -123,7 +126,7 @@ class Work:
     def finish(
         self,
         job: Job,
-        entry: Entry,
+        entry: BoardEntry,
         hidden_rmse_mm: Sequence[float] = (),
         bundle: Path | None = None,
     ) -> None:
@@ -159,7 +162,11 @@ class Work:
 
     def fail(self, job: Job, reason: str, log: str = "") -> None:
         """End a job by the submission's own fault; :class:`LostError` as :meth:`told`."""
-        ended = {"state": "failed", "reason": clean(reason), "ended_at": self.board.clock()}
+        ended = {
+            "state": "failed",
+            "reason": storable_reason(reason),
+            "ended_at": self.board.clock(),
+        }
         with self.board.database.writing() as connection:
             self._change(connection, job, ended)
         if log:
@@ -177,11 +184,23 @@ class Work:
             ).scalar_one()
             content = {
                 "state": "evaluator fault",
-                "reason": clean(reason),
+                "reason": storable_reason(reason),
                 "faults": faults + 1,
                 "ready_at": now + PAUSE * 2**faults,
                 "ended_at": now if faults >= FAULTS else None,
             }
+            self._change(connection, job, content)
+
+    def postpone(self, job: Job, reason: str) -> None:
+        """Let a job wait that no worker can do here for now, however often; as :meth:`fault`."""
+        content = {
+            "state": "evaluator fault",
+            "reason": storable_reason(reason),
+            "stage": None,
+            "done": 0,
+            "ready_at": self.board.clock() + POSTPONED,
+        }
+        with self.board.database.writing() as connection:
             self._change(connection, job, content)
 
     def release(self, job: Job) -> None:
@@ -201,5 +220,7 @@ class Work:
         if not connection.execute(sa.update(jobs).where(own).values(**content)).rowcount:
             raise LostError(f"job {job.id} is no longer that of {job.worker}")
 
-    def _given_up(self, found: Any, now: datetime) -> bool:
-        return found["heartbeat_at"] < now - self.lease or is_gone(found["worker"])
+    def _is_held(self, job: Mapping[str, Any], now: datetime) -> bool:
+        """Return whether a job has a worker."""
+        alive = abs(job["heartbeat_at"] - now) <= self.lease if job["heartbeat_at"] else False
+        return job["state"] in HELD and alive and not is_gone(job["worker"])

@@ -1,21 +1,61 @@
-"""The replays of a run: chosen from its bundle, each with its ghost."""
+"""Replays of a run: the best, median and worst lift of each behaviour."""
 
 import contextlib
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
 from ...benchmark.bundle import FILES, Bundle, read_bundle
-from ..files import read_json, write_json
-from .choice import choose
-from .ghost import Ghost, play_ghost
-from .replay import replay
+from ...benchmark.episode.episode import Episode
+from ..storage.files import read_json, write_json
+from .replay import Ghost, Which, play_ghost, replay_content
+
+WHICH: Final[tuple[Which, ...]] = ("best", "median", "worst")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReplayChoice:
+    """A lift that is shown, and what it stands for."""
+
+    behaviour: str
+    which: Which
+    row: int
+    """Where the episode is in the run, counted from 0."""
+
+
+def choose_replays(episodes: Sequence[Episode]) -> tuple[ReplayChoice, ...]:
+    """Return the lifts that are shown, behaviour by behaviour in order of appearance.
+
+    They are told apart by RMSE, equal ones by their place in the run; the median of an even number
+    is the better of the middle two. Of a behaviour with two lifts there is no median, of one with
+    one lift there is only that.
+    """
+    by_behaviour: dict[str, list[int]] = {}
+    for row, episode in enumerate(episodes):
+        by_behaviour.setdefault(episode.behaviour, []).append(row)
+    found = []
+    for behaviour, rows in by_behaviour.items():
+        ordered = sorted(rows, key=lambda row: (episodes[row].scores.rmse_mm, row))
+        last = len(ordered) - 1
+        places: dict[Which, int] = {"best": 0, "median": last // 2, "worst": last}
+        if last == 1:
+            del places["median"]
+        if last == 0:
+            places = {"median": 0}
+        found += [
+            ReplayChoice(behaviour=behaviour, which=which, row=ordered[place])
+            for which, place in places.items()
+        ]
+    return tuple(found)
+
 
 FILE: Final = "replays.json"
 """Name of the file beside a bundle; or in its folder, if the bundle itself is not there."""
 
 
 def chosen_replays(bundle: Bundle, policy: str) -> list[dict[str, Any]]:
-    """Return the best, median and worst lift of each behaviour as :func:`.replay` has them.
+    """Return the best, median and worst lift of each behaviour as :func:`.replay_content` has them.
 
     Parameters
     ----------
@@ -32,13 +72,13 @@ def chosen_replays(bundle: Bundle, policy: str) -> list[dict[str, Any]]:
     suite = bundle.recipe.suite()
     ghosts: dict[int, Ghost] = {}
     found = []
-    for choice in choose(bundle.episodes):
+    for choice in choose_replays(bundle.episodes):
         place, episode = bundle.places[choice.row], bundle.episodes[choice.row]
         scenario = suite.scenarios[place // len(suite.seeds)]
         if place not in ghosts:
             ghosts[place] = play_ghost(scenario, episode.seed)
         found.append(
-            replay(
+            replay_content(
                 episode,
                 scenario,
                 ghosts[place],
@@ -57,6 +97,15 @@ def has_replays(bundle: Path) -> bool:
     return made or all((bundle / name).is_file() for name in FILES)
 
 
+def made_replays(bundle: Path) -> list[dict[str, Any]]:
+    """Return the replays of a bundle as far as they have been made: none are made for this."""
+    for path in (bundle.parent / FILE, bundle / FILE):
+        if path.is_file():
+            replays: list[dict[str, Any]] = read_json(path)["replays"]
+            return replays
+    return []
+
+
 def replays_of(bundle: Path, policy: str) -> list[dict[str, Any]]:
     """Return the replays of the bundle in a folder; they are made only once, in some seconds.
 
@@ -67,12 +116,9 @@ def replays_of(bundle: Path, policy: str) -> list[dict[str, Any]]:
     InputError
         If it is no bundle.
     """
-    for path in (bundle.parent / FILE, bundle / FILE):
-        if path.is_file():
-            replays: list[dict[str, Any]] = read_json(path)["replays"]
-            return replays
-    if not all((bundle / name).is_file() for name in FILES):
-        return []
+    made = made_replays(bundle)
+    if made or not all((bundle / name).is_file() for name in FILES):
+        return made
     made = chosen_replays(read_bundle(bundle), policy)
     with contextlib.suppress(OSError):  # Where nothing can be written, they are made again.
         write_json(bundle.parent / FILE, {"replays": made}, indent=None)

@@ -16,8 +16,11 @@ from numpy.typing import NDArray
 from ...benchmark.rendering import mannequin
 from ...benchmark.rendering.scene import FLOOR, PEDESTAL
 from ...benchmark.world.table import TABLE_LENGTH
-from ...robots import nao_shapes, rotations
-from ...robots.arm_kinematics import (
+from ...robots.description import rotations
+from ...robots.description.parts import GREY, Shape
+from ...robots.nao import shapes as nao_shapes
+from ...robots.nao.facts import JOINTS, LINKS
+from ...robots.nao.kinematics import (
     GRIP_X,
     REST_Z,
     STROKE,
@@ -25,9 +28,7 @@ from ...robots.arm_kinematics import (
     joint_positions,
     lifting_angles,
 )
-from ...robots.nao_facts import JOINTS, LINKS
-from ...robots.nao_shapes import dressed
-from ...robots.parts import GREY, Shape
+from ...robots.nao.shapes import dressed
 
 ROWS: Final = 0.01
 """Between two rows of a table of arms [m]; the page draws a straight line from row to row."""

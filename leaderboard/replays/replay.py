@@ -26,22 +26,47 @@ ghost                    ``human`` and ``robot`` as above, and ``rmse_mm``, of t
 Heights are within int16: 3.2 m. A number that a policy did not report is null.
 """
 
+import contextlib
+import dataclasses
 import math
 from collections.abc import Iterable
-from dataclasses import asdict
-from typing import Any, Final
+from dataclasses import asdict, dataclass
+from typing import Any, Final, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...agents.actions import action_limit
 from ...agents.agent import FRAME
+from ...agents.humans import Plan
 from ...benchmark.bundle import one_line
-from ...benchmark.episode import Episode
-from ...benchmark.lift import HAND_SPEED
-from ...benchmark.scenario import Scenario
-from ...robots.arm_kinematics import STROKE
-from .choice import Which
-from .ghost import Ghost
+from ...benchmark.episode.episode import Episode, run_episode
+from ...benchmark.episode.lift import Lift
+from ...benchmark.episode.scenario import Scenario
+from ...benchmark.results.baselines import TEAM_PARTNER
+from ...robots.nao.kinematics import STROKE
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Ghost:
+    """How two people do it, and what the first of them means to do."""
+
+    episode: Episode
+    plan: Plan
+    """The same for every partner: it follows from scenario and seed."""
+    horizon: int
+    """Frames of the whole episode."""
+
+
+def play_ghost(scenario: Scenario, seed: int) -> Ghost:
+    """Play an episode with a second human at the robot's end; about 0.1 s."""
+    with contextlib.closing(Lift(dataclasses.replace(scenario, partner="human"))) as lift:
+        episode = run_episode(lift, TEAM_PARTNER.make(), seed)
+        return Ghost(episode=episode, plan=lift.plan, horizon=lift.horizon)
+
+
+Which = Literal["best", "median", "worst"]
+"""What a replay was chosen as."""
 
 FORMAT: Final = 1
 
@@ -54,7 +79,7 @@ PLACES: Final = 4
 """Decimals of the scores."""
 
 
-def replay(
+def replay_content(
     episode: Episode,
     scenario: Scenario,
     ghost: Ghost,
@@ -103,7 +128,7 @@ def replay(
         "human": changes(trace.human_end),
         "robot": changes(trace.robot_end),
         "target": changes(trace.target),
-        "command": _units(commands(trace.action, scenario.control_period), UNIT),
+        "command": _units(hand_commands(trace.action, scenario.control_period), UNIT),
         "prediction": _said(internals.get("prediction"), UNIT),
         "confidence": _said(internals.get("confidence"), 1e-3),
         "role": _said(internals.get("role"), 1e-3),
@@ -116,7 +141,7 @@ def replay(
     }
 
 
-def commands(actions: ArrayLike, control_period: float) -> NDArray[np.float64]:
+def hand_commands(actions: ArrayLike, control_period: float) -> NDArray[np.float64]:
     """Return the hand command at the end of each step [m], shape (m,).
 
     Parameters
@@ -127,7 +152,7 @@ def commands(actions: ArrayLike, control_period: float) -> NDArray[np.float64]:
     control_period
         Time of a step [s].
     """
-    limit, (low, high) = HAND_SPEED * control_period, STROKE
+    limit, (low, high) = action_limit(control_period), STROKE
     command, found = 0.0, []
     for change in np.asarray(actions, dtype=np.float64).ravel().tolist():
         command = min(max(command + min(max(change, -limit), limit), low), high)

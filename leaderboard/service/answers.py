@@ -1,4 +1,4 @@
-"""What the API answers: the shapes that its OpenAPI document describes."""
+"""Response models of the API, as its OpenAPI document describes them."""
 
 from collections.abc import Mapping, Sequence
 from datetime import datetime
@@ -6,12 +6,10 @@ from typing import Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from ..entry import Entry
-from ..event import Event, Kind
-from ..job import Job, State
-from ..row import Row
-from ..season import SeasonInfo
-from ..standing import Standing
+from ..board.standings import RankedRow, Section
+from ..records.job import Job, State
+from ..records.row import BoardRow
+from ..records.season import BoardEntry, Event, Kind, SeasonInfo
 from ..views.lifts import CellScore
 
 
@@ -89,21 +87,24 @@ class StandingAnswer(Answer):
     """A row, and where it stands in its season."""
 
     group: int
-    """Rank group over all hidden episodes, 1 the best; 0 is out of the ranking."""
+    """Rank group in its section over all hidden episodes, 1 the best; 0 is none."""
+    section: Section
+    """The ranking, that of what is not real-time, or where there are no ranks."""
     at: datetime
     """When it was put on the board."""
     submitter: str
-    row: Row
+    row: BoardRow
     events: list[EventAnswer]
     """What has happened to it since, oldest first."""
     cells: list[CellAnswer] | None
     """The public lifts asked for, by behaviour and subject; nothing if none were."""
 
     @classmethod
-    def of(cls, standing: Standing, cells: Sequence[CellScore] | None) -> Self:
+    def of(cls, standing: RankedRow, cells: Sequence[CellScore] | None) -> Self:
         """Return what is told of a row."""
         return cls(
             group=standing.group,
+            section=standing.section,
             at=standing.at,
             submitter=standing.submitter,
             row=standing.row,
@@ -120,7 +121,7 @@ class EntryAnswer(Answer):
     """Digest of its content."""
     submitter: str
     at: datetime
-    row: Row | None
+    row: BoardRow | None
     refusal: str | None
     """Why it has no row."""
     events: list[EventAnswer]
@@ -128,7 +129,7 @@ class EntryAnswer(Answer):
     """Where the bundle of its public run is."""
 
     @classmethod
-    def of(cls, entry: Entry, events: Sequence[Event], bundle: str | None) -> Self:
+    def of(cls, entry: BoardEntry, events: Sequence[Event], bundle: str | None) -> Self:
         """Return what is told of an entry."""
         return cls(
             season=entry.season,
@@ -175,6 +176,73 @@ class JobAnswer(Answer):
     def of(cls, job: Job) -> Self:
         """Return what is told of a job."""
         return cls.model_validate(job)
+
+
+class SubmissionAnswer(Answer):
+    """One of the submissions of whoever asks."""
+
+    name: str
+    """What its policy is called."""
+    season: str
+    submission: str
+    """Digest of its content."""
+    submitted_at: datetime
+    ended_at: datetime | None
+    state: State
+    stage: str | None
+    """What the worker does now."""
+    done: int
+    total: int
+    """Episodes that are finished, of so many."""
+    reason: str | None
+    """Why it failed, or is tried again."""
+    id: str = Field(pattern="^[0-9a-f]{32}$")
+    """Its job's."""
+    job: str
+    """Where its job is."""
+    entry: str | None
+    """Where its row is, if it has one."""
+
+    @classmethod
+    def of(cls, job: Job, root: str) -> Self:
+        """Return what is told of a job to its submitter; the API is at the root."""
+        place = f"{root}/entries/{job.season}/{job.submission}"
+        told = {key: value for key, value in vars(job).items() if key in cls.model_fields}
+        entry = place if job.state == "done" else None
+        return cls(**told, job=f"{root}/jobs/{job.id}", entry=entry)
+
+
+class RulesAnswer(Answer):
+    """What a submission may be, what becomes of it, and who answers for the board."""
+
+    season: str
+    """The season that takes submissions."""
+    suite: str
+    upload_bytes: int
+    """Largest zip archive."""
+    files: int
+    """Files and folders in a submission."""
+    file_bytes: int
+    """Largest file."""
+    total_bytes: int
+    """All files together."""
+    packages: list[str]
+    """What a policy may import beside the standard library and `colift.agents`."""
+    open_jobs: int
+    """Submissions of one submitter that may wait at the same time."""
+    failures: int
+    """Submissions of one submitter that may fail within a window."""
+    rows: int
+    """Submissions of one submitter that may get a row within a window."""
+    window_hours: float
+    kept_bytes: int
+    """What is kept of all submissions of one submitter."""
+    published: list[str]
+    """What everybody may see of a submission."""
+    private: list[str]
+    """What nobody but the maintainer sees."""
+    contact: str | None
+    """How the maintainer of the board is reached."""
 
 
 def _dict(content: Mapping[str, Any] | None) -> dict[str, Any] | None:

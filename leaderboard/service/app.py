@@ -1,5 +1,6 @@
 """The service: one ASGI application for a board."""
 
+import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from importlib.metadata import version
@@ -7,27 +8,35 @@ from pathlib import Path
 from typing import Final
 
 import anyio.to_thread
-from fastapi import FastAPI
+from fastapi import APIRouter, FastAPI
 from fastapi.middleware.gzip import GZipMiddleware
 from fastapi.staticfiles import StaticFiles
 
-from ..opening import open_stocked
-from ..pages import routes as pages
-from ..queue import Queue
-from ..tokens import Tokens
-from . import api, reference
+from ..board.tokens import Tokens
+from ..practice.shipped import open_stocked
+from ..queue import Queue, Quota
+from . import page_routes as pages
+from . import published, reference, submitting
 from .answers import Health
-from .asked import PREFIX
-from .errors import Faults, Problem, answer_errors
+from .dependencies import PREFIX, Rates, Service, State
+from .errors import FaultHandler, Problem, answer_errors, log
 from .security import Guard, RateLimit
-from .state import Rates, Service, State
-from .uploads import sweep
+from .uploads import remove_orphans
 
 THREADS: Final = 12
 """Requests that are worked on at the same time: less than there are database connections."""
 
+SWEEP_S: Final = 600.0
+"""How often it is looked for what killed uploads have left [s]."""
 
-def create_app(folder: Path, rates: Rates | None = None) -> FastAPI:
+
+def create_app(
+    folder: Path,
+    rates: Rates | None = None,
+    *,
+    contact: str = "",
+    quota: Quota | None = None,
+) -> FastAPI:
     """Return the service of the board in a folder.
 
     Parameters
@@ -36,6 +45,10 @@ def create_app(folder: Path, rates: Rates | None = None) -> FastAPI:
         The board's; see :func:`.open_stocked`.
     rates
         How often a client may ask.
+    contact
+        How the maintainer is reached, to be shown with the rules.
+    quota
+        How much a submitter may ask for.
 
     Raises
     ------
@@ -44,12 +57,22 @@ def create_app(folder: Path, rates: Rates | None = None) -> FastAPI:
     """
     rates = rates or Rates()
     board = open_stocked(folder)
-    sweep(board)
+    remove_orphans(board)
+
+    async def keep_clean() -> None:
+        while True:
+            await asyncio.sleep(SWEEP_S)
+            try:
+                await anyio.to_thread.run_sync(remove_orphans, board)
+            except Exception:  # Such as a database that is away: the next one does it.
+                log.exception("what uploads have left could not be removed")
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         anyio.to_thread.current_default_thread_limiter().total_tokens = THREADS
+        sweeper = asyncio.create_task(keep_clean())
         yield
+        sweeper.cancel()
         board.close()
 
     app = FastAPI(
@@ -64,20 +87,35 @@ def create_app(folder: Path, rates: Rates | None = None) -> FastAPI:
     app.state.folder = board.folder
     app.state.service = State(
         board=board,
-        queue=Queue(board),
+        queue=Queue(board, quota or Quota()),
         tokens=Tokens(board),
         uploads=RateLimit(rate=rates.submitter),
+        contact=contact,
     )
     answer_errors(app)
     app.add_middleware(GZipMiddleware)
-    app.add_middleware(Faults)
+    app.add_middleware(FaultHandler)
     app.add_middleware(Guard, rate=rates.address)
-    app.include_router(api.router)
+    app.include_router(api_router())
     app.include_router(reference.router)
     app.include_router(pages.router)
-    app.mount("/static", StaticFiles(packages=[("colift.leaderboard.pages", "static")]))
+    app.mount("/static", StaticFiles(packages=[("colift.leaderboard", "static")]))
     app.get("/healthz", responses={429: {"model": Problem}})(health)
     return app
+
+
+def api_router() -> APIRouter:
+    """Return the routes of the JSON interface, under ``/api/v1``."""
+    router = APIRouter(
+        prefix=PREFIX,
+        responses={
+            422: {"model": Problem, "description": "A value is not what it must be."},
+            429: {"model": Problem, "description": "Too many requests; see Retry-After."},
+        },
+    )
+    router.include_router(published.router)
+    router.include_router(submitting.router)
+    return router
 
 
 def health(service: Service) -> Health:

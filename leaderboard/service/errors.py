@@ -1,4 +1,4 @@
-"""What a client is told when something is wrong: one line, what would be right, no traceback."""
+"""Error responses: one line that says what would be right, without a traceback."""
 
 import asyncio
 import contextlib
@@ -8,9 +8,10 @@ import secrets
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
+import sqlalchemy as sa
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
-from fastapi.responses import JSONResponse
+from fastapi.responses import HTMLResponse, JSONResponse, Response
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -28,6 +29,21 @@ CLOSE: Final = {"Connection": "close"}
 
 LINGER_S: Final = 10.0
 """How long the rest is thrown away [s]."""
+
+AWAY: Final = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
+"""What is raised when the database is away, or has no connection to spare."""
+
+QUOTA_S: Final = 60
+"""When a submitter may ask again who has too much in the queue [s]."""
+
+AWAY_S: Final = 10
+"""When a client may ask again then [s]."""
+
+PAGE: Final = (
+    '<!doctype html><html lang="en"><title>The board does not answer</title>'
+    "<h1>The board does not answer</h1><p>{told}.</p></html>"
+)
+"""What a reader of pages sees then: nothing that would need the database."""
 
 FULL: Final = {errno.ENOSPC, errno.EDQUOT}
 """What the system says when a disk is full."""
@@ -66,7 +82,9 @@ def answer_errors(app: FastAPI) -> None:
     async def wrong(request: Request, error: InputError) -> JSONResponse:
         # What is wrong on our side is told with our paths; they are nobody's business.
         told = str(error).replace(str(request.app.state.folder), "the board")
-        return JSONResponse({"error": told}, 429 if isinstance(error, QuotaError) else 422)
+        if isinstance(error, QuotaError):
+            return JSONResponse({"error": told}, 429, {"Retry-After": str(QUOTA_S)})
+        return JSONResponse({"error": told}, 422)
 
 
 class LastAnswer(JSONResponse):
@@ -88,7 +106,7 @@ class LastAnswer(JSONResponse):
         await send({"type": "http.response.body", "body": b""})
 
 
-class Faults:
+class FaultHandler:
     """ASGI middleware: names every request; what nobody expected is logged, and told as 500."""
 
     def __init__(self, app: ASGIApp) -> None:
@@ -115,17 +133,33 @@ class Faults:
         try:
             await self.app(scope, receive, named)
         except Exception as error:
-            log.exception("request %s: %s %s failed", name, scope["method"], ascii(scope["path"]))
+            away = isinstance(error, AWAY)
+            log.error(
+                "request %s: %s %s failed%s",
+                name,
+                scope["method"],
+                ascii(scope["path"]),
+                f": the database does not answer: {error}" if away else "",
+                exc_info=not away,
+            )
             if started:
                 raise  # The answer has begun: all that can be done is to break it off.
-            await _fault(error, name)(scope, receive, named)
+            status, told = _fault(error, name)
+            headers = {"Retry-After": str(AWAY_S)} if status == 503 else {}
+            answer: Response = JSONResponse({"error": told}, status, headers)
+            if not scope["path"].startswith(("/api/", "/healthz")):
+                answer = HTMLResponse(PAGE.format(told=told), status, headers)
+            await answer(scope, receive, named)
 
 
-def _fault(error: Exception, name: str) -> JSONResponse:
-    if isinstance(error, OSError) and error.errno in FULL:
-        return JSONResponse({"error": "the board has no room left; tell who runs it"}, 507)
-    told = f"this is our fault; tell who runs the board that request {name} failed"
-    return JSONResponse({"error": told}, 500)
+def _fault(error: Exception, name: str) -> tuple[int, str]:
+    """Return status and text of the answer to a request that ended by an error."""
+    full = isinstance(error, OSError) and error.errno in FULL
+    if full or getattr(getattr(error, "orig", None), "sqlite_errorname", "") == "SQLITE_FULL":
+        return 507, "the board has no room left; tell its maintainer"
+    if isinstance(error, AWAY):
+        return 503, f"the board's database does not answer; try again in {AWAY_S} s"
+    return 500, f"this is our fault; tell the maintainer that request {name} failed"
 
 
 def _first(errors: Sequence[Any]) -> str:

@@ -1,24 +1,39 @@
-"""What the API publishes: seasons, standings, entries and their bundles."""
+"""Routes for what is published: rules, seasons, standings, entries and bundles."""
 
-import tempfile
-from collections.abc import Iterator
-from typing import Annotated
+from datetime import timedelta
+from typing import Final
 
 from fastapi import APIRouter, Request, Response
-from fastapi.responses import StreamingResponse
+from fastapi.responses import FileResponse
+from starlette.concurrency import run_in_threadpool
 
-from ...agents.submissions.folder import CHUNK
-from ..archive import pack
-from ..standing import Standing
+from ...agents.submissions.folder import LIMITS
+from ...agents.submissions.packages import PACKAGES
+from ..board.standings import RankedRow
+from ..views.exports import standings_csv
 from ..views.lifts import CellScore, cell_scores
-from ..views.table import standings_csv
-from .answers import EntryAnswer, SeasonAnswer, StandingAnswer
-from .asked import BINARY, MISSING, Digest, SeasonAsked, SeasonName, Word, api_root
-from .errors import problem
-from .state import Service, State
-from .uploads import ZIP
+from .answers import EntryAnswer, RulesAnswer, SeasonAnswer, StandingAnswer
+from .dependencies import (
+    BINARY,
+    MISSING,
+    BehaviourAsked,
+    Digest,
+    SeasonAsked,
+    SeasonName,
+    Service,
+    State,
+    SubjectAsked,
+    api_root,
+)
+from .errors import Problem, problem
+from .security import client_of
+from .slots import Slotted
+from .uploads import BODY, ZIP
 
-router = APIRouter()
+router: Final = APIRouter()
+
+SENDING_S: Final = 600.0
+"""How long a client may take for a bundle [s]."""
 
 
 @router.get("/seasons")
@@ -28,11 +43,11 @@ def seasons(service: Service) -> list[SeasonAnswer]:
 
 
 @router.get("/standings", responses=MISSING)
-def standings(
+def get_standings(
     service: Service,
     season: SeasonAsked = None,
-    behaviour: Annotated[str | None, Word] = None,
-    subject: Annotated[str | None, Word] = None,
+    behaviour: BehaviourAsked = None,
+    subject: SubjectAsked = None,
 ) -> list[StandingAnswer]:
     """Return the rows of a season, best first; with the public lifts of a behaviour or subject.
 
@@ -81,30 +96,42 @@ def entry(service: Service, request: Request, season: SeasonName, digest: Digest
 @router.get(
     "/entries/{season}/{digest}/bundle.zip",
     response_class=Response,
-    responses={**MISSING, 200: {"content": {ZIP: {"schema": BINARY}}}},
+    responses={
+        **MISSING,
+        200: {"content": {ZIP: {"schema": BINARY}}},
+        206: {"description": "The part that was asked for."},
+        304: {"description": "It is what the client has."},
+        400: {"description": "The Range is malformed."},
+        416: {"description": "It is shorter than the Range."},
+        503: {"model": Problem, "description": "Too many downloads; see Retry-After."},
+    },
 )
-def bundle(service: Service, season: SeasonName, digest: Digest) -> Response:
-    """Return the bundle of the public run, as `colift verify` takes it."""
-    folder = service.board.bundle(season, digest)
-    if folder is None:
-        raise problem(404, f"season {season} has no bundle of {digest}")
-    file = tempfile.TemporaryFile()  # noqa: SIM115 (it is closed when all is sent)
-    pack(folder, file)
-    headers = {
-        "Content-Length": str(file.tell()),
-        "Content-Disposition": f'attachment; filename="{season}-{digest[:16]}.zip"',
-    }
+async def bundle(
+    service: Service, request: Request, season: SeasonName, digest: Digest
+) -> Response:
+    """Return the bundle of the public run, as `colift verify` takes it.
 
-    def chunks() -> Iterator[bytes]:
-        with file:
-            file.seek(0)
-            while data := file.read(CHUNK):
-                yield data
+    Whoever has it already, by its `ETag`, is answered 304; parts can be asked for by `Range`.
+    """
+    entry = await run_in_threadpool(service.board.entry, season, digest)
+    async with service.packing:  # The first one to ask packs it, the others wait.
+        packed = await run_in_threadpool(service.board.store.packed_bundle, season, digest)
+    if entry is None or packed is None:
+        told = f"season {season} has no bundle of {digest}"
+        if entry is not None:
+            told += ": the board has lost it; it can come back from a backup of the board"
+        raise problem(404, told)
+    status = await run_in_threadpool(packed.stat)
+    name = f"{season}-{digest[:16]}.zip"
+    answer = FileResponse(packed, media_type=ZIP, filename=name, stat_result=status)
+    tag = answer.headers["ETag"]
+    known = request.headers.get("If-None-Match", "")
+    if tag in (each.strip().removeprefix("W/") for each in known.split(",")):
+        return Response(status_code=304, headers={"ETag": tag})
+    return Slotted(answer, service.sending, client_of(request), SENDING_S)
 
-    return StreamingResponse(chunks(), media_type=ZIP, headers=headers)
 
-
-def _standings(service: State, season: str | None) -> tuple[Standing, ...]:
+def _standings(service: State, season: str | None) -> tuple[RankedRow, ...]:
     _check_season(service, season)
     return service.board.standings(season)
 
@@ -115,7 +142,7 @@ def _check_season(service: State, season: str | None) -> None:
         raise problem(404, f"there is no season {season}; there are {', '.join(names)}")
 
 
-def _cells(service: State, standing: Standing) -> tuple[CellScore, ...]:
+def _cells(service: State, standing: RankedRow) -> tuple[CellScore, ...]:
     bundle = service.board.bundle(standing.row.season, standing.row.submission)
     return () if bundle is None else cell_scores(bundle)
 
@@ -124,3 +151,45 @@ def _check_word(what: str, value: str | None, known: set[str]) -> None:
     """Refuse what no lift has; a season without rows has no lifts to know them by."""
     if value is not None and known and value not in known:
         raise problem(422, f"{what} {value} is not in this season; {', '.join(sorted(known))} are")
+
+
+PUBLISHED: Final = (
+    "what policy.toml says: name, authors, description, licence, training data, link",
+    "the digest of the files, the submitter's name, and when it was submitted",
+    "scores of the public and the hidden lifts, with their intervals",
+    "the bundle of the public lifts: motions, actions, and failures with what the policy printed",
+    "why it has no row, if it has none",
+)
+
+PRIVATE: Final = (
+    "the files themselves: code and weights",
+    "the hidden lifts: only their scores are told",
+)
+
+
+@router.get("/rules")
+def rules(service: Service) -> RulesAnswer:
+    """Return what a submission may be, what becomes of it, and who answers for the board."""
+    return rules_of(service)
+
+
+def rules_of(service: State) -> RulesAnswer:
+    """Return the rules of a service's board."""
+    season, quota = service.board.season_info(), service.queue.quota
+    return RulesAnswer(
+        season=season.name,
+        suite=season.suite,
+        upload_bytes=BODY,
+        files=LIMITS.entries,
+        file_bytes=LIMITS.file_bytes,
+        total_bytes=LIMITS.total_bytes,
+        packages=sorted(PACKAGES),
+        open_jobs=quota.open,
+        failures=quota.failures,
+        rows=quota.rows,
+        window_hours=quota.window / timedelta(hours=1),
+        kept_bytes=quota.size,
+        published=list(PUBLISHED),
+        private=list(PRIVATE),
+        contact=service.contact or None,
+    )

@@ -1,4 +1,4 @@
-"""Who may do what how often, and what a browser is told to trust."""
+"""Rate limits and security headers."""
 
 import ipaddress
 import math
@@ -10,6 +10,7 @@ from typing import Final
 
 from fastapi.responses import JSONResponse
 from starlette.datastructures import MutableHeaders
+from starlette.requests import HTTPConnection
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 HEADERS: Final[Mapping[str, str]] = {
@@ -84,13 +85,25 @@ class Guard:
                     headers.setdefault(name, value)
             await send(message)
 
-        wait = self.limit.wait(network(scope["client"][0] if scope["client"] else ""))
+        names = [name for name, _ in scope["headers"]]
+        if b"content-length" in names and b"transfer-encoding" in names:
+            # Servers on the way may read one, we the other, and take what follows for requests.
+            told = "a request has Content-Length or Transfer-Encoding, not both"
+            answer = JSONResponse({"error": told}, 400, {"Connection": "close"})
+            await answer(scope, receive, guarded)
+            return
+        wait = self.limit.wait(client_of(HTTPConnection(scope)))
         if wait:
             told = f"too many requests from your address; try again in {seconds(wait)} s"
             answer = JSONResponse({"error": told}, 429, {"Retry-After": seconds(wait)})
             await answer(scope, receive, guarded)
             return
         await self.app(scope, receive, guarded)
+
+
+def client_of(connection: HTTPConnection) -> str:
+    """Return whom a request counts for: what addresses of one subscriber have in common."""
+    return network(connection.client.host if connection.client else "")
 
 
 def network(address: str) -> str:

@@ -1,12 +1,48 @@
-"""The HTTP server, as it is configured for a board."""
+"""The server process: its socket, its HTTP server and its worker processes."""
 
+import contextlib
+import logging
+import os
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from types import FrameType
 from typing import Final
 
 import uvicorn
 from fastapi import FastAPI
 
+UNREAD_S: Final = 60
+"""After how long the system drops a connection whose client takes nothing of an answer [s]."""
+
+LISTENING: Final = 2048
+"""Connections that wait to be accepted."""
+
+
+def listening(host: str, port: int) -> socket.socket:
+    """Return a socket that is listened at; :class:`OSError` if that is not possible here."""
+    family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
+    listener = socket.create_server((host, port), family=family, backlog=LISTENING)
+    # What is accepted inherits it.
+    listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, 1000 * UNREAD_S)
+    return listener
+
+
 GRACE_S: Final = 3
 """What open connections have to end, when the service does [s]."""
+
+
+class _Server(uvicorn.Server):
+    """A server that ends once, however often it is told to: a second signal would not wait."""
+
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        if not self.should_exit:
+            super().handle_exit(sig, frame)
 
 
 def make_server(app: FastAPI, root: str = "") -> uvicorn.Server:
@@ -27,4 +63,84 @@ def make_server(app: FastAPI, root: str = "") -> uvicorn.Server:
         server_header=False,
         timeout_graceful_shutdown=GRACE_S,
     )
-    return uvicorn.Server(config)
+    return _Server(config)
+
+
+log: Final = logging.getLogger("colift.service")
+
+LOOK_S: Final = 0.5
+"""How often the workers are looked at [s]."""
+
+PAUSE_S: Final = 1.0
+"""Before a worker is started again [s]; twice as long every time, if it ends again soon."""
+
+LONGEST_PAUSE_S: Final = 60.0
+
+WORKER_GRACE_S: Final = 10.0
+"""What a worker has to end by itself [s]."""
+
+# Also when this process is killed, so that those of the next one are not too many.
+_TETHER: Final = """
+import ctypes, os, signal, sys
+ctypes.CDLL(None, use_errno=True).prctl(1, signal.SIGTERM)  # PR_SET_PDEATHSIG
+if os.getppid() == int(sys.argv[1]):
+    os.execv(sys.argv[2], sys.argv[2:])
+"""
+
+
+@contextmanager
+def running(command: Sequence[str], count: int) -> Iterator[None]:
+    """Keep so many processes running while the body runs.
+
+    Parameters
+    ----------
+    command
+        What each runs: a program's path, and its arguments.
+    count
+        How many.
+    """
+    stop = threading.Event()
+    keepers = [
+        threading.Thread(target=_keep, args=(command, stop), name=f"worker {number + 1}")
+        for number in range(count)
+    ]
+    for keeper in keepers:
+        keeper.start()
+    try:
+        yield
+    finally:
+        stop.set()
+        for keeper in keepers:
+            keeper.join()
+
+
+def _keep(command: Sequence[str], stop: threading.Event) -> None:
+    """Run the command again and again, until it shall stop."""
+    pause = PAUSE_S
+    while not stop.is_set():
+        began = time.monotonic()
+        process = start_worker(command)
+        while process.poll() is None and not stop.wait(LOOK_S):
+            pass
+        if stop.is_set():
+            _end(process)
+            return
+        pause = PAUSE_S if time.monotonic() - began > LONGEST_PAUSE_S else pause
+        log.error("a worker ended with code %s; next in %.0f s", process.returncode, pause)
+        stop.wait(pause)
+        pause = min(2 * pause, LONGEST_PAUSE_S)
+
+
+def start_worker(command: Sequence[str]) -> "subprocess.Popen[bytes]":
+    """Start a process that is terminated when the calling thread ends, however that ends."""
+    tether = [sys.executable, "-c", _TETHER, str(os.getpid()), *command]
+    # Ctrl-C in a terminal is for the service, which then ends its workers.
+    return subprocess.Popen(tether, stdin=subprocess.DEVNULL, start_new_session=True)
+
+
+def _end(process: "subprocess.Popen[bytes]") -> None:
+    process.send_signal(signal.SIGTERM)
+    with contextlib.suppress(subprocess.TimeoutExpired):
+        process.wait(WORKER_GRACE_S)
+    process.kill()
+    process.wait()

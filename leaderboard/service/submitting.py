@@ -1,22 +1,79 @@
-"""How the API takes submissions, and tells how far they are."""
+"""Routes for submissions and their jobs."""
 
+import asyncio
+from collections.abc import AsyncIterator, Awaitable, Callable
 from typing import Annotated, Final
 
+import sqlalchemy as sa
 from fastapi import APIRouter, Depends, Request, Response
 from fastapi.responses import StreamingResponse
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
 
-from ..job import Job
-from .answers import JobAnswer, SubmitterAnswer
-from .asked import BINARY, MISSING, UNKNOWN, JobId, api_root
+from ...agents.errors import InputError
+from ..records.job import Job
+from .answers import JobAnswer, SubmissionAnswer, SubmitterAnswer
+from .dependencies import BINARY, MISSING, UNKNOWN, JobId, Service, State, api_root
 from .errors import CLOSE, Problem, problem
-from .progress import events
-from .security import seconds
-from .state import Service, State
-from .uploads import BODY, ZIP, check_headers, receive_submission
+from .security import client_of, seconds
+from .slots import Slotted
+from .uploads import BODY, ZIP, check_headers, received
+
+POLL_S: Final = 1.0
+"""How often the database is asked [s]."""
+
+ALIVE_S: Final = 15.0
+"""After how long without news a comment is sent [s], so that nobody on the way hangs up."""
+
+LONGEST_S: Final = 3600.0
+"""After how long a stream ends [s]; a browser asks again by itself."""
+
+
+async def events(
+    first: JobAnswer, read: Callable[[], Awaitable[JobAnswer | None]]
+) -> AsyncIterator[bytes]:
+    """Yield an event ``job`` whenever the job has changed, until it has ended.
+
+    Parameters
+    ----------
+    first
+        The job as it is.
+    read
+        Returns it as it is now, or raises that the database is away.
+    """
+    clock = asyncio.get_running_loop().time
+    began = told = clock()
+    job: JobAnswer | None = first
+    yield _event(first)
+    while job and job.ended_at is None and clock() - began < LONGEST_S:
+        await asyncio.sleep(POLL_S)
+        try:
+            now = await read()
+        except sa.exc.OperationalError:
+            now = job  # The database may come back.
+        if now != job and now is not None:
+            yield _event(now)
+            told = clock()
+        elif clock() - told > ALIVE_S:
+            yield b": still here\n\n"
+            told = clock()
+        job = now
+
+
+def _event(job: JobAnswer) -> bytes:
+    return f"event: job\ndata: {job.model_dump_json()}\n\n".encode()
+
 
 router = APIRouter()
+
+REVOKED: Final = "this token does not count: it is mistyped or has been revoked"
+
+CANCELLED: Final = "its submitter wants so"
+"""Why a job is cancelled over the web."""
+
+MINE: Final = 50
+"""So many of somebody's submissions are listed."""
 
 _token: Final = HTTPBearer(
     auto_error=False, description="A token, made by: colift token add NAME --board PATH"
@@ -30,10 +87,42 @@ async def me(service: Service, credentials: Credentials) -> SubmitterAnswer:
     return SubmitterAnswer(submitter=await _submitter(service, credentials))
 
 
+@router.get("/me/submissions", responses=UNKNOWN)
+async def submissions(
+    service: Service, request: Request, credentials: Credentials
+) -> list[SubmissionAnswer]:
+    """Return the last submissions of who the token belongs to, the newest first."""
+    submitter = await _submitter(service, credentials)
+    found = await run_in_threadpool(service.queue.jobs, limit=MINE, submitter=submitter)
+    return [SubmissionAnswer.of(each, api_root(request)) for each in found]
+
+
 @router.get("/jobs/{job}", responses=MISSING)
-def job(service: Service, job: JobId) -> JobAnswer:
+def get_job(service: Service, job: JobId) -> JobAnswer:
     """Return how far a submission is."""
     return JobAnswer.of(_job(service, job))
+
+
+@router.delete(
+    "/jobs/{job}",
+    responses={
+        **MISSING,
+        **UNKNOWN,
+        403: {"model": Problem, "description": "It is somebody else's."},
+        409: {"model": Problem, "description": "It has ended."},
+    },
+)
+async def delete_job(service: Service, job: JobId, credentials: Credentials) -> JobAnswer:
+    """Take a submission out of the queue, or stop its evaluation, as its submitter."""
+    submitter = await _submitter(service, credentials)
+    found = await run_in_threadpool(_job, service, job)
+    if found.submitter != submitter:
+        raise problem(403, f"job {job} is not {submitter}'s")
+    try:
+        ended = await run_in_threadpool(service.queue.cancel, job, submitter, CANCELLED, submitter)
+    except InputError as error:
+        raise problem(409, f"job {job} has ended") from error
+    return JobAnswer.of(ended)
 
 
 @router.get(
@@ -45,21 +134,20 @@ def job(service: Service, job: JobId) -> JobAnswer:
         503: {"model": Problem, "description": "Too many listen; ask for the job instead."},
     },
 )
-async def job_events(service: Service, job: JobId) -> Response:
+async def job_events(service: Service, request: Request, job: JobId) -> Response:
     """Return the job again whenever it changes, as server-sent events, until it has ended."""
     found = await run_in_threadpool(_job, service, job)
-    if service.streams.full:
-        raise problem(503, "too many listen already; ask for the job itself", {"Retry-After": "60"})
 
     async def read() -> JobAnswer | None:
         now = await run_in_threadpool(service.queue.job, job)
         return None if now is None else JobAnswer.of(now)
 
-    return StreamingResponse(
-        events(JobAnswer.of(found), read, service.streams),
+    news = StreamingResponse(
+        events(JobAnswer.of(found), read),
         media_type="text/event-stream",
         headers={"X-Accel-Buffering": "no"},  # nginx would keep the news to itself
     )
+    return Slotted(news, service.streams, client_of(request), 2 * LONGEST_S)
 
 
 @router.post(
@@ -71,6 +159,7 @@ async def job_events(service: Service, job: JobId) -> Response:
         408: {"model": Problem, "description": "The upload is too slow."},
         413: {"model": Problem, "description": "The upload is too large."},
         415: {"model": Problem, "description": "The body is no zip archive."},
+        503: {"model": Problem, "description": "Too many upload; see Retry-After."},
     },
     openapi_extra={
         "requestBody": {
@@ -80,7 +169,7 @@ async def job_events(service: Service, job: JobId) -> Response:
         }
     },
 )
-async def submit(
+async def post_submission(
     service: Service,
     request: Request,
     response: Response,
@@ -93,23 +182,37 @@ async def submit(
     if wait:
         told = f"{submitter} has submitted too often; try again in {seconds(wait)} s"
         raise problem(429, told, {**CLOSE, "Retry-After": seconds(wait)})
-    async with service.slots:
-        submission = await receive_submission(request, service.board)
-        queued = await run_in_threadpool(service.queue.enqueue, submission, submitter)
+    async with service.receiving.held(submitter), received(request, service) as incoming:
+
+        def place() -> None:
+            if _known(service, credentials) != submitter:
+                raise _nobody(REVOKED)  # While the upload was under way.
+            incoming.place()
+
+        queued = await run_in_threadpool(
+            service.queue.enqueue, incoming.submission, submitter, place
+        )
     response.headers["Location"] = f"{api_root(request)}/jobs/{queued.id}"
     return JobAnswer.of(queued)
 
 
 async def _submitter(service: State, credentials: HTTPAuthorizationCredentials | None) -> str:
     """Return who a token belongs to."""
-    told = "say who you are: a header 'Authorization: Bearer TOKEN'"
-    if credentials is not None:
-        known = await run_in_threadpool(service.tokens.submitter, credentials.credentials)
-        if known is not None:
-            return known
-        told = "this token does not count: it is mistyped or has been revoked"
-    told = f"{told}; who runs the board makes tokens by: colift token add NAME"
-    raise problem(401, told, {**CLOSE, "WWW-Authenticate": "Bearer"})
+    if credentials is None:
+        raise _nobody("say who you are: a header 'Authorization: Bearer TOKEN'")
+    known = await run_in_threadpool(_known, service, credentials)
+    if known is None:
+        raise _nobody(REVOKED)
+    return known
+
+
+def _known(service: State, credentials: HTTPAuthorizationCredentials | None) -> str | None:
+    return None if credentials is None else service.tokens.submitter(credentials.credentials)
+
+
+def _nobody(told: str) -> HTTPException:
+    told = f"{told}; the maintainer makes tokens by: colift token add NAME"
+    return problem(401, told, {**CLOSE, "WWW-Authenticate": "Bearer"})
 
 
 def _job(service: State, name: str) -> Job:

@@ -1,23 +1,27 @@
-"""Uploads: from the bytes of a request to a submission in the board."""
+"""Uploads, and removal of those that were interrupted."""
 
 import asyncio
+import re
 import shutil
-import tempfile
 import time
-from collections.abc import AsyncIterator, Iterator
-from contextlib import contextmanager
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from datetime import timedelta
 from pathlib import Path
 from typing import IO, Final
 
+import sqlalchemy as sa
 from fastapi import Request
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect
 
 from ...agents.errors import InputError
 from ...agents.submissions.folder import MIB
-from ...agents.submissions.submission import Submission, read_submission
-from ..archive import unpack
-from ..board import Board
+from ..board.board import Board
+from ..database.schema import jobs
+from ..storage.archive import unpack
+from ..storage.staging import Incoming, remove_abandoned
+from .dependencies import State
 from .errors import CLOSE, problem
 
 BODY: Final = 64 * MIB
@@ -27,14 +31,14 @@ ZIP: Final = "application/zip"
 TYPES: Final = {ZIP, "application/x-zip-compressed", "application/octet-stream"}
 """What browsers and tools call a zip archive."""
 
-IDLE_S: Final = 30.0
-"""How long a client may be silent [s]."""
+LEAST_RATE: Final = 16 * 1024
+"""What a client must send [bytes/s], over :data:`WINDOW_S`."""
+
+WINDOW_S: Final = 15.0
+"""How long a client may be silent [s]; that is also all the lead that one can gain."""
 
 LONGEST_S: Final = 900.0
 """How long an upload may take [s]."""
-
-PREFIX: Final = ".upload-"
-"""How the folder of an upload under way is called, beside the submissions."""
 
 
 def check_headers(request: Request) -> None:
@@ -54,10 +58,11 @@ def check_headers(request: Request) -> None:
         raise _too_large()
 
 
-async def receive_submission(request: Request, board: Board) -> Submission:
-    """Return the submission that a request brings, kept in the board.
+@asynccontextmanager
+async def received(request: Request, service: State) -> AsyncIterator[Incoming]:
+    """Yield the submission that a request brings, ready to be placed in the board.
 
-    Nothing of a request that fails is left on the disk; what it takes meanwhile is bounded by
+    What is not placed by the end is not on the disk any more; what it takes meanwhile is bounded by
     :data:`BODY` and what may come out of an archive.
 
     Raises
@@ -67,57 +72,74 @@ async def receive_submission(request: Request, board: Board) -> Submission:
     InputError
         If it is no zip archive, or not of a submission.
     """
-    with _workplace(board) as place, (place / "upload.zip").open("w+b") as file:
-        await _receive(request.stream(), file)
-        return await run_in_threadpool(_keep, file, place / "files", board)
-
-
-def sweep(board: Board) -> None:
-    """Remove what uploads have left that were under way when a service was killed."""
-    for path in (board.folder / "submissions").glob(".*"):
-        if time.time() - path.stat().st_mtime > 2 * LONGEST_S:
-            shutil.rmtree(path, ignore_errors=True)
-
-
-@contextmanager
-def _workplace(board: Board) -> Iterator[Path]:
     # Not in /tmp, which may be memory.
-    with tempfile.TemporaryDirectory(dir=board.folder / "submissions", prefix=PREFIX) as place:
-        yield Path(place)
+    with service.board.store.staging() as place, (place / "upload.zip").open("w+b") as file:
+        await _receive(request.stream(), file)
+        async with service.unpacking:
+            yield await run_in_threadpool(_incoming, file, place / "files", service.board)
 
 
 async def _receive(stream: AsyncIterator[bytes], file: IO[bytes]) -> None:
     """Write a body into a file; the length that the client has told is not trusted."""
-    left = BODY
+    left, clock = BODY, asyncio.get_running_loop().time
+    ends, patience = clock() + LONGEST_S, WINDOW_S
     try:
-        async with asyncio.timeout(LONGEST_S):
-            while True:
-                async with asyncio.timeout(IDLE_S):
-                    data = await anext(stream, None)
-                if data is None:
-                    return
-                left -= len(data)
-                if left < 0:
-                    raise _too_large()
-                file.write(data)
+        while True:
+            began = clock()
+            async with asyncio.timeout_at(min(began + patience, ends)):
+                data = await anext(stream, None)
+            if data is None:
+                return
+            left -= len(data)
+            if left < 0:
+                raise _too_large()
+            file.write(data)
+            patience = min(patience - (clock() - began) + len(data) / LEAST_RATE, WINDOW_S)
     except TimeoutError:
-        told = f"the upload is too slow; it may take {LONGEST_S:.0f} s, and pause for {IDLE_S:.0f}"
+        told = (
+            f"the upload is too slow: it must bring {LEAST_RATE} bytes a second, over any "
+            f"{WINDOW_S:g} s, and end within {LONGEST_S:g} s"
+        )
         raise problem(408, told, CLOSE) from None
     except ClientDisconnect:
         raise problem(400, "the upload broke off") from None
 
 
-def _keep(file: IO[bytes], folder: Path, board: Board) -> Submission:
+def _incoming(file: IO[bytes], folder: Path, board: Board) -> Incoming:
     folder.mkdir()
     try:
         unpack(file, folder)  # type: ignore[arg-type]
-        read_submission(folder)
+        return board.store.incoming(folder)
     except InputError as error:
         # The user knows nothing of our folders.
         told = str(error).replace(f"{folder}/", "").replace(str(folder), "the zip archive")
         raise InputError(told) from error
-    return board.keep(folder)
 
 
 def _too_large() -> Exception:
     return problem(413, f"a zip archive may have {BODY // MIB} MiB", CLOSE)
+
+
+AGE: Final = timedelta(hours=1)
+"""What is younger may be about to get its job."""
+
+_DIGEST: Final = re.compile("[0-9a-f]{64}")
+
+
+def remove_orphans(board: Board, age: timedelta = AGE) -> None:
+    """Remove what killed uploads have left; submissions under way are not touched.
+
+    A submission comes to its place in the transaction that makes its job (see :class:`.Queue`), so
+    within another transaction one without a job stays one.
+    """
+    folder = board.folder / "submissions"
+    remove_abandoned(folder)
+    oldest = time.time() - age.total_seconds()
+    with board.store.staging() as place:
+        with board.database.writing() as connection:
+            known = set(connection.scalars(sa.select(jobs.c.submission)))
+            for path in folder.iterdir():
+                orphan = _DIGEST.fullmatch(path.name) and path.name not in known
+                if orphan and path.stat().st_mtime < oldest:
+                    path.rename(place / path.name)
+        shutil.rmtree(place)  # Not while all others wait.

@@ -1,1 +1,1 @@
-"""What each page shows: frozen views, built from a board and nothing else."""
+"""Frozen views of a board, one per page."""

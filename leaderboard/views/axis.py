@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from ...benchmark.comparison.scale import FAR
-from ...benchmark.comparison.standing import Estimate
+from ...benchmark.statistics import Estimate
 
 STEPS: Final = (1.0, 2.0, 5.0, 10.0)
 """Distances of ticks, up to a power of ten."""

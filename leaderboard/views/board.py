@@ -5,13 +5,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from ..board import Board
-from ..event import Event
-from ..season import SeasonInfo
-from ..standing import HumanTeam, Standing
+from ..board.board import Board
+from ..board.standings import HumanTeamScores, RankedRow
+from ..records.season import Event, SeasonInfo
 from .axis import Axis, make_axis
-from .lifts import CellScore, cell_scores
-from .parts import team_rmse
+from .bounds import PublicBound, bounds_of
+from .lifts import CellScore, Part, cell_scores, human_team_rmse, mean_rmse
 from .picture import Picture, make_picture
 
 WIDE: Final = (920, 440)
@@ -20,16 +19,20 @@ NARROW: Final = (390, 380)
 
 
 @dataclass(frozen=True, kw_only=True)
-class BoardRow:
+class RankedLine:
     """A line of the table."""
 
-    standing: Standing
+    standing: RankedRow
     cells: tuple[CellScore, ...]
     """Its public lifts, cell by cell; nothing if its bundle is gone."""
     shared: int
     """How many policies are in its rank group."""
     leads: bool
     """Whether it is the first of its group."""
+
+    def mean_mm(self, behaviour: str) -> float | None:
+        """Return the mean RMSE [mm] on the public lifts of a behaviour, if its bundle is there."""
+        return mean_rmse(self.cells, Part(behaviour=behaviour, subject=None))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,11 +42,15 @@ class BoardView:
     season: SeasonInfo
     seasons: tuple[SeasonInfo, ...]
     """All of them, the current one first: the tabs."""
-    rows: tuple[BoardRow, ...]
-    out: tuple[Standing, ...]
-    """Withdrawn or removed."""
-    team: HumanTeam | None
+    rows: tuple[RankedLine, ...]
+    slow: tuple[RankedRow, ...]
+    """Not real-time: ranked among themselves."""
+    out: tuple[RankedRow, ...]
+    """Unverified, withdrawn or removed."""
+    team: HumanTeamScores | None
     """The human-human team on the hidden lifts."""
+    bounds: tuple[PublicBound, ...]
+    """Those of the public lifts."""
     axis: Axis
     events: tuple[Event, ...]
     """What has been done to the season and its rows, newest first."""
@@ -51,6 +58,15 @@ class BoardView:
     """What the submissions of the events are called."""
     wide: Picture | None
     narrow: Picture | None
+
+    @property
+    def causal(self) -> float | None:
+        """The RMSE [mm] that the best foresight reaches on the public lifts, if that is known."""
+        return next((each.rmse_mm.mean for each in self.bounds if each.causal), None)
+
+    def team_mm(self, behaviour: str) -> float | None:
+        """Return the human-human team's mean RMSE [mm] on the public lifts of a behaviour."""
+        return human_team_rmse(self._cells, Part(behaviour=behaviour, subject=None))
 
     @property
     def behaviours(self) -> tuple[str, ...]:
@@ -68,12 +84,16 @@ class BoardView:
 
         ``cells`` has behaviour, subject, episodes and the human-human RMSE [mm]; ``rows`` has for
         each row of the table, in its order, and each cell: RMSE [mm], SPARC, lifts without
-        smoothness, human force [N].
+        smoothness, human force [N]; ``bounds`` has each bound's RMSE [mm].
         """
         return {
             "top": self.axis.top,
             "cells": [[c.behaviour, c.subject, c.episodes, c.team_rmse_mm] for c in self._cells],
             "rows": [[_numbers(cell) for cell in row.cells] for row in self.rows],
+            "bounds": [
+                [round(bound.cells[cell.behaviour, cell.subject], 4) for cell in self._cells]
+                for bound in self.bounds
+            ],
         }
 
     @property
@@ -96,7 +116,7 @@ def board_view(board: Board, season: str | None = None) -> BoardView | None:
     for each in ranked:
         sizes[each.group] = sizes.get(each.group, 0) + 1
     rows = tuple(
-        BoardRow(
+        RankedLine(
             standing=each,
             cells=_cells_of(board.bundle(info.name, each.row.submission)),
             shared=sizes[each.group],
@@ -106,19 +126,21 @@ def board_view(board: Board, season: str | None = None) -> BoardView | None:
     )
     team = board.team(info.name)
     hidden = [each.row.hidden.rmse_mm for each in ranked]
-    public_team = team_rmse(rows[0].cells) if rows else None
+    bounds = bounds_of(info)
     pictured = [each.row for each in ranked]
     return BoardView(
         season=info,
         seasons=seasons,
         rows=rows,
-        out=tuple(each for each in standings if not each.ranked),
+        slow=tuple(each for each in standings if each.section == "not real-time"),
+        out=tuple(each for each in standings if each.section in ("unverified", "out")),
         team=team,
+        bounds=bounds,
         axis=make_axis(hidden, () if team is None else (team.rmse_mm.ci95[1],)),
         events=tuple(reversed(board.events(season=info.name))),
         names={each.row.submission: each.row.name for each in standings},
-        wide=make_picture(pictured, public_team, width=WIDE[0], height=WIDE[1]),
-        narrow=make_picture(pictured, public_team, width=NARROW[0], height=NARROW[1]),
+        wide=make_picture(pictured, team, bounds, width=WIDE[0], height=WIDE[1]),
+        narrow=make_picture(pictured, team, bounds, width=NARROW[0], height=NARROW[1]),
     )
 
 

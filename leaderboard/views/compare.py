@@ -2,25 +2,31 @@
 
 import functools
 import itertools
-from collections.abc import Sequence
+import operator
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
-from ...benchmark.comparison.standing import Estimate
-from ...benchmark.statistics import (
-    Interval,
-    paired_difference,
-    permutation_ps_against,
-    share_better,
-)
-from ..board import Board
-from ..season import SeasonInfo
-from ..standing import Standing
+from ...agents.agent import FRAME
+from ...benchmark.statistics import Estimate, PairedDifference, permutation_ps_against
+from ..board.board import Board
+from ..board.standings import RankedRow
+from ..records.season import SeasonInfo
+from ..replays.chosen import made_replays
 from .axis import Axis, make_axis
 from .board import find_season, ordered_seasons
-from .lifts import CellScore, cell_scores, public_lifts
-from .parts import Part, estimate, parts_of, team_rmse
+from .lifts import (
+    CellScore,
+    Part,
+    PublicLift,
+    cell_scores,
+    human_team_rmse,
+    part_estimate,
+    parts_of,
+    public_lifts,
+)
 
 MOST: Final = 4
 """Policies that are compared at a time."""
@@ -29,35 +35,27 @@ ALL: Final = 40
 """Policies, from the best, that a page can hold which shows some of them later."""
 
 
+EVERY: Final = 5
+"""Frames between two points of a curve."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Column:
     """A policy, with its RMSE [mm] on each part of the public lifts."""
 
-    standing: Standing
+    standing: RankedRow
     rmse_mm: tuple[Estimate, ...]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Difference:
-    """What is between two policies, lift by lift."""
-
-    mean_mm: float
-    """Mean of the first one's RMSE minus the second one's [mm]."""
-    ci95: Interval
-    p: float
-    """Of "they do not differ", by sign flips."""
-    share_better: float
-    """Share of the lifts in which the first is better."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Pair:
     """Two policies."""
 
-    a: Standing
-    b: Standing
-    difference: Difference | None
-    """Nothing if the single lifts of one of them are not there."""
+    a: RankedRow
+    b: RankedRow
+    difference: PairedDifference | None
+    """RMSE of the first minus that of the second [mm]; None if the single lifts of one are
+    missing."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,7 +63,7 @@ class CompareView:
     """What the compare page shows."""
 
     season: SeasonInfo
-    choice: tuple[Standing, ...]
+    choice: tuple[RankedRow, ...]
     """All that can be chosen: the ranking."""
     parts: tuple[Part, ...]
     columns: tuple[Column, ...]
@@ -73,6 +71,32 @@ class CompareView:
     """The human-human team's mean RMSE on each part [mm]."""
     pairs: tuple[Pair, ...]
     axis: Axis
+    lifts: tuple[PublicLift, ...]
+    """The public lifts, of the first column; all have the same."""
+    lift_rmse_mm: tuple[tuple[float, ...], ...]
+    """RMSE [mm] of each column on each lift; nothing where its single lifts are not there."""
+    curves: tuple[Mapping[str, Sequence[int]], ...]
+    """Of each column the lifts that another one has too, by what they are called: the robot's end
+    above the human's, every :data:`EVERY` frames [0.1 mm]."""
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """What the page's script draws: each policy's lifts, and errors over time."""
+        return {
+            "lifts": [[lift.behaviour, lift.subject, lift.seed] for lift in self.lifts],
+            "policies": [
+                {
+                    "p": column.standing.row.submission,
+                    "name": column.standing.row.name,
+                    "rmse": [round(each, 3) for each in rmse],
+                    "curves": dict(curves),
+                }
+                for column, rmse, curves in zip(
+                    self.columns, self.lift_rmse_mm, self.curves, strict=True
+                )
+            ],
+            "step": EVERY * FRAME,
+        }
 
 
 def compare_view(
@@ -86,7 +110,8 @@ def compare_view(
         Which table.
     digests
         The submissions; what is not in the ranking is left out, and what is beyond
-        :data:`MOST`. None compares the best :data:`ALL`: for a page that shows some of them later.
+        :data:`MOST`. If none are asked for, the first and the second of the table. None compares
+        the best :data:`ALL`: for a page that shows some of them later.
     """
     info = find_season(ordered_seasons(board), season)
     if info is None:
@@ -94,6 +119,8 @@ def compare_view(
     ranked = {each.row.submission: each for each in board.standings(info.name) if each.ranked}
     if digests is None:
         chosen = list(ranked)[:ALL]
+    elif not digests:
+        chosen = list(ranked)[:2]
     else:
         chosen = [digest for digest in dict.fromkeys(digests) if digest in ranked][:MOST]
     bundles = {digest: board.bundle(info.name, digest) for digest in chosen}
@@ -101,10 +128,10 @@ def compare_view(
     cells = next((cell_scores(path) for path in runs.values()), ())
     parts = _parts(cells)
     columns = tuple(
-        Column(standing=ranked[digest], rmse_mm=tuple(estimate(path, part) for part in parts))
+        Column(standing=ranked[digest], rmse_mm=tuple(part_estimate(path, part) for part in parts))
         for digest, path in runs.items()
     )
-    team = tuple(team_rmse(cells, part) for part in parts)
+    team = tuple(human_team_rmse(cells, part) for part in parts)
     pairs = _differences(tuple(runs.values()))
     names = itertools.combinations(runs, 2)
     return CompareView(
@@ -121,7 +148,30 @@ def compare_view(
             [each for column in columns for each in column.rmse_mm],
             [each for each in team if each is not None],
         ),
+        lifts=next(filter(None, map(public_lifts, runs.values())), ()),
+        lift_rmse_mm=tuple(
+            tuple(lift.rmse_mm for lift in public_lifts(path)) for path in runs.values()
+        ),
+        curves=_shared([_errors(path) for path in runs.values()]),
     )
+
+
+def _shared(found: Sequence[Mapping[str, list[int]]]) -> tuple[Mapping[str, Sequence[int]], ...]:
+    """Return the curves of the lifts that more than one policy has."""
+    count = Counter(name for curves in found for name in curves)
+    return tuple(
+        {name: curve for name, curve in curves.items() if count[name] > 1} for curves in found
+    )
+
+
+def _errors(bundle: Path) -> dict[str, list[int]]:
+    """Return the errors over time of a bundle's replays, as far as they have been made."""
+    return {
+        f"{each['behaviour']} {each['subject']} {each['seed']}": list(
+            itertools.accumulate(map(operator.sub, each["robot"], each["human"]))
+        )[::EVERY]
+        for each in made_replays(bundle)
+    }
 
 
 def _parts(cells: Sequence[CellScore]) -> tuple[Part, ...]:
@@ -131,10 +181,10 @@ def _parts(cells: Sequence[CellScore]) -> tuple[Part, ...]:
 
 
 @functools.lru_cache(maxsize=64)
-def _differences(bundles: tuple[Path, ...]) -> tuple[Difference | None, ...]:
+def _differences(bundles: tuple[Path, ...]) -> tuple[PairedDifference | None, ...]:
     """Return what is between each two of some bundles, in the order of their combinations."""
     runs = [public_lifts(bundle) for bundle in bundles]
-    found: list[Difference | None] = []
+    found: list[PairedDifference | None] = []
     for i, a in enumerate(runs):
         errors = [lift.rmse_mm for lift in a]
         cells = [(lift.behaviour, lift.subject) for lift in a]
@@ -148,12 +198,5 @@ def _differences(bundles: tuple[Path, ...]) -> tuple[Difference | None, ...]:
             else ()
         )
         for b, ok in zip(behind, comparable, strict=True):
-            found.append(_difference(errors, b, cells, next(ps)) if ok else None)
+            found.append(PairedDifference.of(errors, b, cells, next(ps)) if ok else None)
     return tuple(found)
-
-
-def _difference(
-    a: Sequence[float], b: Sequence[float], cells: Sequence[tuple[str, str]], p: float
-) -> Difference:
-    paired = paired_difference(a, b, cells)
-    return Difference(mean_mm=paired.mean, ci95=paired.ci95, p=p, share_better=share_better(a, b))

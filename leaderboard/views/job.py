@@ -3,16 +3,16 @@
 from dataclasses import dataclass
 from typing import Final
 
-from ..board import Board
-from ..entry import Entry
-from ..evaluation import Stage
-from ..job import Job
+from ..board.board import Board
+from ..evaluation.progress import Stage
 from ..queue import Queue
+from ..records.job import Job
+from ..records.season import BoardEntry
 
 WAITING: Final = 100
 """Jobs that the queue's list shows at most."""
 
-STAGES: Final[tuple[Stage, ...]] = ("public run", "audit", "hidden run", "verification")
+STAGES: Final[tuple[Stage, ...]] = ("check", "public run", "audit", "verification", "hidden run")
 """The stages that every evaluation goes through, in their order."""
 
 
@@ -21,7 +21,7 @@ class JobView:
     """What the page of a job shows."""
 
     job: Job
-    entry: Entry | None
+    entry: BoardEntry | None
     """What it has come to."""
     ahead: int
     """Jobs that are taken before it."""
@@ -39,11 +39,11 @@ def job_view(board: Board, queue: Queue, job_id: str) -> JobView | None:
     job = queue.job(job_id)
     if job is None:
         return None
-    waiting = queue.jobs(state="queued", limit=WAITING) if job.state == "queued" else ()
+    waiting = [each.id for each in queue.waiting()] if job.state == "queued" else []
     return JobView(
         job=job,
         entry=board.entry(job.season, job.submission) if job.ended else None,
-        ahead=sum(each.submitted_at < job.submitted_at for each in waiting),
+        ahead=waiting.index(job.id) if job.id in waiting else 0,
     )
 
 

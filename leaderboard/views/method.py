@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass
 
-from ...agents.isolation.ladder import DESCRIPTIONS, VERIFIABLE
-from ...agents.isolation.limits import LIMITS, Limits
-from ...benchmark.metrics import FAILED_FRAME_MM
-from ..board import Board
-from ..season import SeasonInfo
-from ..standing import HumanTeam
+from ...agents.sandbox.host.levels import LEVELS, VERIFIABLE
+from ...agents.sandbox.protocol import LIMITS, Limits
+from ...benchmark.episode.metrics import FAILED_FRAME_MM
+from ..board.board import Board
+from ..board.standings import HumanTeamScores
+from ..records.season import SeasonInfo
 from .board import find_season, ordered_seasons
 
 
@@ -19,7 +19,7 @@ class MethodView:
     seasons: tuple[SeasonInfo, ...]
     lifts: int | None
     """Public lifts of an evaluation; as many are hidden. None as long as there is no row."""
-    team: HumanTeam | None
+    team: HumanTeamScores | None
     failed_frame_mm: float
     limits: Limits
     isolation: dict[str, str]
@@ -42,6 +42,6 @@ def method_view(board: Board) -> MethodView:
         team=board.team(info.name),
         failed_frame_mm=FAILED_FRAME_MM,
         limits=LIMITS,
-        isolation=dict(DESCRIPTIONS),
+        isolation=dict(LEVELS),
         verifiable=VERIFIABLE,
     )

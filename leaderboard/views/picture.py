@@ -5,9 +5,11 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Final
 
-from ...benchmark.comparison.front import Point, pareto_front
+from ...benchmark.comparison.comparison import Point, pareto_front
 from ...benchmark.comparison.scale import Scale, Spot, make_scale
-from ..row import Row
+from ..board.standings import HumanTeamScores
+from ..records.row import BoardRow
+from .bounds import PublicBound
 from .dots import LETTER, LINE, Box, Dot, Label, Place, labels_beside
 
 LEFT: Final = 56
@@ -15,6 +17,13 @@ RIGHT: Final = 12
 TOP: Final = 14
 BOTTOM: Final = 46
 """Margins [px]."""
+
+BEYOND: Final = ("off the scale", "beyond")
+STILL: Final = ("does not move along: no smoothness", "no smoothness")
+"""What stands in the strips at the right and below, where there is room and where there is not."""
+
+ROOM: Final = 600
+"""Breadth from which on there is room [px]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,17 +42,18 @@ class Picture:
     height: int
     plot: Box
     dots: tuple[Dot, ...]
+    """The policies, best first; then the human-human team, and the bounds."""
     labels: tuple[Label, ...]
     stair: str
     """Points of the front's line, as SVG has them."""
     across: tuple[Tick, ...]
-    """RMSE [mm]."""
+    """RMSE on the hidden lifts [mm]."""
     up: tuple[Tick, ...]
-    """SPARC."""
-    beyond: float | None
-    """From where on to the right is off the scale."""
-    still: float | None
-    """From where on down is without smoothness."""
+    """SPARC on the public lifts."""
+    beyond: tuple[float, str] | None
+    """From where on to the right is off the scale, and what stands there."""
+    still: tuple[float, str] | None
+    """From where on down is without smoothness, and what stands there."""
     team: float | None
     """Where the human-human team's RMSE is."""
     words: str
@@ -51,53 +61,67 @@ class Picture:
 
 
 def make_picture(
-    rows: Sequence[Row], team_rmse_mm: float | None, *, width: int, height: int
+    rows: Sequence[BoardRow],
+    team: HumanTeamScores | None,
+    bounds: Sequence[PublicBound] = (),
+    *,
+    width: int,
+    height: int,
 ) -> Picture | None:
-    """Return the picture of the public lifts; None if there is no policy.
+    """Return the picture; None if there is no policy.
 
     Parameters
     ----------
     rows
-        The policies, best first.
-    team_rmse_mm
-        The human-human team on the same lifts.
+        The policies, best first: RMSE on the hidden lifts, as in the table, and smoothness on the
+        public ones.
+    team
+        The human-human team on the hidden lifts.
+    bounds
+        Those of the public lifts.
     width, height
         Size [px].
     """
     if not rows:
         return None
     spots = [_spot(row) for row in rows]
-    scale = make_scale(spots if team_rmse_mm is None else [*spots, _team(team_rmse_mm, spots)])
+    marks = [
+        *(() if team is None else [(_mark("two people", team), "team")]),
+        *((_mark(bound.name, bound), "bound") for bound in bounds),
+    ]
+    scale = make_scale([*spots, *(mark for mark, _ in marks)])
     plot = (LEFT, TOP, width - RIGHT, height - BOTTOM)
     place = _Place(scale=scale, plot=plot)
     points = {row.submission: _point(row) for row in sorted(rows, key=_rmse)}
     front = pareto_front(points)
     dots = tuple(
-        _dot(row, spot, place, row.submission in front)
+        _dot(spot, place, row.submission, front=row.submission in front)
         for row, spot in zip(rows, spots, strict=True)
     )
+    beside = tuple(_dot(mark, place, "", kind=kind) for mark, kind in marks)
     stair = _stair(dots, front)
-    team = None if team_rmse_mm is None else place.x(team_rmse_mm)
+    line = None if team is None else place.x(team.rmse_mm.mean)
     lines = list(pairwise(stair))
     texts: list[Box] = []
-    if team is not None:
-        lines.append(((team, plot[1]), (team, plot[3])))
-        texts.append((team, plot[1], team + LETTER * len("two people"), plot[1] + LINE))
+    if line is not None:
+        lines.append(((line, plot[1]), (line, plot[3])))
+    beyond, still = BEYOND[width < ROOM], STILL[width < ROOM]
     if scale.beyond:
-        texts.append((plot[2] - LETTER * len("off the scale"), plot[1], plot[2], plot[1] + LINE))
-    beyond, still = place.x(scale.x[1]), place.y(scale.y[0])
+        texts.append((plot[2] - LETTER * len(beyond), plot[1], plot[2], plot[1] + LINE))
+    if scale.still:
+        texts.append((plot[0], plot[3] - LINE - 4, plot[0] + LETTER * len(still), plot[3]))
     return Picture(
         width=width,
         height=height,
         plot=plot,
-        dots=dots,
-        labels=labels_beside(dots, plot, texts=texts, lines=lines),
+        dots=(*dots, *beside),
+        labels=labels_beside((*beside, *dots), plot, texts=texts, lines=lines),
         stair=" ".join(f"{x},{y}" for x, y in stair),
         across=tuple(Tick(at=place.x(mm), text=f"{mm:g}") for mm in _ticks(*scale.x)),
         up=tuple(Tick(at=place.y(s), text=_minus(f"{s:g}")) for s in _ticks(*scale.y)),
-        beyond=beyond if scale.beyond else None,
-        still=still if scale.still else None,
-        team=team,
+        beyond=(place.x(scale.x[1]), beyond) if scale.beyond else None,
+        still=(place.y(scale.y[0]), still) if scale.still else None,
+        team=line,
         words=_words(rows, front),
     )
 
@@ -120,50 +144,65 @@ class _Place:
         return round(bottom - (bottom - top) * (value - low) / (high - low), 1)
 
 
-def _spot(row: Row) -> Spot:
-    public = row.public
+def _spot(row: BoardRow) -> Spot:
     return Spot(
         name=row.name,
-        x=public.rmse_mm.mean,
-        x_bar=public.rmse_mm.ci95,
-        y=public.sparc,
+        x=row.hidden.rmse_mm.mean,
+        x_bar=row.hidden.rmse_mm.ci95,
+        y=row.public.sparc,
         y_bar=None,
-        missing=public.sparc_missing > 0,
+        missing=row.public.sparc_missing > 0,
         colour="",
     )
 
 
-def _team(rmse_mm: float, spots: Sequence[Spot]) -> Spot:
-    """Return the team, as smooth as some policy, so that its line is on the scale."""
-    bar = (rmse_mm, rmse_mm)
-    y = next((spot.y for spot in spots if spot.y is not None), None)
-    return Spot(name="", x=rmse_mm, x_bar=bar, y=y, y_bar=None, colour="")
+def _mark(name: str, other: HumanTeamScores | PublicBound) -> Spot:
+    return Spot(
+        name=name,
+        x=other.rmse_mm.mean,
+        x_bar=other.rmse_mm.ci95,
+        y=other.means["sparc"],
+        y_bar=None,
+        colour="",
+        bound=True,
+    )
 
 
-def _rmse(row: Row) -> float:
-    return row.public.rmse_mm.mean
+def _rmse(row: BoardRow) -> float:
+    return row.hidden.rmse_mm.mean
 
 
-def _point(row: Row) -> Point:
+def _point(row: BoardRow) -> Point:
     public = row.public
-    return Point(rmse_mm=public.rmse_mm.mean, sparc=public.sparc, missing=public.sparc_missing)
+    return Point(rmse_mm=_rmse(row), sparc=public.sparc, missing=public.sparc_missing)
 
 
-def _dot(row: Row, spot: Spot, place: _Place, front: bool) -> Dot:
+def _dot(
+    spot: Spot, place: _Place, submission: str, *, front: bool = False, kind: str = "policy"
+) -> Dot:
     at_x, at_y = place.scale.place(spot)
     x = place.x(at_x)
     off = place.scale.off(spot)
     smooth = "no smoothness" if spot.y is None else f"SPARC {_minus(f'{spot.y:.2f}')}"
     return Dot(
-        name=row.name,
-        submission=row.submission,
+        name=_named(spot, at_y, off),
+        submission=submission,
         x=x,
         y=place.y(at_y),
         low=x if off else place.x(spot.x_bar[0]),
         high=x if off else place.x(min(spot.x_bar[1], place.scale.x[1])),
         front=front,
-        told=f"{row.name}: RMSE {spot.x:.1f} mm, {smooth}",
+        told=f"{spot.name}: RMSE {spot.x:.1f} mm, {smooth}",
+        kind=kind,
     )
+
+
+def _named(spot: Spot, at_y: float, off: bool) -> str:
+    """Return a spot's name, with the values that its place does not tell."""
+    told = [f"{spot.x:.0f} mm"] if off else []
+    if spot.y is not None and spot.y < at_y:
+        told.append(f"SPARC {_minus(f'{spot.y:.1f}')}")
+    return f"{spot.name} ({', '.join(told)})" if told else spot.name
 
 
 def _stair(dots: Sequence[Dot], front: Sequence[str]) -> list[Place]:
@@ -190,7 +229,7 @@ def _minus(text: str) -> str:
     return text.replace("-", "\N{MINUS SIGN}")
 
 
-def _words(rows: Sequence[Row], front: Sequence[str]) -> str:
+def _words(rows: Sequence[BoardRow], front: Sequence[str]) -> str:
     names = {row.submission: row.name for row in rows}
     best = ", ".join(names[digest] for digest in front) or "none"
     return (

@@ -1,19 +1,27 @@
 """The page of a policy: what it is, what it did, part by part, and its history."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ...benchmark.comparison.standing import Estimate
-from ..board import Board
-from ..entry import Entry
-from ..event import Event
-from ..season import SeasonInfo
-from ..standing import Standing
+from ...benchmark.statistics import Estimate
+from ..board.board import Board
+from ..board.standings import RankedRow
+from ..records.season import BoardEntry, Event, SeasonInfo
 from .axis import Axis, make_axis
 from .board import find_season, ordered_seasons
-from .lifts import PublicLift, cell_scores, is_whole, public_lifts
-from .parts import Part, estimate, mean_rmse, parts_of, team_rmse
+from .lifts import (
+    Part,
+    PublicLift,
+    cell_scores,
+    human_team_rmse,
+    is_whole,
+    mean_rmse,
+    part_estimate,
+    parts_of,
+    public_lifts,
+)
 
 BLEND: Final = "blend"
 """The paper's method, which every policy is set against."""
@@ -34,24 +42,59 @@ class PartScore:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Failure:
+    """Public lifts that failed for one reason."""
+
+    why: str
+    lifts: tuple[PublicLift, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
 class PolicyView:
     """What the page of a policy shows."""
 
     season: SeasonInfo
-    standing: Standing
+    standing: RankedRow
     shared: int
     """How many policies are in its rank group."""
     ranked: int
-    """How many policies are in the ranking."""
+    """How many policies are ranked with it."""
     parts: tuple[PartScore, ...]
     axis: Axis
-    failures: tuple[PublicLift, ...]
-    """The public lifts that failed."""
-    history: tuple[Entry, ...]
+    failures: tuple[Failure, ...]
+    """Why public lifts failed, the most frequent reason first."""
+    worst: tuple[PublicLift, ...]
+    """Of each behaviour the public lift with the largest error: its replay is shown."""
+    better: RankedRow | None
+    """The policy before it in the table."""
+    worse: RankedRow | None
+    """The policy after it."""
+    history: tuple[BoardEntry, ...]
     """All entries of the same name, in all seasons, newest first."""
     events: tuple[Event, ...]
     has_bundle: bool
     """Whether the public run can be downloaded and verified."""
+
+    @property
+    def never_lifted(self) -> bool:
+        """Whether all public lifts failed: then there is nothing to be seen of it."""
+        public = self.standing.row.public
+        return public.failed == public.episodes
+
+    @property
+    def behaviours(self) -> tuple[PartScore, ...]:
+        """All lifts, and each behaviour."""
+        return tuple(each for each in self.parts if each.part.subject is None)
+
+    @property
+    def subjects(self) -> tuple[PartScore, ...]:
+        """Each subject."""
+        return tuple(each for each in self.parts if each.part.of_subject)
+
+    def cell(self, behaviour: str | None, subject: str | None) -> PartScore | None:
+        """Return what it did on a behaviour with a subject, if the suite has that."""
+        part = Part(behaviour=behaviour, subject=subject)
+        return next((each for each in self.parts if each.part == part), None)
 
     @property
     def is_blend(self) -> bool:
@@ -64,7 +107,7 @@ class RefusalView:
     """What the page of a submission without a row shows."""
 
     season: SeasonInfo
-    entry: Entry
+    entry: BoardEntry
     has_bundle: bool
 
 
@@ -84,24 +127,53 @@ def policy_view(board: Board, season: str, digest: str) -> PolicyView | RefusalV
     other = None if blend in (None, digest) else board.bundle(season, str(blend))
     parts = () if bundle is None else _parts(bundle, other)
     marks = [mark for each in parts for mark in (each.team_mm, each.blend_mm) if mark is not None]
+    fellows = [each for each in standings if each.section == mine.section]
+    neighbours = _neighbours([each for each in standings if each.ranked], digest)
     return PolicyView(
         season=info,
         standing=mine,
-        shared=sum(each.group == mine.group for each in standings),
-        ranked=sum(each.ranked for each in standings),
+        shared=sum(each.group == mine.group for each in fellows),
+        ranked=len(fellows),
         parts=parts,
         axis=make_axis([each.rmse_mm for each in parts], marks),
         failures=_failures(bundle),
+        worst=_worst(bundle),
+        better=neighbours[0],
+        worse=neighbours[1],
         history=tuple(reversed(board.entries_of(mine.row.name))),
         events=mine.events,
         has_bundle=is_whole(bundle),
     )
 
 
-def _failures(bundle: Path | None) -> tuple[PublicLift, ...]:
-    if bundle is None:
-        return ()
-    return tuple(lift for lift in public_lifts(bundle) if lift.failure is not None)
+def _neighbours(
+    ranked: Sequence[RankedRow], digest: str
+) -> tuple[RankedRow | None, RankedRow | None]:
+    """Return the policies before and after one in the table."""
+    place = next((i for i, each in enumerate(ranked) if each.row.submission == digest), None)
+    if place is None:
+        return None, None
+    after = ranked[place + 1] if place + 1 < len(ranked) else None
+    return (ranked[place - 1] if place else None), after
+
+
+def _failures(bundle: Path | None) -> tuple[Failure, ...]:
+    found: dict[str, list[PublicLift]] = {}
+    for lift in () if bundle is None else public_lifts(bundle):
+        if lift.failure is not None:
+            found.setdefault(lift.failure, []).append(lift)
+    told = [Failure(why=why, lifts=tuple(lifts)) for why, lifts in found.items()]
+    return tuple(sorted(told, key=lambda each: -len(each.lifts)))
+
+
+def _worst(bundle: Path | None) -> tuple[PublicLift, ...]:
+    """Return the worst lift of each behaviour; of equal ones the last, as :func:`.choose` does."""
+    worst: dict[str, PublicLift] = {}
+    for lift in () if bundle is None else public_lifts(bundle):
+        known = worst.get(lift.behaviour)
+        if known is None or lift.rmse_mm >= known.rmse_mm:
+            worst[lift.behaviour] = lift
+    return tuple(worst.values())
 
 
 def _parts(bundle: Path, other: Path | None) -> tuple[PartScore, ...]:
@@ -116,8 +188,8 @@ def _parts(bundle: Path, other: Path | None) -> tuple[PartScore, ...]:
                 part=part,
                 episodes=sum(cell.episodes for cell in some),
                 failed=sum(cell.failed for cell in some),
-                rmse_mm=estimate(bundle, part),
-                team_mm=team_rmse(some),
+                rmse_mm=part_estimate(bundle, part),
+                team_mm=human_team_rmse(some),
                 blend_mm=mean_rmse(others, part),
             )
         )

@@ -6,22 +6,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from ...agents.errors import InputError
 from ...agents.humans import Subject
-from ...benchmark.comparison.standing import Estimate
-from ...benchmark.lift import Lift
-from ...benchmark.scenario import Scenario
-from ...benchmark.suite import Suite, make_suite
-from ..board import Board
-from ..season import SeasonInfo
-from ..standing import Standing
+from ...benchmark.episode.lift import Lift
+from ...benchmark.episode.scenario import Scenario
+from ...benchmark.statistics import Estimate
+from ..board.board import Board
+from ..board.standings import RankedRow
+from ..records.season import SeasonInfo
 from .axis import Axis, make_axis
 from .board import find_season, ordered_seasons
-from .lifts import CellScore, cell_scores
-from .parts import Part, estimate, known
+from .lifts import CellScore, Part, cell_scores, known, part_estimate
+from .suites import season_suite
 
 CURVES: Final = 5
 """Lifts whose intended heights are drawn."""
+
+HEAT: Final = 60
+"""Policies on the map of all scenarios, from the best."""
 
 BEST: Final = 20
 """Policies that have their interval drawn, from the best; the others have their mean."""
@@ -40,7 +41,7 @@ class Curve:
 class CellRow:
     """A policy on the lifts of a scenario."""
 
-    standing: Standing
+    standing: RankedRow
     score: CellScore
     rmse_mm: Estimate
 
@@ -70,7 +71,16 @@ class CellLine:
     team_mm: float | None
     best_mm: float | None
     """Mean RMSE [mm] of the policy that is best there."""
-    best: Standing | None
+    best: RankedRow | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeatRow:
+    """A policy on all scenarios."""
+
+    standing: RankedRow
+    rmse_mm: dict[tuple[str, str], float]
+    """Mean RMSE [mm] by behaviour and subject."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,6 +94,13 @@ class ScenariosView:
     """What each behaviour is, in a line."""
     cells: dict[tuple[str, str], CellLine]
     """By behaviour and subject, those that the suite has."""
+    rows: tuple[HeatRow, ...]
+    """The policies of the ranking, best first."""
+
+    @property
+    def columns(self) -> tuple[CellLine, ...]:
+        """The scenarios, behaviour by behaviour."""
+        return tuple(sorted(self.cells.values(), key=lambda c: self.behaviours.index(c.behaviour)))
 
 
 def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | None:
@@ -92,7 +109,7 @@ def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | N
     None if there is no such season, or its suite is not what this colift plays.
     """
     info = find_season(ordered_seasons(board), season)
-    suite = None if info is None else _suite(info)
+    suite = None if info is None else season_suite(info)
     if info is None or suite is None:
         return None
     scored = _scored(board, info)
@@ -114,13 +131,20 @@ def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | N
         subjects=tuple(dict.fromkeys(subject for _, subject in cells)),
         told={each.behaviour: _told(each) for each in suite.scenarios},
         cells=cells,
+        rows=tuple(
+            HeatRow(
+                standing=each,
+                rmse_mm={(score.behaviour, score.subject): score.rmse_mm for score in scores},
+            )
+            for each, scores in scored[:HEAT]
+        ),
     )
 
 
 def scenario_view(board: Board, season: str, behaviour: str, subject: str) -> ScenarioView | None:
     """Return the page of a scenario; None if the season has none of that name."""
     info = find_season(ordered_seasons(board), season)
-    suite = None if info is None else _suite(info)
+    suite = None if info is None else season_suite(info)
     if info is None or suite is None:
         return None
     scenario = next(
@@ -151,16 +175,7 @@ def scenario_view(board: Board, season: str, behaviour: str, subject: str) -> Sc
     )
 
 
-def _suite(info: SeasonInfo) -> Suite | None:
-    """Return the season's suite, if it is still what this colift plays."""
-    try:
-        suite = make_suite(info.suite)
-    except InputError:
-        return None
-    return suite if suite.digest == info.suite_digest else None
-
-
-def _scored(board: Board, info: SeasonInfo) -> list[tuple[Standing, tuple[CellScore, ...]]]:
+def _scored(board: Board, info: SeasonInfo) -> list[tuple[RankedRow, tuple[CellScore, ...]]]:
     """Return the ranked rows that have a bundle, with their cells."""
     found = []
     for each in board.standings(info.name):
@@ -175,10 +190,10 @@ def _score(cells: Sequence[CellScore], key: tuple[str, str]) -> CellScore | None
 
 
 def _estimate(
-    board: Board, standing: Standing, score: CellScore, part: Part, interval: bool
+    board: Board, standing: RankedRow, score: CellScore, part: Part, interval: bool
 ) -> Estimate:
     bundle = board.bundle(standing.row.season, standing.row.submission)
-    return estimate(bundle, part) if interval and bundle else known(score.rmse_mm)
+    return part_estimate(bundle, part) if interval and bundle else known(score.rmse_mm)
 
 
 def _told(scenario: Scenario) -> str:

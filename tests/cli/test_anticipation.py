@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from colift.agents.policies.anticipation import read_anticipation
+from colift.agents.control.anticipation import read_anticipation
 
 
 def test_what_is_learned_can_be_run_and_says_where_it_came_from(colift, tmp_path):

@@ -5,13 +5,16 @@ import os
 
 import pytest
 from colift.agents.submissions.new import write_template
-from colift.benchmark.references import Reference
-from colift.cli.board_table import board_table
+from colift.benchmark.results.baselines import Reference
+from colift.benchmark.suites.suite import SUITES
+from colift.cli.tables.board import board_table
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.tokens import Tokens
 from colift.leaderboard.queue import Queue
-from colift.leaderboard.tokens import Tokens
 from rich.console import Console
 
 from ..leaderboard.rows import add, digest
+from ..leaderboard.tiny import ENTRY
 
 LONG = "a-policy-with-a-rather-long-name-indeed-so-long-that-it-is-cut"
 
@@ -23,7 +26,9 @@ def filled(board):
         add(board, name, mean)
     board.withdraw("1", digest("cheat"), "Ada", "it read the [bold]clock[/bold]")
     cells = (("pause", "S1"),) * 4
-    team = Reference(cells=cells, rmse_mm=(9.9, 10.5, 11.0, 10.8), sparc=-2.79, human_force_n=0.37)
+    team = Reference(
+        cells=cells, rmse_mm=(9.9, 10.5, 11.0, 10.8), means={"sparc": -2.79, "human_force_n": 0.37}
+    )
     board.store.vault("1").keep_team(team)
     return board
 
@@ -77,7 +82,9 @@ def test_a_token_is_made_listed_and_revoked(board, colift):
     assert Tokens(board).submitter(made.stdout.strip()) is None
 
 
-def test_a_worker_does_what_waits_and_ends(board, colift, tmp_path):
+def test_a_worker_does_what_waits_and_ends(colift, tmp_path, monkeypatch):
+    monkeypatch.setitem(SUITES, "tiny", ENTRY)
+    board = Board.open(tmp_path / "board", "tiny")
     write_template(tmp_path / "mine")
     Queue(board).enqueue(board.keep(tmp_path / "mine"), "Ada")
     done = colift("worker", "--board", "board", "--once")
@@ -85,6 +92,7 @@ def test_a_worker_does_what_waits_and_ends(board, colift, tmp_path):
     assert done.stdout.split()[0] == "mine"
     assert done.stdout.split()[-1] == "done"
     assert board.standings()[0].row.verified
+    board.close()
 
 
 @pytest.mark.parametrize(

@@ -3,11 +3,12 @@
 import json
 
 import pytest
-from colift.agents.isolation.sandboxed import close_sandboxes
+from colift.agents.sandbox.host.policy import close_sandboxes
 from colift.agents.submissions.new import write_template
 from colift.cli.check import all_checks
 
 HEAD = "import sys\nclass Policy:\n"
+ACTING = HEAD + "    def reset(self, seed): pass\n    def act(self, o): return "
 
 
 @pytest.fixture
@@ -51,7 +52,7 @@ def test_the_life_of_a_submission(colift, tmp_path):
     assert error in " ".join(checked.stdout.split())
 
 
-def test_json_is_alone_on_stdout_and_has_the_results_that_run_has(colift, mine):
+def test_json_is_alone_on_stdout_and_has_the_results_of_run_in_a_sandbox_or_without(colift, mine):
     done = colift("check", "mine", "--json")
     content = json.loads(done.stdout)
     assert (done.returncode, content["ok"]) == (0, True)
@@ -63,24 +64,16 @@ def test_json_is_alone_on_stdout_and_has_the_results_that_run_has(colift, mine):
         "lifts",
         "determinism",
         "score",
+        "actions",
         "time",
     ]
     run = json.loads(colift("run", "mine", "--suite", "quick-v1", "--json").stdout)
-    for each in (run, content["results"]):
+    bare = json.loads(colift("check", "mine", "--json", "--isolation", "none").stdout)["results"]
+    for each in (run, bare, content["results"]):
         del each["summary"]["step_ms"]
     assert run == content["results"]
-
-
-def test_without_isolation_the_score_has_the_same_bits(colift, mine):
-    isolated, none = (
-        json.loads(colift("check", "mine", "--json", "--isolation", each).stdout)["results"]
-        for each in ("auto", "none")
-    )
-    assert none.pop("isolation") == "none"
-    assert isolated.pop("isolation") != "none"
-    for each in (isolated, none):
-        del each["summary"]["step_ms"]
-    assert isolated == none
+    assert bare.pop("isolation") == "none" != run.pop("isolation")
+    assert bare == run
 
 
 FAILING = {
@@ -109,7 +102,7 @@ FAILING = {
         + "    def reset(self, seed): pass\n"
         + "    def act(self, observation): return [0.0, 0.0]\n",
         "lifts",
-        "must be 1 number(s), got [0.0, 0.0]",
+        "must be 1 number, got [0.0, 0.0]",
     ),
     "not a number": (
         HEAD
@@ -146,7 +139,28 @@ def test_a_failure_is_shown_with_what_was_printed_and_what_to_do(colift, mine):
     assert "loud" in lines
     assert lines[-1] == "1 check failed. Mend it, then: colift check mine"
     assert any(line.startswith("failed  lifts        smooth/S1 seed 7000") for line in lines)
-    assert all(len(line) <= 60 for line in done.stdout.splitlines())
+    told, _, printed = done.stdout.partition("it printed:\n")
+    assert all(len(line) <= 60 for line in told.splitlines())
+    assert '\n      File "policy.py", line 5, in act\n' in printed
+
+
+def test_a_traceback_has_the_policys_own_files_and_lines_alone(checked, mine):
+    (mine / "helper.py").write_text("def half(x):\n    return 1 / x\n")
+    found = checked("import helper\n" + ACTING + "helper.half(0)\n")
+    assert found["lifts"].printed.splitlines() == [
+        "Traceback (most recent call last):",
+        '  File "policy.py", line 5, in act',
+        "    def act(self, o): return helper.half(0)",
+        "                             ^^^^^^^^^^^^^^",
+        '  File "helper.py", line 2, in half',
+        "    return 1 / x",
+        "           ~~^~~",
+        "ZeroDivisionError: division by zero",
+    ]
+
+
+def test_what_fails_on_import_is_told_with_its_line(checked):
+    assert "'gone' (policy.py, line 2)" in checked("\nraise KeyError('gone')\n")["interface"].told
 
 
 @pytest.mark.parametrize(
@@ -175,14 +189,63 @@ def test_what_is_kept_from_one_lift_to_the_next_is_found(checked, mine):
     manifest = mine / "policy.toml"
     manifest.write_text(manifest.read_text().replace("preload = false", "preload = true"))
     found = checked(
-        "import mmap\n"
-        "KEPT = mmap.mmap(-1, 8)\n"
+        "import mmap, tempfile\n"
+        "FILE = tempfile.TemporaryFile()\n"
+        "FILE.truncate(8)\n"
+        "KEPT = mmap.mmap(FILE.fileno(), 8)\n"
         "class Policy:\n"
         "    def reset(self, seed): KEPT[0] += 1\n"
         "    def act(self, observation): return [KEPT[0] / 1000]\n"
     )
     assert not found["determinism"].ok
     assert "changing_goal/S4" in found["determinism"].told
+
+
+def test_millimetres_for_metres_are_warned_of(checked):
+    found = checked(ACTING + "1000 * (o[0] - o[3])\n")
+    assert all(each.ok for each in found.values())
+    assert found["actions"].warning
+    assert " % were cut to 0.04 m a step" in found["actions"].told
+    assert "Are they in metres" in found["actions"].told
+    assert found["score"].warning
+    assert "Worse than copy (goes where the human was, " in found["score"].told
+
+
+def test_who_is_worse_than_one_that_never_moves_is_told(checked):
+    score = checked(ACTING + "-1e-4\n")["score"]
+    assert score.ok
+    assert score.warning
+    assert "Worse than hold (never moves, " in score.told
+
+
+def test_a_plain_number_is_an_action_and_a_sound_policy_is_not_warned_of(checked):
+    found = checked(ACTING + "1.8 * float(o[0] - o[2])\n")
+    assert [name for name, each in found.items() if each.warning] == ["manifest"]
+
+
+def test_the_templates_words_about_itself_are_to_be_replaced(checked, mine):
+    told = checked((mine / "policy.py").read_text())["manifest"].told
+    assert told.endswith("Say in policy.toml who wrote it")
+    own = FAILING["no act"][0]
+    told = checked(own)["manifest"].told
+    assert told.endswith("who wrote it and what it does (the description is the template's)")
+    manifest = mine / "policy.toml"
+    manifest.write_text(
+        manifest.read_text().replace("Your Name", "Ada").replace("Takes away a fixed", "Takes a")
+    )
+    manifested = checked(own)["manifest"]
+    assert manifested.told == "mine by Ada; licence MIT"
+    assert not manifested.warning
+
+
+def test_printing_much_is_warned_of(checked):
+    found = checked(
+        HEAD
+        + "    def reset(self, seed): pass\n"
+        + "    def act(self, o):\n        print('x' * 200)\n        return 0.0\n"
+    )
+    assert found["time"].warning
+    assert "It prints much" in found["time"].told
 
 
 def test_an_undeclared_package_fails_though_it_is_installed(checked, mine):

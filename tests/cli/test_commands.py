@@ -7,8 +7,10 @@ import signal
 import subprocess
 import sys
 import time
+from importlib.metadata import version
 
 import pytest
+from colift.agents.submissions.new import write_template
 from colift.cli.commands import COMMANDS
 from colift.cli.main import app, main
 from typer.main import get_command
@@ -114,7 +116,6 @@ def test_list_names_everything(colift):
         (["learn", "reactive", "--trials", "0"], "--trials"),
         (["learn", "reactive", "--out", "/nowhere/x.json"], "no folder /nowhere"),
         (["calibrate", "--out", "/nowhere/x.json"], "no folder /nowhere"),
-        ([], "Usage"),
     ],
 )
 def test_wrong_usage_is_one_clear_line_and_exit_code_2(colift, arguments, told, tmp_path):
@@ -154,7 +155,7 @@ def test_bad_recordings_are_refused(colift, tmp_path, text, told):
     ("act", "told"),
     [
         ("raise KeyError('oops')", "KeyError: 'oops'"),
-        ("return float('nan')", "must be 1 number"),
+        ("return float('nan')", "must be finite"),
         ("return [float('inf')]", "must be finite"),
         ("return None", "must be 1 number"),
     ],
@@ -165,7 +166,7 @@ def test_a_failing_policy_is_reported_and_the_run_goes_on(colift, policy, act, t
     content = json.loads(done.stdout)
     assert content["summary"]["failed"] == content["summary"]["episodes"] == 12
     assert content["summary"]["rmse_mm"]["mean"] == pytest.approx(250, rel=0.02)
-    assert "12 of 12 episodes failed" in done.stderr
+    assert "12 of 12 lifts failed" in done.stderr
     assert told in done.stderr
     assert "Traceback" not in done.stderr
 
@@ -267,3 +268,70 @@ def test_a_command_waits_for_no_library_of_another():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300)
     assert done.stdout.splitlines()[-1] == "none", done.stderr
+
+
+def test_it_says_its_version(colift):
+    done = colift("--version")
+    assert (done.returncode, done.stdout) == (0, f"colift {version('colift')}\n")
+
+
+def test_alone_it_says_how_to_begin(colift):
+    done = colift()
+    assert (done.returncode, done.stderr) == (0, "")
+    lines = done.stdout.splitlines()
+    assert len(lines) < 15
+    assert all(len(line) <= 80 for line in lines)
+    told = [line.split()[1] for line in lines if line.startswith("  colift ")]
+    assert told == ["run", "list", "compare", "new", "check", "submit", "serve"]
+    assert set(told) <= set(COMMANDS)
+
+
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [
+        ("run bl", ["blend"]),
+        ("run mi", ["minimum_jerk", "mine", "mine.py:"]),
+        ("run ./mi", ["./mine", "./mine.py:"]),
+        ("run blend --suite q", ["quick-v1"]),
+        ("compare blend co", ["copy"]),
+        ("list blen", ["blend"]),
+        ("render blend --scenario pau", ["pause"]),
+        ("render blend --subject S5", ["S5"]),
+        ("verif", ["verify"]),
+    ],
+)
+def test_a_shell_completes_what_there_is(colift, tmp_path, words, wanted):
+    write_template(tmp_path / "mine")
+    (tmp_path / "mine.py").touch()
+    done = colift(
+        _COLIFT_COMPLETE="complete_bash",
+        COMP_WORDS=f"colift {words}",
+        COMP_CWORD=str(len(words.split())),
+    )
+    assert done.stdout.split() == wanted
+    assert done.stderr == ""
+
+
+def test_an_option_that_is_spelt_wrong_is_guessed(colift):
+    assert "--suite" in colift("run", "blend", "--siute", "quick-v1").stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["run", "blend", "--seeds", "0:99999999999999999999"], "at most 12 digits"),
+        (["run", "blend", "--seeds", "0:999999999"], "100000 seeds at most"),
+        (["run", "blend", "--jobs", "100000000"], "--jobs must be at most 1024"),
+        (["run", "mine,"], "parameters are name=value with commas between, got ''"),
+        (["run", "x" * 5000], "..."),
+        (["render", "blend", "--out", "x.png", "--seed", "-3"], "--seed must not be negative"),
+    ],
+    ids=lambda each: " ".join(each)[:40] if isinstance(each, list) else "",
+)
+def test_what_once_ended_in_a_traceback_is_one_line(colift, arguments, told):
+    done = colift(*arguments)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert told in done.stderr
+    assert done.stderr.startswith("error: ")
+    assert done.stderr.count("\n") == 1
+    assert len(done.stderr) < 2100

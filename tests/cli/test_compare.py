@@ -19,9 +19,20 @@ def test_two_policies_are_ranked_against_each_other_and_people(colift, tmp_path:
     for told in ("Behind copy", "vs_human", "changing_goal", "none", "copy is the most level"):
         assert told in done.stdout
     assert f"{out / 'compare.html'}" in done.stdout
+    assert "None is marked as the best: 3 lifts in a column are too few" in done.stdout
+    assert "*" not in done.stdout
+    assert not any(line.endswith(" ") for line in done.stdout.splitlines())
     content = json.loads((out / "compare.json").read_text())
     assert [policy["name"] for policy in content["policies"]] == ["copy", "hold"]
     assert (out / "compare.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_where_no_lifts_are_enough_there_are_no_ranks(colift) -> None:
+    done = colift("compare", "hold", "copy", *QUICK, "--seeds", "0:1", COLUMNS="200")
+    assert "No ranks: 4 lifts are too few to tell policies apart at 5 %." in done.stdout
+    assert "But 4 lifts are too few to tell policies apart." in done.stdout
+    (copy, *_) = (line for line in done.stdout.splitlines() if line.split()[:1] == ["copy"])
+    assert copy.startswith("     copy")
 
 
 def test_json_is_alone_on_stdout(colift) -> None:
@@ -109,3 +120,31 @@ def test_bench_does_one_thing_at_a_time(colift) -> None:
     done = colift("bench", "--policies", "--convergence")
     assert done.returncode == 2
     assert "--convergence and --policies" in done.stderr
+
+
+def test_a_bundle_is_compared_as_it_is(colift, tmp_path: Path) -> None:
+    for name in ("hold", "copy"):
+        colift("run", name, *QUICK, "--seeds", "0:2", "--out", name + "s")
+    one = colift("compare", "holds", "copys", "--json")
+    assert one.returncode == 0, one.stderr
+    played = colift("compare", "hold", "copy", *QUICK, "--seeds", "0:2", "--json")
+    contents = [json.loads(each.stdout) for each in (one, played)]
+    for content in contents:
+        for policy in content["policies"]:
+            del policy["step_ms"]
+    assert contents[0] == contents[1]
+    mixed = colift("compare", "holds", "hold", "copys")
+    assert mixed.returncode == 0, mixed.stderr
+    assert "copy: as copys has it, not simulated again here" in mixed.stdout
+    assert "holds: as holds has it" in mixed.stdout
+    for arguments, told in (
+        (("--suite", "quick-v1"), "holds has the lifts of quick-v1[0:2] (digest "),
+        (("--seeds", "0:3"), "not of standard-v1[0:3]"),
+    ):
+        done = colift("compare", "holds", "copy", *arguments)
+        assert (done.returncode, done.stdout) == (2, "")
+        assert told in done.stderr
+    (tmp_path / "holds" / "episodes.csv").write_text("damaged")
+    done = colift("compare", "holds", "copys")
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: holds: episodes.csv: ")

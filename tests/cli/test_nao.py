@@ -1,13 +1,19 @@
-"""``colift nao`` as a user meets it: real processes, over the real protocols on loopback."""
+"""``colift nao`` as a user meets it: over the real protocols on loopback.
+
+The robot and the motion capture are another process. So is the command where it is killed, hangs,
+or is one of two.
+"""
 
 import json
 import signal
 import subprocess
 import sys
+import threading
 import time
 
 import numpy as np
 import pytest
+from colift.agents.extras import how_to_install
 from colift.agents.hardware.recording import read_recording
 
 COMMAND = [sys.executable, "-m", "colift.cli", "nao"]
@@ -41,6 +47,18 @@ def nao(*arguments):
     )
 
 
+def answered(run, tries=3):
+    """Return what a run comes to on a machine that lets the emulator answer in time.
+
+    Where other processes keep it from that for 150 ms, the robot counts as lost.
+    """
+    for _ in range(tries):
+        done = run()
+        if "no answer within 0.15 s" not in done.stderr:
+            break
+    return done
+
+
 def happened(laboratory, before):
     """Return what has happened at the server since a line, but for its own lack of time."""
     return [line for line in laboratory.lines[before:] if not line.startswith("behind the clock")]
@@ -60,9 +78,9 @@ def lifted(laboratory, tmp_path_factory):
     return nao("run", "blend", *laboratory.place, *options), folder
 
 
-def test_check_finds_robot_and_stream_and_nothing_moves(laboratory):
+def test_check_finds_robot_and_stream_and_nothing_moves(colift, laboratory):
     before = len(laboratory.lines)
-    done = nao("check", *laboratory.place)
+    done = colift("nao", "check", *laboratory.place)
     assert done.returncode == 0, done.stdout
     assert "MISSING" not in done.stdout
     for told in (
@@ -75,15 +93,16 @@ def test_check_finds_robot_and_stream_and_nothing_moves(laboratory):
         "12 channels at 100 Hz",
         "age of the newest frame: median",
         "frames a second",
+        "commanded by: nobody",
     ):
         assert told in done.stdout
     assert happened(laboratory, before) == []
 
 
-def test_a_dry_run_sends_the_robot_no_motion(laboratory, tmp_path):
+def test_a_dry_run_sends_the_robot_no_motion(colift, laboratory, tmp_path):
     before = len(laboratory.lines)
     options = ("--dry-run", "--trials", 1, "--duration", 3, "--record", tmp_path)
-    done = nao("run", "copy", *laboratory.place, *options)
+    done = colift("nao", "run", "copy", *laboratory.place, *options)
     assert done.returncode == 0, done.stderr
     assert "dry run" in done.stdout
     laboratory.await_line("lift 1 is over")
@@ -156,6 +175,11 @@ def test_ctrl_c_stops_the_hands_and_says_so(laboratory):
         time.sleep(0.05)
     time.sleep(1.0)
     run.send_signal(signal.SIGINT)
+    # Another one, while the arms are released, changes nothing.
+    while not any(line.startswith("stiffness 0") for line in laboratory.lines[before:]):
+        assert time.monotonic() < deadline + 60
+        time.sleep(0.05)
+    run.send_signal(signal.SIGINT)
     _, errors = run.communicate(timeout=60)
     assert run.returncode == 10
     assert "STOPPED (OPERATOR): stopped by the operator: SIGINT" in errors
@@ -165,17 +189,134 @@ def test_ctrl_c_stops_the_hands_and_says_so(laboratory):
     assert lines[frozen:].index("stiffness 0 2") < lines[frozen:].index("rest")
 
 
-def test_a_robot_that_dies_ends_the_run_with_its_exit_code(emulate):
+def test_a_robot_that_dies_ends_the_run_with_its_exit_code(colift, emulate):
     dying = emulate("--fault", "disconnect@1")
-    done = nao("run", "blend", *dying.place, "--yes", "--json")
+    done = colift("nao", "run", "blend", *dying.place, "--yes", "--json")
     assert done.returncode == 11
     assert "STOPPED (ROBOT_LOST)" in done.stderr
     assert "NOT released" in done.stderr
     assert json.loads(done.stdout)["summary"]["failed"] == 1
 
 
-def test_check_says_what_is_missing(lsl_on_loopback):
-    done = nao("check", "--robot", "tcp://127.0.0.1:9", "--mocap", "lsl:nobody")
+class Running:
+    """A ``colift nao run`` that goes on, and when it told what."""
+
+    def __init__(self, *arguments):
+        self.process = subprocess.Popen(
+            [*COMMAND, "run", *map(str, arguments)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        self.told = []
+        self._reader = threading.Thread(target=self._read)
+        self._reader.start()
+
+    def _read(self):
+        for line in self.process.stderr:
+            self.told.append((time.monotonic(), line.strip()))
+
+    def await_end(self):
+        """Return the exit code and what went to the standard output."""
+        output = self.process.stdout.read()
+        self.process.wait(100)
+        self._reader.join()
+        self.process.stdout.close()
+        self.process.stderr.close()
+        return self.process.returncode, output
+
+    def when(self, text, seconds=60):
+        """Return when a text was told [s]; wait until it is."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            for at, line in list(self.told):
+                if text in line:
+                    return at
+            time.sleep(0.02)
+        raise AssertionError(f"{text!r} is not told, but {self.told}")
+
+
+@pytest.mark.parametrize("during", ["lift 1 seed", "motion angleInterpolation"])
+def test_a_robot_that_hangs_is_told_at_once_and_nothing_is_claimed_of_its_arms(emulate, during):
+    hanging = emulate()
+    run = Running("blend", *hanging.place, "--yes", "--json")
+    hanging.await_line(during)
+    # In the middle of a lift, or while the arms go to the rest posture: the call that moves them
+    # is waited for, as long as the robot answers others.
+    time.sleep(1.0 if during.startswith("lift") else 0.0)
+    hanging.process.send_signal(signal.SIGSTOP)
+    stopped = time.monotonic()
+    told = run.when("nothing is known of the arms")
+    code, _ = run.await_end()
+    hanging.process.send_signal(signal.SIGCONT)
+    # It is told within 1 s; the rest is what a busy machine may be late by.
+    assert told - stopped < 1.0 + 1.0
+    lines = [line for _, line in run.told]
+    assert code == 11
+    assert not any("go limp" in line or "are released" in line for line in lines)
+    assert lines[-1].startswith("the arms are NOT released")
+
+
+def test_a_second_client_is_refused_before_it_moves_anything(colift, emulate):
+    for _ in range(3):
+        taken = emulate()
+        first = Running("blend", *taken.place, "--yes", "--json", "--trials", 1, "--duration", 6)
+        taken.await_line("lift 1 seed")
+        second = colift("nao", "run", "copy", *taken.place, "--yes")
+        code, output = first.await_end()
+        # As for `answered`: a robot that a busy machine keeps from answering counts as lost.
+        if code != 11:
+            break
+    assert second.returncode == 2, second.stderr
+    assert f"is commanded by process {first.process.pid} on" in second.stderr
+    assert "one at a time" in second.stderr
+    for moved in ("take hold", "rest heights", "go limp", "released"):
+        assert moved not in second.stderr
+    assert code == 0, first.told
+    assert json.loads(output)["hardware"]["timing"]["held"] == {}
+    # One took hold and one released: the first.
+    assert sum(line.startswith("motion angleInterpolation") for line in taken.lines) == 1
+    assert sum(line.startswith("stiffness 0") for line in taken.lines) == 1
+    # It has given the robot up: the next one may.
+    claims = [line for line in taken.lines if line.startswith("memory Colift/Commander")]
+    assert claims[-1].endswith("['', '', 0]")
+
+
+def test_a_lift_that_was_stopped_has_its_exit_code_and_its_report(colift, emulate, tmp_path):
+    def run():
+        frozen = emulate("--fault", "freeze@1:99:2")
+        out = ("--out", tmp_path / "out", "--record", tmp_path)
+        return colift("nao", "run", "blend", *frozen.place, "--yes", "--json", *out)
+
+    done = answered(run)
+    assert done.returncode == 13, done.stderr
+    assert "H1, H2 frozen: the same height to the bit" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert json.loads(done.stdout)["summary"]["failed"] == 1
+    assert (tmp_path / "out" / "results.json").exists()
+    assert read_recording(tmp_path / "lift-01.csv").record.stop == 13
+    assert done.stderr.splitlines()[-1] == "the arms are released, the robot is at rest"
+
+
+def test_a_storm_of_reversals_is_stopped(colift, emulate, tmp_path):
+    path = tmp_path / "storm.py"
+    path.write_text(
+        "class Storm:\n"
+        "    def reset(self, seed): self.sign = 1\n"
+        "    def act(self, observation):\n"
+        "        self.sign = -self.sign\n"
+        "        return [0.5 * self.sign]\n"
+    )
+    storm = emulate()
+    command = ("nao", "run", f"{path}:Storm", *storm.place, "--yes", "--json")
+    done = answered(lambda: colift(*command))
+    assert done.returncode == 14, done.stderr
+    assert "the policy shakes the table" in done.stderr
+    assert json.loads(done.stdout)["hardware"]["timing"]["steps"] <= 12
+
+
+def test_check_says_what_is_missing(colift, lsl_on_loopback):
+    done = colift("nao", "check", "--robot", "tcp://127.0.0.1:9", "--mocap", "lsl:nobody")
     assert done.returncode == 1
     assert "MISSING robot: no NAOqi at tcp://127.0.0.1:9" in done.stdout
     assert "MISSING motion capture: no stream 'nobody'" in done.stdout
@@ -191,7 +332,7 @@ def test_without_the_extra_it_is_named(command):
     )
     assert done.returncode == (1 if command == ["check"] else 2)
     assert "qi is not installed" in done.stdout + done.stderr
-    assert "pip install 'colift[nao]'" in done.stdout + done.stderr
+    assert how_to_install("nao") in done.stdout + done.stderr
     assert "Traceback" not in done.stderr
 
 

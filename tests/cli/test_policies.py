@@ -4,13 +4,13 @@ import sys
 
 import pytest
 from colift.agents.errors import InputError
-from colift.agents.isolation.ladder import VERIFIABLE, rungs
-from colift.agents.isolation.sandboxed import SandboxedPolicy, close_sandboxes
-from colift.agents.policies.loading import PolicySpec
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.sandbox.host.levels import VERIFIABLE, working_levels
+from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
 from colift.agents.submissions.new import write_template
 from colift.agents.submissions.trusted import TrustedSubmission
-from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.tasks import play
+from colift.benchmark.execution.tasks import play
+from colift.benchmark.suites.catalogue import make_scenario
 from colift.cli import policies
 from colift.cli.policies import choose_policy
 from colift.cli.run import run
@@ -57,11 +57,10 @@ def test_own_policies_by_name_run_in_process():
     "text",
     ["mine", "./mine", "mine/", "policy.py:Mine", "colift.agents.policies.hold:Hold"],
 )
-def test_everything_else_runs_on_the_strongest_rung(text):
+def test_everything_else_runs_on_the_strongest_level(text):
     policy = choose_policy(text)
     assert isinstance(policy, SandboxedPolicy)
-    assert policy.rung is None
-    assert policy.isolation == rungs()[0]
+    assert policy.isolation == working_levels()[0]
 
 
 def test_policies_of_other_packages_by_name_are_sandboxed(monkeypatch):
@@ -83,10 +82,9 @@ def test_none_is_without_isolation_for_all():
 
 
 @pytest.mark.parametrize("text", ["proportional,gain=2", "mine", "policy.py:Mine,gain=1.2"])
-@pytest.mark.parametrize("rung", rungs())
-def test_a_rung_is_for_all_and_changes_no_action(text, rung):
-    policy = choose_policy(text, rung)
-    assert policy.isolation == rung
+def test_a_level_is_for_all_and_changes_no_action(text, each_level):
+    policy = choose_policy(text, each_level)
+    assert policy.isolation == each_level
     trusted = choose_policy(text, "none")
     assert policy.name == trusted.name
     assert actions(policy) == actions(trusted)
@@ -94,7 +92,7 @@ def test_a_rung_is_for_all_and_changes_no_action(text, rung):
 
 @pytest.mark.parametrize("text", ["proportional,gain=2", "mine", "policy.py:Mine"])
 def test_the_digest_does_not_depend_on_the_isolation(text):
-    assert choose_policy(text, rungs()[0]).digest() == choose_policy(text, "none").digest()
+    assert choose_policy(text, working_levels()[0]).digest() == choose_policy(text, "none").digest()
 
 
 def test_parameters_change_the_digest_however_they_are_ordered():
@@ -117,8 +115,8 @@ def test_a_name_comes_before_a_folder_of_that_name(here):
     assert choose_policy("./hold").name == "my-policy"
 
 
-def test_a_rung_that_does_not_work_here_is_refused_with_the_reason(monkeypatch):
-    monkeypatch.setattr(policies, "fault", lambda rung: "there is no bwrap")
+def test_a_level_that_does_not_work_here_is_refused_with_the_reason(monkeypatch):
+    monkeypatch.setattr(policies, "fault", lambda level: "there is no bwrap")
     with pytest.raises(InputError) as caught:
         choose_policy("blend", "bubblewrap")
     assert str(caught.value) == "isolation bubblewrap does not work here: there is no bwrap"
@@ -148,9 +146,8 @@ def test_a_module_beside_the_user_is_refused_with_what_to_do(here, monkeypatch):
         ("no.such.module:Class", "cannot import module 'no.such.module'"),
         ("numpy.nonesuch:Class", "cannot import module 'numpy.nonesuch'"),
         ("colift.nonesuch:Class", "cannot import module 'colift.nonesuch'"),
-        ("colift.benchmark.lift:Lift", "which a sandbox does not see"),
+        ("colift.benchmark.episode.lift:Lift", "which a sandbox does not see"),
         ("itertools:count", "module 'itertools' has no source file"),
-        ("mine,gain=2", "submission mine takes no parameters; set them in its policy.py"),
         ("here", "unknown policy 'here'"),
         (".", ". has no policy.toml; a submission is a folder with policy.toml and policy.py"),
         ("", "unknown policy ''"),
@@ -181,10 +178,9 @@ def test_what_only_the_sandbox_can_tell_is_told_by_its_check(text, told):
     assert told in str(caught.value)
 
 
-@pytest.mark.parametrize("rung", rungs())
-def test_a_run_says_what_kept_the_policy_apart(rung, tmp_path, capsys):
+def test_a_run_says_what_kept_the_policy_apart(each_level, tmp_path, capsys):
     write_template(tmp_path / "mine")
-    run(str(tmp_path / "mine"), suite="quick-v1", seeds="0:1", isolation=rung, jobs=1)
+    run(str(tmp_path / "mine"), suite="quick-v1", seeds="0:1", isolation=each_level, jobs=1)
     told = capsys.readouterr().out
-    assert f"Isolation: {rung}" in told
-    assert ("no board would call this verified" in told) == (rung not in VERIFIABLE)
+    assert f"Isolation: {each_level}" in told
+    assert ("no board would call this verified" in told) == (each_level not in VERIFIABLE)

@@ -2,7 +2,7 @@ import json
 from dataclasses import dataclass
 
 import pytest
-from colift.cli.policy_parameters import field_docstrings
+from colift.agents.loading.description import field_docstrings
 
 
 @dataclass

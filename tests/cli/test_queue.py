@@ -2,7 +2,7 @@
 
 import pytest
 from colift.agents.submissions.new import write_template
-from colift.leaderboard.queue import Queue, Work
+from colift.leaderboard.queue import Queue, WorkerQueue
 
 BOARD = ("--board", "board")
 
@@ -10,7 +10,7 @@ BOARD = ("--board", "board")
 @pytest.fixture
 def jobs(board, tmp_path):
     """A job that has failed, one under way, one that waits."""
-    work, made = Work(board), []
+    work, made = WorkerQueue(board), []
     for name in ("broken", "busy", "patient"):
         write_template(tmp_path / name)
         (tmp_path / name / "policy.py").write_text(f"# {name}\n")
@@ -66,3 +66,28 @@ def test_what_is_under_way_is_not_tried_again(colift, jobs):
     done = colift("queue", "retry", jobs[1].id, "--why", "impatience", *BOARD)
     assert done.returncode == 2
     assert "has ended without an entry" in done.stderr
+
+
+def test_a_job_is_taken_out_of_the_queue_and_that_is_told(colift, board, jobs):
+    """One that waits, and one that a worker has."""
+    for job in jobs[1:]:
+        done = colift("queue", "cancel", job.id[:8], "--why", "19 hours", *BOARD)
+        assert (done.returncode, done.stdout) == (0, f"{job.name} is cancelled\n")
+        assert Queue(board).job(job.id).state == "cancelled"
+        (event,) = board.events(submission=job.submission)
+        assert (event.kind, event.why) == ("cancellation", "19 hours")
+    listed = colift("queue", "list", *BOARD, "--state", "cancelled", COLUMNS="120").stdout
+    assert listed.count("cancelled: local: 19 hours") == 2
+    done = colift("queue", "cancel", jobs[0].id, "--why", "again", *BOARD)
+    assert done.returncode == 2
+    assert "is in the queue" in done.stderr
+
+
+def test_a_worker_says_how_it_keeps_policies_apart(colift, board):
+    for name, told in (("auto", "isolation "), ("limits", "rows are not verified, not ranked")):
+        done = colift("worker", *BOARD, "--once", "--isolation", name)
+        assert done.returncode == 0, done.stderr
+        assert told in done.stderr
+    done = colift("worker", *BOARD, "--once", "--isolation", "walls")
+    assert done.returncode == 2
+    assert "unknown isolation 'walls'; known: bubblewrap, landlock, limits" in done.stderr

@@ -11,7 +11,9 @@ from pathlib import Path
 
 import httpx
 import pytest
-from colift.leaderboard.board import Board
+from colift.agents.extras import how_to_install
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.tokens import Tokens
 
 
 def parent(process):
@@ -80,6 +82,18 @@ def test_it_tells_its_address_and_ends_with_its_workers(serve, folder, number):
         httpx.get(url)
 
 
+def test_it_ends_once_however_often_it_is_told_to(serve):
+    process, _ = serve("--port", "0", "--workers", "1")
+    until(lambda: children(process.pid))
+    time.sleep(1)  # The worker is about to load.
+    for number in (signal.SIGTERM, signal.SIGTERM, signal.SIGINT, signal.SIGTERM):
+        process.send_signal(number)
+        time.sleep(0.1)
+    _, err = process.communicate(timeout=60)
+    assert process.returncode == 0
+    assert "Traceback" not in err
+
+
 def test_workers_are_started_again_and_do_not_outlive_a_service_that_is_killed(serve):
     process, _ = serve("--port", "0", "--workers", "1")
     until(lambda: children(process.pid))
@@ -89,6 +103,27 @@ def test_workers_are_started_again_and_do_not_outlive_a_service_that_is_killed(s
     (second,) = children(process.pid)
     process.kill()
     until(lambda: parent(second) is None)
+
+
+def test_what_an_upload_has_left_when_the_service_is_killed_is_gone_after_the_next_start(
+    serve, folder
+):
+    board = Board.open(folder)
+    token = Tokens(board).add("ada")
+    board.close()
+    process, line = serve("--port", "0", "--workers", "0")
+    host, port = re.search(r"http://(127\.0\.0\.1):(\d+)", line).groups()
+    with socket.create_connection((host, int(port))) as connection:
+        connection.sendall(
+            f"POST /api/v1/submissions HTTP/1.1\r\nHost: x\r\nAuthorization: Bearer {token}\r\n"
+            "Content-Type: application/zip\r\nContent-Length: 999\r\n\r\nPK".encode()
+        )
+        until(lambda: list((folder / "submissions").iterdir()))
+        process.kill()
+        process.wait()
+    assert list((folder / "submissions").iterdir())
+    serve("--port", "0", "--workers", "0")
+    assert list((folder / "submissions").iterdir()) == []
 
 
 def test_a_port_that_is_taken_is_named(serve):
@@ -119,5 +154,5 @@ def test_without_its_libraries_it_says_how_to_get_them(folder):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
     assert done.returncode == 2
-    assert "pip install 'colift[board]'" in done.stderr
+    assert how_to_install("board") in done.stderr
     assert "Traceback" not in done.stderr

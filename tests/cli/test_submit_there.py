@@ -1,15 +1,17 @@
 """``colift submit`` to a board on the web: a real service, a real worker."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
+import urllib.request
 
 import pytest
 from colift.agents.submissions.new import write_template
-from colift.benchmark.suite import SUITES
-from colift.leaderboard.board import Board
-from colift.leaderboard.tokens import Tokens
+from colift.benchmark.suites.suite import SUITES
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.tokens import Tokens
 
 from ..leaderboard import tiny
 
@@ -75,9 +77,15 @@ def test_an_upload_becomes_a_row_that_is_printed(colift, url, board, place):
     assert done.returncode == 0, done.stderr
     (standing,) = board.standings()
     assert (standing.row.name, standing.submitter) == ("mine", "ada")
-    for words in (f"submitted; job {url}/api/v1/jobs/", "mine by Your Name", "Rank 1 of 1"):
+    for words in (f"submitted; job {url}/jobs/", "mine by Your Name", "Rank 1 of 1"):
         assert words in done.stdout
-    assert done.stdout.splitlines()[-1].endswith(f"{standing.row.submission}/bundle.zip")
+    *_, bundle, page = done.stdout.splitlines()
+    assert bundle.endswith(f"{standing.row.submission}/bundle.zip")
+    (job,) = re.findall(rf"submitted; job ({url}/jobs/\w+)", done.stdout)
+    for address in (page.removeprefix("Its page: "), job):
+        with urllib.request.urlopen(address, timeout=30) as answer:
+            assert answer.headers["Content-Type"].startswith("text/html")
+            assert "mine" in answer.read().decode()
     again = colift("submit", "mine", "--board", f"{url}/", "--token", token)
     assert (again.returncode, "Rank 1 of 1" in again.stdout) == (0, True)
     assert len(board.standings()) == 1

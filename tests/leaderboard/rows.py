@@ -3,9 +3,9 @@
 import dataclasses
 
 import numpy as np
-from colift.benchmark.comparison.standing import Estimate
-from colift.leaderboard.entry import Entry
-from colift.leaderboard.row import HiddenScores, PublicScores, Row
+from colift.benchmark.statistics import Estimate
+from colift.leaderboard.records.row import BoardRow, HiddenScores, PublicScores
+from colift.leaderboard.records.season import BoardEntry
 
 
 def digest(name):
@@ -31,11 +31,12 @@ def make_row(name="mine", mean=10.0, season="1", sparc=-1.9):
         episodes=12,
         failed=0,
         failures={},
+        real_time=True,
         rmse_mm=estimate,
         vs_human=ratio,
         better_than_human=0.5,
     )
-    return Row(
+    return BoardRow(
         season=season,
         commitment="c" * 64,
         suite="quick-v1",
@@ -44,6 +45,8 @@ def make_row(name="mine", mean=10.0, season="1", sparc=-1.9):
         authors=("Ada Lovelace", "Grace Höpper"),
         description="Lifts.",
         link="",
+        licence="MIT",
+        trained_on="nothing",
         submission=digest(name),
         public=public,
         hidden=hidden,
@@ -57,7 +60,7 @@ def make_row(name="mine", mean=10.0, season="1", sparc=-1.9):
 
 def make_entry(board, name="mine", mean=10.0, season="1", refusal=None):
     row = None if refusal else make_row(name, mean, season)
-    return Entry(
+    return BoardEntry(
         season=season,
         submission=digest(name),
         name=name,
@@ -73,11 +76,22 @@ def make_errors(mean, episodes=12):
     return tuple(mean + np.random.default_rng(0).normal(0.0, 0.3, episodes))
 
 
-def add(board, name, mean, season="1", episodes=12):
+def slow(row):
+    """Return the row of a policy whose steps took too long for a robot, on hidden lifts."""
+    return dataclasses.replace(row, hidden=dataclasses.replace(row.hidden, real_time=False))
+
+
+def unverified(row):
+    """Return the row of a policy that ran without a sandbox."""
+    return dataclasses.replace(row, isolation="limits", verified=False)
+
+
+def add(board, name, mean, season="1", episodes=12, change=lambda row: row):
     """Put a row on a board, as the queue does."""
-    from colift.leaderboard.database.recording import record_entry
+    from colift.leaderboard.database.queries import record_entry
 
     entry = make_entry(board, name, mean, season)
+    entry = dataclasses.replace(entry, row=change(entry.row))
     with board.database.writing() as connection:
         record_entry(connection, entry, make_errors(mean, episodes))
     return entry
@@ -86,3 +100,15 @@ def add(board, name, mean, season="1", episodes=12):
 def rescored(row, mean):
     estimate = Estimate(mean=mean, ci95=(mean - 1.0, mean + 1.0))
     return dataclasses.replace(row, hidden=dataclasses.replace(row.hidden, rmse_mm=estimate))
+
+
+def outcome(job, refusal=None):
+    return BoardEntry(
+        season=job.season,
+        submission=job.submission,
+        name=job.name,
+        submitter=job.submitter,
+        at=job.started_at,
+        row=None if refusal else make_row(job.name, 10.0, job.season),
+        refusal=refusal,
+    )

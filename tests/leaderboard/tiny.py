@@ -9,7 +9,7 @@ import os
 import signal
 import sys
 
-from colift.benchmark import suite
+from colift.benchmark.suites import suite
 from colift.cli.main import main
 
 

@@ -1,9 +1,9 @@
 import numpy as np
 import pybullet
 import pytest
-from colift.robots import nao_facts as nao
-from colift.robots.nao_urdf_writer import nao_urdf
-from colift.robots.urdf import nao_urdf_path
+from colift.robots.nao import facts as nao
+from colift.robots.nao.urdf import nao_urdf_path
+from colift.robots.nao.urdf_writer import nao_urdf
 
 
 @pytest.fixture

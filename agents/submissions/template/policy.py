@@ -19,12 +19,14 @@ class Policy:
     gain = 1.8  # 1 goes to where the human was; more goes beyond, as the human is still moving
 
     def reset(self, seed: int) -> None:
-        """Begin a lift: forget the last one, and draw all random numbers from ``seed``."""
-        self.random = np.random.default_rng(seed)  # unused here
+        """Begin a lift: forget the last one. Random numbers, if any, are drawn from ``seed``."""
 
-    def act(self, observation: np.ndarray) -> np.ndarray:
-        """Return the change of the hands' height [m] in this step, up is positive."""
+    def act(self, observation: np.ndarray) -> float:
+        """Return the change of the hands' height [m] in this step, up is positive.
+
+        The hands go 0.04 m in a step at most; a larger change is cut to that.
+        """
         human = observation[RobotObservation.HUMAN_END]  # where the human's end was 0.1 s ago
         hand = observation[RobotObservation.HAND_HEIGHT]  # where the own hands are now
         # There are also ROBOT_END, HAND_COMMAND and TIME; heights are in m from the start.
-        return np.array([self.gain * (human - hand)])
+        return float(self.gain * (human - hand))

@@ -5,22 +5,22 @@ import pytest
 from colift.agents.hardware.decisions import Inline
 from colift.agents.hardware.dry_run import DryArm
 from colift.agents.hardware.loop import LoopSettings, run_trial
-from colift.agents.hardware.naoqi import NAMES, NaoqiArm, hand_heights
+from colift.agents.hardware.nao.naoqi import NAMES, NaoqiArm, hand_heights
 from colift.agents.hardware.operator import StopButton
-from colift.agents.hardware.recording import Recording
+from colift.agents.hardware.recording import TrialRecording
 from colift.agents.hardware.trial_end import AfterDuration
-from colift.agents.policies.loading import PolicySpec
-from colift.benchmark.catalogue import make_scenario
+from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.hardware.laboratory import Conditions
 from colift.benchmark.hardware.simulated import SimulatedLaboratory
+from colift.benchmark.suites.catalogue import make_scenario
 
 
 class Lab(SimulatedLaboratory):
     """The simulated laboratory, which notes what reaches its server and where the hands are."""
 
-    def __init__(self):
+    def __init__(self, behaviour):
         self.button = StopButton()
-        super().__init__(Conditions(scenario=make_scenario("smooth", "S1")), self.button)
+        super().__init__(Conditions(scenario=make_scenario(behaviour, "S1")), self.button)
         self.sent = []
         self.hands = []
 
@@ -84,8 +84,17 @@ def play():
     """Play a trial in simulated time with a policy, by name or an object."""
     labs = []
 
-    def trial(policy, *, faults=None, duration=5.0, decider=None, dry=False, **settings):
-        lab = Lab()
+    def trial(
+        policy,
+        *,
+        faults=None,
+        duration=5.0,
+        decider=None,
+        dry=False,
+        behaviour="smooth",
+        **settings,
+    ):
+        lab = Lab(behaviour)
         labs.append(lab)
         arm = NaoqiArm(lab)
         # The rest heights without the sag under the table.
@@ -95,17 +104,18 @@ def play():
         agent = PolicySpec(text=policy).make() if isinstance(policy, str) else policy
         agent.reset(1)
         end = Faulty(lab, duration, dict(faults or {}))
+        robot = DryArm(arm) if dry else arm
         record = run_trial(
-            DryArm(arm) if dry else arm,
+            robot,
             lab,
             (decider or Inline)(agent),
             lab,
             settings=LoopSettings(**settings),
             end=end,
         )
-        recording = Recording(
+        recording = TrialRecording(
             policy=policy if isinstance(policy, str) else "",
-            limits=arm.limits,
+            limits=robot.limits,
             weight_offset=arm.weight_offset,
             dry=dry,
             record=record,

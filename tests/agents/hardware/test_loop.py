@@ -8,8 +8,8 @@ import pytest
 from colift.agents.errors import InputError
 from colift.agents.hardware.decisions import Timed
 from colift.agents.hardware.loop import LoopSettings
-from colift.agents.hardware.stops import Hold, Stop
-from colift.robots.nao_facts import JOINTS
+from colift.agents.hardware.stops import HoldReason, Stop
+from colift.robots.nao.facts import JOINTS
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -76,7 +76,7 @@ def test_a_loop_that_is_held_up_skips_the_periods_and_never_catches_up(play):
 def test_a_policy_that_fails_is_held_and_one_that_goes_on_failing_is_stopped(play, bad):
     once = play(Says([[0.01]] * 5 + [bad] + [[0.01]] * 5), duration=2.0)
     assert once.record.stop is None
-    assert [step.hold for step in once.record.steps].count(Hold.POLICY_FAILED) == 1
+    assert [step.hold for step in once.record.steps].count(HoldReason.POLICY_FAILED) == 1
     assert once.record.steps[-1].command == pytest.approx(0.1)
     always = play(Says([[0.01]] * 5 + [bad] * 50), duration=4.0)
     assert always.record.stop is Stop.POLICY
@@ -90,9 +90,9 @@ def test_a_policy_that_does_not_answer_is_not_waited_for(play):
     trial = play(hangs, duration=4.0, decider=Timed)
     answer.set()
     assert [step.hold for step in trial.record.steps[5:8]] == [
-        Hold.POLICY_LATE,
-        Hold.POLICY_BUSY,
-        Hold.POLICY_BUSY,
+        HoldReason.POLICY_LATE,
+        HoldReason.POLICY_BUSY,
+        HoldReason.POLICY_BUSY,
     ]
     assert trial.record.stop is Stop.POLICY
     assert trial.lab.times("setAngles")[-1] < trial.record.start + 0.5

@@ -3,9 +3,9 @@
 import math
 
 import pytest
-from colift.agents.hardware.plausibility import Watch, at, jumped
+from colift.agents.hardware.plausibility import CaptureMonitor, at, jumped, stamped
 from colift.agents.hardware.ports import Sample
-from colift.agents.hardware.stops import Hold
+from colift.agents.hardware.stops import HoldReason
 
 NAN = math.nan
 
@@ -32,27 +32,49 @@ def test_an_end_can_move_so_fast_and_no_faster(moved, elapsed, wrong):
 
 
 def test_a_watch_tells_old_hidden_jumped_and_contradicting_frames():
-    watch = Watch()
-    assert watch.judge(0.0, 0.0) is Hold.STALE
+    watch = CaptureMonitor()
+    assert watch.judge(0.0, 0.0) is HoldReason.STALE
     watch.take(frames(0.0, 10))
     assert watch.judge(0.1, 0.0) is None
     assert watch.judge(0.28, 0.0) is None
-    assert watch.judge(0.30, 0.0) is Hold.STALE
+    assert watch.judge(0.30, 0.0) is HoldReason.STALE
     watch.take([Sample(0.31, NAN, 0.0)])
-    assert watch.judge(0.31, 0.0) is Hold.NOT_SEEN
+    assert watch.judge(0.31, 0.0) is HoldReason.NOT_SEEN
     watch.take(frames(0.32, 2, human=0.6))
-    assert watch.judge(0.33, 0.0) is Hold.JUMP
+    assert watch.judge(0.33, 0.0) is HoldReason.JUMP
     watch.take(frames(0.34, 12, human=0.6))
     assert watch.judge(0.46, 0.0) is None
     watch.take(frames(0.46, 2, human=0.6, robot=0.02))
     assert watch.judge(0.47, -0.02) is None
     # The hands were at 0 within the last 150 ms, and then no more.
     watch.take(frames(0.62, 2, human=0.6, robot=0.02))
-    assert watch.judge(0.63, -0.02) is Hold.DISAGREE
+    assert watch.judge(0.63, -0.02) is HoldReason.DISAGREE
+
+
+def test_a_stamp_that_cannot_be_makes_all_of_them_stale():
+    assert stamped(Sample(1.02, 0.0, 0.0), 1.0)
+    for time in (1.04, 1e9, NAN, math.inf, -math.inf):
+        assert not stamped(Sample(time, 0.0, 0.0), 1.0)
+    watch = CaptureMonitor()
+    watch.take(frames(0.0, 10), misdated=1)
+    assert watch.judge(0.1, 0.0) is HoldReason.STALE
+    watch.take(frames(0.1, 10))
+    assert watch.judge(0.2, 0.0) is None
+
+
+def test_fewer_frames_than_a_quarter_of_the_usual_are_too_few():
+    watch = CaptureMonitor()
+    watch.take(frames(0.0, 100))
+    assert (watch.rate(0.99), watch.judge(0.99, 0.0)) == (math.inf, None)
+    watch.take([Sample(1.0 + 0.04 * k, 0.0, 0.0) for k in range(26)])
+    assert watch.judge(2.0, 0.0) is None
+    watch.take([Sample(2.05 + 0.05 * k, 0.0, 0.0) for k in range(20)])
+    assert watch.rate(3.0) == 20
+    assert watch.judge(3.0, 0.0) is HoldReason.FEW
 
 
 def test_frames_that_come_twice_or_too_late_count_once():
-    watch = Watch()
+    watch = CaptureMonitor()
     watch.take(frames(0.0, 5))
     watch.take([*frames(0.0, 5, human=9.0), Sample(0.05, 0.001, 0.0)])
     assert [sample.human_end for sample in watch.samples] == [0.0] * 5 + [0.001]
@@ -60,6 +82,6 @@ def test_frames_that_come_twice_or_too_late_count_once():
 
 
 def test_a_watch_forgets_what_is_older_than_a_second():
-    watch = Watch()
+    watch = CaptureMonitor()
     watch.take(frames(0.0, 500))
     assert 100 <= len(watch.samples) <= 102

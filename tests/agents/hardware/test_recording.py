@@ -5,10 +5,10 @@ import threading
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
-from colift.agents.hardware.csv_replay import commands, replay_trial
+from colift.agents.hardware.csv_replay import recorded_commands, replay_trial
 from colift.agents.hardware.decisions import Timed
 from colift.agents.hardware.recording import read_recording, write_recording
-from colift.agents.policies.loading import PolicySpec
+from colift.agents.loading.loading import PolicySpec
 
 
 def played_again(recording, path, policy):
@@ -31,6 +31,12 @@ def played_again(recording, path, policy):
         "disconnect@0",
         "stream-end@0",
         "motor-off@0",
+        "freeze@0:0.4",
+        "future-stamps@0:0.4",
+        "nan-stamps@0",
+        "slow@0",
+        "foreign-setpoint@0:0.3",
+        "hang@0",
         lambda lab: lab.button.press("SIGINT"),
         lambda lab: lab.wait_until(lab.now() + 0.37),
     ],
@@ -43,7 +49,7 @@ def test_the_file_is_exact_and_gives_the_same_commands(play, tmp_path, fault):
     for there, here in zip(trial.record.steps, back.record.steps, strict=True):
         np.testing.assert_array_equal(there[:8], here[:8])
     np.testing.assert_array_equal(np.array(trial.record.samples), np.array(back.record.samples))
-    assert commands(again) == commands(trial.record)
+    assert recorded_commands(again) == recorded_commands(trial.record)
     assert (again.stop, len(again.steps)) == (trial.record.stop, len(trial.record.steps))
 
 
@@ -51,7 +57,7 @@ def test_another_policy_gives_other_commands(play, tmp_path):
     trial = play("copy", duration=3.0)
     _, again = played_again(trial.recording, tmp_path / "t.csv", PolicySpec(text="hold").make())
     assert [step.action for step in again.steps] == [0.0] * 30
-    assert commands(again) != commands(trial.record)
+    assert recorded_commands(again) != recorded_commands(trial.record)
 
 
 def test_a_policy_that_was_late_is_late_again(play, tmp_path):
@@ -81,18 +87,18 @@ def test_a_policy_that_was_late_is_late_again(play, tmp_path):
     assert held[4:8] == ["the policy was late", *["the policy is still at an earlier step"] * 3]
     assert not any(held[:4] + held[8:])
     _, again = played_again(trial.recording, tmp_path / "t.csv", Late(waits=False))
-    assert commands(again) == commands(trial.record)
+    assert recorded_commands(again) == recorded_commands(trial.record)
     assert [step.hold for step in again.steps] == held
 
 
 def test_a_dry_run_moves_nothing_and_replays_too(play, tmp_path):
     trial = play("copy", duration=3.0, dry=True)
-    assert max(commands(trial.record)) > 0.1
+    assert max(recorded_commands(trial.record)) > 0.1
     assert trial.lab.times("setAngles") == []
     assert np.ptp(trial.lab.set_points()) == 0.0
     back, again = played_again(trial.recording, tmp_path / "t.csv", PolicySpec(text="copy").make())
     assert back.dry
-    assert commands(again) == commands(trial.record)
+    assert recorded_commands(again) == recorded_commands(trial.record)
 
 
 @pytest.mark.parametrize(

@@ -4,15 +4,14 @@ import math
 
 import pytest
 from colift.agents.errors import InputError
-from colift.agents.hardware.loop import motor_fault
 from colift.agents.hardware.ports import ArmState, HandLimits
-from colift.agents.hardware.safety import hand_limits, limited, next_command
-from colift.robots.arm_kinematics import ARM_JOINTS
-from colift.robots.nao_facts import JOINTS
+from colift.agents.hardware.safety import hand_limits, limited, motor_fault, next_command
+from colift.robots.nao.facts import JOINTS
+from colift.robots.nao.kinematics import ARM_JOINTS
 from hypothesis import given
 from hypothesis import strategies as st
 
-LIMITS = HandLimits(low=-0.03, high=0.29, speed=0.4)
+LIMITS = HandLimits(low=-0.03, high=0.29, speed=0.4, tilt=0.14)
 OWN = {name: (JOINTS[name].lower, JOINTS[name].upper) for name in ARM_JOINTS}
 
 anything = st.floats(allow_nan=True, allow_infinity=True)

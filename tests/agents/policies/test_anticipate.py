@@ -4,26 +4,26 @@ import json
 import numpy as np
 import pytest
 from colift.agents.agent import RobotObservation
-from colift.agents.errors import InputError
-from colift.agents.estimators.perceptron import Perceptron
-from colift.agents.policies.anticipate import Anticipate
-from colift.agents.policies.anticipation import (
+from colift.agents.control.anticipation import (
     Anticipation,
     anticipation_json,
     load_anticipation,
     read_anticipation,
 )
-from colift.agents.policies.anticipation_controller import (
+from colift.agents.control.anticipation_controller import (
     AnticipateParameters,
     AnticipationController,
 )
-from colift.agents.policies.loading import PolicySpec
-from colift.agents.policies.modes import MODES
-from colift.agents.policies.senses import ARM_LAG, Window
-from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.references import HumanTeam
-from colift.benchmark.runner import run_suite
-from colift.benchmark.suite import Suite
+from colift.agents.control.modes import MODES
+from colift.agents.control.senses import ARM_LAG, Window
+from colift.agents.errors import InputError
+from colift.agents.estimators.perceptron import Perceptron
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.policies.anticipate import Anticipate
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.results.baselines import TEAM_PARTNER
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import Suite
 
 LEADS = np.arange(10) * 0.05
 LATENCY = 0.1
@@ -169,7 +169,7 @@ def test_with_a_person_it_never_met_it_beats_the_human_partner_and_blend():
     suite = held_out(("smooth", "pause", "changing_goal"), (200_000, 200_001, 200_002))
     mine = run_suite(PolicySpec(text="anticipate"), suite)
     assert not any(episode.failure for episode in mine.episodes)
-    team = run_suite(HumanTeam(), suite.with_partner("human"))
+    team = run_suite(TEAM_PARTNER, suite.with_partner("human"))
     blend = run_suite(PolicySpec(text="blend"), suite)
     assert rmse(mine).mean() < 0.7 * rmse(team).mean()
     assert (rmse(mine) < 0.5 * rmse(blend)).all()

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
+from colift.agents.control.predictor import PredictorParameters
 from colift.agents.policies.blend import Blend
-from colift.agents.policies.predictor import PredictorParameters
 from colift.agents.policies.proactive import Proactive
 from colift.agents.policies.reactive import Reactive
 

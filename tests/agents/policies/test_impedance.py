@@ -13,10 +13,10 @@ from colift.agents.policies.impedance import (
     damping_at,
 )
 from colift.agents.policies.proportional import Proportional
-from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.episode import run_episode
-from colift.benchmark.lift import Lift
-from colift.benchmark.suite import make_suite
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import make_suite
 from scipy.linalg import expm
 
 PARAMETERS = ImpedanceParameters(mass=1.3, stiffness=50.0)

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from colift.agents.policies.predictor import Predictor
+from colift.agents.control.predictor import Predictor
 from colift.agents.policies.proactive import Proactive
 
 

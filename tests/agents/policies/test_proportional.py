@@ -3,14 +3,14 @@ from importlib.resources import files
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
+from colift.agents.loading.loading import PolicySpec
 from colift.agents.policies.copy import Copy
 from colift.agents.policies.hold import Hold
-from colift.agents.policies.loading import PolicySpec
 from colift.agents.policies.proportional import Proportional, ProportionalParameters
-from colift.benchmark import lift
-from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.episode import run_episode
-from colift.benchmark.suite import make_suite
+from colift.benchmark.episode import lift
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import make_suite
 
 TEMPLATE = files("colift.agents.submissions") / "template" / "policy.py"
 VIEWS = np.random.default_rng(0).uniform(-0.1, 0.2, (50, 5))
@@ -85,11 +85,18 @@ def test_at_little_more_than_twice_the_gain_it_never_does(push, subject):
 
 
 def test_makes_up_for_the_sag_of_the_own_hand():
-    ends = {}
-    for policy in (Proportional, Copy):
-        trace = run_episode(lift.Lift(make_scenario("smooth", "S2")), policy(), 5000).trace
-        ends[policy] = np.abs(trace.human_end - trace.robot_end)[-10:].mean()
-    assert ends[Proportional] < 0.3 * ends[Copy]
+    """In the mean of lifts: what is left of a sag of half a millimetre is near the noise."""
+    made = lift.Lift(make_scenario("smooth", "S2"))
+    sag = {
+        policy: np.mean(
+            [
+                (trace.human_end - trace.robot_end)[-10:].mean()
+                for trace in (run_episode(made, policy(), seed).trace for seed in range(5000, 5012))
+            ]
+        )
+        for policy in (Proportional, Copy)
+    }
+    assert 0.0 < sag[Proportional] < 0.5 * sag[Copy]
 
 
 def test_beats_holding_still_and_copying_in_the_quick_suite():

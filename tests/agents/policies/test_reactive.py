@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 from colift.agents.agent import RobotObservation
-from colift.agents.policies.q_learning import ACTIONS, QParameters, right_action
-from colift.agents.policies.reactive import Reactive, learned_table
+from colift.agents.control.q_learning import ACTIONS, QParameters, learned_table, right_action
+from colift.agents.policies.reactive import Reactive
 
 
 def seen(human=0.0, robot=0.0, hand=0.0, command=0.0, time=0.0):

@@ -3,12 +3,12 @@ import dataclasses
 import numpy as np
 import pytest
 from colift.agents.agent import RobotObservation
+from colift.agents.control.adaptive_impedance import Impedance, certainty
+from colift.agents.control.task import Task, load_task, task_json
+from colift.agents.control.task_controller import TaskController, TaskModelParameters
 from colift.agents.errors import InputError
 from colift.agents.estimators.gaussian_mixture import GaussianMixture
-from colift.agents.policies.adaptive_impedance import Impedance, certainty
-from colift.agents.policies.loading import PolicySpec
-from colift.agents.policies.task import Task, load_task, task_json
-from colift.agents.policies.task_controller import TaskController, TaskModelParameters
+from colift.agents.loading.loading import PolicySpec
 from colift.agents.policies.task_model import TaskModel
 
 

@@ -44,11 +44,16 @@ def test_what_is_not_declared_is_told_with_what_to_declare(found):
 def test_what_no_sandbox_has_is_told_with_what_it_has(found):
     (told,) = found("import torch.nn\n")
     assert told == (
-        "policy.py imports torch, which a sandbox does not have; "
-        "it has filterpy, numpy, scikit-learn, scipy"
+        "policy.py imports torch, which a submission cannot ask for: whether it is there differs "
+        "from board to board; what it can: filterpy, numpy, scikit-learn, scipy"
     )
 
 
 @pytest.mark.parametrize("source", ["def (:", "\0", "(" * 5000, "-" * 100_000 + "1", "\xff"])
 def test_what_is_no_python_is_left_to_the_sandbox(found, source):
     assert found(source) == []
+
+
+def test_a_source_that_would_take_memory_to_read_is_told_and_not_read(found):
+    told = found("import sklearn\n" + "1," * 2**20)
+    assert told == ["policy.py is larger than 1 MiB; put its data into a file that is no source"]

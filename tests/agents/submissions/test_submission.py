@@ -6,6 +6,7 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.submissions.new import write_template
@@ -47,7 +48,7 @@ def policy_py(folder, helper="1.0"):
 def act(policy):
     with policy.agent() as agent:
         agent.reset(1)
-        return [float(number) for number in agent.act(OBSERVATION)]
+        return [float(number) for number in np.atleast_1d(agent.act(OBSERVATION))]
 
 
 def test_the_template_is_a_submission_that_moves(mine):
@@ -161,7 +162,13 @@ class TestWrong:
 
     def test_no_folder(self, read, mine):
         assert self.refused(read, mine / "nowhere") == f"{mine}/nowhere: no such folder"
-        assert self.refused(read, mine / "policy.py") == f"{mine}/policy.py: not a folder"
+        assert self.refused(read, mine / "policy.py") == (
+            f"{mine}/policy.py is a file; a submission is a folder, which "
+            f"'colift new DIR --from {mine}/policy.py:Policy' makes of it"
+        )
+        assert self.refused(read, mine / "policy.toml") == (
+            f"{mine}/policy.toml is a file; a submission is a folder"
+        )
 
     def test_no_manifest(self, read, mine):
         (mine / "policy.toml").unlink()

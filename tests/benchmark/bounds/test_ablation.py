@@ -2,16 +2,16 @@ import dataclasses
 
 import numpy as np
 import pytest
-from colift.agents.policies.anticipation import load_anticipation
-from colift.agents.policies.anticipation_controller import AnticipateParameters
-from colift.agents.policies.senses import Window
-from colift.benchmark.anticipation_experience import Experience, window_inputs
-from colift.benchmark.anticipation_learning import WAYS, Lesson, learn_anticipation
+from colift.agents.control.anticipation import load_anticipation
+from colift.agents.control.anticipation_controller import AnticipateParameters
+from colift.agents.control.senses import Window
 from colift.benchmark.bounds.ablation import VARIANTS, ablate, moving, narrowed, variants
-from colift.benchmark.bounds.foreseer import Foreseer
+from colift.benchmark.bounds.causal import Foreseer
 from colift.benchmark.bounds.held_out import held_out_suite
-from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.suite import BEHAVIOURS, Suite
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import BEHAVIOURS, Suite
+from colift.benchmark.training.anticipation import WAYS, Lesson, learn_anticipation
+from colift.benchmark.training.experience import Experience, window_inputs
 
 
 def test_narrower_experience_is_what_a_narrower_window_sees():

@@ -1,12 +1,11 @@
 import numpy as np
-from colift.agents.policies.anticipation import load_anticipation
-from colift.agents.policies.loading import PolicySpec
+from colift.agents.control.anticipation import load_anticipation
+from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bounds import held_out
-from colift.benchmark.bounds.causal import CAUSAL_BOUND, causal_bound
-from colift.benchmark.bounds.play import BOUNDS
-from colift.benchmark.catalogue import make_scenario
+from colift.benchmark.bounds.causal import BOUNDS, CAUSAL_BOUND, causal_bound
 from colift.benchmark.comparison.contest import play_contest
-from colift.benchmark.suite import Suite
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import Suite
 
 
 def seeds(model):

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from colift.benchmark.bounds.claims import claims
 from colift.benchmark.comparison.contest import Contest, Entry
-from colift.benchmark.references import Reference
-from colift.benchmark.scores import Scores
-from colift.benchmark.suite import BEHAVIOURS, make_suite
+from colift.benchmark.episode.scores import Scores
+from colift.benchmark.results.baselines import Reference
+from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
 
 CELLS = tuple(
     (behaviour, subject) for behaviour in BEHAVIOURS for subject in "AB" for _ in range(4)
@@ -33,7 +33,9 @@ def entry(name, rmse, sparc=-2.0, force=0.1, cells=CELLS):
 
 
 def reference(rmse, cells):
-    return Reference(cells=cells, rmse_mm=(rmse,) * len(cells), sparc=-2.5, human_force_n=0.4)
+    return Reference(
+        cells=cells, rmse_mm=(rmse,) * len(cells), means={"sparc": -2.5, "human_force_n": 0.4}
+    )
 
 
 def contest(mine, *, bound=4.0, blend=16.0, team=8.0, sparc=-2.0, force=0.1, cells=CELLS):

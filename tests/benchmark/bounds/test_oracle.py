@@ -2,14 +2,14 @@ import numpy as np
 import pytest
 from colift.agents.agent import FRAME
 from colift.agents.errors import InputError
-from colift.agents.policies.loading import PolicySpec
+from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.bounds.causal import BOUNDS
 from colift.benchmark.bounds.oracle import Foreknowing, foreknow, oracle_run
-from colift.benchmark.bounds.play import BOUNDS
-from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.episode import run_episode
-from colift.benchmark.lift import Lift
-from colift.benchmark.runner import run_suite
-from colift.benchmark.suite import Suite, make_suite
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import Suite, make_suite
 
 
 def commanded(path, frames, steps):

@@ -1,13 +1,13 @@
 import json
 
 import pytest
-from colift.benchmark.anticipation_experience import Timing
 from colift.benchmark.bounds import sweep as sweeping
 from colift.benchmark.bounds.held_out import FIRST_SEED
 from colift.benchmark.bounds.sweep import NAMES, Swept, lifts_to_play, sweep, team_rmse, timings
 from colift.benchmark.bounds.sweep_picture import sweep_figure, sweep_json
-from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.suite import Suite
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.training.experience import Timing
 
 SUITE = Suite(name="one", scenarios=(make_scenario("smooth", "draw-200004"),), seeds=(FIRST_SEED,))
 

@@ -3,10 +3,10 @@
 import pytest
 from colift.agents.errors import PolicyError
 from colift.agents.policies.copy import Copy
-from colift.agents.policies.in_process import InProcess
+from colift.agents.spec import InProcess
 from colift.benchmark.bundle import results, write_bundle
-from colift.benchmark.runner import run_suite
-from colift.benchmark.suite import make_suite
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.suites.suite import make_suite
 
 
 class Hostile(Copy):

@@ -7,8 +7,8 @@ import pytest
 from colift.agents.errors import InputError
 from colift.agents.humans import SUBJECTS, Pause, Recorded, Recording
 from colift.benchmark.bundle import Recipe
-from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.suite import SUITES, Suite, make_suite, recorded_suite
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import SUITES, Suite, make_suite, recorded_suite
 
 LIFT = "".join(f"{k / 50:.2f},{0.3 * min(k, 60 - k) / 30 + 1 / 3!r}\n" for k in range(61))
 

@@ -8,18 +8,13 @@ import json
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
-from colift.agents.policies.loading import PolicySpec
-from colift.benchmark.bundle import (
-    FILES,
-    check_target,
-    fingerprint,
-    read_bundle,
-    results,
-    write_bundle,
-)
-from colift.benchmark.runner import run_suite
-from colift.benchmark.scores import SCORING
-from colift.benchmark.suite import make_suite
+from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.bundle import FILES, check_target, read_bundle, results, write_bundle
+from colift.benchmark.bundle.content import real_time
+from colift.benchmark.episode.scores import SCORING
+from colift.benchmark.execution.provenance import fingerprint
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.suites.suite import make_suite
 
 
 @pytest.fixture(scope="module")
@@ -124,6 +119,11 @@ def test_equal_runs_give_equal_bundles_up_to_the_step_times(run, bundle, tmp_pat
     assert one["summary"].pop("step_ms")["p99"] < 100
     assert other["summary"].pop("step_ms") == {"p50": pytest.approx(200), "p99": pytest.approx(200)}
     assert one == other
+
+
+@pytest.mark.parametrize(("p99_ms", "keeps_up"), [(60.0, True), (60.1, False), (None, None)])
+def test_a_robot_waits_for_a_policy_for_a_share_of_the_period(run, p99_ms, keeps_up):
+    assert real_time(p99_ms, run.suite) is keeps_up
 
 
 def test_circumstances_are_in_the_results(run):

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from colift.benchmark.comparison.comparison import Comparison, compare
 from colift.benchmark.comparison.contest import Contest, Entry
-from colift.benchmark.references import Reference
-from colift.benchmark.scores import Scores
-from colift.benchmark.suite import BEHAVIOURS, make_suite
+from colift.benchmark.episode.scores import Scores
+from colift.benchmark.results.baselines import Reference
+from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
 
 CELLS = tuple(
     (behaviour, subject) for behaviour in BEHAVIOURS for subject in ("S1", "S2") for _ in range(8)
@@ -55,7 +55,9 @@ def noise(seed: int, spread: float = 0.5) -> np.ndarray:
 
 def contest(*entries: Entry) -> Contest:
     """Return a contest against a team whose error is the difficulty of the lift."""
-    team = Reference(cells=CELLS, rmse_mm=tuple(DIFFICULTY), sparc=-2.5, human_force_n=0.4)
+    team = Reference(
+        cells=CELLS, rmse_mm=tuple(DIFFICULTY), means={"sparc": -2.5, "human_force_n": 0.4}
+    )
     return Contest(suite=make_suite("quick-v1"), entries=entries, team=team)
 
 

@@ -1,10 +1,18 @@
 """Ranks, differences and smoothness of policies whose scores are known."""
 
+import dataclasses
+
 import numpy as np
 import pytest
-from colift.benchmark.comparison.comparison import Comparison
+from colift.benchmark.comparison.comparison import Comparison, compare
+from colift.benchmark.comparison.contest import Entry
+from colift.benchmark.comparison.files import comparison_json
+from colift.benchmark.comparison.html import html_page
 from colift.benchmark.comparison.standing import Scope, Standing
+from colift.benchmark.comparison.words import oddities, parts_caption
 from colift.benchmark.statistics import paired_permutation_p
+
+from .conftest import contest, entry
 
 
 def named(scope: Scope, name: str) -> Standing:
@@ -87,3 +95,53 @@ def test_holding_still_has_no_smoothness(comparison: Comparison) -> None:
 def test_the_front_leaves_out_who_is_beaten_in_both(comparison: Comparison) -> None:
     """The twin is less level and less smooth than the leader; failing is smooth in some lifts."""
     assert comparison.front == ("leader", "follower")
+
+
+def test_with_three_lifts_a_behaviour_none_is_the_best_there() -> None:
+    def few(made: Entry) -> Entry:
+        return dataclasses.replace(
+            made,
+            cells=made.cells[::5],
+            scores=made.scores[::5],
+            failures=made.failures[::5],
+        )
+
+    better, worse = few(entry("better", 5.0, -2.0)), few(entry("worse", 200.0, -2.0))
+    full = contest()
+    team = dataclasses.replace(full.team, cells=better.cells, rmse_mm=(10.0,) * 13)
+    made = compare(dataclasses.replace(full, entries=(better, worse), team=team))
+    assert [scope.episodes for scope in made.behaviours] == [4, 3, 3, 3]
+    for scope in made.behaviours:
+        assert not any(scope.best(standing) for standing in scope.standings)
+    assert [made.overall.best(standing) for standing in made.overall.standings] == [True, False]
+    assert parts_caption("behaviour", made.behaviours).endswith(
+        "None is marked as the best: 3 or 4 lifts in a column are too few to tell policies apart "
+        "at 5 %."
+    )
+    by_behaviour = html_page(made).split("<h2>By behaviour</h2>")[1].split("<h2>By subject</h2>")[0]
+    assert 'class="best"' not in by_behaviour
+    told = comparison_json(made)
+    assert [part["decisive"] for part in (told, *told["behaviours"])] == [True] + [False] * 4
+
+
+def test_where_lifts_are_enough_the_best_are_marked(comparison: Comparison) -> None:
+    marked = [
+        [standing.name for standing in scope.standings if scope.best(standing)]
+        for scope in comparison.behaviours
+    ]
+    assert all(marked)
+    assert set(marked[0]) == {"leader", "twin"}
+
+
+def test_actions_that_are_hardly_in_metres_are_told() -> None:
+    def clipped(name: str, share: float) -> Entry:
+        made = entry(name, 20.0, -2.0)
+        scores = tuple(dataclasses.replace(each, clipped=share) for each in made.scores)
+        return dataclasses.replace(made, scores=scores)
+
+    made = compare(contest(clipped("millimetres", 0.98), clipped("metres", 0.02)))
+    (told,) = oddities(made)
+    assert told.startswith("millimetres: 98 % of its actions were cut")
+    assert {s.name: s.clipped for s in made.overall.standings} == pytest.approx(
+        {"millimetres": 0.98, "metres": 0.02}
+    )

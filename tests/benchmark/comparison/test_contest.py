@@ -3,15 +3,15 @@
 import dataclasses
 
 import pytest
-from colift.agents.policies.loading import PolicySpec
+from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import results
 from colift.benchmark.comparison.comparison import compare
-from colift.benchmark.comparison.content import comparison_json
 from colift.benchmark.comparison.contest import TEAM, Contest, amount, play_contest
+from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.html import html_page
-from colift.benchmark.references import human_team_run, shipped_bounds, shipped_references
-from colift.benchmark.runner import run_suite
-from colift.benchmark.suite import Suite, make_suite
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.results.baselines import human_team_run, shipped_bounds, shipped_references
+from colift.benchmark.suites.suite import Suite, make_suite
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +32,7 @@ def test_a_policy_has_the_numbers_that_run_gives_it(quick: Suite, played: Contes
         assert list_of(standing["rmse_mm"][name]) == list_of(summary["rmse_mm"][name])
         assert list_of(standing["vs_human"][name]) == list_of(summary["vs_human"][name])
     assert standing["sparc"]["mean"] == pytest.approx(summary["sparc"]["mean"])
-    assert standing["human_force_n"] == pytest.approx(summary["human_force_n"]["mean"])
+    assert standing["human_force_n"]["mean"] == pytest.approx(summary["human_force_n"]["mean"])
     assert standing["digest"] == run.policy_digest
 
 

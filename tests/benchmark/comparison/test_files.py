@@ -11,8 +11,12 @@ from pathlib import Path
 import pytest
 from colift.agents.errors import InputError
 from colift.benchmark.comparison.comparison import Comparison, compare
-from colift.benchmark.comparison.content import comparison_csv, comparison_json
-from colift.benchmark.comparison.files import check_target, write_comparison
+from colift.benchmark.comparison.files import (
+    check_target,
+    comparison_csv,
+    comparison_json,
+    write_comparison,
+)
 from colift.benchmark.comparison.words import failures, verdict
 from PIL import Image
 
@@ -49,7 +53,7 @@ def test_json_has_every_policy_in_every_part(folder: Path, comparison: Compariso
         assert {policy["name"] for policy in part["policies"]} == names
     fronts = {policy["name"]: policy["pareto_front"] for policy in content["policies"]}
     assert [name for name, on in fronts.items() if on] == ["leader", "follower"]
-    assert content["policies"][-1]["sparc"] is None
+    assert content["policies"][-1]["sparc"] == {"mean": None, "ci95": None, "missing": 64}
 
 
 def test_csv_has_a_row_for_each_policy_and_part_and_no_value_where_there_is_none(

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from colift.benchmark.comparison.front import Point, pareto_front
+from colift.benchmark.comparison.comparison import Point, pareto_front
 
 LEVEL = Point(rmse_mm=10.0, sparc=-3.0)
 SMOOTH = Point(rmse_mm=20.0, sparc=-1.5)

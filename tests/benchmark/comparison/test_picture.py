@@ -8,8 +8,8 @@ import pytest
 from colift.benchmark.comparison.comparison import Comparison, compare
 from colift.benchmark.comparison.picture import comparison_figure
 from colift.benchmark.comparison.scale import Scale, make_scale, spots
-from colift.benchmark.references import Reference
-from colift.benchmark.rendering.palette import FAINT, ROBOT
+from colift.benchmark.rendering.style import FAINT, ROBOT
+from colift.benchmark.results.baselines import Reference
 from matplotlib.axes import Axes
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
@@ -102,8 +102,7 @@ def test_bounds_do_not_push_policies_off_the_scale() -> None:
     near = Reference(
         cells=policies.team.cells,
         rmse_mm=(0.1,) * len(policies.team.cells),
-        sparc=-1.9,
-        human_force_n=0.1,
+        means={"sparc": -1.9, "human_force_n": 0.1},
     )
     bounded = dataclasses.replace(policies, bounds={"oracle": near, "causal_bound": near})
     scale, places = scaled(compare(bounded))

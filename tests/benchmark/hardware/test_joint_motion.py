@@ -1,7 +1,7 @@
 """The emulated ALMotion: names, limits, ticks; in this process and over libqi."""
 
 import pytest
-from colift.agents.hardware.naoqi_session import NaoqiSession
+from colift.agents.hardware.nao.session import NaoqiSession
 from colift.agents.hardware.ports import RobotLostError
 from colift.benchmark.hardware.joint_motion import (
     BODY,
@@ -11,7 +11,7 @@ from colift.benchmark.hardware.joint_motion import (
     joint_names,
     spread,
 )
-from colift.robots.nao_facts import JOINTS
+from colift.robots.nao.facts import JOINTS
 
 
 def test_names_chains_and_body_are_naoqis():
@@ -69,7 +69,8 @@ def test_stiffness_takes_its_time():
     for _ in range(25):
         motion.tick()
     assert motion.stiffness(["HeadYaw"]) == pytest.approx([0.5])
-    assert motion.moving(["HeadYaw"])
+    assert motion.stiffening(["HeadYaw"])
+    assert not motion.moving(["HeadYaw"])
 
 
 def test_the_server_answers_over_libqi_as_naoqi_does(emulate):

@@ -5,20 +5,20 @@ import pytest
 from colift.agents.errors import InputError
 from colift.agents.hardware.decisions import Inline
 from colift.agents.hardware.loop import LoopSettings
-from colift.agents.hardware.naoqi import NaoqiArm
+from colift.agents.hardware.nao.naoqi import NaoqiArm
 from colift.agents.hardware.operator import StopButton
 from colift.agents.hardware.session import Session
 from colift.agents.hardware.stops import Stop, StopTrialError
 from colift.agents.hardware.trial_end import AfterLift
-from colift.agents.policies.loading import PolicySpec
-from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.episode import policy_seed
+from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.episode.episode import policy_seed
+from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.hardware.faults import Fault
 from colift.benchmark.hardware.laboratory import Conditions
 from colift.benchmark.hardware.simulated import SimulatedLaboratory
 from colift.benchmark.hardware.trial import episode
-from colift.benchmark.runner import run_suite
-from colift.benchmark.suite import Suite
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import Suite
 
 SMOOTH = make_scenario("smooth", "S1")
 SEEDS = (0, 1, 2)
@@ -56,7 +56,7 @@ def test_the_error_is_that_of_pure_simulation(policy):
     made, _ = session()
     made.set_up()
     records = [lift(made, policy, number + 1) for number in SEEDS]
-    made.finish()
+    made.finish(lambda: None)
     assert all(record.stop is None for record in records)
     there = [
         episode(record, person="S1", number=k).scores
@@ -82,7 +82,7 @@ def test_the_set_up_takes_hold_and_finds_zero():
     # The person's hand gives way a little where the hands have moved.
     assert np.mean([frame.human_end for frame in frames]) == pytest.approx(0.0, abs=0.005)
     assert [line for line in told if line.startswith("test move: the robot's end follows by 1.0")]
-    made.finish()
+    made.finish(lambda: None)
     assert made.arm.session.call("ALMotion", "robotIsWakeUp") is False
     assert made.arm.state().stiffness == 0.0
 

@@ -7,9 +7,9 @@ import pytest
 from colift.agents.errors import InputError
 from colift.agents.hardware.ports import HandLimits, Sample
 from colift.agents.hardware.record import Record, Step
-from colift.agents.hardware.recording import Recording
+from colift.agents.hardware.recording import TrialRecording
 from colift.agents.hardware.stops import Stop
-from colift.benchmark.hardware.estimates import estimate
+from colift.benchmark.hardware.estimates import estimate_setup
 from colift.benchmark.hardware.strokes import find_strokes, smoothed
 from colift.benchmark.hardware.timing import timing_report
 from colift.benchmark.hardware.trial import episode, hardware_suite
@@ -119,12 +119,12 @@ def test_the_latency_report_counts_and_measures():
 
 
 def test_trials_that_say_nothing_are_refused_by_what_they_lack():
-    limits = HandLimits(low=-0.03, high=0.29, speed=0.4)
+    limits = HandLimits(low=-0.03, high=0.29, speed=0.4, tilt=0.14)
 
     def recorded(made):
-        return Recording(policy="hold", limits=limits, weight_offset=0.0, record=made)
+        return TrialRecording(policy="hold", limits=limits, weight_offset=0.0, record=made)
 
     with pytest.raises(InputError, match="5 steps are too few"):
-        estimate([recorded(record(0.5, up_and_down, up_and_down))])
+        estimate_setup([recorded(record(0.5, up_and_down, up_and_down))])
     with pytest.raises(InputError, match="told to move by less than 30 mm"):
-        estimate([recorded(record(5.0, up_and_down, up_and_down))])
+        estimate_setup([recorded(record(5.0, up_and_down, up_and_down))])

@@ -1,11 +1,12 @@
 """A report on few lifts, made once."""
 
 import dataclasses
+import pickle
 
 import pytest
 from colift.benchmark.paper.evidence import Effort, amount, gather
 from colift.benchmark.paper.report import make_report, write_report
-from colift.benchmark.suite import make_suite
+from colift.benchmark.suites.suite import make_suite
 
 EFFORT = Effort(
     pause=1,
@@ -37,10 +38,14 @@ def suite():
 
 
 @pytest.fixture(scope="session")
-def made(suite, tmp_path_factory):
-    counted = []
-    evidence = gather(suite, EFFORT, progress=counted.append)
-    report = make_report(evidence)
-    folder = tmp_path_factory.mktemp("paper") / "new" / "report"
-    write_report(report, folder)
-    return Made(evidence, report, folder, sum(counted), amount(suite, EFFORT))
+def made(suite, once):
+    def make(place):
+        counted = []
+        evidence = gather(suite, EFFORT, progress=counted.append)
+        write_report(make_report(evidence), place / "new" / "report")
+        (place / "evidence").write_bytes(pickle.dumps((evidence, sum(counted))))
+
+    place = once("paper", make)
+    evidence, counted = pickle.loads((place / "evidence").read_bytes())
+    folder = place / "new" / "report"
+    return Made(evidence, make_report(evidence), folder, counted, amount(suite, EFFORT))

@@ -5,13 +5,13 @@ import types
 
 import numpy as np
 import pytest
-from colift.agents.policies.q_learning import ACTIONS
-from colift.benchmark.learning import LearningTrial
-from colift.benchmark.paper.claims.claim import Claim
-from colift.benchmark.paper.claims.learning import learning_claims, levels
-from colift.benchmark.paper.claims.table import table_claims
-from colift.benchmark.paper.claims.timing import timing_claims
-from colift.benchmark.paper.figures.all import median_lift
+from colift.agents.control.q_learning import ACTIONS
+from colift.benchmark.paper.exhibits import Claim
+from colift.benchmark.paper.report import median_lift
+from colift.benchmark.paper.topics.learning import learning_claims, levels
+from colift.benchmark.paper.topics.table import table_claims
+from colift.benchmark.paper.topics.timing import timing_claims
+from colift.benchmark.training.q_learning import LearningTrial
 
 RIGHT = np.eye(5)[::-1]
 """The five right actions: the lowest state wants the last action."""

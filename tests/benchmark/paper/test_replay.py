@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from colift.agents.policies.blend import Blend
-from colift.benchmark.episode import run_episode
-from colift.benchmark.lift import Lift
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.paper.replay import confidence_course, replay
-from colift.benchmark.paper.timing import ahead_errors, retuned
+from colift.benchmark.paper.topics.timing import ahead_errors, retuned
 
 
 def test_a_watched_blend_acts_as_the_blend(made, suite):

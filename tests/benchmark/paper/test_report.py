@@ -7,8 +7,8 @@ import re
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
-from colift.benchmark.paper.published import WITH_PREDICTION, WITHOUT_PREDICTION
 from colift.benchmark.paper.report import check_target, make_report, write_report
+from colift.benchmark.paper.table_one import WITH_PREDICTION, WITHOUT_PREDICTION
 
 FIGURES = (
     "table-1",

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
-from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.episode import Episode
-from colift.benchmark.scenario import Scenario
-from colift.benchmark.scores import Scores
-from colift.benchmark.trace import Trace
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.scores import Scores
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.suites.catalogue import make_scenario
 
 
 def short_episode(frames: int, *, failure: str | None = None) -> Episode:

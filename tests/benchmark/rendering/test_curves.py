@@ -1,11 +1,11 @@
 import dataclasses
 
 import numpy as np
-from colift.benchmark.episode import Episode
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.trace import Trace
 from colift.benchmark.rendering.caption import title
 from colift.benchmark.rendering.curves import Curves
-from colift.benchmark.rendering.palette import HUMAN
-from colift.benchmark.trace import Trace
+from colift.benchmark.rendering.style import HUMAN
 from numpy.typing import NDArray
 from PIL import Image, ImageColor
 

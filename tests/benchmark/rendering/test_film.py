@@ -3,10 +3,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
-from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.episode import Episode
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.rendering.film import film_episode, frames, shown_frames, still
-from colift.benchmark.scenario import Scenario
+from colift.benchmark.suites.catalogue import make_scenario
 from PIL import Image
 
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.benchmark.environment.parallel import ParallelLift, parallel_env
-from colift.benchmark.recorder import Recorder
-from colift.benchmark.rendering.palette import HUMAN, ROBOT, SKY
+from colift.benchmark.episode.recorder import Recorder
 from colift.benchmark.rendering.scene import Picture, Scene, check_render_mode
+from colift.benchmark.rendering.style import HUMAN, ROBOT, SKY
 from PIL import ImageColor
 
 PLACES = ((0.0, 0.0), (0.29, 0.29), (-0.03, 0.10))

@@ -54,7 +54,7 @@ def test_mp4_without_the_extra_says_what_to_install(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
-    with pytest.raises(InputError, match=r"mp4 needs the extra: install colift\[video\]"):
+    with pytest.raises(InputError, match=r"mp4 needs imageio-ffmpeg: "):
         check_target(tmp_path / "a.mp4")
 
 

@@ -38,5 +38,5 @@ class TestMeanWithMissing:
 
     def test_has_no_mean_when_everything_is_missing(self) -> None:
         summary = mean_with_missing([math.nan, math.nan])
-        assert math.isnan(summary.mean)
+        assert summary.mean is None
         assert summary.missing == 2

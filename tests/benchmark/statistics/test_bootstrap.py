@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.benchmark.statistics import (
-    difference_of_means_ci,
+    difference_of_means,
     interquartile_mean,
     paired_difference,
-    ratio_of_means_ci,
+    ratio_of_means,
     stratified_bootstrap,
 )
 
@@ -83,32 +83,33 @@ class TestRatioOfMeans:
     strata = labels(4, 15)
 
     def test_contains_the_ratio_of_means_not_the_mean_of_ratios(self) -> None:
-        low, high = ratio_of_means_ci([1.0, 9.0] * 40, [1.0, 3.0] * 40, ["a"] * 80)
-        mean_of_ratios, ratio_of_means = (1 + 3) / 2, 10 / 4
-        assert mean_of_ratios < low < ratio_of_means < high
+        estimate = ratio_of_means([1.0, 9.0] * 40, [1.0, 3.0] * 40, ["a"] * 80)
+        mean_of_ratios = (1 + 3) / 2
+        assert estimate.mean == 10 / 4
+        assert mean_of_ratios < estimate.ci95[0] < estimate.mean < estimate.ci95[1]
 
     def test_pairing_removes_what_both_have_in_common(self) -> None:
         within = np.arange(60).reshape(4, 15)
         shuffled = np.random.default_rng(3).permuted(within, axis=1).ravel()
-        paired = ratio_of_means_ci(self.robot, self.difficulty, self.strata)
-        unpaired = ratio_of_means_ci(self.robot, self.difficulty[shuffled], self.strata)
+        paired = ratio_of_means(self.robot, self.difficulty, self.strata).ci95
+        unpaired = ratio_of_means(self.robot, self.difficulty[shuffled], self.strata).ci95
         assert paired[0] < self.robot.mean() / self.difficulty.mean() < paired[1]
         assert np.ptp(paired) < 0.3 * np.ptp(unpaired)
 
     def test_of_proportional_values_is_exact(self) -> None:
-        interval = ratio_of_means_ci(0.5 * self.difficulty, self.difficulty, self.strata)
+        interval = ratio_of_means(0.5 * self.difficulty, self.difficulty, self.strata).ci95
         assert interval == pytest.approx((0.5, 0.5))
 
     def test_the_seed_decides(self) -> None:
-        first = ratio_of_means_ci(self.robot, self.difficulty, self.strata, seed=1)
-        assert ratio_of_means_ci(self.robot, self.difficulty, self.strata, seed=1) == first
-        assert ratio_of_means_ci(self.robot, self.difficulty, self.strata, seed=2) != first
+        first = ratio_of_means(self.robot, self.difficulty, self.strata, seed=1)
+        assert ratio_of_means(self.robot, self.difficulty, self.strata, seed=1) == first
+        assert ratio_of_means(self.robot, self.difficulty, self.strata, seed=2) != first
 
     def test_rejects_a_denominator_that_is_not_positive_and_unequal_lengths(self) -> None:
         with pytest.raises(InputError, match=r"denominator 0\.0 of episode 1"):
-            ratio_of_means_ci([1.0, 1.0], [1.0, 0.0], ["a", "a"])
+            ratio_of_means([1.0, 1.0], [1.0, 0.0], ["a", "a"])
         with pytest.raises(InputError, match="numerator has 2 episodes, denominator 1"):
-            ratio_of_means_ci([1.0, 1.0], [1.0], ["a", "a"])
+            ratio_of_means([1.0, 1.0], [1.0], ["a", "a"])
 
 
 class TestPairedDifference:
@@ -145,9 +146,9 @@ class TestDifferenceOfMeans:
     strata_a, strata_b = labels(4, 15), labels(2, 15)
 
     def interval(self, confidence: float = 0.95) -> tuple[float, float]:
-        return difference_of_means_ci(
+        return difference_of_means(
             self.a, self.strata_a, self.b, self.strata_b, resamples=20000, confidence=confidence
-        )
+        ).ci95
 
     def test_agrees_with_the_normal_interval(self) -> None:
         variances = [
@@ -159,7 +160,7 @@ class TestDifferenceOfMeans:
 
     def test_cells_of_equal_names_are_not_one(self) -> None:
         """Constant cells that shared a name would be mixed, and vary."""
-        interval = difference_of_means_ci([5.0, 5.0], ["x", "x"], [2.0, 2.0], ["x", "x"])
+        interval = difference_of_means([5.0, 5.0], ["x", "x"], [2.0, 2.0], ["x", "x"]).ci95
         assert interval == (3.0, 3.0)
 
     def test_covers_the_true_difference_in_95_percent(self) -> None:
@@ -168,10 +169,10 @@ class TestDifferenceOfMeans:
         hits = 0
         for seed in range(1000):
             a, b = rng.normal(1.0, 1.0, 18), rng.normal(0.0, 2.0, 18)
-            low, high = difference_of_means_ci(a, strata, b, strata, resamples=400, seed=seed)
+            low, high = difference_of_means(a, strata, b, strata, resamples=400, seed=seed).ci95
             hits += low <= 1.0 <= high
         assert 0.93 <= hits / 1000 <= 0.97
 
     def test_refuses_a_missing_value(self) -> None:
         with pytest.raises(InputError, match="b of episode 0"):
-            difference_of_means_ci([1.0], ["x"], [math.nan], ["x"])
+            difference_of_means([1.0], ["x"], [math.nan], ["x"])

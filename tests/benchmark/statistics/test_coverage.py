@@ -4,13 +4,13 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from colift.benchmark.references import shipped_references
+from colift.benchmark.results.baselines import shipped_references
 from colift.benchmark.statistics import (
     paired_difference,
-    ratio_of_means_ci,
+    ratio_of_means,
     stratified_bootstrap,
 )
-from colift.benchmark.suite import make_suite
+from colift.benchmark.suites.suite import make_suite
 from numpy.typing import NDArray
 
 Sample = NDArray[np.float64]
@@ -89,8 +89,8 @@ def paired_coverage(find: Find, true: float, *, sets: int = 1000) -> float:
 
 
 def ratio(confidence: float) -> Find:
-    return lambda a, b, strata, seed: ratio_of_means_ci(
-        a, b, strata, resamples=600, confidence=confidence, seed=seed
+    return lambda a, b, strata, seed: (
+        ratio_of_means(a, b, strata, resamples=600, confidence=confidence, seed=seed).ci95
     )
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.benchmark.statistics import (
+    decisive,
     holm_correction,
     paired_permutation_p,
     rank_groups,
@@ -98,3 +99,12 @@ def test_one_policy_or_none() -> None:
 def test_needs_the_same_episodes() -> None:
     with pytest.raises(InputError, match="pairs are needed"):
         rank_groups({"a": [1.0, 2.0], "b": [1.0]})
+
+
+@pytest.mark.parametrize("behind", [1, 2, 4])
+@pytest.mark.parametrize("episodes", range(1, 11))
+def test_what_is_decisive_can_be_told_apart_and_nothing_else(behind, episodes):
+    """However clear the differences are: the number of episodes decides."""
+    errors = {f"p{k}": np.full(episodes, 1.0 + 100.0 * k) for k in range(behind + 1)}
+    apart = len(rank_groups(errors, resamples=100_000)) > 1
+    assert decisive(behind + 1, episodes) == apart

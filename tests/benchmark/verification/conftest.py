@@ -4,11 +4,11 @@ import shutil
 
 import pytest
 from colift.agents.errors import PolicyError
+from colift.agents.loading.loading import PolicySpec
 from colift.agents.policies.copy import Copy
-from colift.agents.policies.in_process import InProcess
-from colift.agents.policies.loading import PolicySpec
+from colift.agents.spec import InProcess
 from colift.benchmark.bundle import results, write_bundle
-from colift.benchmark.runner import run_suite
+from colift.benchmark.execution.runner import run_suite
 
 from .forging import SUITE
 

@@ -6,9 +6,11 @@ import io
 import json
 
 import numpy as np
-from colift.benchmark.bundle import read_bundle
+from colift.benchmark.bundle import read_bundle, write_bundle
 from colift.benchmark.bundle.arrays import dump_arrays, parse_arrays
-from colift.benchmark.suite import make_suite
+from colift.benchmark.bundle.content import results, with_circumstances
+from colift.benchmark.bundle.json_text import dump_json
+from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.verification import verify
 
 SUITE = make_suite("quick-v1").with_seeds(3, 5)
@@ -28,7 +30,7 @@ def mend(folder):
 def edit_json(folder, name, change):
     content = json.loads((folder / name).read_text())
     change(content)
-    (folder / name).write_text(json.dumps(content, indent=2) + "\n")
+    (folder / name).write_bytes(dump_json(content))
 
 
 def edit_rows(folder, change):
@@ -52,6 +54,13 @@ def edit_arrays(folder, change):
 def flip(array, index):
     """Change the last bit of one number."""
     array.view(np.uint64)[index] ^= 1
+
+
+def rewrite(folder, run, platform=None):
+    """Write a bundle of another run, with the step times that it had."""
+    told = read_bundle(folder).results
+    content = with_circumstances(results(run, {}), told, run.suite)
+    write_bundle(folder, run, content, platform=platform)
 
 
 def refused(folder, **place):

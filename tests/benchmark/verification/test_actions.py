@@ -4,12 +4,12 @@ import dataclasses
 
 import pytest
 from colift.agents.policies.copy import Copy
-from colift.benchmark.bundle import read_bundle, results, write_bundle
-from colift.benchmark.lift import Lift
-from colift.benchmark.recorder import Recorder
-from colift.benchmark.scores import score
+from colift.benchmark.bundle import read_bundle
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.recorder import Recorder
+from colift.benchmark.episode.scores import score
 
-from .forging import SUITE, edit_arrays, first_row, flip, mend, refused
+from .forging import SUITE, edit_arrays, first_row, flip, mend, refused, rewrite
 
 
 class TestActions:
@@ -48,7 +48,7 @@ class TestActions:
         forged = [_with_kind_human(episode, run.suite) for episode in run.episodes[:1]]
         run = dataclasses.replace(run, episodes=(*forged, *run.episodes[1:]))
         assert forged[0].scores.rmse_mm < told.episodes[0].scores.rmse_mm
-        write_bundle(bundle, run, results(run, {}))
+        rewrite(bundle, run)
         message = refused(bundle, file="traces.npz", episode="smooth/S1 seed 3", step=31)
         assert "scripted human's" in message
 

@@ -6,9 +6,10 @@ import json
 
 import numpy as np
 import pytest
-from colift.agents.policies.loading import PolicySpec
+from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import FILES, parse, read_bundle, read_files, results, write_bundle
-from colift.benchmark.runner import run_suite
+from colift.benchmark.bundle.json_text import dump_json
+from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.verification import verify
 
 from .forging import SUITE, mend
@@ -95,5 +96,5 @@ def test_values_of_another_kind(tmp_path, files, name):
                 break
             inner = inner[key]
         inner[key] = HOSTILE[rng.integers(len(HOSTILE))]
-        changed = {name: json.dumps(content).encode()}
+        changed = {name: dump_json(content)}
         assert_refused_or_harmless(tmp_path, files, changed, mended=True)

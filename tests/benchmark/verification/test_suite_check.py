@@ -1,10 +1,13 @@
 """Only the episodes of the suite, all of them, have a score."""
 
 import dataclasses
+import json
 
 import pytest
 from colift.benchmark.bundle import read_bundle, results, write_bundle
+from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.verification import verify
+from colift.benchmark.verification.content_check import suite_label
 
 from .forging import SUITE, edit_json, edit_rows, mend, refused
 
@@ -65,6 +68,37 @@ class TestSuite:
         edit_json(bundle, "results.json", lambda r: r.update(suite="standard-v1"))
         mend(bundle)
         assert "'standard-v1'" in refused(bundle, file="results.json")
+
+    @pytest.mark.parametrize(
+        "name",
+        [
+            *("standard\u2011v1", "standard-v1\u200b", "st\u0430ndard-v1", "standard-v1 "),
+            *(" standard-v1", "standard-v1\n", "", "a  b", "x" * 201, "\ud800", "a/b", "a'b"),
+        ],
+    )
+    def test_a_name_that_is_not_plain_is_refused(self, bundle, name):
+        edit_json(bundle, "manifest.json", lambda m: m["recipe"].update(suite=name))
+        edit_json(bundle, "results.json", lambda r: r.update(suite=name))
+        mend(bundle)
+        assert "the suite's name is" in refused(bundle, file="manifest.json")
+
+    @pytest.mark.parametrize("name", ["Standard-v1", "standard-v1 (latency 0.1 s)", "standard-v1."])
+    def test_a_suite_of_ones_own_is_called_that_whatever_its_name(self, bundle, name):
+        edit_json(bundle, "manifest.json", lambda m: m["recipe"].update(suite=name))
+        edit_json(bundle, "results.json", lambda r: r.update(suite=name))
+        mend(bundle)
+        verdict = verify(bundle)
+        assert verdict.ok
+        assert verdict.suite == "a suite of its own: 8 lifts, latency 0.1 s"
+        assert verdict.plain()["suite"] == verdict.suite
+        assert "tandard" not in json.dumps(verdict.plain())
+
+    def test_a_shipped_suite_is_known_by_its_episodes(self):
+        suite = make_suite("standard-v1")
+        assert suite_label(dataclasses.replace(suite, name="mine")) == "standard-v1"
+        own = suite.with_timing(0.0, 0.02).with_seeds(0, 1)
+        label = "a suite of its own: 20 lifts, latency 0 s, control period 0.02 s"
+        assert suite_label(own) == label
 
     @pytest.mark.parametrize("honest", [True, False])
     def test_a_missing_episode_is_named_and_part_of_a_suite_has_no_score(self, bundle, honest):

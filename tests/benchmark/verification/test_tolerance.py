@@ -3,13 +3,17 @@
 import dataclasses
 
 import pytest
+from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import read_bundle, results, write_bundle
-from colift.benchmark.lift import Lift
-from colift.benchmark.scores import score
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.scores import score
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.results.baselines import shipped_references
+from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.verification import verify
-from colift.benchmark.verification.tolerance import HEIGHT
+from colift.benchmark.verification.deviation import HEIGHT
 
-from .forging import edit_arrays, edit_json, mend, refused
+from .forging import edit_arrays, edit_json, flip, mend, refused, rewrite
 
 
 class TestOtherPlatform:
@@ -30,7 +34,7 @@ class TestOtherPlatform:
             episodes.append(dataclasses.replace(episode, trace=trace, scores=scores))
         run = dataclasses.replace(run, episodes=tuple(episodes))
         platform = {**read_bundle(folder).platform, "libc": "musl 9"}
-        write_bundle(folder, run, results(run, {}), platform=platform)
+        rewrite(folder, run, platform)
 
     def test_a_tolerance_holds_and_is_shown(self, bundle):
         self.moved(bundle, 0.5 * HEIGHT)
@@ -77,6 +81,45 @@ class TestOtherPlatform:
         assert verdict.bit_equal
         assert verdict.tolerance_mm is None
         assert verdict.other_platform
+
+    @pytest.mark.parametrize("name", ["vectors", "linear_algebra", "vector_extensions"])
+    def test_what_only_policies_use_gives_no_tolerance(self, bundle, name):
+        edit_json(bundle, "manifest.json", lambda m: m["platform"].update({name: "another"}))
+        assert verify(bundle).policies_differ == (name != "vectors")
+        edit_arrays(bundle, lambda arrays: flip(arrays["robot_end"], 234))
+        mend(bundle)
+        verdict = verify(bundle)
+        assert verdict.ok == (name == "vectors")  # An unknown name may be of anything.
+        assert (verdict.tolerance_mm is None) == (name != "vectors")
+
+    def test_equal_bits_leave_no_tolerance_for_scores(self, bundle):
+        edit_json(bundle, "manifest.json", lambda m: m["platform"].update(libc="musl 9"))
+
+        def better(content):
+            content["summary"]["rmse_mm"]["mean"] *= 1 - 1e-9
+
+        edit_json(bundle, "results.json", better)
+        mend(bundle)
+        assert "summary.rmse_mm.mean says" in refused(bundle, file="results.json")
+
+    def test_shipped_references_leave_no_tolerance_for_the_ratio(self, tmp_path):
+        suite = make_suite("quick-v1")
+        run, folder = run_suite(PolicySpec(text="hold"), suite), tmp_path / "hold"
+        write_bundle(folder, run, results(run, shipped_references(suite)))
+        edit_arrays(folder, lambda arrays: flip(arrays["robot_end"], 234))
+        edit_json(folder, "manifest.json", lambda m: m["platform"].update(libc="musl 9"))
+        mend(folder)
+        verdict = verify(folder)
+        assert verdict.ok
+        assert verdict.tolerance_mm == 0.01
+
+        def better(content):
+            for path in (content["summary"]["vs_human"], content["groups"][0]["rmse_mm"]):
+                path["mean"] *= 0.9905
+
+        edit_json(folder, "results.json", better)
+        mend(folder)
+        assert "summary.vs_human.mean says" in refused(folder, file="results.json")
 
     def test_an_edited_score_is_refused_there_too(self, bundle):
         edit_json(bundle, "manifest.json", lambda m: m["platform"].update(libc="musl 9"))

@@ -4,12 +4,12 @@ import dataclasses
 import json
 
 import pytest
-from colift.agents.policies.loading import PolicySpec
+from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import read_bundle, results, write_bundle
-from colift.benchmark.executors import process_pool
-from colift.benchmark.references import play_references, shipped_references
-from colift.benchmark.runner import run_suite
-from colift.benchmark.suite import make_suite, recorded_suite
+from colift.benchmark.execution.pool import process_pool
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.results.baselines import play_references, shipped_references
+from colift.benchmark.suites.suite import make_suite, recorded_suite
 from colift.benchmark.verification import verify
 
 from .forging import SUITE, edit_arrays, edit_json, mend, refused
@@ -53,9 +53,9 @@ class TestTrue:
 
     def test_a_human_team_is_verified(self, tmp_path):
         suite = make_suite("quick-v1").with_seeds(0, 1).with_partner("human")
-        from colift.benchmark.references import HumanTeam
+        from colift.benchmark.results.baselines import TEAM_PARTNER
 
-        run = run_suite(HumanTeam(), suite)
+        run = run_suite(TEAM_PARTNER, suite)
         write_bundle(tmp_path / "team", run, results(run, {}))
         assert verify(tmp_path / "team").ok
 

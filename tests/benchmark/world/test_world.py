@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 from colift.benchmark.world import BodyParameters, Physics, Servo, World
+from colift.benchmark.world.engine import DIRECT
 from colift.benchmark.world.human_body import REFLEX_LIMIT
 from colift.benchmark.world.table import (
     GRAVITY,
@@ -199,7 +200,7 @@ class TestConvergence:
         human = ramp(0.2)
         robot = [0.0] * lag + human[:-lag]
         rmse = []
-        for physics in (Physics(), Physics(step=0.0005, iterations=100)):
+        for physics in (Physics(), Physics(step=0.0005)):
             world = World(partner, PULLED, BODY if partner == "human" else None, physics=physics)
             world.advance(human, robot)
             gap = world.since_reset(world.human_end) - world.since_reset(world.robot_end)
@@ -207,8 +208,30 @@ class TestConvergence:
             world.close()
         assert rmse[0] == pytest.approx(rmse[1], rel=0.015)
 
+    def test_the_direct_solver_is_where_iterations_lead(self):
+        """Two arms that hold one table are a loop with redundant constraints: the hard case."""
+        heights = []
+        for physics in (Physics(), Physics(iterations=3000), Physics(iterations=35)):
+            world = World("nao", PULLED, physics=physics)
+            world.advance(ramp(0.2), ramp(0.15))
+            heights.append(world.since_reset(world.robot_end))
+            world.close()
+        direct, converged, early = heights
+        assert np.abs(direct - converged).max() < 2e-5
+        assert np.abs(early - converged).max() > 1e-4
 
-@pytest.mark.parametrize(("step", "iterations"), [(0.003, 10), (0.02, 10), (0.0, 10), (0.01, 0)])
+    def test_the_direct_solver_never_falls_back(self, nao, monkeypatch):
+        """The engine falls back to iterations in silence; their number would then show."""
+        wild = [0.3, 0.3, -0.2, 0.5] * 40, [0.25, -0.02] * 80
+        nao.advance(*wild)
+        monkeypatch.setitem(DIRECT, "numSolverIterations", 50)
+        other = World("nao", BODY)
+        other.advance(*wild)
+        assert other.robot_end == nao.robot_end
+        other.close()
+
+
+@pytest.mark.parametrize(("step", "iterations"), [(0.003, 10), (0.02, 10), (0.0, 10), (0.01, -1)])
 def test_impossible_physics_is_refused(step, iterations):
     with pytest.raises(ValueError, match="must"):
         Physics(step=step, iterations=iterations)

@@ -4,18 +4,17 @@ import dataclasses
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
-from colift.agents.policies.loading import PolicySpec
+from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import results, write_bundle
-from colift.benchmark.hidden import commitment
-from colift.benchmark.references import Reference, shipped_references
-from colift.benchmark.runner import run_suite
-from colift.benchmark.suite import make_suite
-from colift.leaderboard.adoption import Adopted, Practice
-from colift.leaderboard.entry import Entry
-from colift.leaderboard.evaluation import play_team
-from colift.leaderboard.row import Row
-from colift.leaderboard.scoring import gap, hidden_scores, public_scores
-from colift.leaderboard.season import Season, SeasonInfo
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.results.baselines import Reference, shipped_references
+from colift.benchmark.suites.hidden import commitment
+from colift.benchmark.suites.suite import make_suite
+from colift.leaderboard.board.seasons import ImportedEntry, ImportedSeason
+from colift.leaderboard.evaluation.evaluation import play_team
+from colift.leaderboard.evaluation.scoring import gap, hidden_scores, public_scores
+from colift.leaderboard.records.row import BoardRow
+from colift.leaderboard.records.season import BoardEntry, Season, SeasonInfo
 
 SECRET = bytes(range(32))
 BEGAN = datetime(2026, 11, 20, 9, tzinfo=UTC)
@@ -28,7 +27,7 @@ POLICIES = {
 """The name, what it plays, and its description."""
 
 
-def practice(folder: Path, season: str, names: tuple[str, ...] = tuple(POLICIES)) -> Practice:
+def practice(folder: Path, season: str, names: tuple[str, ...] = tuple(POLICIES)) -> ImportedSeason:
     """Play some policies, and return them as a season that a board can take over."""
     played = Season(name=season, suite=make_suite("quick-v1"), secret=SECRET)
     team = play_team(played)
@@ -42,10 +41,10 @@ def practice(folder: Path, season: str, names: tuple[str, ...] = tuple(POLICIES)
         revealed=SECRET.hex(),
     )
     adopted = [_adopted(folder, played, team, name, i) for i, name in enumerate(names)]
-    return Practice(info=info, entries=adopted, team=team)
+    return ImportedSeason(info=info, entries=adopted, team=team)
 
 
-def renamed(season: Practice, name: str, began_at: datetime) -> Practice:
+def renamed(season: ImportedSeason, name: str, began_at: datetime) -> ImportedSeason:
     """Return the same rows as another season."""
     info = dataclasses.replace(season.info, name=name, began_at=began_at)
     entries = [
@@ -64,14 +63,16 @@ def digest(name: str) -> str:
     return (name.encode().hex() * 64)[:64]
 
 
-def _adopted(folder: Path, season: Season, team: Reference, name: str, number: int) -> Adopted:
+def _adopted(
+    folder: Path, season: Season, team: Reference, name: str, number: int
+) -> ImportedEntry:
     text, description = POLICIES[name]
     policy, bundle = PolicySpec(text=text), folder / str(number)
     public = run_suite(policy, season.suite)
-    hidden = run_suite(policy, season.hidden, key=season.policy_key)
+    hidden = run_suite(policy, season.hidden)
     content = results(public, shipped_references(season.suite))
     write_bundle(bundle, public, content)
-    row = Row(
+    row = BoardRow(
         season=season.name,
         commitment=season.commitment,
         suite=season.suite.name,
@@ -80,16 +81,18 @@ def _adopted(folder: Path, season: Season, team: Reference, name: str, number: i
         authors=("Ada Lovelace",) if number % 2 else ("Grace Hopper", "Ada Lovelace"),
         description=description,
         link="https://example.org/lift",
+        licence="BSD-2-Clause",
+        trained_on="<i>recorded</i> lifts" if name == "<b>sly</b>" else "nothing",
         submission=digest(name),
         public=public_scores(content),
         hidden=hidden_scores(hidden, team),
         gap_mm=gap(hidden, public),
-        isolation="bubblewrap" if name != "hold" else "limits",
-        verified=name != "hold",
+        isolation="bubblewrap",
+        verified=True,
         scoring=1,
         versions={"colift": "0.1.0"},
     )
-    entry = Entry(
+    entry = BoardEntry(
         season=season.name,
         submission=row.submission,
         name=name,
@@ -99,4 +102,4 @@ def _adopted(folder: Path, season: Season, team: Reference, name: str, number: i
         refusal=None,
     )
     errors = tuple(episode.scores.rmse_mm for episode in hidden.episodes)
-    return Adopted(entry=entry, hidden_rmse_mm=errors, bundle=bundle)
+    return ImportedEntry(entry=entry, hidden_rmse_mm=errors, bundle=bundle)

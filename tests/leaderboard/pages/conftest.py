@@ -1,16 +1,19 @@
 """A board of real rows, its service, its site, and a browser that looks at them."""
 
+import pickle
 import re
+import shutil
 import socket
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from datetime import timedelta
 from pathlib import Path
 
 import pytest
-from colift.leaderboard.adoption import Practice
-from colift.leaderboard.board import Board
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.seasons import ImportedSeason
 from colift.leaderboard.pages.site import write_site
 from colift.leaderboard.service.app import create_app
 from colift.leaderboard.service.server import make_server
@@ -35,20 +38,38 @@ def running(folder: Path) -> Iterator[str]:
 
 
 @pytest.fixture(scope="session")
-def played(tmp_path_factory: pytest.TempPathFactory) -> Practice:
-    return practice(tmp_path_factory.mktemp("played"), "2026")
+def played(once: Callable[..., Path]) -> ImportedSeason:
+    def make(place: Path) -> None:
+        season = practice(place, "2026")
+        bundles = [replace(each, bundle=Path(each.bundle.name)) for each in season.entries]
+        (place / "season").write_bytes(pickle.dumps(replace(season, entries=bundles)))
+
+    place = once("played", make)
+    season: ImportedSeason = pickle.loads((place / "season").read_bytes())
+    entries = [replace(each, bundle=place / each.bundle) for each in season.entries]
+    return replace(season, entries=entries)
 
 
 @pytest.fixture(scope="session")
-def folder(played: Practice, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A board with a frozen and a current season, a withdrawal and a rescore."""
+def kept(played: ImportedSeason, once: Callable[..., Path]) -> Path:
+    """A board with a frozen and a current season, a withdrawal and a rescore; and its site."""
+
+    def make(place: Path) -> None:
+        board = Board.open(place / "board", "quick-v1")
+        board.adopt(renamed(played, "2025", BEGAN - timedelta(days=300)))
+        board.adopt(played)
+        board.withdraw("2025", digest("hold"), "Ada", "it <i>never</i> moved")
+        write_site(board, place / "site")
+        board.close()
+
+    return once("pages", make)
+
+
+@pytest.fixture(scope="session")
+def folder(kept: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """That board, for the tests of this process alone."""
     place = tmp_path_factory.mktemp("pages") / "board"
-    board = Board.open(place, "quick-v1")
-    board.adopt(renamed(played, "2025", BEGAN - timedelta(days=300)))
-    board.adopt(played)
-    board.withdraw("2025", digest("hold"), "Ada", "it <i>never</i> moved")
-    board.close()
-    return place
+    return shutil.copytree(kept / "board", place)
 
 
 @pytest.fixture(scope="session")
@@ -58,13 +79,9 @@ def url(folder: Path) -> Iterator[str]:
 
 
 @pytest.fixture(scope="session")
-def site(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> str:
+def site(kept: Path) -> str:
     """The address of the pages as files."""
-    place = tmp_path_factory.mktemp("site") / "site"
-    board = Board.open(folder)
-    write_site(board, place)
-    board.close()
-    return place.as_uri()
+    return (kept / "site").as_uri()
 
 
 @pytest.fixture

@@ -6,8 +6,8 @@ import httpx
 import pytest
 from axe_core_python.sync_playwright import Axe
 from colift.agents.submissions.new import write_template
-from colift.leaderboard.board import Board
-from colift.leaderboard.queue import Queue, Work
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.queue import Queue, WorkerQueue
 
 from .boards import digest
 
@@ -22,6 +22,7 @@ PAGES = (
     "/seasons/2026/scenarios",
     "/seasons/2026/scenarios/changing_goal/S5",
     "/method",
+    "/open",
     "/submit",
     "/job",
     f"/seasons/2026/policies/{digest('copy')}/replays",
@@ -37,7 +38,7 @@ def job(folder, tmp_path_factory):
     board = Board.open(folder)
     queue = Queue(board)
     queued = queue.enqueue(board.keep(place), "ada")
-    work = Work(board)
+    work = WorkerQueue(board)
     work.fail(work.claim("here"), "it did not start", "line\n" * 100)
     board.close()
     return f"/jobs/{queued.id}"

@@ -1,8 +1,16 @@
 """Comparing policies, in a browser."""
 
+import csv
+import io
+
 from colift.benchmark.statistics import paired_difference
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.replays.chosen import replays_of
+from colift.leaderboard.views.compare import compare_view
 from colift.leaderboard.views.lifts import public_lifts
 from playwright.sync_api import expect
+
+from .boards import digest
 
 
 def test_ticked_policies_are_compared_lift_by_lift(page, front, played):
@@ -33,12 +41,70 @@ def test_four_are_enough_and_one_is_too_few(page, front):
     for i in range(4):
         boxes.nth(i).check()
     page.locator("#compare button").click()
-    assert page.locator("table.pairs tbody tr:visible").count() == 6
+    expect(page.locator("table.pairs tbody tr:visible")).to_have_count(6)
     for select in page.locator("#choice select").all()[1:]:
         select.select_option("")
     page.get_by_role("button", name="Compare").click()
     expect(page.get_by_text("Choose at least two policies")).to_be_visible()
     assert page.url.count("p=") == 1
+
+
+def test_it_begins_with_the_first_against_the_second(page, front, folder):
+    board = Board.open(folder)
+    names = [each.row.name for each in board.standings() if each.ranked]
+    board.close()
+    page.goto(front)
+    page.get_by_role("link", name="Compare", exact=True).click()
+    pair = page.locator("table.pairs tbody tr:visible th")
+    expect(pair).to_have_text(f"{names[0]} minus {names[1]}")
+
+
+def test_each_lift_is_drawn_and_can_be_had_as_csv(page, front, played, folder):
+    board = Board.open(folder)
+    names = [each.row.name for each in board.standings() if each.ranked][:2]
+    board.close()
+    page.goto(front)
+    page.get_by_role("link", name="Compare", exact=True).click()
+    expect(page.locator("#scatter circle.lift title")).to_have_count(12)
+    runs = {each.entry.name: public_lifts(each.bundle) for each in played.entries}
+    better = sum(
+        a.rmse_mm < b.rmse_mm for a, b in zip(*(runs[name] for name in names), strict=True)
+    )
+    told = f"{names[0]} is more level than {names[1]} in {better}."
+    assert page.locator("#scatter").get_attribute("aria-label").endswith(told)
+    with page.expect_download() as saved:
+        page.get_by_role("button", name="Single lifts as CSV").click()
+    rows = list(csv.DictReader(io.StringIO(saved.value.path().read_text())))
+    for name in names:
+        errors = [float(row[f"rmse_mm of {name}"]) for row in rows]
+        assert errors == [round(lift.rmse_mm, 3) for lift in runs[name]]
+
+
+def test_the_same_lift_is_drawn_with_both_where_there_are_replays(page, url, folder):
+    board = Board.open(folder)
+    replays = {
+        digest(name): {
+            f"{each['behaviour']} {each['subject']} {each['seed']}": each
+            for each in replays_of(board.bundle("2026", digest(name)), name)
+        }
+        for name in ("copy", "blend")
+    }
+    names = replays[digest("copy")].keys() & replays[digest("blend")].keys()
+    view = compare_view(board, "2026", [digest("copy"), digest("blend")])
+    board.close()
+    assert names
+    for column, curves in zip(view.columns, view.curves, strict=True):
+        assert curves.keys() == names
+        for name, curve in curves.items():
+            replay = replays[column.standing.row.submission][name]
+            last = sum(replay["robot"][: 5 * len(curve) - 4]) - sum(
+                replay["human"][: 5 * len(curve) - 4]
+            )
+            assert curve[-1] == last
+    page.goto(f"{url}/seasons/2026/compare?p={digest('copy')}&p={digest('blend')}")
+    expect(page.get_by_label("The same lift").locator("option")).to_have_count(len(names))
+    expect(page.locator("#curves polyline")).to_have_count(2)
+    expect(page.locator("#same figcaption")).to_contain_text("copy solid, blend dotted")
 
 
 def test_nonsense_in_the_address_is_left_out(page, url, site):

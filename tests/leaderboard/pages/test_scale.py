@@ -8,13 +8,14 @@ from importlib.resources import files
 import pytest
 import sqlalchemy as sa
 from colift.benchmark.bundle.files import RESULTS
-from colift.leaderboard.board import Board
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.database.queries import record_entry
 from colift.leaderboard.pages.links import ServiceLinks
-from colift.leaderboard.pages.rendering import render
+from colift.leaderboard.pages.rendering import render_page
 from colift.leaderboard.views.board import board_view
 from colift.leaderboard.views.policy import policy_view
 
-from ..rows import add, digest
+from ..rows import digest, make_entry, make_errors
 
 MANY = 1000
 
@@ -40,12 +41,13 @@ def board(tmp_path_factory):
 
 
 def fill(board, first, last, bundle):
-    for number in range(first, last):
-        name = f"policy-{number:04d}"
-        add(board, name, 8.0 + 0.02 * number)
-        place = board.store.bundle("1", digest(name))
-        place.mkdir(parents=True, exist_ok=True)
-        shutil.copy(bundle / RESULTS, place)
+    with board.database.writing() as connection:
+        for number in range(first, last):
+            name, mean = f"policy-{number:04d}", 8.0 + 0.02 * number
+            record_entry(connection, make_entry(board, name, mean), make_errors(mean))
+            place = board.store.bundle("1", digest(name))
+            place.mkdir(parents=True)
+            (place / RESULTS).hardlink_to(bundle / RESULTS)
 
 
 def test_a_thousand_entries_take_no_more_queries_than_five(board, played, page, names, tmp_path):
@@ -60,12 +62,12 @@ def test_a_thousand_entries_take_no_more_queries_than_five(board, played, page, 
         assert len(view.rows) == last
         counts.append(len(told))
     assert counts[0] == counts[1]
-    text = render("board.html", ServiceLinks(), view=view)
+    text = render_page("board.html", ServiceLinks(), view=view)
     assert text.count("data-row=") == MANY
     assert len(json.dumps(view.data)) < 200_000
 
     # In the browser: a sort is over all rows, of which the first are laid out.
-    shutil.copytree(files("colift.leaderboard.pages") / "static", tmp_path / "static")
+    shutil.copytree(files("colift.leaderboard") / "static", tmp_path / "static")
     (tmp_path / "index.html").write_text(text.replace("/static/", "static/"))
     page.goto((tmp_path / "index.html").as_uri())
     page.locator("button[data-sort=name]").click()

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 from colift.agents.submissions.new import write_template
-from colift.leaderboard.archive import pack
-from colift.leaderboard.board import Board
-from colift.leaderboard.queue import Queue, Work
-from colift.leaderboard.tokens import Tokens
-from colift.leaderboard.worker import Worker
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.tokens import Tokens
+from colift.leaderboard.queue import Queue, WorkerQueue
+from colift.leaderboard.queue.worker import Worker
+from colift.leaderboard.storage.archive import pack
 from playwright.sync_api import expect
 
 from .conftest import running
@@ -87,7 +87,7 @@ def evaluated(page, url, queue, path, token):
     upload(page, url, path, token)
     page.wait_for_url("**/jobs/*")
     address = page.url
-    Worker(Work(queue.board)).once()
+    Worker(WorkerQueue(queue.board)).once()
     page.goto(address)
     return queue.job(address.rpartition("/")[2])
 
@@ -112,7 +112,7 @@ def test_an_uploaded_template_becomes_a_verified_row_before_ones_eyes(
         new MutationObserver(look).observe(document.getElementById("told"), {childList: true});
     }""")
     seen: list[str] = []
-    working = threading.Thread(target=Worker(Work(queue.board)).once)
+    working = threading.Thread(target=Worker(WorkerQueue(queue.board)).once)
     working.start()
     while working.is_alive():
         page.wait_for_timeout(100)
@@ -122,10 +122,11 @@ def test_an_uploaded_template_becomes_a_verified_row_before_ones_eyes(
     expect(page.get_by_text("Done: it is on the board")).to_be_visible()
     assert any(re.match(r"(running|verifying), .* \d+ of \d+ lifts", told) for told in seen)
     page.get_by_role("link", name="See the board").click()
-    row = page.locator("table.board tbody tr")
-    expect(row).to_have_count(1)
-    expect(row).to_contain_text("template")
-    expect(row.locator(".badge.ok")).to_contain_text("verified")
+    # In the ranking, or apart from it where this machine was too busy for a step in time.
+    expect(
+        page.get_by_role("main").get_by_role("link", name="template", exact=True)
+    ).to_be_visible()
+    expect(page.get_by_role("main")).not_to_contain_text("not verified")
 
 
 def test_a_failure_is_told_with_its_reason_and_the_log(page, url, queue, token, zipped):
@@ -133,19 +134,17 @@ def test_a_failure_is_told_with_its_reason_and_the_log(page, url, queue, token, 
     assert job.state == "failed"
     expect(page.locator(".notice.bad")).to_have_text(f"The submission failed: {job.reason}")
     assert page.locator("pre").text_content().strip() == job.log.strip()
-    page.get_by_role("link", name="What is known of it").click()
-    expect(page.get_by_text("This submission has no row")).to_be_visible()
+    # It failed the check, before anything was entered: there is no page of it.
+    expect(page.get_by_role("link", name="What is known of it")).to_have_count(0)
 
 
 def test_why_lifts_failed_is_told_in_the_policys_own_words(page, url, queue, token, zipped):
     job = evaluated(page, url, queue, zipped("faulty", FAULTY), token)
-    assert job.state == "done"
-    assert page.locator("pre").text_content().strip() == job.log.strip()
-    assert "no <b>idea</b>" in job.log
-    page.get_by_role("link", name="See its page").click()
-    failures = page.get_by_role("region", name="Failures").first
-    expect(failures).to_contain_text("2 of 2 public lifts failed")
-    expect(failures).to_contain_text("no <b>idea</b>")
+    assert job.state == "failed"
+    assert "no <b>idea</b>" in job.reason + job.log
+    expect(page.locator("main")).to_contain_text("no <b>idea</b>")
+    page.goto(url)
+    expect(page.get_by_role("link", name="faulty")).to_have_count(0)
 
 
 def test_what_is_not_accepted_is_told_why_and_nothing_is_queued(page, url, queue, token, zipped):
@@ -177,3 +176,34 @@ def test_there_is_no_page_of_an_unknown_job(page, url):
     answer = page.request.get(f"{url}/jobs/{'0' * 32}")
     assert answer.status == 404
     assert "There is no such job" in answer.text()
+
+
+def test_my_submissions_are_shown_to_who_has_the_token_and_the_token_stays_in_the_tab(
+    page, url, queue, token, zipped
+):
+    upload(page, url, zipped("mine"), token)
+    page.wait_for_url("**/jobs/*")
+    page.goto(f"{url}/submit")
+    expect(page.get_by_label("Your token")).to_have_value(token)
+    page.get_by_role("button", name="Show my submissions").click()
+    mine = page.get_by_role("region", name="My submissions").last
+    expect(mine.locator("tbody tr")).to_have_count(1)
+    expect(mine).to_contain_text("queued")
+    mine.get_by_role("link", name="mine").click()
+    expect(page.get_by_role("heading", level=1)).to_have_text("mine")
+    elsewhere = page.context.new_page()
+    elsewhere.goto(f"{url}/submit")
+    expect(elsewhere.get_by_label("Your token")).to_have_value("")
+    elsewhere.get_by_role("button", name="Show my submissions").click()
+    expect(elsewhere.locator("#whose")).to_contain_text("Authorization")
+
+
+def test_the_rules_stand_beside_the_button(page, url):
+    page.goto(f"{url}/submit")
+    rules = page.get_by_role("region", name="The rules")
+    for told in ("64 MiB", "filterpy, numpy, scikit-learn, scipy", "5 submissions", "licence"):
+        expect(rules).to_contain_text(told)
+    button = page.get_by_role("button", name="Submit").bounding_box()
+    box = rules.bounding_box()
+    assert box["y"] < button["y"] < box["y"] + box["height"]
+    expect(page.get_by_role("link", name="the template as a zip file")).to_be_visible()

@@ -5,19 +5,23 @@ from itertools import pairwise
 
 import pytest
 from colift.benchmark.bundle.files import EPISODES, RESULTS
-from colift.benchmark.comparison.standing import Estimate
-from colift.leaderboard.board import Board
-from colift.leaderboard.database.recording import record_entry
-from colift.leaderboard.pages.formats import interval, number, p_value, signed
+from colift.benchmark.statistics import Estimate
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.standings import HumanTeamScores
+from colift.leaderboard.database.queries import record_entry
+from colift.leaderboard.pages.formats import interval, number, p_text, signed, tex
+from colift.leaderboard.pages.links import ServiceLinks
+from colift.leaderboard.pages.rendering import render_page
 from colift.leaderboard.views.axis import make_axis
+from colift.leaderboard.views.board import board_view
 from colift.leaderboard.views.compare import MOST, compare_view
-from colift.leaderboard.views.parts import Part, estimate
+from colift.leaderboard.views.exports import standings_csv
+from colift.leaderboard.views.lifts import Part, part_estimate
 from colift.leaderboard.views.picture import make_picture
 from colift.leaderboard.views.policy import RefusalView, policy_view
 from colift.leaderboard.views.scenario import scenarios_view
-from colift.leaderboard.views.table import standings_csv
 
-from ..rows import add, make_entry, make_row
+from ..rows import add, make_entry, make_row, slow, unverified
 from .boards import digest
 
 
@@ -26,6 +30,10 @@ def shown(folder):
     board = Board.open(folder)
     yield board
     board.close()
+
+
+def team(mean):
+    return HumanTeamScores(rmse_mm=around(mean), means={"sparc": -2.8, "human_force_n": 0.3})
 
 
 def around(mean):
@@ -56,7 +64,7 @@ def test_a_mark_is_on_the_scale_whatever_the_rest_is():
         (signed(0.04), "0.0"),
         (interval(around(2.0)), "1.0 to 3.0"),
         (interval(Estimate(mean=2.0, ci95=(2.0, 2.0))), ""),
-        (p_value(0.0002), "< 0.001"),
+        (p_text(0.0002), "< 0.001"),
     ],
 )
 def test_numbers_are_written_as_people_write_them(told, text):
@@ -87,7 +95,7 @@ def test_without_single_lifts_there_are_means_and_no_intervals(played, tmp_path)
     bundle = played.entries[0].bundle
     (tmp_path / RESULTS).write_bytes((bundle / RESULTS).read_bytes())
     part = Part(behaviour="pause", subject=None)
-    whole, bare = estimate(bundle, part), estimate(tmp_path, part)
+    whole, bare = part_estimate(bundle, part), part_estimate(tmp_path, part)
     assert (bundle / EPISODES).is_file()
     assert bare.mean == pytest.approx(whole.mean)
     assert whole.ci95[0] < whole.mean < whole.ci95[1]
@@ -107,20 +115,38 @@ def test_the_best_of_each_scenario_is_named(shown):
 
 def test_names_in_the_picture_do_not_cover_each_other():
     rows = [make_row(f"a-policy-{i}", 10.0 + 0.01 * i) for i in range(30)]
-    picture = make_picture(rows, 9.0, width=600, height=400)
-    assert len(picture.dots) == 30
-    boxes = [
-        (label.x - (0 if label.anchor == "start" else 70), label.y) for label in picture.labels
-    ]
-    for i, (x, y) in enumerate(boxes):
-        assert all(abs(x - u) > 60 or abs(y - v) > 10 for u, v in boxes[:i])
+    picture = make_picture(rows, team(9.0), width=600, height=400)
+    assert len(picture.dots) == 31
+    assert len(picture.labels) > 6
+    boxes = [label.box for label in picture.labels]
+    boxes += [(dot.x - 5, dot.y - 5, dot.x + 5, dot.y + 5) for dot in picture.dots]
+    for i, a in enumerate(boxes[: len(picture.labels)]):
+        for b in boxes[i + 1 :]:
+            assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
+
+
+def test_what_is_off_the_scale_stands_at_the_edge_with_its_value():
+    rows = [make_row(f"p{i}", 10.0 + i, sparc=-2.0 - i / 10) for i in range(3)]
+    rows.append(make_row("wild", 111.7, sparc=-3.66))
+    picture = make_picture(rows, team(9.0), width=920, height=440)
+    wild = next(dot for dot in picture.dots if dot.name.startswith("wild"))
+    assert wild.name == "wild (112 mm, SPARC \N{MINUS SIGN}3.7)"
+    assert picture.beyond[0] < wild.x < picture.plot[2]
+    assert wild.name in {label.text for label in picture.labels}
+
+
+def test_the_line_of_the_picture_is_two_people_on_the_hidden_lifts():
+    picture = make_picture([make_row("a", 10.0)], team(9.7), width=920, height=440)
+    people = next(dot for dot in picture.dots if dot.kind == "team")
+    assert people.x == picture.team
+    assert people.told.startswith("two people: RMSE 9.7 mm")
 
 
 @pytest.mark.parametrize(("width", "height"), [(920, 440), (390, 380)])
 def test_the_names_of_the_front_stand_clear_of_its_line(width, height):
     rows = [make_row("anticipate", 3.8, sparc=-2.09), make_row("task_model", 5.6, sparc=-2.13)]
     rows += [make_row("proactive", 11.8, sparc=-2.01), make_row("impedance", 19.1, sparc=-1.8)]
-    picture = make_picture(rows, 10.3, width=width, height=height)
+    picture = make_picture(rows, team(10.3), width=width, height=height)
     labels = {label.text: label for label in picture.labels}
     places = [tuple(map(float, corner.split(","))) for corner in picture.stair.split()]
     for dot in picture.dots:
@@ -139,8 +165,44 @@ def test_who_never_moves_along_is_in_the_strip_and_not_on_the_front():
     )
     picture = make_picture([still, make_row("moving", 10.0)], None, width=600, height=400)
     dots = {dot.name: dot for dot in picture.dots}
-    assert dots["still"].y > picture.still > dots["moving"].y
+    assert dots["still"].y > picture.still[0] > dots["moving"].y
     assert [dot.name for dot in picture.dots if dot.front] == ["moving"]
+
+
+def test_a_policy_that_failed_in_every_lift_says_why_once(tmp_path):
+    board = Board.open(tmp_path / "board", "quick-v1")
+    add(board, "ruin", 250.0)
+    row = make_row("ruin", 250.0)
+    ruined = dataclasses.replace(row, public=dataclasses.replace(row.public, failed=12))
+    board.rescore("1", ruined, (250.0,) * 12, who="Ada", why="it never lifted")
+    bundle = board.store.bundle("1", row.submission)
+    bundle.mkdir(parents=True)
+    lines = [f"smooth,S1,{seed},250.0,step 0: TypeError" for seed in range(11)]
+    lines.append("jerky,S3,0,250.0,start: OSError")
+    (bundle / EPISODES).write_text("\n".join(["behaviour,subject,seed,rmse_mm,failure", *lines]))
+    (bundle / RESULTS).write_text('{"groups": []}')
+    view = policy_view(board, "1", row.submission)
+    page = render_page("policy.html", ServiceLinks(), view=view, has_replays=True)
+    board.close()
+    assert [(each.why, len(each.lifts)) for each in view.failures] == [
+        ("step 0: TypeError", 11),
+        ("start: OSError", 1),
+    ]
+    assert "It failed in all 12 public lifts" in page
+    assert "Watch it lift" not in page
+
+
+def test_what_tex_would_take_for_a_command_is_escaped():
+    assert tex(r"a_b {50 %} \x ~") == (r"a\_b \{50 \%\} \textbackslash{}x \textasciitilde{}")
+
+
+def test_the_map_of_scenarios_has_every_policy_of_the_ranking(shown):
+    view = scenarios_view(shown, "2026")
+    ranked = [each.row.name for each in shown.standings("2026") if each.ranked]
+    assert [row.standing.row.name for row in view.rows] == ranked
+    for row in view.rows:
+        assert set(row.rmse_mm) == set(view.cells)
+    assert [cell.behaviour for cell in view.columns] == list(view.behaviours)
 
 
 def test_no_name_is_a_formula_of_a_spreadsheet(tmp_path):
@@ -159,3 +221,44 @@ def test_a_refused_submission_has_a_page_with_the_reason(tmp_path):
     board.close()
     assert isinstance(view, RefusalView)
     assert view.entry.refusal == entry.refusal
+
+
+def test_a_page_shows_what_is_not_real_time_apart_and_says_what_has_no_rank(tmp_path):
+    """The pages of a board with a row of each section, and of the rows themselves."""
+    import asyncio
+
+    import httpx
+    from colift.leaderboard.service.app import create_app
+
+    board = Board.open(tmp_path / "board", "quick-v1")
+    add(board, "good", 10.0)
+    add(board, "snail", 5.0, change=slow)
+    add(board, "free", 1.0, change=unverified)
+    view = board_view(board)
+    names = [[each.row.name for each in some] for some in (view.slow, view.out)]
+    assert ([each.standing.row.name for each in view.rows], *names) == (
+        ["good"],
+        ["snail"],
+        ["free"],
+    )
+    board.close()
+    app = create_app(tmp_path / "board")
+
+    async def answers():
+        paths = ["/", *(f"/seasons/1/policies/{digest(name)}" for name in told)]
+        transport = httpx.ASGITransport(app)
+        async with httpx.AsyncClient(transport=transport, base_url="http://board") as client:
+            return [await client.get(path) for path in (*paths, "/api/v1/standings")]
+
+    told = {"good": "Rank", "snail": "would not wait for this policy", "free": "ran in no sandbox"}
+    front, *pages, api = asyncio.run(answers())
+    app.state.service.board.close()
+    text = front.text
+    assert text.index("Not real-time") < text.index("snail") < text.index("Out of the ranking")
+    for page, words in zip(pages, told.values(), strict=True):
+        assert (page.status_code, words in page.text) == (200, True)
+    assert [(each["section"], each["group"]) for each in api.json()] == [
+        ("ranking", 1),
+        ("not real-time", 1),
+        ("unverified", 0),
+    ]

@@ -3,10 +3,10 @@
 from pathlib import Path
 
 import pytest
-from colift.agents.policies.loading import PolicySpec
+from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import Bundle, read_bundle, results, write_bundle
-from colift.benchmark.runner import run_suite
-from colift.benchmark.suite import make_suite
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.suites.suite import make_suite
 
 
 @pytest.fixture(scope="session")

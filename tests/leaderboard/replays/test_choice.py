@@ -1,7 +1,7 @@
 import dataclasses
 
 import pytest
-from colift.leaderboard.replays.choice import choose
+from colift.leaderboard.replays.chosen import choose_replays
 
 
 def lifts(bundle, behaviour, errors):
@@ -26,12 +26,12 @@ def lifts(bundle, behaviour, errors):
     ],
 )
 def test_best_median_and_worst_are_shown(bundle, errors, rows):
-    found = choose(lifts(bundle, "pause", errors))
+    found = choose_replays(lifts(bundle, "pause", errors))
     assert {each.which: each.row for each in found} == rows
 
 
 def test_each_behaviour_has_its_own(bundle):
-    found = choose(bundle.episodes)
+    found = choose_replays(bundle.episodes)
     assert [each.behaviour for each in found[::3]] == ["smooth", "pause", "jerky", "changing_goal"]
     for each in found:
         assert bundle.episodes[each.row].behaviour == each.behaviour

@@ -2,7 +2,7 @@ import shutil
 
 import pytest
 from colift.agents.errors import InputError
-from colift.benchmark.suite import make_suite
+from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.replays.chosen import FILE, chosen_replays, replays_of
 
 

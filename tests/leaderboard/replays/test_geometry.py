@@ -5,8 +5,8 @@ import pytest
 from colift.agents.humans import SUBJECTS
 from colift.benchmark.rendering.scene import FLOOR
 from colift.leaderboard.replays.geometry import CLOTHES, PAINTS, geometry
-from colift.robots.arm_kinematics import GRIP_X, REST_Z, STROKE
-from colift.robots.nao_facts import TORSO_HEIGHT
+from colift.robots.nao.facts import TORSO_HEIGHT
+from colift.robots.nao.kinematics import GRIP_X, REST_Z, STROKE
 
 
 def arm(which):

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from colift.leaderboard.replays.chosen import chosen_replays
 from colift.leaderboard.replays.html import replay_page, script_json
+from playwright.sync_api import expect
 
 
 @pytest.fixture(scope="module")
@@ -124,7 +125,7 @@ def test_space_on_a_button_presses_it_once(open_page):
     page = open_page()
     page.get_by_role("button", name="Play").focus()
     page.keyboard.press("Space")
-    assert page.get_by_role("button", name="Pause").count() == 1
+    expect(page.get_by_role("button", name="Pause")).to_have_count(1)
 
 
 def test_it_plays_at_the_chosen_speed_to_the_end(open_page):
@@ -199,6 +200,28 @@ def test_a_lift_that_failed_says_so_from_then_on(open_page, file):
     assert page.locator(".replay-level text").text_content() == "the lift is over"
     assert page.locator(".row-error dd").inner_text() == "counts as 250 mm"
     assert not page.locator(".bubble.real").is_visible()
+
+
+def test_picture_and_curves_stand_in_one_window(open_page):
+    page = open_page("#jerky-worst", viewport={"width": 1280, "height": 900})
+    for part in (".replay-stage", ".replay-readout", "[type=range]", ".replay-chart >> nth=1"):
+        box = page.locator(part).bounding_box()
+        assert box["y"] >= 0
+        assert box["y"] + box["height"] <= 900
+    stage = page.locator(".replay-stage").bounding_box()
+    bar = page.locator(".replay-controls").bounding_box()
+    assert bar["y"] >= stage["y"] + stage["height"]  # The feet are seen.
+
+
+def test_on_a_telephone_the_numbers_are_below_the_picture(open_page):
+    page = open_page("#jerky-worst", viewport={"width": 390, "height": 844})
+    stage = page.locator(".replay-stage").bounding_box()
+    numbers = page.locator(".row-error").first.bounding_box()
+    assert stage["y"] < 250
+    assert (
+        numbers["y"] + numbers["height"]
+        < 844 - page.locator(".replay-controls").bounding_box()["height"]
+    )
 
 
 @pytest.mark.parametrize("width", [360, 1280])

@@ -5,15 +5,14 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.policies.loading import PolicySpec
-from colift.benchmark.catalogue import make_scenario
-from colift.benchmark.lift import Lift
-from colift.benchmark.references import human_team_run
-from colift.benchmark.suite import make_suite
-from colift.benchmark.tasks import play
-from colift.benchmark.trace import Trace
-from colift.leaderboard.replays.ghost import play_ghost
-from colift.leaderboard.replays.replay import changes, commands, replay
+from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.execution.tasks import play
+from colift.benchmark.results.baselines import human_team_run
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import make_suite
+from colift.leaderboard.replays.replay import changes, hand_commands, play_ghost, replay_content
 
 SCENARIO = make_scenario("pause", "S2")
 
@@ -30,7 +29,7 @@ def ghost():
 
 @pytest.fixture(scope="module")
 def made(episode, ghost):
-    return replay(episode, SCENARIO, ghost, policy="blend")
+    return replay_content(episode, SCENARIO, ghost, policy="blend")
 
 
 def heights(series):
@@ -61,7 +60,9 @@ def test_commands_are_those_of_the_episode():
         lift.step(np.zeros(10), np.array([action]))
         seen.append(lift.command)
     lift.close()
-    assert commands(with_wild_actions, SCENARIO.control_period) == pytest.approx(seen, abs=1e-12)
+    assert hand_commands(with_wild_actions, SCENARIO.control_period) == pytest.approx(
+        seen, abs=1e-12
+    )
 
 
 def test_it_says_what_the_policy_said(made, episode):
@@ -77,7 +78,7 @@ def test_a_policy_that_says_nothing_or_nonsense_is_replayed(episode, ghost):
     strange[1], strange[2] = 1e300, -np.inf
     internals = {"prediction": strange, "confidence": np.full(steps, np.nan)}
     trace = dataclasses.replace(episode.trace, internals=internals)
-    made = replay(dataclasses.replace(episode, trace=trace), SCENARIO, ghost, policy="odd")
+    made = replay_content(dataclasses.replace(episode, trace=trace), SCENARIO, ghost, policy="odd")
     assert made["prediction"][:4] == [None, 2**15 - 1, None, None]
     assert made["confidence"] is made["role"] is None
     json.dumps(made, allow_nan=False)
@@ -112,7 +113,7 @@ def test_a_lift_that_failed_before_it_began_has_no_heights(episode, ghost):
     failed = dataclasses.replace(
         episode, trace=trace, scores=scores, failure="start: \x1b[31m</script>\n!"
     )
-    made = replay(failed, SCENARIO, ghost, policy="bad")
+    made = replay_content(failed, SCENARIO, ghost, policy="bad")
     assert (made["human"], made["command"], made["scores"]["sparc"]) == ([], [], None)
     assert made["failure"].isprintable()
     assert made["horizon"] == len(ghost.episode.trace.human_end)

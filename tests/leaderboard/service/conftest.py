@@ -2,7 +2,6 @@
 
 import io
 import re
-import socket
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -11,13 +10,13 @@ from pathlib import Path
 import httpx
 import pytest
 from colift.agents.submissions.new import write_template
-from colift.leaderboard.archive import pack
-from colift.leaderboard.board import Board
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.tokens import Tokens
 from colift.leaderboard.service.app import create_app
+from colift.leaderboard.service.dependencies import Rates
 from colift.leaderboard.service.security import Rate
-from colift.leaderboard.service.server import make_server
-from colift.leaderboard.service.state import Rates
-from colift.leaderboard.tokens import Tokens
+from colift.leaderboard.service.server import listening, make_server
+from colift.leaderboard.storage.archive import pack
 
 UNLIMITED = Rates(
     address=Rate(per_second=1e6, burst=10**6), submitter=Rate(per_second=1e6, burst=10**6)
@@ -25,10 +24,12 @@ UNLIMITED = Rates(
 
 
 @contextmanager
-def running(folder: Path, rates: Rates | None = None, root: str = "") -> Iterator[str]:
+def running(
+    folder: Path, rates: Rates | None = None, root: str = "", **options: str
+) -> Iterator[str]:
     """Serve a board from a thread of this process; yield its URL."""
-    listener = socket.create_server(("127.0.0.1", 0), backlog=512)
-    server = make_server(create_app(folder, rates), root)
+    listener = listening("127.0.0.1", 0)
+    server = make_server(create_app(folder, rates, **options), root)
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
     thread.start()
     try:

@@ -6,8 +6,8 @@ import re
 
 import httpx
 import pytest
-from colift.benchmark.suite import make_suite
-from colift.leaderboard.board import Board
+from colift.benchmark.suites.suite import make_suite
+from colift.leaderboard.board.board import Board
 
 DIGEST = "0" * 64
 JOB = "0" * 32
@@ -30,7 +30,7 @@ def test_an_empty_board_has_no_rows(client):
     assert client.get("/api/v1/standings", params={"behaviour": "pause"}).json() == []
     lines = client.get("/api/v1/standings.csv").text.splitlines()
     assert len(lines) == 1
-    assert lines[0].startswith("group,name,")
+    assert lines[0].startswith("section,group,name,")
 
 
 def test_the_service_says_that_it_is_well(client):
@@ -94,7 +94,7 @@ def test_a_fault_of_ours_is_logged_and_told_without_its_inside(client, monkeypat
     request = answer.headers["X-Request-ID"]
     assert answer.status_code == 500
     assert answer.json() == {
-        "error": f"this is our fault; tell who runs the board that request {request} failed"
+        "error": f"this is our fault; tell the maintainer that request {request} failed"
     }
     assert f"request {request}: GET '/api/v1/standings' failed" in caplog.text
     assert "is broken" in caplog.text
@@ -108,7 +108,7 @@ def test_a_full_disk_is_told(client, monkeypatch):
     monkeypatch.setattr(Board, "standings", fail)
     answer = client.get("/api/v1/standings")
     assert answer.status_code == 507
-    assert answer.json() == {"error": "the board has no room left; tell who runs it"}
+    assert answer.json() == {"error": "the board has no room left; tell its maintainer"}
 
 
 def test_the_api_is_described_without_anything_from_elsewhere(client):

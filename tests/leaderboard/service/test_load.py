@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 import httpx
 import pytest
 from colift.leaderboard.queue import Queue, Quota
-from colift.leaderboard.service.state import Rates
+from colift.leaderboard.service.dependencies import Rates
 
 UPLOADS = 200
 TOKENS = 20

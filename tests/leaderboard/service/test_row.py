@@ -65,6 +65,7 @@ def test_the_row_is_verified_and_says_what_was_submitted(client, done, place):
     assert entry["row"]["verified"] is True
     assert entry["row"]["name"] == "mine"
     assert entry["row"]["authors"] == ["=1+1", "<script>alert(1)</script>"]
+    assert (entry["row"]["licence"], entry["row"]["trained_on"]) == ("MIT", "nothing")
     assert 0 < entry["row"]["hidden"]["rmse_mm"]["mean"] < 250
     (standing,) = client.get("/api/v1/standings").json()
     assert standing["row"] == entry["row"]
@@ -113,6 +114,7 @@ def test_the_table_can_be_read_by_pandas_and_starts_no_formula(client, done):
     frame = pd.read_csv(io.StringIO(client.get("/api/v1/standings.csv").text))
     assert frame["submission"].tolist() == [done["submission"]]
     assert frame["authors"].tolist() == ["'=1+1, <script>alert(1)</script>"]
+    assert (frame["licence"].tolist(), frame["trained_on"].tolist()) == (["MIT"], ["nothing"])
     assert frame["rmse_mm"].between(0, 250).all()
 
 

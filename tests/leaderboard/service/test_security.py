@@ -1,9 +1,11 @@
 """How often somebody may ask, and what every answer carries."""
 
+import socket
+
 import httpx
 import pytest
+from colift.leaderboard.service.dependencies import Rates
 from colift.leaderboard.service.security import Rate, RateLimit, network
-from colift.leaderboard.service.state import Rates
 
 SELDOM = Rate(per_second=0.01, burst=3)
 OFTEN = Rate(per_second=1e6, burst=10**6)
@@ -75,6 +77,22 @@ def test_who_uploads_too_often_is_told_when_to_come_again(folder, serving, ada):
     assert [answer.status_code for answer in answers] == [422, 422, 422, 429]
     assert "ada has submitted too often" in answers[-1].json()["error"]
     assert int(answers[-1].headers["Retry-After"]) > 0
+
+
+def test_a_request_of_two_lengths_is_refused_and_the_connection_ends(url):
+    """What follows it must not be taken for a second request."""
+    host, port = url.removeprefix("http://").split(":")
+    with socket.create_connection((host, int(port)), timeout=20) as connection:
+        connection.sendall(
+            b"POST /api/v1/submissions HTTP/1.1\r\nHost: x\r\nContent-Length: 6\r\n"
+            b"Transfer-Encoding: chunked\r\n\r\n0\r\n\r\nGET /healthz HTTP/1.1\r\nHost: x\r\n\r\n"
+        )
+        answer = b""
+        while data := connection.recv(65536):
+            answer += data
+    assert answer.startswith(b"HTTP/1.1 400 ")
+    assert answer.count(b"HTTP/1.1 ") == 1
+    assert b"Content-Length or Transfer-Encoding, not both" in answer
 
 
 @pytest.mark.parametrize("path", ["/healthz", "/api", "/api/v1/standings", "/nothing"])

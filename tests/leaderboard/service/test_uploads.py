@@ -1,7 +1,6 @@
 """Uploads by strangers: who may, what is refused, and that nothing of it is left."""
 
 import io
-import os
 import select
 import socket
 import stat
@@ -10,10 +9,14 @@ import zipfile
 
 import httpx
 import pytest
-from colift.leaderboard.queue import Queue
+import sqlalchemy as sa
+from colift.agents.errors import InputError
+from colift.leaderboard.board.tokens import Tokens
+from colift.leaderboard.database.schema import jobs
+from colift.leaderboard.queue import Queue, WorkerQueue
 from colift.leaderboard.service import uploads
-from colift.leaderboard.service.uploads import BODY, PREFIX, sweep
-from colift.leaderboard.tokens import Tokens
+from colift.leaderboard.service.uploads import BODY
+from colift.leaderboard.storage.staging import PREFIX
 
 SUBMIT = "/api/v1/submissions"
 MANY = 2**30
@@ -108,7 +111,7 @@ def symlink(name, target):
         ([("policy.py", "x"), ("../../../../tmp/x", "x")], "zip entry ../../../../tmp/x: "),
         ([("/etc/cron.d/x", "x")], "zip entry /etc/cron.d/x: "),
         ([symlink("policy.py", "/etc/passwd")], "zip entry policy.py: a symbolic link"),
-        ([("a", bytes(30 * 2**20))], "zip entry a: it would become more than 200 times larger"),
+        ([("a", bytes(30 * 2**20))], "would become 30 MiB, more than 200 times larger"),
         ([(f"f{i}", "x") for i in range(501)], "holds more than 500 files and folders"),
         ([("policy.py", "x")], "the zip archive has no policy.toml"),
         ([("policy.toml", "name = 1"), ("policy.py", "")], "policy.toml: "),
@@ -214,7 +217,7 @@ def test_a_client_that_goes_away_leaves_nothing(client, url, folder, ada, zipped
 
 
 def test_a_client_that_falls_silent_is_told_so(client, folder, ada, monkeypatch):
-    monkeypatch.setattr(uploads, "IDLE_S", 0.2)
+    monkeypatch.setattr(uploads, "WINDOW_S", 0.2)
 
     def silent():
         yield b"PK"
@@ -226,17 +229,122 @@ def test_a_client_that_falls_silent_is_told_so(client, folder, ada, monkeypatch)
     assert "too slow" in answer.json()["error"]
 
 
-def test_what_killed_uploads_have_left_is_swept_away(folder, opening):
-    old, young = (folder / "submissions" / f"{PREFIX}{name}" for name in ("old", "young"))
-    for place in (old, young):
-        place.mkdir()
-        (place / "upload.zip").write_bytes(b"PK")
-    os.utime(old, (1e9, 1e9))
+def test_a_refused_upload_leaves_nothing_and_the_same_content_is_still_its_job(
+    client, folder, add_token, zipped
+):
+    headers = {"Authorization": f"Bearer {add_token('full')}", "Content-Type": "application/zip"}
+    jobs = [client.post(SUBMIT, headers=headers, content=zipped(f"full{i}")) for i in range(5)]
+    before = sorted(folder.rglob("*"))
+    for number in (5, 6):
+        answer = client.post(SUBMIT, headers=headers, content=zipped(f"full{number}"))
+        assert answer.status_code == 429
+    assert sorted(folder.rglob("*")) == before
+    again = client.post(SUBMIT, headers=headers, content=zipped("full0"))
+    assert (again.status_code, again.json()["id"]) == (202, jobs[0].json()["id"])
+
+
+def test_much_that_is_packed_well_in_many_files_is_refused(client, folder, ada):
+    before = sorted(folder.rglob("*"))
+    many = packed(*((f"f{i}", bytes(16 * 2**20)) for i in range(15)))
+    assert len(many) < 2**18
+    answer = client.post(SUBMIT, headers=ada, content=many)
+    assert answer.status_code == 422
+    assert "would become 240 MiB, more than 200 times larger" in answer.json()["error"]
+    assert sorted(folder.rglob("*")) == before
+
+
+def test_a_file_that_was_cut_short_is_repaired_by_the_same_upload(
+    client, folder, opening, ada, zipped
+):
+    """As a power failure leaves it; meanwhile the job has ended by a fault of the evaluator."""
+    body = zipped("cut")
+    job = client.post(SUBMIT, headers=ada, content=body).json()
+    policy = folder / "submissions" / job["submission"] / "policy.py"
+    whole = policy.read_bytes()
+    policy.write_bytes(whole[:100])
     with opening(folder) as board:
-        sweep(board)
-    assert (old.exists(), young.exists()) == (False, True)
-    (young / "upload.zip").unlink()
-    young.rmdir()
+        work = WorkerQueue(board)
+        with pytest.raises(InputError, match="not as it was submitted"):
+            board.store.submission(job["submission"])
+        with board.database.writing() as connection:
+            connection.execute(
+                sa.update(jobs)
+                .where(jobs.c.id == job["id"])
+                .values(state="evaluator fault", ended_at=board.clock())
+            )
+        again = client.post(SUBMIT, headers=ada, content=body).json()
+        assert (again["id"], again["state"], again["ended_at"]) == (job["id"], "queued", None)
+        assert policy.read_bytes() == whole
+        board.store.submission(job["submission"])
+        assert work.claim("one", job["id"]) is not None
+
+
+def sent(url, headers, length):
+    """Return a connection that has begun an upload of that length."""
+    host, port = url.removeprefix("http://").split(":")
+    head = "".join(f"{name}: {value}\r\n" for name, value in headers.items())
+    connection = socket.create_connection((host, int(port)), timeout=60)
+    connection.sendall(
+        f"POST {SUBMIT} HTTP/1.1\r\nHost: x\r\n{head}Content-Length: {length}\r\n\r\n".encode()
+    )
+    return connection
+
+
+def test_an_upload_that_was_begun_before_its_token_was_revoked_is_refused(
+    url, folder, opening, add_token, zipped
+):
+    headers = {"Authorization": f"Bearer {add_token('mallory')}"}
+    headers["Content-Type"] = "application/zip"
+    body = zipped("mallory")
+    with sent(url, headers, len(body)) as connection:
+        connection.sendall(body[:100])
+        while not left_over(folder):
+            time.sleep(0.01)
+        with opening(folder) as board:
+            Tokens(board).revoke("mallory")
+            connection.sendall(body[100:])
+            answer = connection.recv(65536)
+            assert answer.startswith(b"HTTP/1.1 401 ")
+            assert not any(job.submitter == "mallory" for job in Queue(board).jobs())
+
+
+def test_slow_uploads_of_one_delay_nobody_else_and_end(
+    url, folder, ada, add_token, zipped, monkeypatch
+):
+    monkeypatch.setattr(uploads, "WINDOW_S", 100.0)
+    slow = {"Authorization": f"Bearer {add_token('slow')}", "Content-Type": "application/zip"}
+    connections = [sent(url, slow, 10**6) for _ in range(8)]
+    try:
+        while len(left_over(folder)) < 2:
+            time.sleep(0.01)
+        answer = httpx.post(f"{url}{SUBMIT}", headers=ada, content=zipped("quick"), timeout=60)
+        assert answer.status_code == 202
+        assert len(left_over(folder)) == 2
+        monkeypatch.setattr(uploads, "WINDOW_S", 0.5)
+        ended, deadline = [], time.monotonic() + 50
+        while not ended:  # A byte now and then is not enough.
+            assert time.monotonic() < deadline
+            for connection in connections:
+                connection.sendall(b"P")
+            ended = select.select(connections, [], [], 0.2)[0]
+        assert b" 408 " in ended[0].recv(65536)
+    finally:
+        for connection in connections:
+            connection.close()
+    while left_over(folder):
+        time.sleep(0.01)
+
+
+def test_what_killed_uploads_have_left_is_removed_at_the_next_start(
+    folder, serving, ada, opening, zipped
+):
+    """Also their folder of a moment ago; not that of another service that is at work."""
+    left = folder / "submissions" / f"{PREFIX}killed"
+    left.mkdir()
+    (left / "lock").touch()
+    (left / "upload.zip").write_bytes(b"PK")
+    with opening(folder) as board, board.store.staging() as working, serving(folder):
+        assert left_over(folder) == [working]
 
 
 def test_who_has_too_much_in_the_queue_is_told_so(client, folder, opening, add_token, zipped):

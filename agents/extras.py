@@ -1,0 +1,31 @@
+"""How to get libraries that come with an extra of colift."""
+
+import json
+import shlex
+from importlib.metadata import distributions
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+
+def how_to_install(extra: str) -> str:
+    """Return the command that installs an extra, for the sources that colift was installed from.
+
+    Colift is in no package registry, so that its bare name would get nothing, or something else.
+    """
+    source, editable = _source()
+    if source is None:
+        return f"pip install 'CLONE[{extra}]', where CLONE is the folder of colift's sources"
+    if editable and (source / "uv.lock").exists():
+        return f"uv sync --all-extras --project {shlex.quote(str(source))}"
+    return f"pip install '{source}[{extra}]'"
+
+
+def _source() -> tuple[Path | None, bool]:
+    """Return the folder that colift was installed from, if it is there, and whether editable."""
+    found = (each.read_text("direct_url.json") for each in distributions(name="colift"))
+    told = json.loads(next(filter(None, found), "{}"))
+    address = urlsplit(told.get("url", ""))
+    folder = Path(unquote(address.path))
+    if address.scheme != "file" or not (folder / "pyproject.toml").is_file():
+        return None, False
+    return folder, bool(told.get("dir_info", {}).get("editable"))

@@ -1,0 +1,175 @@
+"""One who commands a robot at a time: a claim in its ALMemory, kept alive by a heartbeat.
+
+The key :data:`KEY` holds who commands, a token and the number of the heartbeat; without a name, it
+is nobody. Whether a claim is alive is seen by its heartbeat, on the clock of who looks: no two
+clocks are compared. Two who claim at once both write, wait, and read: the last one has it. Every
+heartbeat reads before it writes, so whoever has lost the claim learns of it and stops.
+
+NAOqi itself lets anybody command; what claims nothing is noticed by the set-points that it moves.
+"""
+
+import os
+import socket
+import threading
+import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from typing import Final, NamedTuple
+
+from ..errors import InputError
+from .nao.naoqi import NaoqiArm
+from .ports import Clock, Naoqi, RobotLostError
+from .setup import wait
+from .stops import losses_stop
+
+KEY: Final = "Colift/Commander"
+"""The claim's key in ALMemory."""
+
+BEAT: Final = 0.5
+"""Time between two heartbeats [s]."""
+
+STALE: Final = 3.0
+"""Time without a heartbeat after which a claim is dead [s]: six of them."""
+
+SETTLED: Final = 0.3
+"""Time between writing a claim and reading it again [s]: longer than a call may take."""
+
+
+class Holder(NamedTuple):
+    """Who commands a robot."""
+
+    name: str
+    """Empty if it is nobody."""
+    token: str
+    """What no other claim has."""
+    beat: int
+    """Number of the last heartbeat."""
+
+
+NOBODY: Final = Holder("", "", 0)
+
+
+def holder(session: Naoqi) -> Holder:
+    """Return who has the claim on a robot, dead or alive.
+
+    Raises
+    ------
+    RobotLostError
+        If it does not answer.
+    """
+    if KEY not in session.call("ALMemory", "getDataList", KEY):
+        return NOBODY
+    try:
+        name, token, beat = session.call("ALMemory", "getData", KEY)
+        return Holder(str(name), str(token), int(beat))
+    except (TypeError, ValueError):
+        return Holder("a claim that cannot be read", "", 0)
+
+
+class RobotClaim:
+    """A claim on a robot.
+
+    Parameters
+    ----------
+    session
+        The connection.
+    """
+
+    def __init__(self, session: Naoqi) -> None:
+        self._session = session
+        self._own = Holder(f"process {os.getpid()} on {socket.gethostname()}", uuid.uuid4().hex, 0)
+
+    def take(self, clock: Clock) -> None:
+        """Take the claim; one that is dead is taken over.
+
+        Raises
+        ------
+        InputError
+            If somebody else has it.
+        RobotLostError
+            If the robot does not answer.
+        StopTrialError
+            If the operator stops.
+        """
+        self._await_nobody(clock)
+        self._write(self._own)
+        wait(clock, SETTLED)
+        self._refuse(holder(self._session))
+
+    def _await_nobody(self, clock: Clock) -> None:
+        """Return when nobody has the claim, or whoever has it has been seen to be dead."""
+        first = holder(self._session)
+        end = clock.now() + STALE
+        while first.name and clock.now() < end:
+            wait(clock, BEAT / 2)
+            now = holder(self._session)
+            if not now.name:
+                return
+            if now != first:
+                self._refuse(now)
+
+    def _refuse(self, found: Holder) -> None:
+        if found.token != self._own.token:
+            raise InputError(
+                f"the robot at {self._session.url} is commanded by {found.name}: one at a time; "
+                f"end that first (a claim without a heartbeat is taken over after {STALE:g} s)"
+            )
+
+    def beat(self) -> str:
+        """Show that the claim is alive; return who else has it, or nothing.
+
+        Raises
+        ------
+        RobotLostError
+            If the robot does not answer.
+        """
+        found = holder(self._session)
+        if found.token != self._own.token:
+            return found.name or "nobody"
+        self._own = self._own._replace(beat=self._own.beat + 1)
+        self._write(self._own)
+        return ""
+
+    def release(self) -> None:
+        """Give the claim up, if it is still this one's."""
+        with suppress(RobotLostError):
+            if holder(self._session).token == self._own.token:
+                self._write(NOBODY)
+
+    def _write(self, value: Holder) -> None:
+        self._session.call("ALMemory", "insertData", KEY, list(value))
+
+
+@contextmanager
+def claimed(arm: NaoqiArm, clock: Clock) -> Iterator[None]:
+    """Hold the claim on a robot, with a heartbeat; an arm whose claim is lost is ``taken``.
+
+    Raises
+    ------
+    InputError
+        If somebody else has it: nothing has been moved.
+    StopTrialError
+        If the robot does not answer, or the operator stops.
+    """
+    claim = RobotClaim(arm.session)
+    with losses_stop():
+        claim.take(clock)
+    over = threading.Event()
+    heart = threading.Thread(target=_beat, args=(claim, arm, over), name="claim", daemon=True)
+    heart.start()
+    try:
+        yield
+    finally:
+        over.set()
+        heart.join()
+        claim.release()
+
+
+def _beat(claim: RobotClaim, arm: NaoqiArm, over: threading.Event) -> None:
+    """Beat until it is over; a robot that does not answer is for the loop to notice."""
+    while not over.wait(BEAT):
+        with suppress(RobotLostError):
+            other = claim.beat()
+            if other:
+                arm.taken = f"the robot is commanded by {other} now: its claim is not this one's"
+                return

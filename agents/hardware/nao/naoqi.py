@@ -1,0 +1,205 @@
+"""The two arms of a NAO through NAOqi's ALMotion.
+
+A command is a target on the project's own arm path, given by ``setAngles``: it does not block,
+replaces the one before it, and the arms end at its target by themselves. So a robot that hears
+nothing more stops within a control period, whatever became of the network.
+
+``setAngles`` moves joints at a fraction of their greatest speeds. Each joint of the left arm gets,
+with its mirror image, a call of its own, and the fraction with which it takes the whole duration:
+all of them arrive together, and the hands stay within 1.5 mm of a steady rise. With one fraction
+for all, the joints with the shorter ways arrive early, and the hands race at up to 2.7 times the
+speed that was asked for.
+"""
+
+import dataclasses
+from collections import deque
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....robots.nao.kinematics import ARM_JOINTS, MIRROR, REST_Z, arm_path, hand_position
+from ..ports import ArmState, HandLimits, Naoqi, RobotLostError, RobotTakenError
+from ..safety import hand_limits, next_command
+
+NAMES: Final = list(ARM_JOINTS)
+
+PAIRS: Final = [(joint, joint + 5) for joint in range(5)]
+"""Each joint of the left arm and its mirror image, as places in ``NAMES``."""
+
+SMALLEST_FRACTION: Final = 0.001
+"""Smallest fraction of the greatest speed that is asked for; NAOqi takes (0, 1]."""
+
+RELEASE_TIME: Final = 2.0
+"""Time in which the stiffness goes up, and down again [s]."""
+
+SLOW: Final = 0.08
+"""Fraction of the greatest speed at which the arms go to the rest posture: 0.6 rad/s."""
+
+
+class NaoqiArm:
+    """Both arms as one :class:`.RobotArm`.
+
+    Parameters
+    ----------
+    session
+        The connection.
+
+    Raises
+    ------
+    InputError
+        If the robot is no NAO with arms of five joints.
+    RobotLostError
+        If it does not answer.
+    """
+
+    def __init__(self, session: Naoqi) -> None:
+        self.session = session
+        rows = [session.call("ALMotion", "getLimits", name)[0] for name in NAMES]
+        self._speeds = np.array([row[2] for row in rows])
+        self._limits = hand_limits(dict(zip(NAMES, rows, strict=True)))
+        self._path = arm_path()
+        self._command = 0.0
+        self._set_point = 0.0
+        self._set_angles: NDArray[np.float64] = np.array(self._path.joint_angles(0.0))
+        # Where this client's commands led in the last steps: set-points are between these.
+        self._targets = deque([self._set_angles], maxlen=3)
+        self._stopped = False
+        self.taken = ""
+        """Who commands the robot, once it is somebody else: nothing is sent to it any more."""
+        self.weight_offset = 0.0
+        """Added to every command [m], for the sag under the table's weight."""
+
+    @property
+    def limits(self) -> HandLimits:
+        """What commands are held to; from the robot's own joint limits, the offset included."""
+        own, offset = self._limits, self.weight_offset
+        low, high = max(own.low, own.low - offset), min(own.high, own.high - offset)
+        return dataclasses.replace(own, low=low, high=high)
+
+    @property
+    def stopped(self) -> bool:
+        """Whether the hands are frozen for good."""
+        return self._stopped
+
+    def state(self) -> ArmState:
+        """Return where the hands are; see :meth:`.RobotArm.state`."""
+        self._refuse_if_taken()
+        measured, set_angles, stiffness = self.session.calls(
+            "ALMotion",
+            [
+                ("getAngles", NAMES, True),
+                ("getAngles", NAMES, False),
+                ("getStiffnesses", NAMES),
+            ],
+        )
+        ways = np.array([self._set_angles, *self._targets])
+        now = self._set_angles = np.array(set_angles)
+        self._targets.append(self._targets[-1])
+        outside = np.maximum(ways.min(axis=0) - now, now - ways.max(axis=0))
+        height, set_point = hand_heights(np.array([measured, set_angles]))
+        self._set_point = set_point - self.weight_offset
+        return ArmState(height, self._set_point, min(stiffness), max(0.0, float(outside.max())))
+
+    def command(self, height: float, duration: float) -> float:
+        """Move the hands, within the limits; see :meth:`.RobotArm.command`.
+
+        It starts from where :meth:`state` has last seen the set-points.
+        """
+        if self._stopped:
+            raise RobotLostError("the hands are stopped: no command is taken any more")
+        self._refuse_if_taken()
+        self._command = next_command(height, self._command, self._set_point, duration, self.limits)
+        angles = self._path.joint_angles(self._command + self.weight_offset)
+        self._send(angles, duration)
+        return self._command
+
+    def _refuse_if_taken(self) -> None:
+        if self.taken:
+            raise RobotTakenError(self.taken)
+
+    def _send(self, angles: list[float], duration: float) -> None:
+        shares = np.abs(np.array(angles) - self._set_angles) / self._speeds / duration
+        fractions = np.clip(shares, SMALLEST_FRACTION, 1.0).tolist()
+        self._targets[-1] = np.array(angles)
+        self.session.calls(
+            "ALMotion",
+            [
+                (
+                    "setAngles",
+                    [NAMES[left], NAMES[right]],
+                    [angles[left], angles[right]],
+                    max(fractions[left], fractions[right]),
+                )
+                for left, right in PAIRS
+            ],
+        )
+
+    def stop(self) -> None:
+        """Freeze the arms where they are, stiff; every later command is refused.
+
+        Arms that somebody else commands are left to them.
+        """
+        self._stopped = True
+        if not self.taken:
+            with suppress(RobotLostError):
+                self.session.call("ALMotion", "killAll")
+
+    def answers(self) -> bool:
+        """Return whether the robot answers."""
+        try:
+            self.session.call("ALMotion", "robotIsWakeUp")
+        except RobotLostError:
+            return False
+        return True
+
+    def motion(self, method: str, *arguments: Any, within: float = 30.0) -> Any:
+        """Call a method of ALMotion that may block."""
+        return self.session.call("ALMotion", method, *arguments, within=within)
+
+    def take_hold(self) -> None:
+        """Wake the robot, stiffen the arms smoothly and bring them to the rest posture, slowly."""
+        if not self.motion("robotIsWakeUp"):
+            self.motion("wakeUp")
+        if self.state().stiffness < 1.0:
+            # A limp arm is not where it was told to be; stiffened, it would jump there.
+            here = self.motion("getAngles", NAMES, True)
+            self.motion("setAngles", NAMES, here, 1.0)
+            self.stiffen(1.0)
+        rest = self._path.joint_angles(0.0)
+        self.motion("angleInterpolationWithSpeed", NAMES, rest, SLOW)
+        self._command = 0.0
+        self._targets.append(np.array(rest))
+        self.state()
+        self._targets.extend([np.array(rest)] * 3)
+
+    def stiffen(self, stiffness: float) -> None:
+        """Bring the arms' stiffness to a value in [0, 1], smoothly."""
+        self.motion("stiffnessInterpolation", ["LArm", "RArm"], stiffness, RELEASE_TIME)
+
+    def release(self) -> None:
+        """Take the stiffness from the arms, smoothly, and let the robot go to rest.
+
+        Raises
+        ------
+        RobotLostError
+            If it does not answer.
+        """
+        self._stopped = True
+        self.stiffen(0.0)
+        self.motion("rest")
+
+    def say(self, text: str) -> None:
+        """Say a text, where the robot can speak; return when it is said."""
+        if self.session.has("ALTextToSpeech"):
+            self.session.call("ALTextToSpeech", "say", text, within=30.0)
+
+
+def hand_heights(angles: NDArray[np.float64]) -> Sequence[float]:
+    """Return the mean height of both hands [m] for each row of ten arm angles, shape (n, 10)."""
+    left, right = angles[:, :5], angles[:, 5:] * np.array(MIRROR)
+    heights = hand_position(np.stack([left, right]))[..., 2]
+    mean: list[float] = (heights.mean(axis=0) - REST_Z).tolist()
+    return mean

@@ -1,1 +1,0 @@
-"""Isolation: policies of strangers, each episode in a fresh sandboxed process."""

@@ -1,0 +1,1 @@
+"""Policies by name, module or file: how they are found, made and given parameters."""

@@ -1,0 +1,60 @@
+"""What can be set of a policy, in words: names, defaults, kinds, meanings."""
+
+import ast
+import inspect
+import itertools
+import textwrap
+from dataclasses import dataclass
+
+from .parameters import parameters_of
+from .values import kind, write_value
+
+
+@dataclass(frozen=True, kw_only=True)
+class ParameterText:
+    """One parameter of a policy, in words."""
+
+    name: str
+    default: str
+    """Its default, as a user would write it."""
+    kind: str
+    """What its values are."""
+    meaning: str
+    """The docstring under its field, on one line; empty if there is none."""
+
+
+def described(policy: type) -> tuple[ParameterText, ...]:
+    """Return what can be set of a policy.
+
+    Raises
+    ------
+    InputError
+        As :func:`.parameters_of`.
+    """
+    return tuple(
+        ParameterText(
+            name=name,
+            default=write_value(parameter.default),
+            kind=kind(parameter.hint),
+            meaning=field_docstrings(parameter.owner).get(parameter.name, ""),
+        )
+        for name, parameter in parameters_of(policy).items()
+    )
+
+
+def field_docstrings(owner: type) -> dict[str, str]:
+    """Return the docstrings under the fields of a class, each on one line."""
+    found: dict[str, str] = {}
+    for base in reversed(owner.__mro__):
+        try:
+            (tree,) = ast.parse(textwrap.dedent(inspect.getsource(base))).body
+        except (OSError, TypeError):
+            continue
+        for field, below in itertools.pairwise(tree.body if isinstance(tree, ast.ClassDef) else ()):
+            match field, below:
+                case (
+                    ast.AnnAssign(target=ast.Name(id=str(name))),
+                    ast.Expr(value=ast.Constant(value=str(docstring))),
+                ):
+                    found[name] = " ".join(docstring.split())
+    return found

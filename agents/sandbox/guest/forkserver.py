@@ -1,0 +1,114 @@
+"""The fork server: a small trusted process inside the sandbox that starts each episode's processes.
+
+It has imported NumPy and what serves a policy, and nothing of a stranger's: what an episode's
+process does to its modules dies with it.
+"""
+
+import contextlib
+import gc
+import importlib
+import json
+import os
+import signal
+import socket
+import sys
+import tempfile
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any, Final
+
+from ..protocol import ORDER, PRELOAD, PROBE, Assignment, Limits
+from . import landlock, linux
+from .probe import probe
+from .restrictions import Restrictions
+from .server import serve, serve_forks
+from .spawn import Ends, spawn
+
+OURS: Final = "colift.agents."
+LOADED: Final = "colift.agents.loading.loaded"
+
+_TRIAL_SECONDS: Final = 30.0
+"""How long the first process may take on a busy machine [s]."""
+
+
+def main(handle: int) -> None:
+    """Serve orders on a socket until its other side closes."""
+    orders = socket.socket(fileno=handle)
+    settings = json.loads(orders.recv(ORDER))
+    linux.hide(True)
+    linux.prctl(linux.PR_SET_CHILD_SUBREAPER, 1)
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    gc.freeze()
+    os.umask(0o022)
+    try:
+        restrictions = _restrictions(settings)
+    except OSError as error:
+        sys.exit(str(error))
+    orders.send(json.dumps(restrictions.namespaces).encode())
+    with contextlib.ExitStack() as stack:
+        if not restrictions.namespaces:
+            # Made and removed here: this process outlives its owner, which may be killed.
+            scratch = tempfile.TemporaryDirectory(prefix="colift-", ignore_cleanup_errors=True)
+            restrictions = replace(restrictions, scratch=Path(stack.enter_context(scratch)))
+        while True:
+            order, handles, _, _ = socket.recv_fds(orders, ORDER, 3)
+            if not order:
+                return
+            spawn(restrictions, Ends(*handles), _service(*json.loads(order)))
+
+
+def _service(kind: str, content: Any) -> Callable[[int], None]:
+    """Return what a policy's process does."""
+    if kind == PROBE:
+        return partial(probe, secrets=content)
+    policy = Assignment(*content)
+    module = policy.place.partition(":")[0]
+    if module.startswith(OURS) and module not in sys.modules:
+        # What is colift's own is no stranger's: imported once for all episodes, with what it
+        # imports late, which may take longer than a step may.
+        with contextlib.suppress(Exception):
+            importlib.import_module(module)
+            importlib.import_module(LOADED)
+            gc.freeze()
+    return partial(serve_forks if kind == PRELOAD else serve, policy=policy)
+
+
+def _restrictions(settings: dict[str, Any]) -> Restrictions:
+    """Return the restrictions of a level; raise OSError if they cannot be had here."""
+    kernel = landlock.version() > 0
+    if settings["landlock"] and not kernel:
+        raise OSError("the kernel has no Landlock")
+    restrictions = Restrictions(
+        landlock=kernel,
+        readable=tuple(map(Path, settings["readable"])),
+        hidden=tuple(map(Path, settings["hidden"])),
+        folder=Path(settings["folder"]) if settings["folder"] else None,
+        limits=Limits(**settings["limits"]),
+    )
+    if not settings["namespaces"]:
+        return restrictions
+    reasons = []
+    for kind in ("root", "user") if os.geteuid() == 0 else ("user",):
+        separate = replace(restrictions, namespaces=kind)
+        reason = _fault(separate)
+        if not reason:
+            return separate
+        reasons.append(f"no namespaces by {kind}: {reason}")
+    raise OSError("; ".join(reasons))
+
+
+def _fault(restrictions: Restrictions) -> str:
+    """Return why a process with these restrictions does not start and end, empty if it does."""
+    here, status = socket.socketpair()
+    data, output = (os.open("/dev/null", os.O_WRONLY) for _ in range(2))
+    with here:
+        here.settimeout(_TRIAL_SECONDS)
+        try:
+            spawn(restrictions, Ends(data, output, status.detach()), os.close)
+            report = here.recv(1000).decode().strip()
+        except OSError as error:
+            return str(error)
+    return "" if report == "exit 0" else report or "it was ended"

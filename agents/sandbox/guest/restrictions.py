@@ -1,0 +1,153 @@
+"""The restrictions of a policy's process: the root directory it sees, the privileges it drops."""
+
+import contextlib
+import os
+import resource
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from ..protocol import AGENTS, Limits
+from . import landlock, linux, seccomp
+from .linux import MS_BIND, MS_NODEV, MS_NOEXEC, MS_NOSUID, MS_PRIVATE, MS_RDONLY, MS_REC
+
+FRESH: Final = ("/tmp", "/dev/shm")
+"""Directories that an episode with namespaces has for itself, empty at first."""
+
+DEVICES: Final = ("/dev/null", "/dev/full", "/dev/random", "/dev/urandom")
+"""Devices that a policy has; a shared mapping of /dev/zero would be memory of no process."""
+
+NOBODY: Final = 65534
+
+_BASE: Final = "/tmp"
+"""Where the root directory is made; what is beneath is shown by its handle."""
+
+RESERVED: Final = 2**30
+"""Addresses beyond its memory that a process may have [bytes]: libraries, stacks of threads."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Restrictions:
+    """What a policy's process is restricted to."""
+
+    namespaces: str = ""
+    """``root``: made by the superuser; ``user``: by anybody; empty: none."""
+    landlock: bool
+    readable: tuple[Path, ...]
+    """What it may read."""
+    hidden: tuple[Path, ...]
+    """What of that is covered."""
+    folder: Path | None
+    """Its folder, where it starts."""
+    scratch: Path | None = None
+    """Where it may write if it has no private /tmp."""
+    limits: Limits
+
+    @property
+    def fresh(self) -> tuple[str, ...]:
+        """The directories that it has for itself."""
+        return FRESH if self.namespaces else ()
+
+
+def enter_root(restrictions: Restrictions) -> int:
+    """Make a root directory that shows what the policy may see, and enter it.
+
+    It is new, so that its times and numbers tell of no other episode; all in it is read-only, so
+    that nothing is left on what episodes share, not even the time of a last access; but for a /tmp
+    and a /dev/shm of its own. Return a handle of a /proc that shows all processes of the episode,
+    for the one that watches; raise OSError if the kernel refuses.
+    """
+    linux.mount("none", "/", "", MS_REC | MS_PRIVATE)
+    secure = MS_NOSUID | MS_NODEV | MS_NOEXEC
+    # Inside a container that covers parts of /proc this is refused: then the old one serves.
+    with contextlib.suppress(OSError):
+        linux.mount("proc", "/proc", "proc", secure)
+    processes = os.open("/proc", os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    links = {path: path.readlink() for path in restrictions.readable if path.is_symlink()}
+    shown = {*restrictions.readable, *map(Path, DEVICES), AGENTS} - links.keys()
+    handles = {path: os.open(path, os.O_PATH | os.O_CLOEXEC) for path in shown if path.exists()}
+    linux.mount("tmpfs", _BASE, "tmpfs", MS_NOSUID, "size=1m,mode=755")
+    for place in ("/proc", *FRESH):
+        Path(f"{_BASE}{place}").mkdir(parents=True)
+    for place in FRESH:
+        options = f"size={restrictions.limits.file_size},nr_inodes=4096,mode=1777"
+        linux.mount("tmpfs", f"{_BASE}{place}", "tmpfs", MS_NOSUID | MS_NODEV, options)
+    for path in (*restrictions.readable, *map(Path, DEVICES)):
+        if path in handles:
+            _show(path, handles[path])
+        elif path in links:
+            Path(f"{_BASE}{path}").symlink_to(links[path])
+    for path in restrictions.hidden:
+        linux.mount("tmpfs", f"{_BASE}{path}", "tmpfs", MS_NOSUID, "size=1m,mode=755")
+        if path in AGENTS.parents:
+            _show(AGENTS, handles[AGENTS])
+    for handle in handles.values():
+        os.close(handle)
+    linux.make_read_only(_BASE, True)
+    for place in FRESH:
+        linux.make_read_only(f"{_BASE}{place}", False)
+    # Only processes, and only one's own; where that is refused, nothing.
+    with contextlib.suppress(OSError):
+        options = "subset=pid,hidepid=2"
+        linux.mount("proc", f"{_BASE}/proc", "proc", secure | MS_RDONLY, options)
+    linux.change_root(_BASE)
+    return processes
+
+
+def _show(path: Path, handle: int) -> None:
+    """Bind what a handle names at its path beneath the new root directory."""
+    source, target = f"/proc/self/fd/{handle}", Path(f"{_BASE}{path}")
+    if os.path.isdir(source):  # noqa: PTH112 - a link to follow
+        target.mkdir(parents=True, exist_ok=True)
+    else:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.touch()
+    linux.mount(source, str(target), "", MS_BIND | MS_REC)
+
+
+def drop_privileges(restrictions: Restrictions) -> None:
+    """Restrict this process and all that it will start; raise OSError if the kernel refuses."""
+    if restrictions.namespaces == "root":
+        linux.become(NOBODY, NOBODY)
+        # It is nobody, but reads what only the superuser may of what it sees: folders are private.
+        # The capability holds in its own user namespace only.
+        linux.drop_capabilities(1 << linux.CAP_DAC_READ_SEARCH)
+    else:
+        linux.drop_capabilities()
+    linux.prctl(linux.PR_SET_NO_NEW_PRIVS, 1)
+    linux.hide(False)
+    if restrictions.landlock:
+        landlock.restrict(_rules(restrictions))
+    if not seccomp.install() and restrictions.namespaces:
+        raise OSError("system calls cannot be filtered")
+    _set_limits(restrictions)
+
+
+def _rules(restrictions: Restrictions) -> list[tuple[Path, int]]:
+    """Return what Landlock allows."""
+    shown = (Path("/"),) if restrictions.namespaces else restrictions.readable
+    rules = [(path, landlock.READ) for path in shown]
+    rules += [(Path(each), landlock.READ_FILE | landlock.WRITE_FILE) for each in DEVICES]
+    writable = [Path(each) for each in restrictions.fresh]
+    writable += [restrictions.scratch] if restrictions.scratch else []
+    return rules + [(each, landlock.ALL & ~landlock.IOCTL) for each in writable]
+
+
+def _set_limits(restrictions: Restrictions) -> None:
+    limits = restrictions.limits
+    values = {
+        resource.RLIMIT_CORE: 0,
+        resource.RLIMIT_FSIZE: limits.file_size,
+        resource.RLIMIT_NOFILE: limits.files,
+        resource.RLIMIT_CPU: limits.cpu_seconds,
+        resource.RLIMIT_DATA: limits.memory,
+        # Addresses that are only reserved, as by libraries and threads, are not used.
+        resource.RLIMIT_AS: limits.memory + RESERVED,
+    }
+    if restrictions.namespaces:
+        # Elsewhere the kernel would count all processes of the user, not only the policy's.
+        values[resource.RLIMIT_NPROC] = limits.processes
+    for kind, value in values.items():
+        hard = resource.getrlimit(kind)[1]
+        value = value if hard == resource.RLIM_INFINITY else min(value, hard)
+        resource.setrlimit(kind, (value, value))

@@ -1,0 +1,180 @@
+"""The isolation levels, strongest first, and which of them work here."""
+
+import contextlib
+import math
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from ...errors import EvaluatorFault, InputError, PolicyError
+from ..protocol import AGENTS, Limits
+from .agent import allowed
+from .process import BUBBLEWRAP, LANDLOCK, LIMITS
+from .sandbox import Sandbox
+
+LEVELS: Final = {
+    BUBBLEWRAP: "bubblewrap: own file system, processes, network and users; Landlock, filter",
+    LANDLOCK: "namespaces of file systems, processes, network and users; Landlock, filter",
+    LIMITS: "no namespaces: resource limits; Landlock and the filter where the kernel has them",
+}
+"""The levels and what they consist of."""
+
+VERIFIABLE: Final = frozenset({BUBBLEWRAP, LANDLOCK})
+"""Levels whose results can be called verified: on the others a policy can cheat."""
+
+TRIES: Final = 3
+"""How often a level is tried before it is believed not to work."""
+
+_PAUSE_SECONDS: Final = 0.2
+"""Pause before it is tried again [s]; then twice as long."""
+
+_KEPT_SECONDS: Final = 60.0
+"""How long a failure is believed [s]: what has failed may work later."""
+
+_SECONDS: Final = 60.0
+"""How long the probe may take on a busy machine [s]."""
+
+_SECRETS: Final = ("humans/__init__.py", "../benchmark/__init__.py")
+"""Files of colift, beside the agents, that no policy may read."""
+
+_found: Final[dict[str, tuple[float, str | None]]] = {}
+"""Until when (monotonic clock) what is known of a level holds: why it does not work, if so."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Choice:
+    """A level, and the stronger ones that do not work here."""
+
+    level: str
+    passed: Mapping[str, str]
+    """Why each of those does not work."""
+
+    def __str__(self) -> str:
+        """Return a line that says both."""
+        return "; ".join([f"isolation {self.level}", *_faults(self.passed)])
+
+
+def _faults(reasons: Mapping[str, str]) -> list[str]:
+    return [f"{name} does not work here: {reason}" for name, reason in reasons.items()]
+
+
+def working_levels() -> tuple[str, ...]:
+    """Return the levels that work here, strongest first."""
+    return tuple(name for name in LEVELS if fault(name) is None)
+
+
+def choose(*, verifiable: bool = False) -> Choice:
+    """Return the strongest level that works here, and why stronger ones do not.
+
+    ``verifiable`` levels alone are for policies of strangers. Raise EvaluatorFault with all reasons
+    if no level works.
+    """
+    passed: dict[str, str] = {}
+    for name in LEVELS:
+        if name in VERIFIABLE or not verifiable:
+            reason = fault(name)
+            if reason is None:
+                return Choice(level=name, passed=passed)
+            passed[name] = reason
+    reasons = "; ".join(_faults(passed))
+    raise EvaluatorFault(f"no sandbox that is strong enough works here: {reasons}")
+
+
+def strongest() -> str:
+    """Return the level of :func:`choose`."""
+    return choose().level
+
+
+def check_level(name: str) -> None:
+    """Raise InputError if there is no such level."""
+    if name not in LEVELS:
+        raise InputError(f"unknown isolation {name!r}; known: {', '.join(LEVELS)}")
+
+
+def fault(name: str) -> str | None:
+    """Return why a level does not work here, None if it does: found out by trying.
+
+    A failure is believed if it comes :data:`TRIES` times, and for a minute. Raise InputError if
+    there is no such level.
+    """
+    check_level(name)
+    until, reason = _found.get(name, (-math.inf, None))
+    if time.monotonic() >= until:
+        reason = _tried(name)
+        until = math.inf if reason is None else time.monotonic() + _KEPT_SECONDS
+        _found[name] = until, reason
+    return reason
+
+
+def forget() -> None:
+    """Find out anew what works when it is asked for next."""
+    _found.clear()
+
+
+def _tried(name: str) -> str | None:
+    """Return why a level fails again and again, None as soon as it does not."""
+    reason = None
+    for number in range(TRIES):
+        if number:
+            time.sleep(number * _PAUSE_SECONDS)
+        try:
+            found = holes(name)
+        except (EvaluatorFault, PolicyError) as error:
+            reason = str(error)
+        else:
+            reason = "; ".join(found) if name in VERIFIABLE else None
+        if not reason:
+            return None
+    return reason
+
+
+def holes(name: str) -> list[str]:
+    """Return what a policy can do at a level that it should not: a probe tries.
+
+    Raise EvaluatorFault or PolicyError if the level does not work here.
+    """
+    with (
+        tempfile.TemporaryDirectory(prefix="colift-probe-") as directory,
+        tempfile.TemporaryDirectory(prefix="colift-probe-") as seen,
+        socket.create_server(("127.0.0.1", 0)) as listening,
+        socket.socket(socket.AF_UNIX) as local,
+        subprocess.Popen(
+            [sys.executable, "-S", "-c", "import sys; sys.stdin.read()"], stdin=subprocess.PIPE
+        ) as other,
+    ):
+        secret, shared = Path(directory, "secret"), Path(seen, "shared")
+        for path in (secret, shared):
+            path.write_text("colift")
+        os.utime(shared, (1, 2))  # Last read before it was written: the next time would be noted.
+        local.bind(str(Path(directory, "socket")))
+        local.listen()
+        files = (secret, "/etc/shadow", *(AGENTS / each for each in _SECRETS))
+        secrets = {
+            "files": [str(each) for each in files],
+            "directory": directory,
+            "port": listening.getsockname()[1],
+            "socket": local.getsockname(),
+            "process": other.pid,
+            "processes": os.readlink("/proc/self/ns/pid"),  # noqa: PTH115
+            "processors": sorted(allowed()),
+            "shared": str(shared),
+        }
+        sandbox = Sandbox(name, Path(seen), Limits(start_seconds=_SECONDS))
+        try:
+            with contextlib.closing(sandbox.probe(secrets)) as connection:
+                kind, found = connection.request(["probe"], _SECONDS, _SECONDS)
+        finally:
+            sandbox.close()
+            other.kill()
+        marked = shared.stat().st_atime != 1
+    if kind != "found":
+        return [f"the probe says {kind}"]
+    marks = ["leaves the time of its last access on files"] if marked else []
+    return [*map(str, found), *marks]

@@ -1,0 +1,124 @@
+"""A policy that runs in a sandbox, as a runner takes it."""
+
+import contextlib
+import os
+import threading
+from collections import OrderedDict
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Final
+
+from ...errors import InputError, PolicyError
+from ...loading.description import ParameterText
+from ..protocol import AGENTS, LIMITS, Assignment, Limits
+from .agent import RemoteAgent, remote_agent
+from .levels import strongest
+from .sandbox import Sandbox
+
+KEPT: Final = 4
+"""Sandboxes that a thread keeps running: those that it used last."""
+
+_local = threading.local()
+
+
+@dataclass(frozen=True, kw_only=True)
+class SandboxedPolicy:
+    """A policy in a sandbox, each episode in a fresh process; goes to worker processes.
+
+    It is what a runner takes: see :class:`colift.benchmark.execution.runner.AgentSpec`. Its methods
+    raise EvaluatorFault if there is no sandbox to be had.
+    """
+
+    name: str
+    """The policy's name, for tables."""
+    place: str
+    """Where its class is: ``module:Class``, or ``file.py:Class`` with a path that is absolute or
+    relative to the folder."""
+    parameters: str = ""
+    """What is set of it: ``parameter=value,parameter=value``."""
+    folder: Path | None = None
+    """The submission's folder: seen read-only, and where the policy starts."""
+    source_digest: str = ""
+    """Hash of all that the policy is made of, parameters included."""
+    preload: bool = False
+    """Whether its module is imported once and the episodes are forked from that process, so that
+    they have to be audited."""
+    isolation: str = field(default_factory=strongest)
+    """Its isolation level: chosen where the policy is named, and the same in all workers."""
+    limits: Limits = LIMITS
+    """What it may use up in an episode."""
+    size: int = 1
+    """How many numbers its action is."""
+
+    def paced(self, period: float) -> "SandboxedPolicy":
+        """Return the same policy with the budgets of a control period [s]."""
+        return replace(self, limits=replace(self.limits, period=period))
+
+    def digest(self) -> str:
+        """Return the hash of the policy's source."""
+        return self.source_digest
+
+    def check(self) -> None:
+        """Make the policy once, in its sandbox; raise InputError if that fails."""
+        with self.agent() as agent:
+            if agent.failure is not None:
+                raise InputError(f"policy {self.name}: {agent.failure}")
+
+    def described(self) -> tuple[str, tuple[ParameterText, ...]]:
+        """Return the first line of the policy's docstring, and what can be set of it.
+
+        Raise InputError as :meth:`check`.
+        """
+        with self.agent() as agent:
+            try:
+                return agent.described()
+            except PolicyError as error:
+                raise InputError(f"policy {self.name}: {error}") from error
+
+    @contextmanager
+    def agent(self) -> Iterator[RemoteAgent]:
+        """Yield a new agent for one episode; its processes end with it.
+
+        If the policy cannot be made, its ``reset`` says why.
+        """
+        seen, policy = self._assignment()
+        sandbox = _kept(self.isolation, seen, self.limits)
+        connection = sandbox.preloaded(policy) if self.preload else sandbox.episode(policy)
+        with contextlib.closing(connection):
+            agent = remote_agent(connection, self.limits, self.size)
+            with contextlib.closing(agent):
+                yield agent
+
+    def _assignment(self) -> tuple[Path | None, Assignment]:
+        """Return the file or folder that the policy sees, and what is to be served."""
+        file, colon, name = self.place.rpartition(":")
+        seen, place = self.folder.resolve() if self.folder else None, self.place
+        if seen is None and colon and file.endswith(".py"):
+            seen = Path(file).resolve()
+            place = f"{seen}:{name}"
+        if seen is not None and (seen == AGENTS.parent or seen in AGENTS.parents):
+            raise InputError(f"{seen} holds colift itself: put the policy into a folder of its own")
+        return seen, Assignment(place, self.parameters, self.size)
+
+
+def _kept(isolation: str, seen: Path | None, limits: Limits) -> Sandbox:
+    """Return this thread's sandbox, started if there is none."""
+    if getattr(_local, "process", None) != os.getpid():
+        _local.process, _local.sandboxes = os.getpid(), OrderedDict()
+    kept: OrderedDict[object, Sandbox] = _local.sandboxes
+    key = isolation, seen, limits
+    if key not in kept:
+        kept[key] = Sandbox(*key)
+    kept.move_to_end(key)
+    while len(kept) > KEPT:
+        kept.popitem(last=False)[1].close()
+    return kept[key]
+
+
+def close_sandboxes() -> None:
+    """End the sandboxes that this thread keeps."""
+    kept = getattr(_local, "sandboxes", {})
+    while kept:
+        kept.popitem()[1].close()

@@ -1,0 +1,216 @@
+"""The protocol between the host and the guest of a sandbox: limits, orders and frames.
+
+A frame is its length (4 bytes, big-endian) and a msgpack list of numbers, strings, lists of them.
+No pickle, no arrays, no extension types; whatever arrives is a list, or an error.
+"""
+
+import math
+import socket
+import struct
+import threading
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, Final, NamedTuple
+
+import msgpack
+
+from ..errors import InputError
+
+AGENTS: Final = Path(__file__).resolve().parents[1]
+"""The package that the guest sees of colift, without the humans."""
+
+EPISODE: Final = "episode"
+PRELOAD: Final = "preload"
+PROBE: Final = "probe"
+"""What a process is for: an order to the fork server is one of these and a content, as JSON."""
+
+ORDER: Final = 1 << 17
+"""Longest order, and longest settings of a fork server [bytes]."""
+
+INTERNALS: Final = 64
+"""Most internals of a policy."""
+
+NAME: Final = 64
+"""Characters of an internal's name."""
+
+MIB: Final = 2**20
+
+OUTPUT: Final = 10_000
+"""Characters of a policy's output that are kept: the last ones."""
+
+REASON: Final = 500
+"""Characters of a reason for a failure that are kept."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Limits:
+    """Budgets of a policy in one episode. They are backstops: wall clock never enters a score.
+
+    Those of time follow from the control period: a lift of n steps may take ``start_seconds`` and n
+    times ``pace_seconds`` in all, import included.
+    """
+
+    memory: int = 2048 * MIB
+    """Memory of all its processes together [bytes]."""
+    processes: int = 64
+    """Processes and threads at a time."""
+    files: int = 256
+    """Open files of a process."""
+    file_size: int = 64 * MIB
+    """Largest file, and all that its private /tmp and /dev/shm hold each [bytes]."""
+    cpu_seconds: int = 60
+    """Processor time of a process [s]: what the wall time of the longest lift of a suite (10 s)
+    leaves room for."""
+    start_seconds: float = 30.0
+    """Wall time for import, constructor and ``reset`` together [s]; what they leave, the steps may
+    use."""
+    period: float = 0.1
+    """Control period of the episode [s]; that of the suites."""
+    step_periods: float = 20.0
+    """Wall time for an action, in control periods."""
+    pace_periods: float = 3.0
+    """Wall time that each action adds to what all may take, in control periods."""
+
+    def __post_init__(self) -> None:
+        """Raise InputError if a limit is not a positive number."""
+        for name, value in asdict(self).items():
+            if not 0 < value < math.inf:
+                raise InputError(f"limit {name} must be a positive number, got {value}")
+
+    @property
+    def step_seconds(self) -> float:
+        """Wall time for an action [s]."""
+        return self.step_periods * self.period
+
+    @property
+    def pace_seconds(self) -> float:
+        """Wall time that each action adds to what all may take [s]."""
+        return self.pace_periods * self.period
+
+
+LIMITS: Final = Limits()
+
+FRAME: Final = 64 * 1024
+"""Longest frame [bytes]."""
+
+_FLAGS: Final = socket.MSG_NOSIGNAL | socket.MSG_DONTWAIT
+_LENGTH: Final = struct.Struct(">I")
+_CHUNK: Final = 4 * 1024
+
+
+class Assignment(NamedTuple):
+    """A policy that is to be served."""
+
+    place: str
+    """Where its class is: ``module:Class`` or ``file.py:Class``."""
+    parameters: str = ""
+    """What is set of it."""
+    size: int = 1
+    """How many numbers its action is."""
+
+
+class WireError(Exception):
+    """What came is no answer; the message says why."""
+
+
+class ClosedError(WireError):
+    """The other side has closed."""
+
+
+class _Local(threading.local):
+    def __init__(self) -> None:
+        self.pack = msgpack.Packer().pack
+
+
+_LOCAL: Final = _Local()
+"""A packer of each thread's own, kept: a new one has to get its buffer anew."""
+
+
+def packed(content: list[Any]) -> bytes:
+    """Return a list as a frame; raise WireError if it is too long or holds what a frame cannot."""
+    try:
+        body: bytes = _LOCAL.pack(content)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise WireError(f"cannot be sent: {error}") from None
+    if len(body) > FRAME:
+        raise WireError(f"a message of {len(body)} bytes; at most {FRAME} are allowed")
+    return _LENGTH.pack(len(body)) + body
+
+
+def unpacked(body: bytes) -> list[Any]:
+    """Return the list in the body of a frame; raise WireError if it is anything else."""
+    try:
+        content = msgpack.unpackb(body, max_ext_len=0, max_map_len=0)
+    except Exception as error:  # msgpack has no common base class of its errors.
+        raise WireError(f"not msgpack ({type(error).__name__})") from None
+    if type(content) is not list:
+        raise WireError(f"a {type(content).__name__} instead of a list")
+    return content
+
+
+class Channel:
+    """One end of the connection. There is at most one unanswered request at a time.
+
+    Parameters
+    ----------
+    end
+        A stream socket. It may have a time limit for receiving (``SO_RCVTIMEO``); none is needed
+        for sending.
+    """
+
+    def __init__(self, end: socket.socket) -> None:
+        self._end = end
+        self._buffer = b""
+
+    def close(self) -> None:
+        """Close this end."""
+        self._end.close()
+
+    def send(self, frame: bytes) -> None:
+        """Send a frame, never wait; raise ClosedError if the other side does not take it."""
+        try:
+            sent = self._end.send(frame, _FLAGS)
+        except BlockingIOError:
+            sent = 0
+        except OSError:
+            raise ClosedError("closed the connection") from None
+        if sent != len(frame):
+            raise ClosedError("does not read what it is sent")
+
+    def fetch(self) -> list[Any] | None:
+        """Wait for what comes next; return the frame, or None if it is not all there yet.
+
+        Raise WireError if it is too long, is followed by more, or is not msgpack.
+        """
+        try:
+            chunk = self._end.recv(_CHUNK)
+        except BlockingIOError:
+            return None
+        except OSError:
+            raise ClosedError("closed the connection") from None
+        if not chunk:
+            raise ClosedError(self.partial or "closed the connection")
+        self._buffer += chunk
+        if len(self._buffer) < _LENGTH.size:
+            return None
+        (length,) = _LENGTH.unpack_from(self._buffer)
+        if length > FRAME:
+            raise WireError(f"a message of {length} bytes; at most {FRAME} are allowed")
+        left = _LENGTH.size + length - len(self._buffer)
+        if left > 0:
+            return None
+        if left < 0:
+            raise WireError("more than one answer to a request")
+        body, self._buffer = self._buffer[_LENGTH.size :], b""
+        return unpacked(body)
+
+    @property
+    def partial(self) -> str:
+        """What there is of an unfinished frame, in words; empty if nothing."""
+        return f"sent {len(self._buffer)} bytes of an answer, then no more" if self._buffer else ""
+
+    def receive(self) -> list[Any]:
+        """Wait for the next frame and return it; raise WireError as :meth:`fetch`."""
+        while (content := self.fetch()) is None:
+            pass
+        return content

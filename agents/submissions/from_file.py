@@ -1,0 +1,83 @@
+"""A submission from a class in a file: what was tried as ``file.py:Class`` becomes a folder."""
+
+import ast
+from pathlib import Path
+from typing import Final
+
+from ..errors import InputError
+from ..loading.loading import PolicySpec
+from ..loading.parameters import merged
+from ..near_names import did_you_mean
+from . import fields
+from .new import DESCRIPTION, POLICY, write_files
+from .packages import needed
+
+LARGEST: Final = 2**20
+"""Bytes of a source that is taken."""
+
+
+def classes(path: Path) -> dict[str, ast.ClassDef]:
+    """Return the classes of a Python file by name, without running it.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, or it is not Python.
+    """
+    return {node.name: node for node in _tree(path).body if isinstance(node, ast.ClassDef)}
+
+
+def write_from(folder: Path, text: str) -> None:
+    """Write a new submission whose policy is that of a file.
+
+    Parameters
+    ----------
+    folder
+        Where to; as for :func:`.write_template`.
+    text
+        ``file.py:Class``, and after a comma the parameters that it is to have. The file alone is
+        copied, as ``policy.py``, and not run.
+
+    Raises
+    ------
+    InputError
+        If there is no such file or class, the parameters are not ``name=value``, or as
+        :func:`.write_template`.
+    """
+    place, _, parameters = PolicySpec(text=text).parts
+    file, colon, name = place.rpartition(":")
+    if not (colon and file.endswith(".py")):
+        raise InputError(f"--from must be file.py:Class, with parameters if any, got {text!r}")
+    path = Path(file)
+    found = classes(path)
+    if name not in found:
+        near = did_you_mean(name, found)
+        raise InputError(f"{path} has no class {name!r}; {near}it has {', '.join(found) or 'none'}")
+    source = path.read_bytes()
+    content = {
+        "description": _description(found[name]),
+        "entry_point": f"{Path(POLICY).stem}:{name}",
+        "parameters": merged(parameters),
+        "packages": list(needed(source)),
+    }
+    write_files(folder, source, content)
+
+
+def _tree(path: Path) -> ast.Module:
+    try:
+        if path.stat().st_size > LARGEST:
+            raise InputError(f"{path} has more than {LARGEST} bytes")
+        return ast.parse(path.read_bytes())
+    except OSError as error:
+        raise InputError(f"cannot read {path}: {error.strerror}") from error
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        raise InputError(f"{path} is not Python: {error}") from error
+
+
+def _description(policy: ast.ClassDef) -> str:
+    """Return the first line of the class's docstring, or the template's description."""
+    line = (ast.get_docstring(policy) or "").partition("\n")[0]
+    try:
+        return fields.text(line)
+    except InputError:
+        return DESCRIPTION

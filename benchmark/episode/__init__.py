@@ -1,0 +1,1 @@
+"""One episode: scenario, lift, trace, metrics and scores."""

@@ -1,0 +1,112 @@
+"""What changes a score: the declared numbers, and the code that simulates, plays and scores."""
+
+import dataclasses
+import functools
+import hashlib
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any, Final
+
+import numpy as np
+
+from ...agents import calibration
+from ...agents.actions import HAND_SPEED
+from ...agents.agent import FRAME, HISTORY, RobotObservation
+from ...agents.calibration import CALIBRATION
+from ...agents.humans import (
+    PARTNER_SUBJECT,
+    ChangingGoal,
+    Jerky,
+    Partner,
+    Pause,
+    Recorded,
+    Smooth,
+)
+from ...agents.identity import Root, code_hash
+from ...robots.nao.kinematics import STROKE
+from ..world import PHYSICS, SERVO, human_body, table
+from . import lift, metrics, scores, smoothness
+from .episode import run_episode
+from .lift import Lift
+from .recorder import Recorder
+
+SIMULATES: Final[tuple[Root, ...]] = (Lift, Recorder, Partner)
+"""What makes an episode's trace of a human's plan and the actions."""
+
+PLANS: Final[tuple[Root, ...]] = (Smooth, Pause, Jerky, ChangingGoal, Recorded)
+"""What makes a human's plan of a seed."""
+
+PLAYS_AND_SCORES: Final[tuple[Root, ...]] = (*SIMULATES, RobotObservation, run_episode)
+"""What makes an episode's scores of a human's plan and a policy."""
+
+STATED: Final[tuple[Root, ...]] = ((calibration, "CALIBRATION"),)
+"""What the code uses and the numbers state: subjects are in the scenarios."""
+
+
+def numbers() -> Mapping[str, Any]:
+    """Return the numbers that change a score, by names that stay when the code is tidied."""
+    return MappingProxyType(
+        {
+            "physics": PHYSICS,
+            "servo": SERVO,
+            "time": {"frame_s": FRAME, "seen_frames": HISTORY},
+            "sensors": {"noise_m": lift.MOCAP_NOISE},
+            "hand": {"speed_m_s": HAND_SPEED, "stroke_m": STROKE},
+            "drop": {
+                "tilt_rad": lift.DROP_TILT,
+                "force_n": lift.GRIP_FORCE,
+                "gap_m": lift.GRIP_GAP,
+            },
+            "table": {
+                "length_m": table.TABLE_LENGTH,
+                "mass_kg": table.TABLE_MASS,
+                "grip_stiffness_nm_rad": table.GRIP_STIFFNESS,
+                "grip_damping_nms_rad": table.GRIP_DAMPING,
+                "gravity_m_s2": table.GRAVITY,
+            },
+            "human": {
+                "reference_m": lift.REFERENCE_RANGE,
+                "reflex_m": human_body.REFLEX_LIMIT,
+                "muscle_s": human_body.MUSCLE_TIME,
+                "history_frames": human_body.HISTORY_FRAMES,
+            },
+            "second_human": {"subject": PARTNER_SUBJECT, "lag_s": CALIBRATION.partner_lag},
+            "metrics": {
+                "failed_frame_mm": metrics.FAILED_FRAME_MM,
+                "stroke_tail_s": metrics.STROKE_TAIL,
+                "least_motion_m": metrics.MIN_MOTION,
+                "least_share": metrics.MIN_SHARE,
+                "lag_s": (metrics.MIN_LAG, metrics.MAX_LAG),
+                "reached_m": scores.REACHED,
+                "least_speed_m_s": smoothness.MIN_PEAK_SPEED,
+                "least_samples": smoothness.MIN_SAMPLES,
+            },
+        }
+    )
+
+
+@functools.cache
+def simulation_hash() -> str:
+    """Return the hash of the code that simulates: no policy and no score is in it."""
+    return code_hash(*SIMULATES, *PLANS)
+
+
+@functools.cache
+def scores_hash() -> str:
+    """Return the hash of the code that plays and scores; behaviours enter with their scenarios."""
+    return code_hash(*PLAYS_AND_SCORES, without=STATED)
+
+
+def plain(value: Any) -> Any:
+    """Return a JSON-ready description of frozen parameters, and the code of their classes."""
+    if dataclasses.is_dataclass(value):
+        fields = {each.name: plain(getattr(value, each.name)) for each in dataclasses.fields(value)}
+        kind: type = type(value)
+        return {"": code_hash(kind, without=STATED), **fields}
+    if isinstance(value, Mapping):
+        return {name: plain(each) for name, each in value.items()}
+    if isinstance(value, np.ndarray):
+        return hashlib.sha256(np.ascontiguousarray(value, "<f8").tobytes()).hexdigest()
+    if isinstance(value, tuple | list):
+        return [plain(each) for each in value]
+    return value

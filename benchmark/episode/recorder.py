@@ -1,0 +1,75 @@
+"""Records an episode while it is played."""
+
+import hashlib
+import math
+import struct
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from .lift import Lift
+from .trace import Trace
+
+HASH_BYTES = 16
+"""Length of a step's hash: 128 bits."""
+
+
+class Recorder:
+    """Keeps each step's actions, and a hash h of all that happened up to it.
+
+        h(k) = BLAKE2b(h(k - 1), actions of step k, state of the world after it), h(-1) empty
+
+    It is over the bits of the float64 numbers, so that two episodes whose last hashes are equal are
+    equal, and else the first step that differs is found.
+
+    Parameters
+    ----------
+    lift
+        The lift that is played; it has just been reset.
+    """
+
+    def __init__(self, lift: Lift) -> None:
+        self._lift = lift
+        self._partner: list[Sequence[float]] = []
+        self._human: list[Sequence[float]] = []
+        self._hashes: list[bytes] = []
+        self._internals: list[Mapping[str, float]] = []
+
+    @property
+    def steps(self) -> int:
+        """How many steps have been recorded."""
+        return len(self._hashes)
+
+    def step(
+        self, human: Sequence[float], partner: Sequence[float], internals: Mapping[str, float]
+    ) -> None:
+        """Record the step just made: the two actions, and what the partner said of its own."""
+        numbers = (*human, *partner, *self._lift.world.state())
+        before = self._hashes[-1] if self._hashes else b""
+        message = before + struct.pack(f"<{len(numbers)}d", *numbers)
+        self._hashes.append(hashlib.blake2b(message, digest_size=HASH_BYTES).digest())
+        self._human.append(human)
+        self._partner.append(partner)
+        self._internals.append(internals)
+
+    def trace(self) -> Trace:
+        """Return what was recorded."""
+        lift, world, steps = self._lift, self._lift.world, self.steps
+        names = self._internals[0] if self._internals else {}
+        return Trace(
+            human_end=world.since_reset(world.human_end),
+            robot_end=world.since_reset(world.robot_end),
+            human_velocity=world.since_reset(world.human_velocity),
+            human_force=world.since_reset(world.human_force),
+            robot_force=world.since_reset(world.robot_force),
+            target=lift.target[: lift.frame],
+            action=np.array(self._partner, dtype=np.float64).reshape(steps, lift.partner_size),
+            human_action=np.array(self._human, dtype=np.float64).reshape(
+                steps, lift.frames_per_step
+            ),
+            state=np.frombuffer(b"".join(self._hashes), np.uint8).reshape(steps, HASH_BYTES),
+            internals={
+                name: np.array([step.get(name, math.nan) for step in self._internals])
+                for name in names
+            },
+        )

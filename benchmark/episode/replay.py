@@ -1,0 +1,121 @@
+"""Plays an episode again from its log: without the policy that acted in it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.actions import ActionError
+from ...agents.errors import InputError
+from .episode import START
+from .lift import Lift
+from .recorder import Recorder
+from .scores import Scores, score
+from .trace import Trace
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Simulated:
+    """What happens by an episode's actions, in m steps."""
+
+    trace: Trace
+    """What happens, without a policy's internals."""
+    scripted: NDArray[np.float64]
+    """(m, n) what the scripted human does in each step, given what it sees in this replay [m]."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Replay(Simulated):
+    """What follows from an episode's actions."""
+
+    failure: str | None
+    """Why the episode ended early: a drop, or else what was claimed of the policy."""
+    scores: Scores
+
+
+class ReplayError(InputError):
+    """Actions that are not those of an episode."""
+
+    def __init__(self, step: int, message: str, found: Simulated) -> None:
+        super().__init__(step, message, found)
+        self.step = step
+        """The step in which that shows."""
+        self.message = message
+        self.found = found
+        """What happens up to that step."""
+
+    def __str__(self) -> str:
+        return self.message
+
+
+def replay(
+    lift: Lift,
+    seed: int,
+    human: NDArray[np.float64],
+    partner: NDArray[np.float64],
+    claimed: str | None,
+) -> Replay:
+    """Simulate the episode ``seed`` from both agents' actions alone.
+
+    The world obeys the given actions. The scripted human is asked beside them, in each step, what
+    it does on seeing this world: a log in which the human did something else is not one of this
+    benchmark, however well the rest fits.
+
+    That the table was dropped follows from the actions. That the policy failed does not: it is
+    taken as claimed, if the actions end there; the frames that are missing count as the worst.
+
+    Parameters
+    ----------
+    lift
+        The scenario's lift; it is reset here.
+    seed
+        The episode's seed.
+    human, partner
+        Actions of the human's end, shape (m, n), and of the robot's end, as :class:`.Trace` has
+        them.
+    claimed
+        The failure that is claimed, or None.
+
+    Raises
+    ------
+    ReplayError
+        If an action cannot be one, if there are more than the episode has steps, or if they end
+        too early without the policy having failed.
+    """
+    lift.reset(seed)
+    scripted_human, recorder = lift.scripted_human(), Recorder(lift)
+    scripted = np.empty(human.shape)
+    wrong = None
+    for step, (reference, action) in enumerate(zip(human.tolist(), partner.tolist(), strict=True)):
+        if lift.done:
+            wrong = f"there are {len(human)} actions, the episode has {step} steps"
+            break
+        try:
+            does = scripted_human.act(lift.human_observation())
+            lift.step(reference, action)
+        except ActionError as error:
+            wrong = str(error)
+            break
+        scripted[step] = does
+        recorder.step(reference, action, {})
+    steps, trace = recorder.steps, recorder.trace()
+    wrong = wrong or _end(lift, steps, claimed)
+    if wrong is not None:
+        raise ReplayError(steps, wrong, Simulated(trace=trace, scripted=scripted[:steps]))
+    failure = lift.dropped if lift.done else claimed
+    return Replay(
+        trace=trace,
+        failure=failure,
+        scores=score(lift, trace, failed=failure is not None),
+        scripted=scripted,
+    )
+
+
+def _end(lift: Lift, step: int, claimed: str | None) -> str | None:
+    """Return what is wrong with actions that end before ``step``; None if nothing is."""
+    begins = (f"step {step}: ", START) if step == 0 else (f"step {step}: ",)
+    if lift.done or (claimed is not None and claimed.startswith(begins)):
+        return None
+    said = "no failure" if claimed is None else repr(claimed)
+    length = lift.horizon // lift.frames_per_step
+    return f"the actions end, but the episode has {length} steps; claimed is {said}"

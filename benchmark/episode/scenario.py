@@ -1,0 +1,75 @@
+"""A scenario: who lifts how, and what the robot has to make do with."""
+
+from dataclasses import dataclass
+from typing import Final
+
+from ...agents.agent import FRAME
+from ...agents.errors import InputError
+from ...agents.humans import Behaviour, Subject
+from ..world import Partner
+
+CONTROL_PERIOD: Final = 0.1
+"""Default control period [s]: the time of one arm movement in the paper (section II.A)."""
+
+LATENCY: Final = 0.1
+"""Default age of the motion-capture sample when the robot decides [s]: in the paper the robot
+gets a sample only once its last action is complete (section II.A)."""
+
+LONGEST_LATENCY: Final = 0.49
+LONGEST_PERIOD: Final = 0.5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scenario:
+    """One lifting task, up to the seed.
+
+    Raises
+    ------
+    InputError
+        If a time is out of range or not a whole number of 10 ms frames.
+    """
+
+    behaviour: str
+    """Name of the way the human moves, for tables."""
+    human: Behaviour
+    """The way the human moves: makes the plan of each episode."""
+    trial: str = ""
+    """Name of the recording that is moved by, empty for a drawn plan."""
+    subject: Subject
+    """Who the human is."""
+    partner: Partner = "nao"
+    """Who holds the other end."""
+    control_period: float = CONTROL_PERIOD
+    """Time between two of the robot's decisions [s]."""
+    latency: float = LATENCY
+    """Age of the motion-capture sample when the robot decides [s]."""
+
+    def __post_init__(self) -> None:
+        """Check the times."""
+        if self.partner not in ("nao", "human"):
+            raise InputError(f"partner must be 'nao' or 'human', got {self.partner!r}")
+        _check_time("control_period", self.control_period, FRAME, LONGEST_PERIOD)
+        _check_time("latency", self.latency, 0.0, LONGEST_LATENCY)
+
+    @property
+    def frames_per_step(self) -> int:
+        """Motion-capture frames in one control period."""
+        return round(self.control_period / FRAME)
+
+    @property
+    def latency_frames(self) -> int:
+        """The latency in motion-capture frames."""
+        return round(self.latency / FRAME)
+
+    @property
+    def name(self) -> str:
+        """Behaviour, subject and trial, such as ``pause/S3``."""
+        return f"{self.behaviour}/{self.subject.name}" + (f"/{self.trial}" if self.trial else "")
+
+
+def _check_time(name: str, value: float, lowest: float, highest: float) -> None:
+    frames = value / FRAME
+    if not lowest <= value <= highest or abs(frames - round(frames)) > 1e-6:
+        raise InputError(
+            f"{name} must be a multiple of {FRAME} s in [{lowest}, {highest}] s, got {value}"
+        )

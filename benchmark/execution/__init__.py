@@ -1,0 +1,1 @@
+"""Playing a suite: units of work, executors, provenance, and the journal of a run."""

@@ -1,0 +1,106 @@
+"""Finds a Dask cluster, and refuses one on which results would be other ones."""
+
+import asyncio
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, Final
+
+from ...agents.errors import InputError, told
+from ...agents.extras import how_to_install
+from .cluster import Cluster
+from .provenance import COLIFT, compare, origin
+
+CONNECT_SECONDS: Final = 10.0
+"""How long a scheduler may take to answer, and a first worker to be there [s]."""
+
+LOGGER: Final = "distributed.client"
+"""What tells of a lost scheduler by tracebacks; here it is an error that says so."""
+
+
+@contextmanager
+def dask_pool(address: str) -> Iterator[Cluster]:
+    """Yield the Dask cluster of a scheduler as an executor.
+
+    Parameters
+    ----------
+    address
+        Of the scheduler, such as ``tcp://host:8786``.
+
+    Raises
+    ------
+    InputError
+        If Dask is not installed, there is no scheduler at the address, it has no worker, or
+        results would depend on who computes them: the workers' colift is not this one, or their
+        platforms are not all the same.
+    """
+    try:
+        from distributed import Client
+    except ImportError:
+        raise InputError(f"--dask needs Dask: {how_to_install('cluster')}") from None
+    _reach(address)
+    with (
+        _quiet(logging.getLogger(LOGGER)),
+        Client(address, timeout=CONNECT_SECONDS, set_as_default=False) as client,  # type: ignore[no-untyped-call]
+    ):
+        try:
+            client.wait_for_workers(1, timeout=CONNECT_SECONDS)
+        except TimeoutError:
+            raise InputError(
+                f"--dask {address}: the scheduler has no worker; start some: "
+                f"dask worker {address} --nworkers auto --nthreads 1"
+            ) from None
+        with Cluster(client, address, _agreed(client, address)) as cluster:
+            yield cluster
+
+
+def _reach(address: str) -> None:
+    """Raise an InputError if there is no scheduler: a client that finds none leaves threads."""
+    try:
+        kind = asyncio.run(asyncio.wait_for(_kind(address), CONNECT_SECONDS))
+    except Exception as error:
+        raise InputError(
+            f"--dask {address}: no Dask scheduler answers ({told(error)}); "
+            "it should be such as tcp://host:8786"
+        ) from error
+    if kind != "Scheduler":
+        raise InputError(f"--dask {address}: this is a Dask {kind}; name the scheduler")
+
+
+async def _kind(address: str) -> str:
+    """Return what is at an address: ``Scheduler``, ``Worker`` or ``Nanny``."""
+    from distributed import rpc
+    from distributed.security import Security
+
+    secured = Security().get_connection_args("client")  # type: ignore[no-untyped-call]
+    server: Any = rpc(address, timeout=CONNECT_SECONDS, connection_args=secured)  # type: ignore[no-untyped-call]
+    async with server:
+        return str((await server.identity())["type"])
+
+
+@contextmanager
+def _quiet(logger: logging.Logger) -> Iterator[None]:
+    """Let a logger say nothing."""
+    before = logger.level
+    logger.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
+
+
+def _agreed(client: Any, address: str) -> dict[str, str]:
+    """Return what all workers come from, or raise an InputError that names a difference."""
+    found = client.run(origin, on_error="return")
+    agreed: dict[str, str] | None = None
+    for worker, said in found.items():
+        if isinstance(said, OSError):
+            continue  # It has just died; the next one is looked at when it works.
+        if isinstance(said, BaseException):
+            raise InputError(f"--dask {address}: worker {worker} cannot run colift: {told(said)}")
+        compare(said, {COLIFT: origin()[COLIFT]}, f"on worker {worker}", "here")
+        agreed = agreed or said
+        compare(said, agreed, f"on worker {worker}", "on another worker")
+    if agreed is None:
+        raise InputError(f"--dask {address}: every worker has just died")
+    return agreed

@@ -1,0 +1,143 @@
+"""Provenance of results besides policy and suite: the platform, and colift's code as it is here."""
+
+import functools
+import hashlib
+import math
+import platform
+import re
+import struct
+from collections.abc import Mapping
+from importlib.metadata import distribution, version
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from threadpoolctl import threadpool_info
+
+from ...agents.errors import InputError
+from ...agents.identity import Root, code_hash
+from ...agents.sandbox.guest import forkserver
+from ..episode.identity import simulation_hash
+from .packaging import ShippedPolicy
+from .tasks import Task
+
+POLICIES_ONLY: Final = ("vector_extensions", "linear_algebra")
+"""What only policies may use: no bit of a simulation or of a score depends on it."""
+
+
+@functools.cache
+def _fingerprint() -> tuple[tuple[str, str], ...]:
+    simd = np.show_config(mode="dicts")["SIMD Extensions"]
+    return (
+        ("machine", f"{platform.system()} {platform.machine()}"),
+        ("processor", _processor()),
+        # NumPy's functions choose by these, and they differ in the last bit.
+        ("vector_extensions", " ".join([*simd["baseline"], *simd.get("found", ())])),
+        ("linear_algebra", _linear_algebra()),
+        ("libc", " ".join(platform.libc_ver())),
+        ("libm", _libm()),
+        ("python", f"{platform.python_implementation()} {platform.python_version()}"),
+        ("numpy", version("numpy")),
+        ("pybullet", version("pybullet")),
+        ("binaries", _binaries("numpy", "pybullet")),
+        ("simulation", simulation_hash()),
+    )
+
+
+def fingerprint() -> dict[str, str]:
+    """Return what the bits of a simulation or of a policy may depend on, by name.
+
+    Where all but :data:`POLICIES_ONLY` is equal, equal actions give equal bits. Elsewhere they
+    often do, but no more than a tolerance can be asked for. Where all is equal, policies act alike
+    too.
+    """
+    return dict(_fingerprint())
+
+
+def _processor() -> str:
+    """Return the processor's vendor, family and model."""
+    try:
+        text = Path("/proc/cpuinfo").read_text()
+    except OSError:
+        return platform.processor()
+    found = [
+        re.search(rf"^{name}\s*:\s*(.*)$", text, re.MULTILINE)
+        for name in ("vendor_id", "cpu family", "model")
+    ]
+    return " ".join(match[1] for match in found if match) or platform.processor()
+
+
+def _linear_algebra() -> str:
+    """Return NumPy's BLAS, its version and the kernel that it has chosen here."""
+    found = [each for each in threadpool_info() if each["user_api"] == "blas"]
+    packages = Path(np.__file__).resolve().parents[1]
+    own = [each for each in found if Path(each["filepath"]).is_relative_to(packages / "numpy.libs")]
+    names = ("internal_api", "version", "architecture")
+    told = {" ".join(str(each.get(name, "")) for name in names).strip() for each in own or found}
+    return ", ".join(sorted(told)) or "unknown"
+
+
+def _libm() -> str:
+    """Return a hash of results of the C library's functions, whose code depends on the processor.
+
+    They differ in about one of a thousand last bits.
+    """
+    one = (math.sin, math.cos, math.exp, math.expm1, math.log, math.asin, math.acos, math.atan)
+    points = [(i + 0.5) / 4096 for i in range(4096)]
+    values = [function(x) for function in one for x in points]
+    values += [math.atan2(x, 1.5 - x) for x in points] + [x**1.7 for x in points]
+    return hashlib.sha256(struct.pack(f"<{len(values)}d", *values)).hexdigest()[:16]
+
+
+def _binaries(*names: str) -> str:
+    """Return a hash of the compiled parts of packages, from their installers' records."""
+    records = [
+        f"{path}={path.hash.value}"
+        for name in names
+        for path in distribution(name).files or ()
+        if path.hash and ".so" in path.suffixes
+    ]
+    return hashlib.sha256("\n".join(sorted(records)).encode()).hexdigest()[:16]
+
+
+PLAYS: Final[tuple[Root, ...]] = (Task, ShippedPolicy, forkserver.main)
+"""What makes an episode of a policy: in this process, and in a sandbox."""
+
+COLIFT: Final = "colift"
+
+
+def origin() -> dict[str, str]:
+    """Return whatever else can change a result, by name.
+
+    It is the platform's :func:`.fingerprint`, and ``colift``: a hash of the code that plays
+    and scores, since of it the fingerprint has only what simulates. Policies have their own.
+    """
+    return {**fingerprint(), COLIFT: _code()}
+
+
+def platform_of(origin: Mapping[str, str]) -> dict[str, str]:
+    """Return the part of an origin that is the platform's fingerprint."""
+    return {name: value for name, value in origin.items() if name != COLIFT}
+
+
+def compare(found: Mapping[str, str], wanted: Mapping[str, str], where: str, other: str) -> None:
+    """Raise an InputError that names the first difference of two origins, if there is one.
+
+    Parameters
+    ----------
+    found, wanted
+        The origins; only what is in the second is compared.
+    where, other
+        Where they are, in words: ``on worker 3``, ``here``.
+    """
+    for name, value in wanted.items():
+        if found.get(name) != value:
+            raise InputError(
+                f"results would depend on who computes them: {name} is {found.get(name)!r} {where} "
+                f"and {value!r} {other}"
+            )
+
+
+@functools.cache
+def _code() -> str:
+    return code_hash(*PLAYS)

@@ -1,0 +1,115 @@
+"""Runs a policy through a suite, alone or on any executor."""
+
+import contextlib
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
+from dataclasses import dataclass
+
+from ...agents.spec import AgentSpec
+from ..episode.episode import Episode
+from ..suites.suite import Suite
+from .cluster import Cluster
+from .packaging import shipped
+from .tasks import Faults, gather, shuffled_tasks, tasks
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Run:
+    """A policy's episodes on a suite, in the suite's order: scenarios, then seeds."""
+
+    policy: str
+    """The policy's name."""
+    policy_digest: str
+    """Hash of the policy's source."""
+    suite: Suite
+    episodes: tuple[Episode, ...]
+    isolation: str = "none"
+    """What kept the policy from the process that scores."""
+    faults: int = 0
+    """How often episodes had to be played again because the machine had failed."""
+
+    @property
+    def complete(self) -> bool:
+        """Whether every episode of the suite is there."""
+        return len(self.episodes) == self.suite.size
+
+
+def placed(policy: AgentSpec, executor: Executor | None) -> AgentSpec:
+    """Return the policy as an executor's machines can play it: on a cluster with its files inside.
+
+    Raises
+    ------
+    InputError
+        If there is no such policy, or its files are more than a submission may be.
+    """
+    return shipped(policy) if isinstance(executor, Cluster) else policy
+
+
+def run_suite(
+    policy: AgentSpec,
+    suite: Suite,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+    done: Mapping[int, Episode] | None = None,
+    keep: Callable[[int, Episode], None] = lambda place, episode: None,
+    secret: bytes | None = None,
+) -> Run:
+    """Evaluate a policy on a suite.
+
+    The result depends on the policy and the suite only: not on the executor, its workers or the
+    order in which they finish. What fails because a worker died is played again.
+
+    Parameters
+    ----------
+    policy
+        Where the policy's class is.
+    suite
+        The episodes.
+    executor
+        Runs the tasks, at most its own number at a time; None runs everything in this process.
+    progress
+        Called with the number of episodes that were finished since the last call.
+    done
+        Episodes of an earlier run by their place in the suite; they are not played again.
+    keep
+        Called with the place and the episode whenever one is finished.
+    secret
+        What the order of the episodes follows from; see :func:`.shuffled_tasks`. None plays them in
+        the suite's order.
+
+    Returns
+    -------
+    Run
+        All episodes; or, after Ctrl-C, those that were finished by then.
+
+    Raises
+    ------
+    InputError
+        If the policy cannot be loaded.
+    EvaluatorFault
+        If the machine fails again and again; what was finished went to ``keep``.
+    """
+    policy = placed(policy, executor)
+    policy.check()
+    found = dict(done or {})
+    if found:
+        progress(len(found))
+    faults = Faults()
+    if secret is None:
+        wanted = tasks(policy, suite, found)
+    else:
+        wanted = shuffled_tasks(policy, suite, secret, found)
+    with contextlib.suppress(KeyboardInterrupt):
+        for place, episode in gather(wanted, executor, faults):
+            found[place] = episode
+            keep(place, episode)
+            progress(1)
+    return Run(
+        policy=policy.name,
+        policy_digest=policy.digest(),
+        suite=suite,
+        episodes=tuple(found[place] for place in sorted(found)),
+        isolation=policy.isolation,
+        faults=faults.count,
+    )

@@ -1,0 +1,270 @@
+"""Other control periods and latencies: errors, claims, figure (section V.A)."""
+
+import dataclasses
+import itertools
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from ....agents.control.predictor import PredictorParameters
+from ...episode.scenario import LATENCY
+from ...execution.runner import Run
+from ...rendering.style import FAINT, INK
+from ..evidence import Timing
+from ..exhibits import CONFIDENCE, PREDICTION, Claim, Picture, panels
+from ..replay import replay
+from ..table_one import errors
+from ..watched import SampledLift, rms, sampled_lifts
+
+Series = NDArray[np.float64]
+
+HORIZON: Final = 0.1
+"""How far ahead predictions of different control periods are compared [s]: the paper's step."""
+
+MOVING: Final = 0.03
+"""Speed [m/s] above which the human moves."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TimingResult:
+    """What came of one setting; predictions only where there are any (NaN elsewhere)."""
+
+    policy: str
+    control_period_s: float
+    latency_s: float
+    rmse_mm: float
+    one_step_mm: float
+    """Root mean square error of the prediction of the next sample while the human moves [mm]."""
+    one_step_ms: float
+    """The same as time [ms]: divided by the root mean square speed."""
+    ahead_mm: float
+    """Root mean square error of a prediction ``HORIZON`` ahead while the human moves [mm]."""
+    ahead_retuned_mm: float
+    """The same, offline, with the process noise of :func:`retuned`."""
+
+
+def timing_results(runs: Mapping[Timing, Run]) -> list[TimingResult]:
+    """Return the errors of each setting, in the order of the runs."""
+    return [_result(timing, run) for timing, run in runs.items()]
+
+
+def at_papers_latency(results: Sequence[TimingResult], policy: str) -> list[TimingResult]:
+    """Return a policy's results at the latency of Table I, or the next below, by period."""
+    latency = max(r.latency_s for r in results if r.latency_s <= LATENCY)
+    some = [r for r in results if r.policy == policy and r.latency_s == latency]
+    return sorted(some, key=lambda result: result.control_period_s)
+
+
+def _result(timing: Timing, run: Run) -> TimingResult:
+    one_step = one_step_ms = ahead = ahead_retuned = math.nan
+    if timing.policy == "blend":
+        lifts = sampled_lifts(run)
+        speed = rms(np.concatenate([lift.speed[_moving(lift)] for lift in lifts]))
+        one_step = _pooled(lifts, lambda lift: lift.errors)
+        one_step_ms = one_step / speed
+        ahead = _pooled(lifts, ahead_errors)
+        other = retuned(timing.control_period)
+        ahead_retuned = _pooled(lifts, lambda lift: ahead_errors(lift, other))
+    return TimingResult(
+        policy=timing.policy,
+        control_period_s=timing.control_period,
+        latency_s=timing.latency,
+        rmse_mm=float(errors(run.episodes).mean()),
+        one_step_mm=one_step,
+        one_step_ms=one_step_ms,
+        ahead_mm=ahead,
+        ahead_retuned_mm=ahead_retuned,
+    )
+
+
+def retuned(period: float) -> PredictorParameters:
+    """Return the predictor's parameters with the process noise of ``HORIZON``, for a period [s].
+
+    The filter takes the jerk for constant over a step with variance q, whatever the step. Over a
+    second such a jerk changes the acceleration by a variance of q times the period: a filter with
+    the same q trusts its model the more, the shorter the step. Here q times the period stays.
+    """
+    shipped = PredictorParameters()
+    noise = shipped.motion.process_noise * HORIZON / period
+    return dataclasses.replace(
+        shipped, motion=dataclasses.replace(shipped.motion, process_noise=noise)
+    )
+
+
+def _moving(lift: SampledLift) -> NDArray[np.bool_]:
+    return lift.speed > MOVING
+
+
+def _pooled(lifts: Sequence[SampledLift], wrong: Callable[[SampledLift], Series]) -> float:
+    """Return the root mean square of an error over all steps in which the human moves [mm]."""
+    return 1000 * rms(np.concatenate([wrong(lift)[_moving(lift)] for lift in lifts]))
+
+
+def ahead_errors(lift: SampledLift, parameters: PredictorParameters | None = None) -> Series:
+    """Return how wrong the predictions ``HORIZON`` ahead of the sample are [m], shape (m,).
+
+    The filter's prediction one step ahead is carried on at constant acceleration (eq. 5) to the
+    horizon. The error stands in the step whose sample it is checked against; NaN before there is
+    a prediction for one. Computed offline, with the shipped parameters by default.
+    """
+    period = lift.scenario.control_period
+    replayed = replay(lift.samples, period, parameters)
+    further = HORIZON - period
+    expected = (
+        replayed.height + replayed.velocity * further + replayed.acceleration * further**2 / 2
+    )
+    # What was expected of sample k, one step ahead, reaches to sample k + steps.
+    steps = round(further / period)
+    wrong = np.full(len(expected), np.nan)
+    wrong[steps + 1 :] = lift.samples[steps + 1 :] - expected[1 : len(expected) - steps]
+    return wrong
+
+
+def timing_claims(runs: Mapping[Timing, Run]) -> list[Claim]:
+    """Return the claims about control period and latency."""
+    results = timing_results(runs)
+    blends, reactives = (at_papers_latency(results, policy) for policy in ("blend", "reactive"))
+    return [_next_sample(blends), _same_time(blends), _performs(blends, reactives)]
+
+
+def _next_sample(blends: Sequence[TimingResult]) -> Claim:
+    return Claim(
+        claim="With a faster robot, more samples a second would improve the predictions (of the "
+        "next sample).",
+        figure="timing",
+        paper="an expectation",
+        criterion="the rms error one step ahead falls with every shorter period, in mm and as time",
+        measured=f"{_told(blends, 'one_step_mm')} mm, which is "
+        f"{_told(blends, 'one_step_ms', '.1f')} ms of motion",
+        values=_values(blends, "one_step_mm"),
+        holds=_rising(blends, "one_step_mm") and _rising(blends, "one_step_ms"),
+        note="The next sample is nearer, which alone makes it easier; see the next claim.",
+    )
+
+
+def _same_time(blends: Sequence[TimingResult]) -> Claim:
+    retuned = _rising(blends, "ahead_retuned_mm")
+    return Claim(
+        claim="More samples a second would improve the predictions (of the same 100 ms ahead).",
+        figure="timing",
+        paper="an expectation",
+        criterion="the rms error 100 ms ahead falls with every shorter period",
+        measured=f"{_told(blends, 'ahead_mm')} mm",
+        values=_values(blends, "ahead_mm") | _values(blends, "ahead_retuned_mm"),
+        holds=_rising(blends, "ahead_mm"),
+        note="The filter keeps its parameters, but q is the variance of a jerk that is constant "
+        "over a step: the same q at a shorter step means less process noise a second, and a filter "
+        "that believes its own model more. With q times the period kept, computed offline on the "
+        f"same samples, the errors are {_told(blends, 'ahead_retuned_mm')} mm: more samples "
+        + ("do help a filter that is tuned for them." if retuned else "still do not help."),
+    )
+
+
+def _performs(blends: Sequence[TimingResult], reactives: Sequence[TimingResult]) -> Claim:
+    fast, slow = blends[0], blends[-1]
+    gains = [
+        1 - blend.rmse_mm / reactive.rmse_mm
+        for blend, reactive in zip(blends, reactives, strict=True)
+    ]
+    return Claim(
+        claim="A faster robot would offer a better improvement with the proposed technique.",
+        figure="timing",
+        paper="an expectation",
+        criterion="at the shortest period, compared with the longest, the RMSE with prediction is "
+        "lower and the share of the error that prediction takes away is larger",
+        measured=f"with prediction {_told(blends, 'rmse_mm')} mm; without "
+        f"{_told(reactives, 'rmse_mm')} mm; prediction takes away {gains[0]:.0%} at the shortest "
+        f"and {gains[-1]:.0%} at the longest period",
+        values=_values(blends, "rmse_mm") | {"gain_fast": gains[0], "gain_slow": gains[-1]},
+        holds=fast.rmse_mm < slow.rmse_mm and gains[0] > gains[-1],
+        note="The framework predicts one step ahead of the sample, and does not make up for the "
+        f"sample's age. At {1000 * fast.control_period_s:.0f} ms a step that is "
+        f"{1000 * fast.control_period_s:.0f} of the {1000 * fast.latency_s:.0f} ms by which the "
+        "sample is old: the shorter the step, the less there is in a prediction.",
+    )
+
+
+def _told(results: Sequence[TimingResult], attribute: str, digits: str = ".2f") -> str:
+    return ", ".join(
+        f"{1000 * result.control_period_s:.0f} ms: {format(getattr(result, attribute), digits)}"
+        for result in results
+    )
+
+
+def _values(results: Sequence[TimingResult], attribute: str) -> dict[str, float | None]:
+    return {
+        f"{attribute.removesuffix('_mm')}_at_{1000 * r.control_period_s:.0f}_ms_mm": float(
+            getattr(r, attribute)
+        )
+        for r in results
+    }
+
+
+def _rising(results: Sequence[TimingResult], attribute: str) -> bool:
+    """Return whether an error grows with every longer period."""
+    values = [getattr(result, attribute) for result in results]
+    return all(a < b for a, b in itertools.pairwise(values))
+
+
+BY_LATENCY: Final = ("#6BAED6", "#3787C0", "#105BA4", "#08306B")
+"""From fresh to old."""
+
+COLUMNS: Final = ("policy", "control_period_s", "latency_s", "rmse_mm", "one_step_mm")
+COLUMNS_AHEAD: Final = ("one_step_ms", "ahead_mm", "ahead_retuned_mm")
+
+
+def timing_picture(results: Sequence[TimingResult]) -> Picture:
+    """Return errors over control period and latency."""
+    figure, (row,) = panels(
+        ["error [mm]"], [3.0], columns=3, x_label="control period [ms]", share_x=False
+    )
+    for axes, policy in ((row[0], "reactive"), (row[1], "blend")):
+        some = [result for result in results if result.policy == policy]
+        latencies = sorted({result.latency_s for result in some})
+        for latency, colour in zip(latencies, BY_LATENCY, strict=False):
+            chosen = [result for result in some if result.latency_s == latency]
+            _line(axes, chosen, "rmse_mm", colour, f"{1000 * latency:.0f} ms old")
+    blends = at_papers_latency(results, "blend")
+    _line(row[2], blends, "ahead_mm", PREDICTION, "100 ms ahead")
+    _line(row[2], blends, "ahead_retuned_mm", CONFIDENCE, "100 ms ahead, retuned")
+    _line(row[2], blends, "one_step_mm", FAINT, "one step ahead")
+    names = ("RMSE without prediction", "RMSE with prediction", "error of prediction")
+    for axes, name in zip(row, names, strict=True):
+        axes.set_title(name, fontsize=9, color=INK, loc="left")
+        axes.set_ylim(bottom=0)
+        axes.set_xticks(sorted({1000 * result.control_period_s for result in results}))
+    row[0].legend(fontsize=8, labelcolor=INK, loc="lower right", ncols=2, edgecolor="none")
+    row[2].legend(fontsize=8, labelcolor=INK, loc="upper right", edgecolor="none")
+    return Picture(
+        name="timing",
+        title="A faster robot, fresher samples",
+        caption="Mean RMSE over the control period, for samples of different age (the latency), "
+        "and the rms error of prediction while the human moves, at the latency of Table I: one "
+        "step ahead, and 100 ms ahead of the sample whatever the step. Retuned: with process noise "
+        "that is as much a second at every period.",
+        figure=figure,
+        columns={
+            name: [getattr(result, name) for result in results]
+            for name in (*COLUMNS, *COLUMNS_AHEAD)
+        },
+    )
+
+
+def _line(
+    axes: Axes, results: Sequence[TimingResult], attribute: str, colour: str, label: str
+) -> None:
+    points = sorted((1000 * r.control_period_s, getattr(r, attribute)) for r in results)
+    axes.plot(
+        [x for x, _ in points],
+        [y for _, y in points],
+        color=colour,
+        marker="o",
+        ms=4,
+        lw=1.8,
+        label=label,
+    )

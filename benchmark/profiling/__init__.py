@@ -1,0 +1,1 @@
+"""Measurements of the benchmark itself: speed, convergence, sandboxes, clusters."""

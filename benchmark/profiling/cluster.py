@@ -1,0 +1,80 @@
+"""What many processes cost and bring: a Dask cluster, and verification, against the local pool."""
+
+import statistics
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Final, ParamSpec, TypeVar
+
+from ...agents.loading.loading import PolicySpec
+from ..bundle import results, write_bundle
+from ..execution.connecting import dask_pool
+from ..execution.pool import process_pool
+from ..execution.runner import run_suite
+from ..results.baselines import shipped_references
+from ..suites.suite import make_suite
+from ..verification import verify
+from .loopback import loopback_cluster
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+WORKERS: Final = 2
+
+
+def scale(
+    policy: str = "blend",
+    suite: str = "standard-v1",
+    rounds: int = 5,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> dict[str, float]:
+    """Measure throughputs over that of a run in the local pool, all with two worker processes.
+
+    They take turns, and the median of the rounds counts.
+
+    Parameters
+    ----------
+    policy
+        The name of what is run: the less time it takes, the more the rest shows.
+    suite
+        What is run: a suite with shipped references.
+    rounds
+        How often each is run.
+    progress
+        Called with the number of episodes that were finished since the last call; in all they are
+        three times the suite's a round.
+
+    Returns
+    -------
+    dict
+        ``dask_ratio`` of a run on a Dask cluster of this machine, whose scheduler is a process of
+        its own; ``verify_ratio`` of verifying a bundle over making it.
+    """
+    spec, episodes = PolicySpec(text=policy), make_suite(suite)
+    references = shipped_references(episodes) or {}
+    ratios: dict[str, list[float]] = {"dask_ratio": [], "verify_ratio": []}
+    with (
+        tempfile.TemporaryDirectory(prefix="colift-") as folder,
+        process_pool(WORKERS) as local,
+        loopback_cluster(WORKERS) as address,
+        dask_pool(address) as cluster,
+    ):
+        bundle = Path(folder, "bundle")
+        for executor in (local, cluster):
+            run_suite(spec, make_suite("quick-v1"), executor=executor)
+        for _ in range(rounds):
+            alone, run = _timed(run_suite, spec, episodes, executor=local, progress=progress)
+            far, _ = _timed(run_suite, spec, episodes, executor=cluster, progress=progress)
+            write, _ = _timed(write_bundle, bundle, run, results(run, references))
+            again, _ = _timed(verify, bundle, executor=local, progress=progress)
+            ratios["dask_ratio"].append(alone / far)
+            ratios["verify_ratio"].append((alone + write) / again)
+    return {name: statistics.median(values) for name, values in ratios.items()}
+
+
+def _timed(call: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> tuple[float, T]:
+    """Return the wall time of a call [s], and what it returns."""
+    begin = time.perf_counter()
+    result = call(*args, **kwargs)
+    return time.perf_counter() - begin, result

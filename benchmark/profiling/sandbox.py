@@ -1,0 +1,99 @@
+"""What isolation costs, over the same policy in this process."""
+
+import contextlib
+import dataclasses
+import statistics
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from ...agents.sandbox.host.levels import strongest, working_levels
+from ...agents.sandbox.host.policy import SandboxedPolicy
+from ...agents.spec import AgentSpec
+from ...agents.submissions.new import write_template
+from ...agents.submissions.submission import read_submission
+from ..episode.episode import run_episode
+from ..episode.lift import Lift
+from ..suites.catalogue import make_scenario
+
+STEP_US: Final = 60.0
+"""What a step may cost [us]."""
+
+EPISODE_MS: Final = 30.0
+"""What an episode may cost [ms]."""
+
+ROUNDS: Final = 20
+"""Pairs of episodes, one in this process and one isolated."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class IsolationCost:
+    """What a way of isolation costs, over none."""
+
+    step_us: float
+    """More time a step [us]."""
+    episode_ms: float
+    """More time an episode without its steps [ms]: making the policy, its reset, its end."""
+
+    @property
+    def within_aim(self) -> bool:
+        """Whether both costs are as wanted."""
+        return self.step_us <= STEP_US and self.episode_ms <= EPISODE_MS
+
+
+@contextlib.contextmanager
+def isolated() -> Iterator[tuple[AgentSpec, dict[str, SandboxedPolicy]]]:
+    """Yield the template of a submission, in this process and in each way that works here."""
+    with tempfile.TemporaryDirectory(prefix="colift-") as directory:
+        folder = Path(directory, "template")
+        write_template(folder)
+        submission = read_submission(folder)
+        ways = {level: submission.sandboxed(level) for level in working_levels()}
+        ways["preload"] = dataclasses.replace(ways[strongest()], preload=True)
+        yield submission.trusted(), ways
+
+
+def isolation_cost(
+    plain: AgentSpec,
+    policy: AgentSpec,
+    rounds: int = ROUNDS,
+    progress: Callable[[int], None] = lambda rounds: None,
+) -> IsolationCost:
+    """Return what a policy costs more than another: medians of the differences in paired episodes.
+
+    Parameters
+    ----------
+    plain
+        The policy in this process.
+    policy
+        The same, isolated.
+    rounds
+        Pairs of episodes.
+    progress
+        Called with the number of rounds that were finished since the last call.
+    """
+    steps, episodes = [], []
+    with contextlib.closing(Lift(make_scenario("smooth"))) as lift:
+        for spec in (plain, policy):
+            _once(lift, spec, 0)
+        for seed in range(rounds):
+            (step, episode), (more, longer) = (_once(lift, each, seed) for each in (plain, policy))
+            steps.append(more - step)
+            episodes.append(longer - episode)
+            progress(1)
+    return IsolationCost(
+        step_us=1e6 * statistics.median(steps), episode_ms=1e3 * statistics.median(episodes)
+    )
+
+
+def _once(lift: Lift, policy: AgentSpec, seed: int) -> tuple[float, float]:
+    """Return the median time of a step in an episode, and what an episode takes without any [s]."""
+    with policy.agent() as agent:
+        times = run_episode(lift, agent, seed).step_times
+    begin = time.perf_counter()
+    with policy.agent() as agent:
+        agent.reset(seed)
+    return statistics.median(times), time.perf_counter() - begin

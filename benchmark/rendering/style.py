@@ -1,0 +1,34 @@
+"""The common look of pictures: colours and axes, one colour for each end of the table.
+
+Blue and vermillion are told apart with any kind of colour vision (M. Okabe and K. Ito, "Color
+universal design", 2008).
+"""
+
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+HUMAN: Final = "#0072B2"
+ROBOT: Final = "#D55E00"
+INK: Final = "#22262E"
+FAINT: Final = "#6B7280"
+LINE: Final = "#D7DBE0"
+PAPER: Final = "#FFFFFF"
+SKY: Final = "#EFF2F6"
+
+
+def rgba(colour: str) -> tuple[float, float, float, float]:
+    """Return a colour ``#rrggbb`` as red, green, blue and opacity within 0 to 1."""
+    red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+    return red, green, blue, 1.0
+
+
+def plain(axes: "Axes") -> None:
+    """Give axes the common look."""
+    axes.grid(color=LINE, linewidth=0.7)
+    axes.set_axisbelow(True)
+    axes.tick_params(labelsize=8.5, colors=FAINT, length=0)
+    for side in ("top", "left", "right"):
+        axes.spines[side].set_visible(False)
+    axes.spines["bottom"].set_color(LINE)

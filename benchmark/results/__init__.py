@@ -1,0 +1,1 @@
+"""Results of a run: baselines, summary and headline."""

@@ -1,0 +1,169 @@
+"""What every result is set against: the human-human team, and the policies hold and copy.
+
+For the public suites the references are shipped, and with them the bounds (:mod:`.bounds`), which
+take minutes to play; for any other set of episodes they are played.
+"""
+
+import functools
+import json
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+from importlib.resources import files
+from typing import Any, Final, Self
+
+import numpy as np
+
+from ...agents.humans import Partner
+from ...agents.loading.loading import InMemorySpec, PolicySpec
+from ...agents.spec import AgentSpec
+from ..episode.scores import BOARD
+from ..execution.runner import Run, run_suite
+from ..statistics import Estimate, mean_of, mean_with_missing
+from ..suites.suite import Suite
+from .summary import Cell, cell
+
+HUMAN_HUMAN: Final = "human_human"
+
+
+TEAM_PARTNER: Final = InMemorySpec(name=HUMAN_HUMAN, factory=Partner, source=Partner)
+"""The second human of a human-human team."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reference:
+    """What remains of a reference's run: enough for paired comparisons of RMSE."""
+
+    cells: tuple[Cell, ...]
+    """Behaviour and subject of each episode, in the suite's order."""
+    rmse_mm: tuple[float, ...]
+    """RMSE of each episode."""
+    means: Mapping[str, float | None] = field(hash=False)
+    """Means of the other metrics that boards show; None where no episode has a value."""
+
+    @classmethod
+    def of(cls, run: Run) -> "Reference":
+        """Return the reference that a complete run is."""
+        return cls(
+            cells=tuple(cell(episode) for episode in run.episodes),
+            rmse_mm=tuple(episode.scores.rmse_mm for episode in run.episodes),
+            means={
+                metric.name: mean_with_missing(
+                    [getattr(episode.scores, metric.name) for episode in run.episodes]
+                ).mean
+                for metric in BOARD
+            },
+        )
+
+    def plain(self) -> dict[str, Any]:
+        """Return the reference as JSON has it."""
+        return {
+            "cells": [list(key) for key in self.cells],
+            "rmse_mm": list(self.rmse_mm),
+            **self.means,
+        }
+
+    @classmethod
+    def read(cls, content: Mapping[str, Any]) -> Self:
+        """Return the reference that :meth:`plain` has written."""
+        return cls(
+            cells=tuple((behaviour, subject) for behaviour, subject in content["cells"]),
+            rmse_mm=tuple(content["rmse_mm"]),
+            means={metric.name: content[metric.name] for metric in BOARD},
+        )
+
+    @property
+    def mean(self) -> float:
+        """Mean RMSE [mm]."""
+        return float(np.mean(self.rmse_mm))
+
+    @functools.cached_property
+    def estimate(self) -> Estimate:
+        """Mean RMSE with its interval [mm]."""
+        return mean_of(self.rmse_mm, self.cells)
+
+    def by_cell(self) -> dict[Cell, float]:
+        """Return the mean RMSE of each behaviour and subject [mm]."""
+        members: dict[Cell, list[float]] = {}
+        for key, value in zip(self.cells, self.rmse_mm, strict=True):
+            members.setdefault(key, []).append(value)
+        return {key: float(np.mean(values)) for key, values in members.items()}
+
+
+SPECS: Final[Mapping[str, AgentSpec]] = {
+    HUMAN_HUMAN: TEAM_PARTNER,
+    "hold": PolicySpec(text="hold"),
+    "copy": PolicySpec(text="copy"),
+}
+"""Where each reference comes from."""
+
+
+def human_team_run(
+    suite: Suite,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> Run:
+    """Play a suite's episodes with a second human at the robot's end; see :func:`.run_suite`."""
+    return run_suite(
+        TEAM_PARTNER, suite.with_partner("human"), executor=executor, progress=progress
+    )
+
+
+def play_references(
+    suite: Suite,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> dict[str, Reference]:
+    """Play the references on a suite's episodes; after Ctrl-C, those finished by then."""
+    found = {}
+    for name, spec in SPECS.items():
+        played = suite.with_partner("human") if name == HUMAN_HUMAN else suite
+        run = run_suite(spec, played, executor=executor, progress=progress)
+        if not run.complete:
+            break
+        found[name] = Reference.of(run)
+    return found
+
+
+def shipped_references(suite: Suite) -> dict[str, Reference] | None:
+    """Return the shipped references of a suite, or None if there are none for its digest."""
+    return _shipped(suite, "references")
+
+
+def shipped_bounds(suite: Suite) -> dict[str, Reference] | None:
+    """Return the shipped bounds of a suite, or None if there are none for its digest."""
+    return _shipped(suite, "bounds")
+
+
+def _shipped(suite: Suite, kind: str) -> dict[str, Reference] | None:
+    path = files(__package__).joinpath("data", "baselines.json")
+    if not path.is_file():
+        return None
+    content = json.loads(path.read_text()).get(suite.digest)
+    if content is None:
+        return None
+    return {name: Reference.read(value) for name, value in content[kind].items()}
+
+
+@dataclass(frozen=True, kw_only=True)
+class ToShip:
+    """What is shipped for a suite."""
+
+    suite: Suite
+    references: Mapping[str, Reference]
+    bounds: Mapping[str, Reference]
+
+
+def references_json(played: Sequence[ToShip]) -> str:
+    """Return the content of the shipped file: references and bounds by suite digest."""
+    content = {
+        each.suite.digest: {
+            "suite": each.suite.name,
+            "references": {name: value.plain() for name, value in each.references.items()},
+            "bounds": {name: value.plain() for name, value in each.bounds.items()},
+        }
+        for each in played
+    }
+    return json.dumps(content, indent=1) + "\n"

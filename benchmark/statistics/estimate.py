@@ -1,0 +1,168 @@
+"""Means, ratios and differences of means, each with its 95 % confidence interval."""
+
+from collections.abc import Hashable, Iterable
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...agents.errors import InputError
+from .bootstrap import expanded_percentile, stratified_bootstrap
+from .samples import Interval, cells_of, paired, resample, sample
+from .superiority import share_better
+
+
+@dataclass(frozen=True, kw_only=True)
+class Estimate:
+    """A mean over episodes, or a ratio or difference of such means."""
+
+    mean: float
+    ci95: Interval
+    """95 % confidence interval, by bootstrap over the seeds within behaviour and subject."""
+
+    def rounded(self, places: int) -> "Estimate":
+        """Return mean and interval rounded to so many decimals."""
+        low, high = self.ci95
+        return Estimate(
+            mean=round(self.mean, places), ci95=(round(low, places), round(high, places))
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class PairedDifference(Estimate):
+    """Mean difference of two policies on the same episodes, and how certain it is."""
+
+    p: float
+    """p value of "they do not differ", by sign flips."""
+    share_better: float
+    """Share of the episodes in which the first is better (has less), ties counted half."""
+
+    @classmethod
+    def of(cls, a: ArrayLike, b: ArrayLike, strata: Iterable[Hashable], p: float) -> Self:
+        """Return the difference a - b; see :func:`paired_difference`."""
+        found = paired_difference(a, b, strata)
+        return cls(mean=found.mean, ci95=found.ci95, p=p, share_better=share_better(a, b))
+
+
+def mean_of(
+    values: ArrayLike, strata: Iterable[Hashable], *, resamples: int = 2000, seed: int = 0
+) -> Estimate:
+    """Return the mean with its 95 % interval; as :func:`.stratified_bootstrap`."""
+    x = sample("values", values)
+    ci95 = stratified_bootstrap(x, strata, resamples=resamples, seed=seed)
+    return Estimate(mean=float(x.mean()), ci95=ci95)
+
+
+def ratio_of_means(
+    numerator: ArrayLike,
+    denominator: ArrayLike,
+    strata: Iterable[Hashable],
+    *,
+    resamples: int = 2000,
+    confidence: float = 0.95,
+    seed: int = 0,
+) -> Estimate:
+    """Return mean(numerator) / mean(denominator) with its 95 % interval.
+
+    Both means take the same resampled episodes: what makes an episode hard for both cancels.
+
+    Parameters
+    ----------
+    numerator, denominator
+        Values of the same episodes in the same order, each of shape (n,); the denominator positive.
+    strata, resamples, confidence, seed
+        As for :func:`stratified_bootstrap`.
+
+    Returns
+    -------
+    Estimate
+        Ratio and interval, dimensionless.
+
+    Raises
+    ------
+    InputError
+        If the values are empty, not finite, of unequal length, or a denominator is not positive.
+    """
+    a, b = paired("numerator", numerator, "denominator", denominator)
+    if b.min() <= 0.0:
+        raise InputError(f"denominator {b.min()} of episode {b.argmin()} must be positive")
+    cells = cells_of(strata, a.size)
+    drawn = resample(cells, resamples, seed)
+    ratios = a[drawn].mean(axis=-1) / b[drawn].mean(axis=-1)
+    return Estimate(
+        mean=float(a.mean() / b.mean()), ci95=expanded_percentile(ratios, cells, confidence)
+    )
+
+
+def difference_of_means(
+    a: ArrayLike,
+    strata_a: Iterable[Hashable],
+    b: ArrayLike,
+    strata_b: Iterable[Hashable],
+    *,
+    resamples: int = 2000,
+    confidence: float = 0.95,
+    seed: int = 0,
+) -> Estimate:
+    """Return mean(a) - mean(b), of different episodes, with its 95 % interval.
+
+    For the same episodes, :func:`paired_difference` says more.
+
+    Parameters
+    ----------
+    a, b
+        Values of two sets of episodes, of shapes (n,) and (m,).
+    strata_a, strata_b
+        The cell of each episode; a cell of one set is none of the other's.
+    resamples, confidence, seed
+        As for :func:`stratified_bootstrap`.
+
+    Returns
+    -------
+    Estimate
+        Difference and interval, in the unit of the values.
+
+    Raises
+    ------
+    InputError
+        As :func:`stratified_bootstrap`.
+    """
+    x, y = sample("a", a), sample("b", b)
+    cells_a, cells_b = cells_of(strata_a, x.size), cells_of(strata_b, y.size)
+    cells = [*cells_a, *(cell + x.size for cell in cells_b)]
+    drawn = np.concatenate((x, y))[resample(cells, resamples, seed)]
+    differences = drawn[:, : x.size].mean(axis=-1) - drawn[:, x.size :].mean(axis=-1)
+    interval = expanded_percentile(differences, cells, confidence)
+    return Estimate(mean=float(x.mean() - y.mean()), ci95=interval)
+
+
+def paired_difference(
+    a: ArrayLike,
+    b: ArrayLike,
+    strata: Iterable[Hashable],
+    *,
+    resamples: int = 2000,
+    seed: int = 0,
+) -> Estimate:
+    """Return the mean of a - b over the same episodes, with its 95 % confidence interval.
+
+    Parameters
+    ----------
+    a, b
+        Values of two policies on the same episodes in the same order, each of shape (n,).
+    strata, resamples, seed
+        As for :func:`stratified_bootstrap`.
+
+    Returns
+    -------
+    Estimate
+        Mean and interval, in the unit of the values.
+
+    Raises
+    ------
+    InputError
+        If the values are empty, not finite or of unequal length.
+    """
+    x, y = paired("a", a, "b", b)
+    return mean_of(x - y, strata, resamples=resamples, seed=seed)

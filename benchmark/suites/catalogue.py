@@ -1,0 +1,79 @@
+"""From names to scenarios."""
+
+from pathlib import Path
+
+from ...agents.errors import InputError
+from ...agents.humans import SUBJECTS, Behaviour, Recording, Subject, load_recordings
+from ...agents.near_names import did_you_mean
+from ...agents.registry import HUMANS, lookup
+from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
+from ..world import Partner
+
+RECORDED = "recorded"
+
+
+def make_subject(name: str) -> Subject:
+    """Return the subject of that name: one of the five, or ``draw-N``, a new person by seed N.
+
+    Raises
+    ------
+    InputError
+        If the name is unknown; the message lists all names.
+    """
+    if name in SUBJECTS:
+        return SUBJECTS[name]
+    kind, _, seed = name.partition("-")
+    if kind == "draw" and seed.isdecimal():
+        return Subject.draw(int(seed))
+    near = did_you_mean(name, SUBJECTS)
+    raise InputError(f"unknown subject {name!r}; {near}known: {', '.join(SUBJECTS)}, draw-N")
+
+
+def _recording(source: str) -> Recording:
+    """Return the recording of ``FILE.csv`` (its first trial) or ``FILE.csv#TRIAL``."""
+    path, _, trial = source.partition("#")
+    if not path:
+        raise InputError("which recording? Say recorded:FILE.csv or recorded:FILE.csv#TRIAL")
+    recordings = {recording.name: recording for recording in load_recordings(Path(path))}
+    if trial and trial not in recordings:
+        raise InputError(f"{path} has no trial {trial!r}; it has {', '.join(recordings)}")
+    return recordings[trial] if trial else next(iter(recordings.values()))
+
+
+def make_scenario(
+    behaviour: str,
+    subject: str = "S1",
+    partner: Partner = "nao",
+    control_period: float = CONTROL_PERIOD,
+    latency: float = LATENCY,
+) -> Scenario:
+    """Return a scenario from names.
+
+    Parameters
+    ----------
+    behaviour
+        A registered human behaviour, with its default parameters. ``recorded:FILE.csv`` is the
+        first trial of a file of recordings, ``recorded:FILE.csv#TRIAL`` the one of that name.
+    subject
+        One of the five, or ``draw-N``, a new person by seed N.
+    partner, control_period, latency
+        As in :class:`Scenario`.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, a time is out of range or a file cannot be used.
+    """
+    kind, _, source = behaviour.partition(":")
+    made = lookup(HUMANS, kind)
+    recording = _recording(source) if kind == RECORDED else None
+    human: Behaviour = made() if recording is None else made(recording=recording)
+    return Scenario(
+        behaviour=kind,
+        human=human,
+        trial="" if recording is None else recording.name,
+        subject=make_subject(subject),
+        partner=partner,
+        control_period=control_period,
+        latency=latency,
+    )

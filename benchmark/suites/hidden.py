@@ -1,0 +1,84 @@
+"""Episodes that nobody can train for: hidden people and hidden plans, out of a board's secret.
+
+The behaviours are the public ones; everything else is new. What is derived from a secret cannot
+be told from chance without it, and the commitment, published beforehand, proves afterwards that
+the board did not choose its secret to favour anyone.
+"""
+
+import dataclasses
+import hashlib
+import hmac
+import secrets
+from typing import Final
+
+from ...agents.errors import InputError
+from ...agents.humans import Subject
+from .suite import Suite
+
+SECRET_BYTES: Final = 32
+"""Length of a new secret: as many bits as SHA-256 keeps apart."""
+
+SEED_BYTES: Final = 16
+"""Length of a hidden seed: 128 bits, beyond any search."""
+
+
+def new_secret() -> bytes:
+    """Return a new secret from the operating system's entropy."""
+    return secrets.token_bytes(SECRET_BYTES)
+
+
+def commitment(secret: bytes) -> str:
+    """Return SHA-256(secret), 64 hexadecimal digits: may be published, gives nothing away."""
+    return hashlib.sha256(_checked(secret)).hexdigest()
+
+
+def keyed(secret: bytes, *labels: str | int) -> bytes:
+    """Return HMAC-SHA256(secret, labels): 32 bytes for each purpose, equal on any machine.
+
+    Raises
+    ------
+    InputError
+        If the secret is shorter than :data:`SECRET_BYTES`.
+    """
+    message = "\0".join(map(str, labels)).encode()
+    return hmac.new(_checked(secret), message, hashlib.sha256).digest()
+
+
+def hidden_suite(suite: Suite, secret: bytes) -> Suite:
+    """Return the hidden counterpart of a public suite, of the same size.
+
+    In each scenario s a new person moves with the same behaviour, and the lifts k have new seeds:
+
+        person(s) = Subject.draw(HMAC(secret, "person", suite's name and digest, name of s))
+        seed(k) = HMAC(secret, "lift", suite's name and digest, k)
+
+    128 bits each. Plan and noise of a lift follow from its seed and the scenario's name
+    (:meth:`.Lift.reset`), and the person's seed is in that name: so each lift of each scenario has
+    numbers of its own.
+
+    Parameters
+    ----------
+    suite
+        The public suite.
+    secret
+        The board's secret.
+    """
+    place = (suite.name, suite.digest)
+    scenarios = tuple(
+        dataclasses.replace(
+            scenario, subject=Subject.draw(_seed(secret, "person", *place, scenario.name))
+        )
+        for scenario in suite.scenarios
+    )
+    seeds = tuple(_seed(secret, "lift", *place, k) for k in range(len(suite.seeds)))
+    return Suite(name=f"{suite.name} (hidden)", scenarios=scenarios, seeds=seeds)
+
+
+def _seed(secret: bytes, *labels: str | int) -> int:
+    return int.from_bytes(keyed(secret, *labels)[:SEED_BYTES], "big")
+
+
+def _checked(secret: bytes) -> bytes:
+    if len(secret) < SECRET_BYTES:
+        raise InputError(f"the secret has {len(secret)} bytes; it needs at least {SECRET_BYTES}")
+    return secret

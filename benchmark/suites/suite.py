@@ -1,0 +1,169 @@
+"""Suites: named, immutable sets of episodes."""
+
+import dataclasses
+import hashlib
+import json
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from ...agents.errors import InputError
+from ...agents.humans import SUBJECTS, Recorded, load_recordings
+from ...agents.near_names import did_you_mean
+from ..episode.identity import numbers, plain, scores_hash
+from ..episode.scenario import Scenario
+from ..world import Partner
+from .catalogue import RECORDED, make_scenario
+
+LONGEST_SUITE_NAME: Final = 200
+"""Characters that a suite's name may have."""
+
+BEHAVIOURS: Final = ("smooth", "pause", "jerky", "changing_goal")
+"""The behaviours of the standard suites."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Suite:
+    """A named tuple of scenarios, each played with a tuple of seeds."""
+
+    name: str
+    scenarios: tuple[Scenario, ...]
+    seeds: tuple[int, ...]
+
+    @property
+    def size(self) -> int:
+        """Number of episodes."""
+        return len(self.scenarios) * len(self.seeds)
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 (16 hexadecimal digits) over everything that changes a number.
+
+        Scenarios with all parameters of behaviour and subject, seeds, the declared
+        :func:`.numbers`, and the code that plays and scores, without names and words.
+        Results of different digests never share a table.
+        """
+        content = {
+            "numbers": plain(numbers()),
+            "code": scores_hash(),
+            "scenarios": [plain(scenario) for scenario in self.scenarios],
+            "seeds": self.seeds,
+        }
+        text = json.dumps(content, sort_keys=True, separators=(",", ":"))
+        return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+    def with_seeds(self, start: int, stop: int) -> "Suite":
+        """Return the same scenarios on the seeds ``start`` to ``stop - 1``.
+
+        Raises
+        ------
+        InputError
+            If there is no seed in the range or one is negative.
+        """
+        if not 0 <= start < stop:
+            raise InputError(f"seeds must be A:B with 0 <= A < B, got {start}:{stop}")
+        name = f"{self.name}[{start}:{stop}]"
+        return dataclasses.replace(self, name=name, seeds=tuple(range(start, stop)))
+
+    def with_partner(self, partner: Partner) -> "Suite":
+        """Return the same episodes with another holder of the robot's end.
+
+        The human's plans stay the same: they follow from the seed and the scenario's name.
+        """
+        scenarios = tuple(
+            dataclasses.replace(scenario, partner=partner) for scenario in self.scenarios
+        )
+        return dataclasses.replace(self, scenarios=scenarios)
+
+    def with_timing(self, latency: float | None, control_period: float | None) -> "Suite":
+        """Return the same episodes with another latency or control period [s].
+
+        Raises
+        ------
+        InputError
+            If a time is out of range.
+        """
+        changes: dict[str, Any] = {}
+        if latency is not None:
+            changes["latency"] = latency
+        if control_period is not None:
+            changes["control_period"] = control_period
+        if not changes:
+            return self
+        told = ", ".join(f"{name} {value:g} s" for name, value in changes.items())
+        return dataclasses.replace(
+            self,
+            name=f"{self.name} ({told})",
+            scenarios=tuple(dataclasses.replace(scene, **changes) for scene in self.scenarios),
+        )
+
+
+def _grid(name: str, behaviours: Sequence[str], seeds: int) -> Suite:
+    """Return the suite of every behaviour with every subject."""
+    scenarios = tuple(
+        make_scenario(behaviour, subject) for behaviour in behaviours for subject in SUBJECTS
+    )
+    return Suite(name=name, scenarios=scenarios, seeds=tuple(range(seeds)))
+
+
+def _quick() -> Suite:
+    cells = zip(BEHAVIOURS, ("S1", "S2", "S3", "S5"), strict=True)
+    scenarios = tuple(make_scenario(behaviour, subject) for behaviour, subject in cells)
+    return Suite(name="quick-v1", scenarios=scenarios, seeds=(0, 1, 2))
+
+
+SUITES: Final[dict[str, tuple[str, Callable[[], Suite]]]] = {
+    "standard-v1": (
+        "5 subjects x 4 behaviours x 15 lifts: the benchmark",
+        lambda: _grid("standard-v1", BEHAVIOURS, 15),
+    ),
+    "paper-v1": (
+        "5 subjects x 10 smooth lifts: the paper's Table I",
+        lambda: _grid("paper-v1", ("smooth",), 10),
+    ),
+    "quick-v1": ("12 lifts, one cell of each behaviour: a first look", _quick),
+}
+"""The suites by name: one line about each, and what makes it."""
+
+
+def plain_name(name: str) -> str:
+    """Return a name as a suite may have it: in ASCII, so that none looks like another's."""
+    plain = re.sub(r"[^A-Za-z0-9 ._()\[\]:,+-]", "_", name)
+    return " ".join(plain.split())[:LONGEST_SUITE_NAME].strip()
+
+
+def make_suite(name: str) -> Suite:
+    """Return the suite of that name.
+
+    Raises
+    ------
+    InputError
+        If the name is unknown; the message lists all names.
+    """
+    if name not in SUITES:
+        near = did_you_mean(name, SUITES)
+        raise InputError(f"unknown suite {name!r}; {near}known: {', '.join(SUITES)}")
+    return SUITES[name][1]()
+
+
+def recorded_suite(path: Path) -> Suite:
+    """Return a suite of recorded lifts: each trial once, the subjects' bodies in turn.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be used; the message says where and why.
+    """
+    subjects = list(SUBJECTS.values())
+    scenarios = tuple(
+        Scenario(
+            behaviour=RECORDED,
+            human=Recorded(recording=recording),
+            trial=recording.name,
+            subject=subjects[i % len(subjects)],
+        )
+        for i, recording in enumerate(load_recordings(path))
+    )
+    return Suite(name=plain_name(f"recordings {path.name}"), scenarios=scenarios, seeds=(0,))

@@ -1,0 +1,1 @@
+"""Training of the shipped policies, and the data they are trained on."""

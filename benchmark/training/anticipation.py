@@ -1,0 +1,268 @@
+"""Learning to anticipate: a perceptron of how people move on, fitted to lifts with new people.
+
+It is learned in rounds, as in dataset aggregation (S. Ross, G. Gordon, D. Bagnell, "A reduction of
+imitation learning and structured prediction to no-regret online learning", AISTATS 2011): people
+give in to the robot, so that they move a little differently with each policy. In the first round
+the robot extrapolates, in each further one it anticipates with what was learned from all before.
+"""
+
+import importlib
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from functools import partial
+from importlib.metadata import version
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.control.anticipation import Anticipation
+from ...agents.control.anticipation_controller import AnticipateParameters
+from ...agents.control.senses import Window
+from ...agents.errors import InputError
+from ...agents.estimators.perceptron import Perceptron
+from ...agents.extras import how_to_install
+from ..suites.suite import BEHAVIOURS
+from .experience import LEADS, ROAMING, Experience, Timing, experience
+
+WAYS: Final = (*BEHAVIOURS, ROAMING)
+"""How the people move that are learned from, in turn."""
+
+FIRST_SEED: Final = 100_000
+"""Seed of the first lift, far from those of the suites, the calibration and the demonstrations."""
+
+LAST_SEED: Final = 199_999
+"""Last seed to learn from: from 200000 on, policies are compared on people that none has met."""
+
+LIFTS: Final = 1500
+"""Lifts of a round."""
+
+ROUNDS: Final = 2
+"""Rounds; a third changes nothing that shows."""
+
+HIDDEN: Final = (64, 64, 64)
+"""Units of the hidden layers."""
+
+STAGES: Final = ((2e-3, 6), (5e-4, 6), (1e-4, 4))
+"""Learning rate and passes through the data of each stage of the fit."""
+
+BATCH: Final = 512
+"""Samples of a step of the fit."""
+
+CHUNK: Final = 100_000
+"""Most samples that are looked at in one go when the fit is judged: more would fill the memory."""
+
+
+def fit(
+    data: Experience, *, hidden: Sequence[int] = HIDDEN, seed: int = 0
+) -> tuple[Perceptron, NDArray[np.float64]]:
+    """Fit a perceptron to experience, by Adam on the mean squared error; a line, exactly.
+
+    Every outcome counts alike: errors are relative to those of the best linear function. The fit
+    is scikit-learn's, in one thread, so that the same experience gives the same bits.
+
+    Returns
+    -------
+    tuple
+        The perceptron, and the root mean square error of each outcome.
+
+    Raises
+    ------
+    InputError
+        If scikit-learn is not installed.
+    """
+    learner, threads = _learner()
+    centre = data.inputs.mean(axis=0, dtype=np.float64)
+    spread = data.inputs.std(axis=0, dtype=np.float64) + 1e-9
+    inputs = ((data.inputs - centre) / spread).astype(np.float32)
+    with threads.threadpool_limits(1), warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # Its ConvergenceWarning: stages end early.
+        affine = np.hstack((inputs, np.ones((len(inputs), 1), np.float32)))
+        normal = affine.T @ affine + np.eye(affine.shape[1])
+        line = np.linalg.solve(normal, affine.T @ data.outcomes)
+        gain = (data.outcomes - affine @ line).std(axis=0, dtype=np.float64) + 1e-9
+        weights, biases = [line[:-1] / gain], [line[-1] / gain]
+        if hidden:
+            network = learner.MLPRegressor(
+                hidden_layer_sizes=tuple(hidden),
+                batch_size=min(BATCH, len(inputs)),
+                warm_start=True,
+                random_state=seed,
+                alpha=1e-6,
+            )
+            for rate, passes in STAGES:
+                network.set_params(learning_rate_init=rate, max_iter=passes)
+                network.fit(inputs, (data.outcomes / gain).astype(np.float32))
+            weights, biases = network.coefs_, network.intercepts_
+        perceptron = Perceptron(
+            centre=centre,
+            spread=spread,
+            weights=tuple(weight.astype(np.float64) for weight in weights),
+            biases=tuple(bias.astype(np.float64) for bias in biases),
+            gain=gain,
+        )
+        squares = sum(
+            ((perceptron(data.inputs[some]) - data.outcomes[some]) ** 2).sum(axis=0)
+            for some in np.array_split(np.arange(len(inputs)), len(inputs) // CHUNK + 1)
+        )
+    return perceptron, np.sqrt(squares / len(inputs))
+
+
+def gather(
+    seeds: range,
+    *,
+    model: Anticipation | None,
+    window: Window,
+    behaviours: Sequence[str],
+    timing: Timing,
+    parameters: AnticipateParameters | None = None,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda lifts: None,
+) -> Experience:
+    """Return the experience of lifts on these seeds; see :func:`.experience`.
+
+    Raises
+    ------
+    InputError
+        If there is no seed, or one is not for learning.
+    """
+    if not seeds:
+        raise InputError("there must be at least 1 lift to learn from")
+    if not FIRST_SEED <= seeds[0] <= seeds[-1] <= LAST_SEED:
+        raise InputError(
+            f"seeds to learn from are {FIRST_SEED} to {LAST_SEED}, others are for tests; "
+            f"got {seeds[0]} to {seeds[-1]}"
+        )
+    play = partial(
+        experience,
+        model=model,
+        window=window,
+        behaviours=behaviours,
+        timing=timing,
+        parameters=parameters,
+    )
+    parts = []
+    for part in map(play, seeds) if executor is None else executor.map(play, seeds, chunksize=8):
+        parts.append(part)
+        progress(1)
+    return Experience.join(parts)
+
+
+class Lesson(NamedTuple):
+    """What a round of learning led to."""
+
+    model: Anticipation
+    experience: Experience
+    """All that it was learned from."""
+
+
+def learn_anticipation(
+    *,
+    lifts: int = LIFTS,
+    rounds: int = ROUNDS,
+    hidden: Sequence[int] = HIDDEN,
+    timing: Timing | None = None,
+    first_seed: int = FIRST_SEED,
+    partner: Anticipation | None = None,
+    parameters: AnticipateParameters | None = None,
+    behaviours: Sequence[str] = WAYS,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda lifts: None,
+) -> Iterator[Lesson]:
+    """Yield what was learned after each round; the last is the result.
+
+    Parameters
+    ----------
+    lifts, rounds
+        Lifts of a round, and rounds.
+    hidden
+        Units of the hidden layers.
+    timing
+        Latency and control period.
+    first_seed
+        Seed of the first lift.
+    partner
+        What the robot of the first round anticipates with; none: it extrapolates.
+    parameters
+        How the robot acts on what it anticipates; none: as :class:`.Anticipate` does.
+    behaviours
+        How the people move, see :func:`.scenario`.
+    executor
+        Plays the lifts; none: in this process.
+    progress
+        Called with the number of lifts that were finished since the last call.
+
+    Raises
+    ------
+    InputError
+        If scikit-learn is not installed, or as :func:`gather`.
+    """
+    _learner()
+    timing = timing or Timing()
+    window = window_for(timing)
+    model = partner
+    data: Experience | None = None
+    for number in range(rounds):
+        first = first_seed + number * lifts
+        part = gather(
+            range(first, first + lifts),
+            model=model,
+            window=window,
+            behaviours=behaviours,
+            timing=timing,
+            parameters=parameters,
+            executor=executor,
+            progress=progress,
+        )
+        data = part if data is None else Experience.join((data, part))
+        about = {
+            "seeds": [first_seed, first + lifts - 1],
+            "rounds": number + 1,
+            "behaviours": list(behaviours),
+        }
+        model = learned(data, window, timing, hidden=hidden, provenance=about)
+        yield Lesson(model, data)
+
+
+def learned(
+    data: Experience,
+    window: Window,
+    timing: Timing,
+    *,
+    hidden: Sequence[int] = HIDDEN,
+    provenance: Mapping[str, Any],
+) -> Anticipation:
+    """Return what :func:`fit` makes of experience that was gathered with a window and timing."""
+    perceptron, errors = fit(data, hidden=hidden)
+    return Anticipation(
+        perceptron=perceptron,
+        window=window,
+        leads=np.array(LEADS),
+        latency=timing.latency,
+        provenance={
+            **provenance,
+            "control_period_s": timing.control_period,
+            "samples": len(data.inputs),
+            "library": f"scikit-learn {version('scikit-learn')}",
+            "rms_error_mm": [round(1000 * e, 3) for e in errors[: len(LEADS)].tolist()],
+        },
+    )
+
+
+def window_for(timing: Timing) -> Window:
+    """Return the window of a robot: as many values as at the paper's timing, or 1.2 s."""
+    period = timing.control_period
+    return Window(interval=period, velocities=max(Window.velocities, round(1.2 / period)))
+
+
+def _learner() -> tuple[Any, Any]:
+    """Return the modules that learning needs beyond what a robot needs."""
+    try:
+        return (
+            importlib.import_module("sklearn.neural_network"),
+            importlib.import_module("threadpoolctl"),
+        )
+    except ImportError as error:
+        told = f"learning to anticipate needs scikit-learn: {how_to_install('learn')}"
+        raise InputError(told) from error

@@ -1,0 +1,168 @@
+"""What a robot can learn anticipation from: lifts with simulated people, looked at again."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
+
+from ...agents.agent import FRAME, Agent, RobotObservation
+from ...agents.control.anticipation import Anticipation
+from ...agents.control.anticipation_controller import AnticipateParameters, AnticipationController
+from ...agents.control.modes import modes, stroke_ends
+from ...agents.control.senses import Window
+from ...agents.policies.extrapolate import Extrapolate
+from ..episode.lift import MOCAP_NOISE, Lift
+from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
+from ..episode.seeding import derive_seed
+from ..suites.catalogue import make_scenario, make_subject
+from .roaming import Roaming
+
+Array = NDArray[np.float64]
+
+LEADS: Final = tuple(round(0.05 * i, 2) for i in range(10))
+"""Times from now that are foreseen [s]: the foresight of the policy, and a little."""
+
+ROAMING: Final = "roaming"
+"""Name of the way of :class:`.Roaming`, which is in no registry."""
+
+LOOKS: Final = 5
+"""Times at which each period of a lift is looked at, as if the robot had decided then."""
+
+DISTURBANCE: Final = (0.002, 0.6)
+"""Size [m] and persistence a step of the random disturbance of the robot's command in half of the
+lifts, so that what the human does because of the robot is told from what both do together."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Timing:
+    """When a robot sees and acts."""
+
+    latency: float = LATENCY
+    """Age of the seen heights [s]."""
+    control_period: float = CONTROL_PERIOD
+    """Time between two decisions [s]."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Experience:
+    """What was seen, and what came of it; in single precision, as there is a lot of it."""
+
+    inputs: NDArray[np.float32]
+    """(n, window.size) inputs of :class:`.Senses`."""
+    outcomes: NDArray[np.float32]
+    """(n, leads + 6) how far the human's end was above its newest seen height at each of the leads
+    [m], the mode now (:func:`.modes`), and how far it rose until the stroke's end [m]."""
+
+    seeds: NDArray[np.int64]
+    """(n,) the lift that it was."""
+
+    @classmethod
+    def join(cls, parts: Sequence["Experience"]) -> "Experience":
+        """Return all of it in one."""
+        return cls(
+            inputs=np.concatenate([part.inputs for part in parts]),
+            outcomes=np.concatenate([part.outcomes for part in parts]),
+            seeds=np.concatenate([part.seeds for part in parts]),
+        )
+
+
+def scenario(seed: int, behaviours: Sequence[str], timing: Timing) -> Scenario:
+    """Return the scenario of a seed: a new person, who moves in one of the ways.
+
+    Parameters
+    ----------
+    seed
+        Of the person and the lift.
+    behaviours
+        Names of registered behaviours, and ``roaming``: :class:`.Roaming`.
+    timing
+        Latency and control period.
+    """
+    behaviour, subject = behaviours[seed % len(behaviours)], f"draw-{seed}"
+    latency, period = timing.latency, timing.control_period
+    if behaviour != ROAMING:
+        return make_scenario(behaviour, subject, control_period=period, latency=latency)
+    return Scenario(
+        behaviour=behaviour,
+        human=Roaming(),
+        subject=make_subject(subject),
+        control_period=period,
+        latency=latency,
+    )
+
+
+def experience(
+    seed: int,
+    *,
+    model: Anticipation | None,
+    window: Window,
+    behaviours: Sequence[str],
+    timing: Timing,
+    parameters: AnticipateParameters | None = None,
+) -> Experience:
+    """Return what the lift of a seed shows; without a model, the robot extrapolates.
+
+    A lift of a few seconds holds some seventy decisions. It is looked at :data:`LOOKS` times as
+    often, as if the periods had begun at other frames, with sensor noise of its own.
+    """
+    lift = Lift(scenario(seed, behaviours, timing))
+    lift.reset(seed)
+    human = lift.scripted_human()
+    robot: Agent = Extrapolate()
+    if model is not None:
+        robot = AnticipationController(model, parameters or AnticipateParameters())
+    robot.reset(0)
+    rng = np.random.default_rng(derive_seed(seed, "disturbance"))
+    size, persistence = DISTURBANCE
+    size *= float(rng.random() < 0.5)
+    seen, disturbance = [], 0.0
+    while not lift.done:
+        view = lift.partner_observation()
+        seen.append(view[RobotObservation.HUMAN_END])
+        before, disturbance = disturbance, persistence * disturbance + rng.normal(0.0, size)
+        lift.step(human.act(lift.human_observation()), robot.act(view) + disturbance - before)
+    lift.close()
+
+    size_of_step, age = lift.frames_per_step, lift.scenario.latency_frames
+    heights = np.array([0.0, *lift.world.since_reset(lift.world.human_end)])
+    doing, ends = modes(heights), stroke_ends(heights)[:, np.newaxis]
+    parts = []
+    for first in range(0, size_of_step, max(size_of_step // LOOKS, 1)):
+        now = np.arange(first, lift.frame, size_of_step)
+        human_end = np.array(seen)
+        if first > 0:
+            human_end = heights[np.maximum(now - age, 0)] + rng.normal(0.0, MOCAP_NOISE, len(now))
+        coming = now[:, np.newaxis] + np.round(np.array(LEADS) / FRAME).astype(int)
+        rises = np.hstack((heights[np.minimum(coming, lift.frame)], ends[now]))
+        rises -= human_end[:, np.newaxis]
+        outcomes = np.hstack((rises[:, :-1], doing[now], rises[:, -1:]))
+        inputs = window_inputs(human_end, window)
+        parts.append(
+            Experience(
+                inputs=inputs.astype(np.float32),
+                outcomes=outcomes.astype(np.float32),
+                seeds=np.full(len(inputs), seed),
+            )
+        )
+    return Experience.join(parts)
+
+
+def window_inputs(heights: Array, window: Window) -> Array:
+    """Return the inputs of :class:`.Senses` in each of n steps, an interval apart.
+
+    Parameters
+    ----------
+    heights
+        (n,) what was seen of the human's end in each step [m].
+
+    Returns
+    -------
+    array
+        (n, window.size).
+    """
+    begun = np.concatenate((np.full(window.velocities, heights[0]), heights))
+    past = sliding_window_view(begun, window.size)[:, ::-1]
+    return np.hstack((past[:, :1], past[:, :-1] - past[:, 1:]))

@@ -1,0 +1,87 @@
+"""A person who lifts here and there: for robots to learn from, in no suite."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.agent import FRAME
+from ...agents.humans import GOAL_RANGE, Plan, Subject
+from ...agents.humans.movement import REST_AFTER, REST_BEFORE, between
+from ...agents.humans.plan import Segment, assemble, move, still
+from ...agents.humans.stroke import Motion, replan, stroke
+
+LOWEST = -0.02
+"""Lowest height that is passed [m]: inside the robot's stroke."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Roaming:
+    """Moves from goal to goal, some given up half way, at a pace of its own.
+
+    Less regular than any of the suites' behaviours: heights, speeds, skews and rests are spread
+    more widely, so that who learns from it does not take the habits of a few for a law.
+    """
+
+    goals: tuple[int, int] = (2, 6)
+    """Fewest and most goals before the last, which is the rest height."""
+    peak_speed: tuple[float, float] = (0.05, 0.30)
+    """Lowest and highest pace of a lift [m/s], even in its logarithm; moves vary about it."""
+    shortest: tuple[float, float] = (0.4, 0.8)
+    """Shortest duration of a move [s], drawn for each."""
+    skew: tuple[float, float] = (0.35, 0.65)
+    """Range of the relative time of the highest speed."""
+    given_up: float = 0.5
+    """Share of the moves that are given up for the next, after ``progress`` of them."""
+    progress: tuple[float, float] = (0.3, 0.95)
+    """Share of a move that is carried out before it is given up."""
+    hold: tuple[float, float] = (0.1, 1.0)
+    """Shortest and longest rest at a goal [s]; half of the goals have none."""
+
+    def plan(self, subject: Subject, seed: int) -> Plan:
+        """Return the plan of one episode; pure in ``(self, seed)``."""
+        rng = np.random.default_rng(seed)
+        slow, fast = (math.log(speed) for speed in self.peak_speed)
+        pace = math.exp(between((slow, fast), rng.random()))
+        segments: list[Segment] = [still("ready", 0.0, between(REST_BEFORE, rng.random()))]
+        state = np.zeros(3)
+        fewest, most = self.goals
+        for _ in range(int(rng.integers(fewest, most + 1))):
+            goal = between((0.0, GOAL_RANGE[1]), rng.random())
+            motion = self._motion(state, goal, pace, rng)
+            if rng.random() < self.given_up:
+                motion = motion[
+                    :, : max(int(motion.shape[1] * between(self.progress, rng.random())), 1)
+                ]
+                segments.append(move("go", motion[0]))
+                state = motion[:, -1]
+                continue
+            segments.append(move("go", motion[0]))
+            state = np.array([goal, 0.0, 0.0])
+            if rng.random() < 0.5:
+                segments.append(still("hold", goal, between(self.hold, rng.random())))
+        segments.append(move("lower", self._motion(state, 0.0, pace, rng)[0]))
+        segments.append(still("rest", 0.0, between(REST_AFTER, rng.random())))
+        return assemble(*segments)
+
+    def _motion(
+        self, state: NDArray[np.float64], goal: float, pace: float, rng: np.random.Generator
+    ) -> Motion:
+        """Return the way from a state to rest at a goal; slower if it would leave the range."""
+        distance = goal - float(state[0])
+        peak = pace * math.exp(0.3 * rng.standard_normal())
+        # The peak speed of a minimum-jerk movement is 1.875 times its mean.
+        duration = max(1.875 * abs(distance) / peak, between(self.shortest, rng.random()))
+        skew = between(self.skew, rng.random())
+        if not state[1:].any():
+            motion = stroke(distance, duration, skew=skew)
+            motion[0] += state[0]
+            return motion
+        motion = replan(state, goal, duration)
+        while motion[0].max() > GOAL_RANGE[1] or motion[0].min() < LOWEST:
+            duration *= 0.8
+            motion = replan(state, goal, duration)
+            if duration < 10 * FRAME:
+                break
+        return motion

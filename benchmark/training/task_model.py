@@ -1,0 +1,221 @@
+"""Learning the task model: first from demonstrations, then by practice in the world."""
+
+import dataclasses
+import hashlib
+import importlib
+import warnings
+from collections.abc import Callable, Sequence
+from importlib.metadata import version
+from typing import Any, Final
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
+
+from ...agents.agent import RobotObservation
+from ...agents.control.adaptive_impedance import Gains, Impedance, Movement, adapt
+from ...agents.control.task import Task, velocity_inputs
+from ...agents.control.task_controller import TaskController, TaskModelParameters
+from ...agents.errors import InputError
+from ...agents.estimators.gaussian_mixture import GaussianMixture
+from ...agents.extras import how_to_install
+from ..episode.lift import Lift
+from ..episode.scenario import CONTROL_PERIOD, LATENCY
+from ..suites.catalogue import make_scenario
+from ..suites.suite import BEHAVIOURS
+from .demonstrations import Demonstration
+
+Array = NDArray[np.float64]
+
+COMPONENTS: Final = 12
+"""Gaussians of the mixture. Twice as many hardly lower the error on new people."""
+
+PAST: Final = 4
+"""Past velocities that the model looks at, one an interval."""
+
+COMING: Final = 3
+"""Coming velocities that it predicts: as far as latency, period and the arm's lag reach."""
+
+FIRST_STIFFNESS: Final = 1.0
+"""Stiffness in every situation before the practice: that of the table."""
+
+PRACTICE_SEED: Final = 80_000
+"""Seed of the first lift of the practice, far from those of the suites and demonstrations."""
+
+PRACTICE_LIFTS: Final = 200
+"""Lifts of the practice, each with another person; the last half counts."""
+
+SEEN_AFTER: Final = round((CONTROL_PERIOD + LATENCY) / CONTROL_PERIOD)
+"""Steps from a movement to the sample that shows its end."""
+
+
+def windows(demonstration: Demonstration, interval: float) -> Array:
+    """Return what a lift shows of the leading person's motion, in the model's variables.
+
+    A row for each sample that is followed by enough others: the seen height and the past
+    velocities, as a robot sees them, then the coming velocities, as they were; the first of them
+    leads from the seen height to the next one. Before the first sample the person stood still.
+
+    Returns
+    -------
+    array
+        (n - COMING, 1 + PAST + COMING), the height [m] and velocities [m/s].
+    """
+    seen, true = demonstration["seen_human_m"], demonstration["human_m"]
+    begun = np.concatenate((np.full(PAST, seen[0]), seen))
+    inputs = velocity_inputs(sliding_window_view(begun, PAST + 1), interval)[:-COMING]
+    heights = sliding_window_view(true, COMING + 1).copy()
+    heights[:, 0] = seen[:-COMING]
+    return np.concatenate((inputs, np.diff(heights) / interval), axis=1)
+
+
+def require_learner() -> None:
+    """Raise an InputError if what :func:`learn_task` needs is not installed."""
+    try:
+        importlib.import_module("sklearn")
+    except ImportError as error:
+        told = f"learning a task model needs scikit-learn: {how_to_install('learn')}"
+        raise InputError(told) from error
+
+
+def learn_task(
+    demonstrations: Sequence[Demonstration], *, components: int = COMPONENTS, seed: int = 0
+) -> Task:
+    """Fit the mixture to demonstrations: step one.
+
+    The fit is scikit-learn's expectation maximisation on standardised variables, in one thread, so
+    that the same demonstrations give the same bits.
+
+    Parameters
+    ----------
+    demonstrations
+        Lifts with samples at one and the same interval.
+    components
+        Gaussians of the mixture.
+    seed
+        Seed of the fit's start.
+
+    Raises
+    ------
+    InputError
+        If scikit-learn is not installed, the intervals differ, or there are too few samples.
+    """
+    require_learner()
+    learner = importlib.import_module("sklearn.mixture")
+    threads = importlib.import_module("threadpoolctl")
+    gaps = [float(np.diff(each.times).mean()) for each in demonstrations]
+    if max(gaps) - min(gaps) > 0.01 * min(gaps):
+        raise InputError(
+            f"demonstrations must have one interval, got {min(gaps):g} to {max(gaps):g} s"
+        )
+    interval = round(float(np.median(gaps)), 6)
+    long = [each for each in demonstrations if len(each.times) > COMING]
+    data = np.concatenate([np.empty((0, 1 + PAST + COMING)), *(windows(x, interval) for x in long)])
+    if components < 1 or len(data) < 10 * components:
+        raise InputError(
+            f"{components} components need at least {max(10 * components, 10)} samples, "
+            f"got {len(data)}"
+        )
+    scale = data.std(axis=0)
+    fit = learner.GaussianMixture(components, random_state=seed, tol=1e-4, max_iter=1000)
+    with threads.threadpool_limits(1), warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # Its ConvergenceWarning; it is told below.
+        fit.fit(data / scale)
+    spreads = fit.covariances_ * np.outer(scale, scale)
+    mixture = GaussianMixture(
+        weights=fit.weights_ / fit.weights_.sum(),
+        means=fit.means_ * scale,
+        covariances=(spreads + spreads.transpose(0, 2, 1)) / 2,
+    )
+    apart = np.concatenate([each["human_m"] - each["partner_m"] for each in demonstrations])
+    return Task(
+        mixture=mixture,
+        past=PAST,
+        interval=interval,
+        tolerance=float(np.sqrt(np.mean(apart**2))),
+        impedance=Impedance(stiffness=np.full(components, FIRST_STIFFNESS), lead=0.0, offset=0.0),
+        provenance={
+            "demonstrations": _about(demonstrations),
+            "fit": {
+                "library": f"scikit-learn {version('scikit-learn')}",
+                "samples": len(data),
+                "components": components,
+                "seed": seed,
+                "converged": bool(fit.converged_),
+                "iterations": int(fit.n_iter_),
+            },
+        },
+    )
+
+
+def practise(
+    task: Task,
+    lifts: int = PRACTICE_LIFTS,
+    *,
+    gains: Gains | None = None,
+    progress: Callable[[int], None] = lambda lifts: None,
+) -> Task:
+    """Return the task with the impedance learned by lifting with simulated people: step two.
+
+    Each lift is with a new person, in one of the suites' ways, on seeds of their own. The impedance
+    adapts in every step (:func:`.adapt`) by the height difference that the robot sees once its
+    movement is over; what is kept is its mean over the second half of the lifts.
+
+    Raises
+    ------
+    InputError
+        If there is no lift.
+    """
+    if lifts < 1:
+        raise InputError(f"practice must be at least 1 lift, got {lifts}")
+    gains = gains or Gains()
+    controller = TaskController(task, TaskModelParameters())
+    learned: list[Impedance] = []
+    for seed in range(PRACTICE_SEED, PRACTICE_SEED + lifts):
+        _lift_together(controller, task.tolerance, gains, seed)
+        learned.append(controller.impedance)
+        progress(1)
+    late = learned[lifts // 2 :]
+    impedance = Impedance(
+        stiffness=np.mean([each.stiffness for each in late], axis=0),
+        lead=float(np.mean([each.lead for each in late])),
+        offset=float(np.mean([each.offset for each in late])),
+    )
+    about = {"seed": PRACTICE_SEED, "lifts": lifts, "gains": dataclasses.asdict(gains)}
+    return dataclasses.replace(
+        task, impedance=impedance, provenance={**task.provenance, "practice": about}
+    )
+
+
+def _lift_together(controller: TaskController, tolerance: float, gains: Gains, seed: int) -> None:
+    """Adapt the controller's impedance in one lift."""
+    lift = Lift(make_scenario(BEHAVIOURS[seed % len(BEHAVIOURS)], f"draw-{seed}"))
+    lift.reset(seed)
+    human = lift.scripted_human()
+    controller.reset()
+    movements: list[Movement] = []
+    while not lift.done:
+        view = lift.partner_observation()
+        if len(movements) >= SEEN_AFTER:
+            error = float(view[RobotObservation.HUMAN_END] - view[RobotObservation.ROBOT_END])
+            controller.impedance = adapt(
+                controller.impedance, movements[-SEEN_AFTER], error, tolerance, gains
+            )
+        movements.append(controller.step(view))
+        lift.step(human.act(lift.human_observation()), np.array([movements[-1].change]))
+    lift.close()
+
+
+def _about(demonstrations: Sequence[Demonstration]) -> dict[str, Any]:
+    """Return what identifies the demonstrations."""
+    sha = hashlib.sha256()
+    for each in demonstrations:
+        sha.update(np.ascontiguousarray(each.series, "<f8").tobytes())
+    names = sorted({each.behaviour for each in demonstrations})
+    return {
+        "lifts": len(demonstrations),
+        "first": demonstrations[0].lift,
+        "last": demonstrations[-1].lift,
+        "behaviours": names,
+        "sha256": sha.hexdigest(),
+    }

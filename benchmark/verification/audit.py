@@ -1,0 +1,148 @@
+"""Whether a run's actions can be believed: sampled episodes are played again, and compared."""
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ...agents.spec import AgentSpec
+from ..episode.episode import Episode
+from ..execution.runner import Run, placed
+from ..execution.tasks import Faults, Task, gather
+from ..suites.hidden import keyed
+
+SAMPLES: Final = 10
+"""Episodes that are played again. Whoever is caught in a share q of them escapes all ten with
+(1 - q)^10: 0.1 % for a half."""
+
+STATE: Final = "it kept something from one episode to the next"
+CHANCE: Final = "it is not deterministic: its actions must follow from the seed and what it sees"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finding:
+    """An episode that went otherwise when it was played again."""
+
+    place: int
+    """Where in the suite the episode is, counted from 0."""
+    step: int
+    """The first step whose action differs, or that only one of the two has."""
+    reason: str
+    """What the policy does that it may not."""
+
+    def told(self, run: Run) -> str:
+        """Return the finding in a line. It names the episode: not for one that is hidden."""
+        episode = run.episodes[self.place]
+        where = f"{episode.behaviour}/{episode.subject} seed {episode.seed}"
+        return f"played again, {where} differs from step {self.step} on: {self.reason}"
+
+
+def audit(
+    policy: AgentSpec,
+    run: Run,
+    secret: bytes,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+    keep: Callable[[int, Episode], None] = lambda place, episode: None,
+) -> Finding | None:
+    """Play some of a run's episodes again, in another order; all actions must have equal bits.
+
+    A policy may not know which episodes will be looked at, nor when: the secret chooses them and
+    their order. An episode that
+    differs is played a third time. If that agrees with the second, the first was influenced by
+    other episodes; if not, the policy is left to chance.
+
+    Parameters
+    ----------
+    policy
+        What was run, now in a fresh process for every episode: nothing is loaded beforehand.
+    run
+        The complete run.
+    secret
+        The board's secret.
+    executor, progress, keep
+        As for :func:`.run_suite`; ``progress`` counts up to :func:`audited`.
+
+    Returns
+    -------
+    Finding or None
+        The first episode of the suite that differs; nothing if all are equal.
+
+    Raises
+    ------
+    EvaluatorFault
+        If the machine failed; see :func:`.gather`.
+    """
+    places = sampled(run, secret)
+    again = _again(policy, run, places, executor, keep, progress)
+    for place in sorted(places):
+        first, second = run.episodes[place], again[place]
+        step = first_difference(first, second)
+        if step is None:
+            continue
+        third = _again(policy, run, [place], executor, keep)[place]
+        if second.failure is not None and first_difference(first, third) is None:
+            continue  # The machine held the second up for so long that it ran out of time.
+        repeats = first_difference(second, third) is None
+        return Finding(place=place, step=step, reason=STATE if repeats else CHANCE)
+    return None
+
+
+def audited(episodes: int) -> int:
+    """Return how many episodes of a suite of that size are played again."""
+    return min(SAMPLES, episodes)
+
+
+def sampled(run: Run, secret: bytes) -> list[int]:
+    """Return the places of the episodes to play again, in the order in which it is done."""
+    labels = ("audit", run.policy_digest, run.suite.digest)
+
+    def lot(place: int) -> bytes:
+        return keyed(secret, *labels, place)
+
+    places = sorted(range(len(run.episodes)), key=lot)
+    return places[: audited(len(places))]
+
+
+def first_difference(episode: Episode, again: Episode) -> int | None:
+    """Return the first step in which two episodes' actions differ in a bit, or None.
+
+    An episode that failed counts as worst from there on, which nobody gains by: of it only the
+    steps that both have are compared.
+    """
+    first, second = (np.ascontiguousarray(each.trace.action) for each in (episode, again))
+    steps = min(len(first), len(second))
+    equal = (first[:steps].view(np.uint64) == second[:steps].view(np.uint64)).all(axis=1)
+    if not equal.all():
+        return int(equal.argmin())
+    same = len(first) == len(second) or episode.failure is not None
+    return None if same else steps
+
+
+def _again(
+    policy: AgentSpec,
+    run: Run,
+    places: Sequence[int],
+    executor: Executor | None,
+    keep: Callable[[int, Episode], None],
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> dict[int, Episode]:
+    """Play the episodes at the places again, each as a task of its own, in that order."""
+    suite, there, found = run.suite, placed(policy, executor), {}
+    wanted = [
+        Task(
+            policy=there,
+            scenario=suite.scenarios[place // len(suite.seeds)],
+            seeds=(suite.seeds[place % len(suite.seeds)],),
+            places=(place,),
+        )
+        for place in places
+    ]
+    for place, episode in gather(wanted, executor, Faults()):
+        found[place] = episode
+        keep(place, episode)
+        progress(1)
+    return found

@@ -1,0 +1,224 @@
+"""What a policy is checked for before it is submitted: that it works, repeats itself, its score."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+from ...agents.actions import action_limit
+from ...agents.errors import EvaluatorFault
+from ...agents.hardware.decisions import POLICY_SHARE
+from ...agents.spec import AgentSpec
+from ..bundle import results
+from ..episode.episode import START, Episode
+from ..episode.scenario import CONTROL_PERIOD
+from ..episode.scores import MOSTLY_CLIPPED
+from ..execution.runner import Run
+from ..execution.tasks import play
+from ..results.baselines import HUMAN_HUMAN, SPECS, Reference, shipped_references
+from ..results.headline import headline
+from ..suites.catalogue import make_scenario
+from ..suites.suite import Suite, make_suite
+from .audit import first_difference
+
+SUITE: Final = "quick-v1"
+"""The suite of the score."""
+
+LIFTS: Final = (("smooth", "S1"), ("changing_goal", "S4"))
+"""Behaviour and subject of the lifts that are played twice."""
+
+MEANINGS: Final = {"hold": "never moves", "copy": "goes where the human was"}
+"""What the policies do that every score is set against."""
+
+SEED: Final = 7000
+"""Their seed, which no suite has."""
+
+MACHINE: Final = "machine"
+"""Name of the check that says that this machine has failed, and not the policy."""
+
+MUCH_PRINTED: Final = 5000
+"""Characters printed in a lift that are worth a word: printing takes time."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Check:
+    """The outcome of one check."""
+
+    name: str
+    ok: bool
+    told: str
+    """What was found, or why it failed."""
+    printed: str = ""
+    """The end of what the policy printed, if it failed."""
+    results: dict[str, Any] | None = None
+    """The content of ``results.json``, if the check is the score."""
+    warning: bool = False
+    """Whether it is no failure, but something to look at."""
+
+
+def check_policy(
+    policy: AgentSpec, fresh: AgentSpec, evaluate: Callable[[AgentSpec, Suite], Run]
+) -> Iterator[Check]:
+    """Check a policy; the iterator ends early where the rest would tell nothing more.
+
+    Parameters
+    ----------
+    policy
+        What is checked.
+    fresh
+        The same policy, with a process of its own for each episode: nothing is loaded beforehand.
+    evaluate
+        Plays a suite; see :func:`.run_suite`.
+
+    Yields
+    ------
+    Check
+        interface, lifts, determinism, score, actions, time; a machine that fails ends them.
+    """
+    try:
+        yield from _checks(policy, fresh, evaluate)
+    except EvaluatorFault as fault:
+        yield Check(name=MACHINE, ok=False, told=f"{fault}; this is no fault of the policy")
+
+
+def _checks(
+    policy: AgentSpec, fresh: AgentSpec, evaluate: Callable[[AgentSpec, Suite], Run]
+) -> Iterator[Check]:
+    first = _played(policy, LIFTS)
+    interface, lifts = _interface(policy, first), _lifts(first)
+    yield interface
+    if not interface.ok:
+        return
+    yield lifts
+    if not lifts.ok:
+        return
+    determinism = _determinism(first, _played(fresh, LIFTS[::-1])[::-1])
+    yield determinism
+    if not determinism.ok:
+        return
+    suite = make_suite(SUITE)
+    run = evaluate(policy, suite)
+    if not run.complete:
+        told = f"interrupted after {len(run.episodes)} of {suite.size} lifts"
+        yield Check(name="score", ok=False, told=told)
+        return
+    content = results(run, shipped_references(suite) or _references(suite, evaluate))
+    yield _score(run, content)
+    yield _actions(content["summary"])
+    yield _time(content["summary"], run.episodes)
+
+
+def _references(suite: Suite, evaluate: Callable[[AgentSpec, Suite], Run]) -> dict[str, Reference]:
+    """Return what the score is set against, played: without the human team, if interrupted."""
+    played = {}
+    for name, spec in SPECS.items():
+        run = evaluate(spec, suite.with_partner("human") if name == HUMAN_HUMAN else suite)
+        if run.complete:
+            played[name] = Reference.of(run)
+    return played
+
+
+def _played(policy: AgentSpec, lifts: Sequence[tuple[str, str]]) -> list[Episode]:
+    return [
+        episode
+        for behaviour, subject in lifts
+        for episode in play(policy, make_scenario(behaviour, subject), (SEED,))
+    ]
+
+
+def _interface(policy: AgentSpec, episodes: Sequence[Episode]) -> Check:
+    for episode in episodes:
+        if episode.failure is not None and episode.failure.startswith(START):
+            told = episode.failure.removeprefix(START)
+            return Check(name="interface", ok=False, told=told, printed=episode.log)
+    told = f"has reset(seed) and act(observation); isolation: {policy.isolation}"
+    return Check(name="interface", ok=True, told=told)
+
+
+def _lifts(episodes: Sequence[Episode]) -> Check:
+    for episode in episodes:
+        if episode.failure is not None:
+            return Check(name="lifts", ok=False, told=_why(episode), printed=episode.log)
+    told = ", ".join(f"{e.behaviour}/{e.subject} {e.scores.rmse_mm:.1f} mm" for e in episodes)
+    return Check(name="lifts", ok=True, told=told)
+
+
+def _determinism(first: Sequence[Episode], again: Sequence[Episode]) -> Check:
+    """Compare the lifts with the same lifts in another order."""
+    for one, other in zip(first, again, strict=True):
+        step = first_difference(one, other)
+        if step is not None:
+            told = (
+                f"the same lift again ({_where(one)}) goes another way from step {step} on: "
+                "actions must follow from the seed and the observations of the lift alone"
+            )
+            return Check(name="determinism", ok=False, told=told, printed=other.log)
+    told = "the same lifts again, started afresh in another order: equal to the bit"
+    return Check(name="determinism", ok=True, told=told)
+
+
+def _score(run: Run, content: dict[str, Any]) -> Check:
+    told = f"{run.suite.name}, {len(run.episodes)} lifts: {headline(content['summary'])}"
+    failed = [episode for episode in run.episodes if episode.failure is not None]
+    if failed:
+        told = f"{told}. {len(failed)} failed and count as worst; the first, {_why(failed[0])}"
+    worse = "" if failed else _worse(content)
+    printed = failed[0].log if failed else ""
+    return Check(
+        name="score",
+        ok=not failed,
+        told=told + worse,
+        printed=printed,
+        results=content,
+        warning=bool(worse),
+    )
+
+
+def _worse(content: dict[str, Any]) -> str:
+    """Say which simple policies are better: one that never moves, one that only copies."""
+    error = content["summary"]["rmse_mm"]["mean"]
+    means = {
+        name: reference["rmse_mm"]["mean"]
+        for name, reference in content["references"].items()
+        if name != HUMAN_HUMAN and reference["rmse_mm"]["mean"] < error
+    }
+    if not means:
+        return ""
+    told = " and ".join(f"{name} ({MEANINGS[name]}, {mean:.2f} mm)" for name, mean in means.items())
+    return f". Worse than {told}"
+
+
+def _actions(summary: dict[str, Any]) -> Check:
+    """Tell how many actions were larger than the hands can go."""
+    share = summary["clipped"]["mean"]
+    if share is None:
+        return Check(name="actions", ok=False, told="there is none")
+    limit = action_limit(CONTROL_PERIOD)
+    told = f"{100 * share:.1f} % were cut to {limit:g} m a step, the most that the hands can go"
+    warning = share > MOSTLY_CLIPPED
+    if warning:
+        told += ". Are they in metres, and changes of the height?"
+    return Check(name="actions", ok=True, told=told, warning=warning)
+
+
+def _time(summary: dict[str, Any], episodes: Sequence[Episode]) -> Check:
+    """Tell whether a real robot, which does not wait, could run the policy; it need not."""
+    p50, p99 = summary["step_ms"]["p50"], summary["step_ms"]["p99"]
+    if p50 is None or p99 is None:
+        return Check(name="time", ok=False, told="no step came to an end")
+    told = (
+        f"a step takes {p50:.3f} ms (median), {p99:.3f} ms (99th percentile): "
+        f"{'' if summary['real_time'] else 'not '}real-time capable "
+        f"(a robot waits {1000 * POLICY_SHARE * CONTROL_PERIOD:.0f} ms for an answer)"
+    )
+    printed = max(len(episode.log) for episode in episodes)
+    if printed >= MUCH_PRINTED:
+        told += f". It prints much (over {MUCH_PRINTED} characters in a lift), which takes time"
+    return Check(name="time", ok=True, told=told, warning=printed >= MUCH_PRINTED)
+
+
+def _where(episode: Episode) -> str:
+    return f"{episode.behaviour}/{episode.subject} seed {episode.seed}"
+
+
+def _why(episode: Episode) -> str:
+    return f"{_where(episode)}: {episode.failure}"

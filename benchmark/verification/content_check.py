@@ -1,0 +1,150 @@
+"""Checks of what a bundle says: its suite, its episodes, and numbers that must follow from them."""
+
+import dataclasses
+import json
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from typing import Any, Final
+
+from ...agents.errors import InputError
+from ..bundle import Bundle, Difference, differences, one_line, results
+from ..bundle.content import with_circumstances
+from ..bundle.files import EPISODES, MANIFEST, RESULTS, TRACES
+from ..episode.episode import Episode
+from ..episode.scenario import CONTROL_PERIOD
+from ..episode.scores import SCORING
+from ..execution.runner import Run
+from ..results.baselines import SPECS, Reference, play_references, shipped_references
+from ..suites.suite import SUITES, Suite, make_suite
+from .deviation import REFERENCES, SCORES
+from .verdict import Finding
+
+_FROM_REFERENCES: Final = ("references", "summary.vs_human", "human_human_rmse_mm")
+
+
+def suite_label(suite: Suite) -> str:
+    """Return what may be said of a suite: the name of a shipped one, by its digest, or its size.
+
+    Any other has its name from who made the bundle.
+    """
+    digest = suite.digest
+    for name in SUITES:
+        if make_suite(name).digest == digest:
+            return name
+    first = suite.scenarios[0]
+    label = f"a suite of its own: {suite.size} lifts, latency {first.latency:g} s"
+    if first.control_period != CONTROL_PERIOD:
+        label += f", control period {first.control_period:g} s"
+    return label
+
+
+def suite_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
+    """Yield what is wrong with the names and digests of the suite that the recipe makes."""
+    claimed, digest = bundle.results["suite_digest"], suite.digest
+    # The constants of the metrics are in the digest: those of older scores may have been others.
+    if claimed != digest and bundle.results["scoring"] == SCORING:
+        message = (
+            f"suite_digest is {claimed!r:.80}, but {MANIFEST} makes a suite of digest {digest!r}: "
+            "other episodes, or the benchmark's rules have changed since"
+        )
+        yield Finding(file=RESULTS, message=message)
+    if bundle.results["suite"] != suite.name:
+        message = f"suite is {bundle.results['suite']!r:.80}, in {MANIFEST} {suite.name!r:.80}"
+        yield Finding(file=RESULTS, message=message)
+    if suite.name in SUITES and digest != make_suite(suite.name).digest:
+        message = f"its episodes are not those of {suite.name}, whose name it has"
+        yield Finding(file=MANIFEST, message=message)
+
+
+def episode_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
+    """Yield the first episode that is not what the suite has at its place, and the first missing.
+
+    An incomplete run is wrong in any case: there is no score on part of a suite.
+    """
+    names = [
+        _name(scene.behaviour, scene.subject.name, scene.trial, seed)
+        for scene in suite.scenarios
+        for seed in suite.seeds
+    ]
+    for row, (place, episode) in enumerate(zip(bundle.places, bundle.episodes, strict=True), 1):
+        found = episode_name(episode)
+        if found != names[place]:
+            message = f"row {row} is {found} instead"
+            yield Finding(file=EPISODES, episode=names[place], message=message)
+            break
+    missing = sorted({*range(suite.size)} - {*bundle.places})
+    if missing:
+        message = (
+            f"missing, one of {len(missing)} of {suite.size} episodes: part of a suite has no "
+            "score; finish the run with colift run --resume"
+        )
+        yield Finding(file=TRACES, episode=names[missing[0]], message=message)
+
+
+def episode_name(episode: Episode) -> str:
+    """Return the name of an episode, such as ``pause/S3 seed 4``."""
+    return _name(episode.behaviour, episode.subject, episode.trial, episode.seed)
+
+
+def _name(behaviour: str, subject: str, trial: str, seed: int) -> str:
+    return f"{one_line('/'.join(filter(None, (behaviour, subject, trial))))} seed {seed}"
+
+
+def rebuilt(bundle: Bundle, run: Run, executor: Executor | None) -> dict[str, Any]:
+    """Return what ``results.json`` should say of a run.
+
+    What no simulation can tell is as the bundle has it; so is which references there are.
+
+    Raises
+    ------
+    InputError
+        If the bundle names an unknown reference.
+    """
+    content = results(run, _references(bundle, run, executor))
+    content = with_circumstances(content, bundle.results, run.suite)
+    plain: dict[str, Any] = json.loads(json.dumps(content))
+    return plain
+
+
+def _references(bundle: Bundle, run: Run, executor: Executor | None) -> dict[str, Reference]:
+    wanted = bundle.results["references"]
+    if not wanted:
+        return {}
+    for name in wanted:
+        if name not in SPECS:
+            raise InputError(f"{RESULTS}: there is no reference {name!r:.80}")
+    known = shipped_references(run.suite) or play_references(run.suite, executor=executor)
+    return {name: known[name] for name in wanted}
+
+
+def score_findings(
+    bundle: Bundle, run: Run, content: dict[str, Any], *, exact: bool
+) -> Iterator[Finding]:
+    """Yield every score of an episode and every number of the summary that is not what it should.
+
+    Parameters
+    ----------
+    bundle
+        What is claimed.
+    run, content
+        What follows from the actions: the episodes, and :func:`rebuilt`.
+    exact
+        Whether equal bits are demanded; else :data:`.SCORES` holds, and :data:`.REFERENCES` for
+        references that are not shipped.
+    """
+    tolerance = 0.0 if exact else SCORES
+    played = not exact and shipped_references(run.suite) is None
+    for claim, true in zip(bundle.episodes, run.episodes, strict=True):
+        scores = (dataclasses.asdict(each.scores) for each in (claim, true))
+        for difference in differences(*scores, tolerance=tolerance):
+            yield Finding(file=EPISODES, episode=episode_name(true), message=str(difference))
+    for difference in differences(bundle.results, content, tolerance=tolerance):
+        if not (played and _near(difference)):
+            yield Finding(file=RESULTS, message=str(difference))
+
+
+def _near(difference: Difference) -> bool:
+    """Return whether a number that follows from the references is near enough."""
+    if not any(name in difference.path for name in _FROM_REFERENCES):
+        return False
+    return not [*differences(difference.claimed, difference.true, tolerance=REFERENCES)]

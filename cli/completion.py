@@ -1,0 +1,44 @@
+"""What a shell may complete: names that there are, and folders and files that may be policies."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from ..agents.humans import SUBJECTS
+from ..agents.registry import HUMANS, POLICIES, entries
+from ..agents.submissions.manifest import MANIFEST
+
+
+def policies(incomplete: str) -> Iterator[str]:
+    """Yield the policies whose names begin so: registered ones, submissions and Python files."""
+    yield from (name for name in entries(POLICIES) if name.startswith(incomplete))
+    above, slash, start = incomplete.rpartition("/")
+    try:
+        found = sorted(Path(above + slash).iterdir())
+    except OSError:
+        return
+    for path in found:
+        place = f"{above}{slash}{path.name}"
+        if path.name.startswith(start) and not (path.name.startswith(".") and not start):
+            if (path / MANIFEST).is_file():
+                yield place
+            elif path.is_dir():
+                yield f"{place}/"
+            elif path.suffix == ".py":
+                yield f"{place}:"
+
+
+def suites(incomplete: str) -> Iterator[str]:
+    """Yield the suites whose names begin so."""
+    from ..benchmark.suites.suite import SUITES  # Loads the simulator.
+
+    yield from (name for name in SUITES if name.startswith(incomplete))
+
+
+def behaviours(incomplete: str) -> Iterator[str]:
+    """Yield the human behaviours whose names begin so."""
+    yield from (name for name in entries(HUMANS) if name.startswith(incomplete))
+
+
+def people(incomplete: str) -> Iterator[str]:
+    """Yield the subjects whose names begin so."""
+    yield from (name for name in SUBJECTS if name.startswith(incomplete))

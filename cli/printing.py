@@ -1,0 +1,122 @@
+"""Tables and lines on stdout, which can be pasted as they stand."""
+
+import shlex
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+
+from rich import box
+from rich.console import Console, RenderableType
+from rich.segment import Segment, Segments
+from rich.table import Column, Table
+from rich.text import Text
+
+from ..agents.registry import POLICIES, entries
+
+Cell = str | Text
+
+
+def table(
+    title: str,
+    columns: Sequence[str | Column],
+    rows: Iterable[Sequence[Cell] | None],
+    *,
+    caption: str = "",
+) -> Table:
+    """Return a table, to be printed by :func:`show`.
+
+    Parameters
+    ----------
+    title, caption
+        The lines above and below it; empty for none.
+    columns
+        Titles: the first column is aligned left, the others right, on one line each. A column of
+        another kind is given as a Rich column.
+    rows
+        The cells of each row, text without markup; None draws a line.
+    """
+    made = Table(
+        *(_column(each, first=i == 0) for i, each in enumerate(columns)),
+        title=Text(title) if title else None,
+        caption=Text(caption) if caption else None,
+        title_justify="left",
+        caption_justify="left",
+        box=box.SIMPLE_HEAD,
+        padding=(0, 0, 0, 1),
+    )
+    for row in rows:
+        if row is None:
+            made.add_section()
+        else:
+            made.add_row(*(Text(cell) if isinstance(cell, str) else cell for cell in row))
+    return made
+
+
+def left(title: str) -> Column:
+    """Return a column whose cells begin at its left, on as many lines as they need."""
+    return Column(title, overflow="fold")
+
+
+def styled(cells: Sequence[Cell], style: str) -> list[Cell]:
+    """Return the cells of a row in a style, such as ``bold``."""
+    return [Text(str(cell), style) for cell in cells]
+
+
+def number(value: float | None, digits: str) -> str:
+    """Return a number in a format such as ``.2f``, or that there is none."""
+    return "none" if value is None else format(value, digits)
+
+
+def show(*parts: RenderableType, console: Console | None = None) -> None:
+    """Print tables and texts: no line ends with blanks, a caption is as wide as the terminal.
+
+    Parameters
+    ----------
+    parts
+        What to print, each on lines of its own. A word is a text without markup.
+    console
+        Where to; None is stdout.
+    """
+    shown = console or Console()
+    for part in parts:
+        for each in _separate(part):
+            lines = map(_stripped, shown.render_lines(each, pad=False))
+            segments = [segment for line in lines for segment in (*line, Segment.line())]
+            shown.print(Segments(segments), end="", soft_wrap=True)
+
+
+def argument(path: Path) -> str:
+    """Return a file or folder as an argument of a command: quoted, and no policy's name."""
+    shown = str(path)
+    if shown in entries(POLICIES) or shown.startswith("-"):
+        shown = f"./{shown}"
+    return shlex.quote(shown)
+
+
+def _column(column: str | Column, *, first: bool) -> Column:
+    if isinstance(column, Column):
+        return column
+    return left(column) if first else Column(column, justify="right", no_wrap=True)
+
+
+def _separate(part: RenderableType) -> Iterator[RenderableType]:
+    """Yield a part, a table's caption by itself: Rich would wrap it at the table's width."""
+    if isinstance(part, str):
+        yield Text(part)
+        return
+    if not isinstance(part, Table) or part.caption is None:
+        yield part
+        return
+    caption, part.caption = part.caption, None
+    yield part
+    yield Text(str(caption), "dim italic")
+    yield Text("")
+
+
+def _stripped(line: Sequence[Segment]) -> list[Segment]:
+    """Return a line without the blanks at its end."""
+    kept = list(line)
+    while kept and not kept[-1].text.strip():
+        kept.pop()
+    if kept:
+        kept[-1] = Segment(kept[-1].text.rstrip(), kept[-1].style)
+    return kept

@@ -1,0 +1,1 @@
+"""Tables of results as a person reads them in a terminal."""

@@ -1,0 +1,128 @@
+"""A season's table as a person reads it in a terminal."""
+
+from collections.abc import Iterator, Sequence
+
+from rich.table import Column, Table
+
+from ...benchmark.episode.scores import BOARD, Metric
+from ...benchmark.statistics import Estimate
+from ...leaderboard.board.standings import HumanTeamScores, RankedRow
+from ...leaderboard.records.row import BoardRow
+from ...leaderboard.records.season import SeasonInfo
+from ..printing import Cell, number, styled, table
+
+NARROW = 100
+"""Below so many columns the table leaves out what is least asked for."""
+
+
+def board_table(
+    season: SeasonInfo, standings: Sequence[RankedRow], team: HumanTeamScores | None, width: int
+) -> Table:
+    """Return a season's table: who cannot be told from each other shares a rank.
+
+    The human-human team stands where it would come by its mean.
+
+    Parameters
+    ----------
+    season, standings, team
+        What the board says of them.
+    width
+        Columns of the terminal.
+    """
+    wide = width >= NARROW
+    titles = ["rank", "policy", "RMSE mm", "95 % interval", "vs human"]
+    titles += [metric.heading for metric in metrics(wide)]
+    titles += ["ms/step", "gap mm"] if wide else []
+    titles += ["verified"]
+    lines = list(_lines(standings, team, wide))
+    columns: list[str | Column] = [Column("rank", justify="right", no_wrap=True), *titles[1:]]
+    most = _room(titles, lines, 1, width)
+    columns[1] = Column("policy", overflow="ellipsis", no_wrap=True, max_width=most)
+    return table(f"Season {season.name} on {season.suite}", columns, lines, caption=_caption(wide))
+
+
+def metrics(wide: bool) -> Sequence[Metric]:
+    """Return the metrics beside RMSE that have a column: the first alone in a narrow terminal."""
+    return BOARD if wide else BOARD[:1]
+
+
+def _room(titles: Sequence[str], lines: Sequence[Sequence[Cell]], place: int, width: int) -> int:
+    """Return how many columns of the terminal are left for one column of the table."""
+    widths = [max(map(len, cells)) for cells in zip(titles, *lines, strict=True)]
+    between = 2 * len(titles) + 1
+    return max(width - between - sum(widths) + widths[place], len(titles[place]))
+
+
+def _lines(
+    standings: Sequence[RankedRow], team: HumanTeamScores | None, wide: bool
+) -> Iterator[Sequence[Cell]]:
+    """Yield the cells of each line."""
+    waiting = team
+    for each in standings:
+        if waiting is not None and (
+            not each.ranked or each.row.hidden.rmse_mm.mean > waiting.rmse_mm.mean
+        ):
+            yield styled(_team(waiting, wide), "bold")
+            waiting = None
+        yield styled(_cells(each, wide), "" if each.ranked else "dim")
+    if waiting is not None:
+        yield styled(_team(waiting, wide), "bold")
+
+
+def _cells(each: RankedRow, wide: bool) -> list[str]:
+    row, hidden, public = each.row, each.row.hidden, each.row.public
+    cells: list[str] = [
+        _rank(each),
+        row.name,
+        f"{hidden.rmse_mm.mean:.2f}",
+        _interval(hidden.rmse_mm),
+        f"{hidden.vs_human.mean:.2f}",
+        number(public.sparc, ".2f"),
+    ]
+    if wide:
+        cells += [
+            number(public.human_force_n, ".2f"),
+            _step(row),
+            f"{row.gap_mm.mean:+.2f}",
+        ]
+    return [*cells, "yes" if row.verified else "no"]
+
+
+def _rank(each: RankedRow) -> str:
+    if each.section == "not real-time":
+        return f"slow {each.group or ''}".rstrip()
+    if each.section == "ranking":
+        return str(each.group or "-")
+    return each.section
+
+
+def _team(team: HumanTeamScores, wide: bool) -> list[str]:
+    cells: list[str] = [
+        "",
+        "human-human team",
+        f"{team.rmse_mm.mean:.2f}",
+        _interval(team.rmse_mm),
+        "1.00",
+        *(metric.text(team.means[metric.name]) for metric in metrics(wide)),
+    ]
+    return [*cells, *(["", ""] if wide else []), ""]
+
+
+def _caption(wide: bool) -> str:
+    told = "Who shares a rank cannot be told apart. RMSE: hidden lifts. vs human: 1 is a human team"
+    if not wide:
+        return f"{told}. SPARC: public lifts."
+    return (
+        f"{told}, less is better. SPARC (smoothness), force at the human's hands and "
+        "time per step: public lifts. Gap: hidden minus public RMSE."
+    )
+
+
+def _interval(estimate: Estimate) -> str:
+    low, high = estimate.ci95
+    return f"{low:.2f} to {high:.2f}"
+
+
+def _step(row: BoardRow) -> str:
+    told = number(row.public.step_ms_p50, ".3f")
+    return told if row.real_time else f"{told}, slow"

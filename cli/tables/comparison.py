@@ -1,0 +1,153 @@
+"""A comparison as a person reads it in a terminal."""
+
+from typing import Final
+
+from rich.table import Column, Table
+from rich.text import Text
+
+from ...benchmark.comparison.comparison import Comparison
+from ...benchmark.comparison.contest import TEAM, Entry
+from ...benchmark.comparison.standing import MetricMean, Scope, Standing
+from ...benchmark.comparison.words import (
+    between,
+    digits,
+    marks_caption,
+    p_value,
+    probability,
+    title,
+    undecided,
+)
+from ...benchmark.episode.scores import BOARD, Metric
+from ...benchmark.statistics import Estimate
+from ..printing import Cell, number, styled, table
+
+NAME: Final = 18
+"""Longest name that stays on one line."""
+
+FEWER: Final = "†: over the lifts in which the robot moves along."
+
+NO_POLICIES: Final = "The oracle and the causal bound are no policies: how far one might come."
+
+REFERENCE: Final = "blue"
+"""Style of the rows of the human-human team and of the bounds."""
+
+
+def ranks_table(comparison: Comparison) -> Table:
+    """Return the policies by rank, the human-human team among them."""
+    suite, overall = comparison.contest.suite, comparison.overall
+    entries = {entry.name: entry for entry in comparison.contest.entries}
+    rows: list[tuple[float, list[Cell]]] = [
+        (standing.rmse_mm.mean, _rank_row(overall, standing, entries[standing.name]))
+        for standing in overall.standings
+    ]
+    rows += [
+        (overall.references_rmse_mm[name].mean, styled(_reference_row(comparison, name), REFERENCE))
+        for name in comparison.contest.references
+    ]
+    return table(
+        title(comparison),
+        (
+            Column("#", justify="right"),
+            Column("policy", overflow="fold", min_width=len(TEAM)),
+            *("RMSE mm", "95 %", "vs_human", *(each.symbol for each in BOARD), "step"),
+        ),
+        (cells for _, cells in sorted(rows, key=lambda row: row[0])),
+        caption=f"{overall.episodes} lifts each; suite digest {suite.digest}. "
+        + (undecided(overall) or "Policies of one rank (#) cannot be told from the first of them.")
+        + f" vs_human: RMSE over the {TEAM}'s. Force at the "
+        "human's hands in N; median time of a step in ms."
+        + (f" {NO_POLICIES}" if comparison.contest.bounds else "")
+        + (f" {FEWER}" if any(s.sparc and s.sparc_missing for s in overall.standings) else ""),
+    )
+
+
+def _reference_row(comparison: Comparison, name: str) -> list[str]:
+    reference, overall = comparison.contest.references[name], comparison.overall
+    rmse = overall.references_rmse_mm[name]
+    return [
+        "",
+        name,
+        f"{rmse.mean:.2f}",
+        _interval(rmse),
+        f"{rmse.mean / overall.team_rmse_mm.mean:.2g}",
+        *(metric.text(reference.means[metric.name]) for metric in BOARD),
+        "",
+    ]
+
+
+def _rank_row(overall: Scope, standing: Standing, entry: Entry) -> list[Cell]:
+    return [
+        str(standing.rank) if overall.decisive else "",
+        _name(entry.name),
+        f"{standing.rmse_mm.mean:.2f}",
+        _interval(standing.rmse_mm),
+        f"{standing.vs_human.mean:.2f}",
+        *(_metric(metric, standing.metrics[metric.name]) for metric in BOARD),
+        number(entry.step_ms[0] if entry.step_ms else None, ".3f"),
+    ]
+
+
+def _metric(metric: Metric, mean: MetricMean) -> str:
+    partial = metric.missing == "worst" and mean.estimate and mean.missing
+    return metric.text(mean.mean) + (" †" if partial else "")
+
+
+def differences_table(comparison: Comparison) -> Table:
+    """Return how far each policy is behind the best, and how sure it beats two people."""
+    best, *others = comparison.overall.standings
+    rows = []
+    for standing in others:
+        behind = standing.to_best
+        assert behind is not None
+        rows.append(
+            (
+                _name(standing.name),
+                f"{behind.mean:+.2f}",
+                between(behind.ci95, "+.2f"),
+                p_value(behind.p),
+                f"{behind.share_better:.0%}",
+                probability(standing.better_than_human),
+            )
+        )
+    return table(
+        f"Behind {best.name}, on the same lifts",
+        ("policy", "RMSE mm", "95 %", "p", "better", "P(< human)"),
+        rows,
+        caption="p: of no difference, Holm-corrected. better: share of the lifts. P(< human): that "
+        f"its mean error is below the {TEAM}'s; {probability(best.better_than_human)} for "
+        f"{best.name}.",
+    )
+
+
+def behaviours_table(comparison: Comparison) -> Table:
+    """Return the RMSE of each policy on each behaviour, the best of each marked."""
+    scopes = comparison.behaviours
+    columns = [{standing.name: standing for standing in scope.standings} for scope in scopes]
+    rows: list[list[Cell]] = [
+        [_name(name), *map(_mark, scopes, (column[name] for column in columns))]
+        for name in (standing.name for standing in comparison.overall.standings)
+    ]
+    for name in comparison.contest.references:
+        errors = (scope.references_rmse_mm[name].mean for scope in scopes)
+        cells = (f"{error:{digits(error)}}  " for error in errors)
+        rows.append(styled((name, *cells), REFERENCE))
+    return table(
+        "RMSE mm on each behaviour",
+        ("policy", *(scope.name for scope in scopes)),
+        rows,
+        caption=marks_caption("*", scopes),
+    )
+
+
+def _mark(scope: Scope, standing: Standing) -> Text:
+    mean = f"{standing.rmse_mm.mean:.1f}"
+    return Text(f"{mean} *", "bold") if scope.best(standing) else Text(f"{mean}  ")
+
+
+def _name(name: str) -> str:
+    """Return a policy's name, its parameters on lines of their own if it is long."""
+    return name if len(name) <= NAME else name.replace(",", ",\n ")
+
+
+def _interval(estimate: Estimate) -> str:
+    return between(estimate.ci95, digits(estimate.mean))

@@ -1,0 +1,88 @@
+"""What came of a submission, and its row of a board as a person reads it in a terminal."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from rich.table import Table
+
+from ...benchmark.comparison.words import probability
+from ...benchmark.statistics import Estimate
+from ...leaderboard.board.standings import Section
+from ...leaderboard.records.row import BoardRow
+from ..printing import number, table
+
+UNRANKED: Final[dict[Section, str]] = {
+    "unverified": "No rank: without a sandbox a row is not verified",
+    "out": "No rank: it was taken out of the ranking",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """A row, or why there is none."""
+
+    row: BoardRow | None = None
+    ranking: tuple[tuple[int, BoardRow], ...] = ()
+    """Rank group and row of all in its section of the season's table."""
+    section: Section = "ranking"
+    """The section that it is in."""
+    reason: str = ""
+    """Why there is no row."""
+    mend: bool = False
+    """Whether that is for the submitter to mend."""
+    next: str = ""
+    """What to look at."""
+
+
+def row_table(row: BoardRow) -> Table:
+    """Return what a policy did on public and on hidden lifts, side by side."""
+    return table(
+        f"{row.name} by {', '.join(row.authors)}",
+        ("", "public lifts", "hidden lifts"),
+        (
+            ("RMSE mm", *(_estimate(each.rmse_mm) for each in (row.public, row.hidden))),
+            ("vs_human", *(_estimate(each.vs_human) for each in (row.public, row.hidden))),
+            ("failed", *(f"{each.failed} of {each.episodes}" for each in (row.public, row.hidden))),
+            ("P(RMSE < two people's)", "", probability(row.hidden.better_than_human)),
+        ),
+        caption=f"season {row.season}, {row.suite}, suite digest {row.suite_digest}. P: how sure "
+        "it is that the mean RMSE on such lifts is below a human-human team's.",
+    )
+
+
+def standing(
+    row: BoardRow, ranking: Sequence[tuple[int, BoardRow]], section: Section = "ranking"
+) -> str:
+    """Return the lines that say where the row stands, and what its numbers rest on."""
+    public = row.public
+    force = "none" if public.human_force_n is None else f"{public.human_force_n:.2f} N"
+    lines = [
+        UNRANKED.get(section) or _rank(row, ranking, section),
+        f"Gap {_estimate(row.gap_mm)} mm: hidden minus public RMSE; other people, other plans",
+        f"Smoothness SPARC {number(public.sparc, '.2f')}, human force {force}",
+    ]
+    if public.step_ms_p50 is not None and public.step_ms_p99 is not None:
+        speed = "real-time capable" if row.real_time else "not real-time capable"
+        lines.append(
+            f"Time per step: median {public.step_ms_p50:.3f} ms, p99 {public.step_ms_p99:.3f} ms: "
+            f"{speed}"
+        )
+    told = "verified" if row.verified else "not verified, the policy was not kept apart"
+    lines.append(f"Isolation {row.isolation}: {told}")
+    return "\n".join(lines)
+
+
+def _rank(row: BoardRow, ranking: Sequence[tuple[int, BoardRow]], section: Section) -> str:
+    rank = next(rank for rank, each in ranking if each.submission == row.submission)
+    if not rank:
+        return "No rank: the lifts are too few to tell the policies of this board apart"
+    sharing = sum(each == rank for each, _ in ranking) - 1
+    shared = f", shared with {sharing} that cannot be told from it" if sharing else ""
+    slow = "" if section == "ranking" else " that are not real-time"
+    return f"Rank {rank} of {len(ranking)} policies{slow}{shared}"
+
+
+def _estimate(estimate: Estimate) -> str:
+    low, high = estimate.ci95
+    return f"{estimate.mean:.2f} ({low:.2f} to {high:.2f})"

@@ -1,0 +1,1 @@
+"""Backup of a board in one file, and its restoration."""

@@ -1,0 +1,1 @@
+"""The board: seasons, standings, tokens."""

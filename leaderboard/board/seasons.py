@@ -1,0 +1,190 @@
+"""The seasons of a board: start, end and import."""
+
+import re
+import shutil
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, Final
+
+import sqlalchemy as sa
+
+from ...agents.errors import InputError
+from ...benchmark.results.baselines import Reference
+from ...benchmark.suites.hidden import commitment, new_secret
+from ...benchmark.suites.suite import make_suite
+from ..database.database import Database
+from ..database.queries import read_seasons, record_entry, record_event
+from ..database.schema import seasons
+from ..records.season import BoardEntry, Event, Kind, Season, SeasonInfo
+from ..storage.files import sync_tree
+from ..storage.store import Store
+
+Clock = Callable[[], datetime]
+"""Returns a time with its zone."""
+
+
+def utc_now() -> datetime:
+    """Return the time of this machine."""
+    return datetime.now(UTC)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImportedEntry:
+    """An entry from elsewhere."""
+
+    entry: BoardEntry
+    hidden_rmse_mm: tuple[float, ...] = field(default=(), repr=False)
+    """RMSE of each hidden episode, if it has a row: the ranks follow from it."""
+    bundle: Path | None = None
+    """Folder of the public run; it is copied."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImportedSeason:
+    """A season whose secret is public, as it can be shipped."""
+
+    info: SeasonInfo
+    """With the secret. ``current``: whether submissions go there, too."""
+    entries: Sequence[ImportedEntry]
+    team: Reference
+    """The human-human team on the hidden episodes."""
+
+
+NAME: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
+"""What a season may be called."""
+
+
+@dataclass(frozen=True)
+class SeasonBook:
+    """The seasons of a board, and their secrets."""
+
+    store: Store
+    database: Database
+    clock: Clock
+
+    def read(self) -> tuple[SeasonInfo, ...]:
+        """Return all seasons in the order in which they came."""
+        with self.database.reading() as connection:
+            return read_seasons(connection)
+
+    def current(self) -> SeasonInfo:
+        """Return the season that takes submissions."""
+        return next(each for each in self.read() if each.current)
+
+    def named(self, name: str) -> SeasonInfo:
+        """Return what is published of a season.
+
+        Raises
+        ------
+        InputError
+            If there is no such season.
+        """
+        found = self.read()
+        for each in found:
+            if each.name == name:
+                return each
+        known = ", ".join(each.name for each in found)
+        raise InputError(f"{self.store.folder} has no season {name!r}; it has {known}")
+
+    def playable(self, name: str) -> Season:
+        """Return what submissions to a season are evaluated on; see :meth:`.Board.season_of`."""
+        told = self.named(name)
+        suite = make_suite(told.suite)
+        if suite.digest != told.suite_digest:
+            raise InputError(
+                f"season {name} of {self.store.folder} is on {suite.name} of digest "
+                f"{told.suite_digest}, this colift plays {suite.digest}: begin a new season"
+            )
+        season = Season(name=name, suite=suite, secret=self.store.vault(name).secret())
+        if season.commitment != told.commitment:
+            raise InputError(f"the secret of season {name} is not the one that was committed to")
+        return season
+
+    def begin(self, name: str, suite: str, who: str) -> None:
+        """Begin a season with a new secret; the board's lock is held."""
+        if not NAME.fullmatch(name):
+            raise InputError(f"season {name!r} must be letters, digits, - and _, at most 40")
+        if name in (each.name for each in self.read()):
+            raise InputError(f"{self.store.folder} has had a season {name}")
+        made, vault, secret = make_suite(suite), self.store.vault(name), new_secret()
+        vault.forget_secret()  # Of a beginning that was killed.
+        vault.keep_secret(secret)
+        info = SeasonInfo(
+            name=name,
+            suite=made.name,
+            suite_digest=made.digest,
+            commitment=commitment(secret),
+            began_at=self.clock(),
+            current=True,
+            revealed=None,
+        )
+        with self.database.writing() as connection:
+            self._record(connection, info, who, "begun")
+
+    def reveal(self, name: str, who: str, why: str) -> None:
+        """Publish the secret of a frozen season; see :meth:`.Board.reveal`."""
+        told = self.named(name)
+        if told.current:
+            raise InputError(f"season {name} still takes submissions: begin another one first")
+        if told.revealed is None:
+            secret = self.playable(name).secret.hex()
+            with self.database.writing() as connection:
+                self._event(connection, "revelation", name, who, why, {"secret": secret})
+
+    def adopt(self, practice: ImportedSeason, who: str, why: str) -> None:
+        """Take over a season; see :meth:`.Board.adopt`. The board's lock is held."""
+        info = practice.info
+        if info.name in (each.name for each in self.read()):
+            return
+        secret = bytes.fromhex(info.revealed or "")
+        if commitment(secret) != info.commitment:
+            raise InputError(f"season {info.name}: its secret is not the one it is committed to")
+        vault = self.store.vault(info.name)
+        vault.forget_secret()
+        vault.keep_secret(secret)
+        vault.keep_team(practice.team)
+        for each in practice.entries:
+            place = self.store.bundle(info.name, each.entry.submission)
+            if each.bundle is not None:
+                shutil.copytree(each.bundle, place, dirs_exist_ok=True)
+        sync_tree(self.store.folder / "public")
+        with self.database.writing() as connection:
+            self._record(connection, info, who, why)
+            self._event(connection, "revelation", info.name, who, why, {"secret": info.revealed})
+            for each in practice.entries:
+                record_entry(connection, each.entry, each.hidden_rmse_mm)
+
+    def _record(self, connection: sa.Connection, info: SeasonInfo, who: str, why: str) -> None:
+        connection.execute(
+            sa.insert(seasons).values(
+                name=info.name,
+                suite=info.suite,
+                suite_digest=info.suite_digest,
+                commitment=info.commitment,
+                began_at=info.began_at,
+                taking=info.current,
+            )
+        )
+        self._event(connection, "season", info.name, who, why, {"commitment": info.commitment})
+
+    def _event(
+        self,
+        connection: sa.Connection,
+        kind: Kind,
+        season: str,
+        who: str,
+        why: str,
+        content: dict[str, Any],
+    ) -> None:
+        event = Event(
+            at=self.clock(),
+            who=who,
+            kind=kind,
+            why=why,
+            season=season,
+            submission=None,
+            content=content,
+        )
+        record_event(connection, event)

@@ -1,0 +1,96 @@
+"""Submitters' tokens, of which the board stores only hashes."""
+
+import hashlib
+import re
+import secrets
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Final
+
+import sqlalchemy as sa
+
+from ...agents.errors import InputError
+from ..database.schema import tokens
+from .board import LOCAL, OWN, Board
+
+NAME: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.@+-]{0,63}")
+"""What a submitter may be called."""
+
+PREFIX: Final = "colift_"
+"""What a token begins with, so that one is recognised wherever it leaks to."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TokenInfo:
+    """What is known of a token; not the token."""
+
+    name: str
+    added_at: datetime
+    revoked_at: datetime | None
+
+
+@dataclass(frozen=True)
+class Tokens:
+    """The tokens of a board."""
+
+    board: Board
+
+    def add(self, name: str) -> str:
+        """Return a new token of a submitter: 256 bits of chance, shown now and never again.
+
+        Raises
+        ------
+        InputError
+            If it is no name, or has a token that was not revoked.
+        """
+        if not NAME.fullmatch(name) or name in (LOCAL, OWN):
+            raise InputError(
+                f"{name!r} must be letters, digits and _.@+-, at most 64, not {LOCAL} or {OWN}"
+            )
+        token = PREFIX + secrets.token_urlsafe(32)
+        with self.board.database.writing() as connection:
+            if connection.scalar(sa.select(tokens.c.number).where(_active(name))) is not None:
+                raise InputError(f"{name} has a token; revoke it first")
+            connection.execute(
+                sa.insert(tokens).values(
+                    name=name, sha256=_hash(token), added_at=self.board.clock()
+                )
+            )
+        return token
+
+    def revoke(self, name: str) -> None:
+        """Make a submitter's token worthless, at once.
+
+        Raises
+        ------
+        InputError
+            If there is none.
+        """
+        with self.board.database.writing() as connection:
+            done = connection.execute(
+                sa.update(tokens).where(_active(name)).values(revoked_at=self.board.clock())
+            )
+            if not done.rowcount:
+                raise InputError(f"{name!r} has no token on {self.board.folder}")
+
+    def submitter(self, token: str) -> str | None:
+        """Return whose token it is, or None if it is nobody's."""
+        valid = (tokens.c.sha256 == _hash(token)) & tokens.c.revoked_at.is_(None)
+        with self.board.database.reading() as connection:
+            name: str | None = connection.scalar(sa.select(tokens.c.name).where(valid))
+        return name
+
+    def all(self) -> tuple[TokenInfo, ...]:
+        """Return what is known of all tokens, oldest first."""
+        table = tokens.c
+        query = sa.select(table.name, table.added_at, table.revoked_at).order_by(table.number)
+        with self.board.database.reading() as connection:
+            return tuple(TokenInfo(**found) for found in connection.execute(query).mappings())
+
+
+def _active(name: str) -> sa.ColumnElement[bool]:
+    return (tokens.c.name == name) & tokens.c.revoked_at.is_(None)
+
+
+def _hash(token: str) -> str:
+    return hashlib.sha256(token.encode(errors="surrogateescape")).hexdigest()

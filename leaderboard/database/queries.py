@@ -1,0 +1,140 @@
+"""Queries that read, add and copy the records of a board."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+import sqlalchemy as sa
+
+from ..records.row import BoardRow
+from ..records.season import BoardEntry, Event, SeasonInfo
+from .schema import entries, events, hidden_errors, metadata, seasons
+
+Errors = np.ndarray[tuple[int], np.dtype[np.float64]]
+"""RMSE of each hidden episode [mm]."""
+
+
+def read_seasons(connection: sa.Connection) -> tuple[SeasonInfo, ...]:
+    """Return all seasons in the order in which they came."""
+    found = connection.execute(sa.select(seasons).order_by(seasons.c.number)).all()
+    current = next((each.name for each in reversed(found) if each.taking), None)
+    revealed = {
+        event.season: (event.content or {})["secret"]
+        for event in read_events(connection, events.c.kind == "revelation")
+    }
+    return tuple(
+        SeasonInfo(
+            name=each.name,
+            suite=each.suite,
+            suite_digest=each.suite_digest,
+            commitment=each.commitment,
+            began_at=each.began_at,
+            current=each.name == current,
+            revealed=revealed.get(each.name),
+        )
+        for each in found
+    )
+
+
+def read_entries(
+    connection: sa.Connection, *conditions: sa.ColumnElement[bool]
+) -> tuple[BoardEntry, ...]:
+    """Return the entries for which all conditions hold, in the order in which they came."""
+    columns = [column for column in entries.c if column.name != "number"]
+    query = sa.select(*columns).where(*conditions).order_by(entries.c.number)
+    return tuple(
+        BoardEntry(
+            **{**found, "row": None if found["row"] is None else BoardRow.read(found["row"])}
+        )
+        for found in connection.execute(query).mappings()
+    )
+
+
+def read_events(
+    connection: sa.Connection, *conditions: sa.ColumnElement[bool]
+) -> tuple[Event, ...]:
+    """Return the events for which all conditions hold, oldest first."""
+    columns = [column for column in events.c if column.name != "number"]
+    query = sa.select(*columns).where(*conditions).order_by(events.c.number)
+    return tuple(Event(**found) for found in connection.execute(query).mappings())
+
+
+def read_error_numbers(connection: sa.Connection, season: str) -> dict[str, int]:
+    """Return the number of the errors that count, by submission."""
+    table = hidden_errors.c
+    query = (
+        sa.select(table.submission, sa.func.max(table.number).label("number"))
+        .where(table.season == season)
+        .group_by(table.submission)
+    )
+    return {each.submission: each.number for each in connection.execute(query)}
+
+
+def read_errors(
+    connection: sa.Connection, season: str, numbers: Mapping[str, int]
+) -> dict[str, Errors]:
+    """Return the errors of those numbers, by submission."""
+    wanted = {number: submission for submission, number in numbers.items()}
+    table = hidden_errors.c
+    query = sa.select(table.number, table.rmse_mm).where(table.season == season)
+    return {
+        wanted[number]: np.frombuffer(content, ERRORS).astype(np.float64)
+        for number, content in connection.execute(query)
+        if number in wanted
+    }
+
+
+ERRORS = "<f8"
+"""How the errors of hidden episodes are kept."""
+
+
+def record_entry(connection: sa.Connection, entry: BoardEntry, rmse_mm: Sequence[float]) -> None:
+    """Add an entry, with the RMSE of its hidden episodes [mm] if it has a row."""
+    content = {**vars(entry), "row": None if entry.row is None else entry.row.plain()}
+    connection.execute(sa.insert(entries).values(**content))
+    if entry.row is not None:
+        record_errors(connection, entry.season, entry.submission, rmse_mm)
+
+
+def record_errors(
+    connection: sa.Connection, season: str, submission: str, rmse_mm: Sequence[float]
+) -> None:
+    """Add the RMSE of a submission's hidden episodes [mm]; the last ones count."""
+    content = np.asarray(rmse_mm, ERRORS).tobytes()
+    connection.execute(
+        sa.insert(hidden_errors).values(season=season, submission=submission, rmse_mm=content)
+    )
+
+
+def record_event(connection: sa.Connection, event: Event) -> None:
+    """Add what has happened."""
+    content: dict[str, Any] = dict(vars(event))
+    connection.execute(sa.insert(events).values(**content))
+
+
+ROWS: Final = 500
+"""So many are copied at a time."""
+
+
+def copy_tables(source: sa.Connection, target: sa.Connection) -> None:
+    """Copy every row of every table.
+
+    Parameters
+    ----------
+    source
+        A connection that sees one state of its database.
+    target
+        A connection to one whose tables are there and empty.
+    """
+    for table in metadata.sorted_tables:
+        found = source.execute(sa.select(table).execution_options(yield_per=ROWS)).mappings()
+        for some in found.partitions():
+            target.execute(sa.insert(table), [dict(each) for each in some])
+        if target.dialect.name == "postgresql" and "number" in table.c:
+            # Rows that come with their number leave the sequence of numbers where it was.
+            target.execute(
+                sa.text(
+                    f"SELECT setval(pg_get_serial_sequence('{table.name}', 'number'), "
+                    f"(SELECT coalesce(max(number), 0) + 1 FROM {table.name}), false)"
+                )
+            )

@@ -1,0 +1,1 @@
+"""Evaluation of a submission: public and hidden runs, budgets, failures."""

@@ -1,0 +1,149 @@
+"""Entrants of an evaluation: submissions and built-in policies, and their isolation."""
+
+import dataclasses
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from typing import Final
+
+from ...agents import control
+from ...agents.errors import EvaluatorFault, InputError
+from ...agents.loading.loading import PolicySpec
+from ...agents.registry import POLICIES, lookup, own_entries, summary
+from ...agents.sandbox.host.levels import Choice, choose, fault
+from ...agents.sandbox.host.policy import SandboxedPolicy
+from ...agents.sandbox.host.process import BUBBLEWRAP
+from ...agents.spec import AgentSpec
+from ...agents.submissions.submission import Submission
+
+LOADED: Final = f"{PolicySpec.__module__.rpartition('.')[0]}.loaded"
+"""Module of all policies; see :mod:`colift.agents.loading.loaded`."""
+
+AUTHORS: Final = ("The colift developers",)
+
+LICENCE: Final = "MIT"
+
+LEARNED: Final[Mapping[str, str]] = {
+    "anticipate": "anticipate",
+    "blend": "reactive",
+    "reactive": "reactive",
+    "task_model": "task_model",
+}
+"""Which policies use what was learned, and its file below ``agents/control/data``."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entrant:
+    """Who is evaluated."""
+
+    name: str
+    authors: tuple[str, ...]
+    description: str
+    link: str
+    licence: str
+    trained_on: str
+    digest: str
+    """Of all that was submitted."""
+    policy: AgentSpec
+    fresh: AgentSpec
+    """The same, in a fresh process for every episode, nothing loaded beforehand: for the audit."""
+
+    @classmethod
+    def of(cls, submission: Submission, level: str) -> "Entrant":
+        """Return a submission as an entrant at an isolation level."""
+        manifest, policy = submission.manifest, submission.sandboxed(level)
+        return cls(
+            name=manifest.name,
+            authors=manifest.authors,
+            description=manifest.description,
+            link=manifest.link,
+            licence=manifest.licence,
+            trained_on=manifest.trained_on,
+            digest=submission.contents.digest,
+            policy=policy,
+            fresh=dataclasses.replace(policy, preload=False),
+        )
+
+
+def builtin_names() -> tuple[str, ...]:
+    """Return the names of the project's policies."""
+    return tuple(own_entries(POLICIES))
+
+
+def builtin_entrant(name: str, level: str = BUBBLEWRAP) -> Entrant:
+    """Return one of the project's policies as an entrant at an isolation level.
+
+    Its digest is over its name, and the code and data that it uses.
+
+    Raises
+    ------
+    InputError
+        If the project has no policy of that name.
+    """
+    entries = own_entries(POLICIES)
+    if name not in entries:
+        raise InputError(f"colift has no policy {name!r} of its own; it has {', '.join(entries)}")
+    source = PolicySpec(text=name).digest()
+    policy = SandboxedPolicy(
+        name=name,
+        place=f"{LOADED}:{entries[name].attr}",
+        source_digest=source,
+        preload=True,
+        isolation=level,
+    )
+    return Entrant(
+        name=name,
+        authors=AUTHORS,
+        description=summary(lookup(POLICIES, name)),
+        link="",
+        licence=LICENCE,
+        trained_on=trained_on(name),
+        digest=hashlib.sha256(f"colift's own {name}, source {source}".encode()).hexdigest(),
+        policy=policy,
+        fresh=dataclasses.replace(policy, preload=False),
+    )
+
+
+def trained_on(name: str) -> str:
+    """Return what one of the project's policies was trained on: the command that did it."""
+    if name not in LEARNED:
+        return "nothing"
+    file = files(control).joinpath("data", f"{LEARNED[name]}.json")
+    command = json.loads(file.read_text(encoding="utf-8"))["provenance"]["command"]
+    return f"lifts that colift simulates ({command})"
+
+
+AUTO: Final = "auto"
+"""The strongest level whose results can be called verified."""
+
+
+class NoSandboxError(EvaluatorFault):
+    """No level that this board may use works here, at the moment."""
+
+
+def board_level(isolation: str) -> Choice:
+    """Return the level at which a worker runs what was submitted.
+
+    Parameters
+    ----------
+    isolation
+        :data:`AUTO`, or the name of a level: only who names ``limits`` gets it.
+
+    Raises
+    ------
+    NoSandboxError
+        If there is none; it says why.
+    InputError
+        If there is no level of that name.
+    """
+    if isolation == AUTO:
+        try:
+            return choose(verifiable=True)
+        except EvaluatorFault as error:
+            raise NoSandboxError(str(error)) from error
+    reason = fault(isolation)
+    if reason is not None:
+        raise NoSandboxError(f"isolation {isolation} does not work here: {reason}")
+    return Choice(level=isolation, passed={})

@@ -1,0 +1,239 @@
+"""Evaluation of a submission in a season: reproducible from the two alone."""
+
+import dataclasses
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Final, TypedDict
+
+from ...agents.errors import EvaluatorFault, InputError
+from ...agents.sandbox.host.levels import VERIFIABLE
+from ...agents.spec import AgentSpec
+from ...benchmark.bundle import results, write_bundle
+from ...benchmark.episode.episode import Episode
+from ...benchmark.episode.scores import SCORING
+from ...benchmark.execution.runner import Run, run_suite
+from ...benchmark.results.baselines import (
+    SPECS,
+    Reference,
+    human_team_run,
+    play_references,
+    shipped_references,
+)
+from ...benchmark.statistics import Estimate
+from ...benchmark.suites.suite import Suite, make_suite
+from ...benchmark.verification import verify
+from ...benchmark.verification.audit import audit, audited
+from ...benchmark.verification.checking import MACHINE, SUITE, check_policy
+from ..records.row import BoardRow, HiddenScores, PublicScores
+from ..records.season import Season
+from .entrant import Entrant
+from .progress import HIDDEN, Budget, Callbacks
+from .scoring import failure_lines, gap, hidden_scores, public_scores
+
+LIBRARIES: Final = ("colift", "numpy", "pybullet")
+"""Packages whose version can change a number."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class EntrantResult:
+    """What an evaluation has come to: a row, or why there is none."""
+
+    row: BoardRow | None
+    refusal: str | None
+    hidden_rmse_mm: tuple[float, ...] = dataclasses.field(default=(), repr=False)
+    """RMSE of each hidden episode, for the ranks. Never published."""
+
+
+def evaluate_entrant(
+    entrant: Entrant,
+    season: Season,
+    team: Reference,
+    bundle: Path,
+    *,
+    executor: Executor | None = None,
+    watch: Callbacks | None = None,
+    budget: Budget | None = None,
+) -> EntrantResult:
+    """Evaluate a submission: check, public run, its audit and verification, hidden run and audit.
+
+    It depends on its arguments alone and keeps nothing, so that who was interrupted may begin anew.
+
+    Parameters
+    ----------
+    entrant
+        Who is evaluated.
+    season
+        Suite and secret.
+    team
+        The human-human team on the hidden episodes; see :func:`play_team`.
+    bundle
+        Where the bundle of the public run is written.
+    executor
+        Runs the episodes; None runs all in this process.
+    watch
+        Whom to tell how far it is.
+    budget
+        What the policy may take in all.
+
+    Returns
+    -------
+    Evaluation
+        The row; or the refusal, if the audit found that episodes cannot be repeated.
+
+    Raises
+    ------
+    InputError
+        If the policy fails the check or in all public lifts, or takes more time than it may.
+    EvaluatorFault
+        If the machine failed: the submission is not to blame, and is evaluated again.
+    KeyboardInterrupt
+        After Ctrl-C: there are no partial rows.
+    """
+    watch, budget = watch or Callbacks(), budget or Budget()
+    playing: Playing = {"executor": executor, "progress": watch.progress, "keep": budget.add}
+    watch.stage("check")
+    _check(entrant, playing)
+    watch.stage("public run")
+    public = _complete(run_suite(entrant.policy, season.suite, **playing))
+    content = results(public, _references(season, executor, watch))
+    write_bundle(bundle, public, content)
+    if all(episode.failure is not None for episode in public.episodes):
+        reasons = "; ".join(failure_lines(public.episodes)[:3])
+        raise InputError(f"it fails in every public lift: {reasons}")
+    watch.stage("audit")
+    finding = audit(entrant.fresh, public, season.secret, **playing)
+    if finding is not None:
+        return EntrantResult(row=None, refusal=finding.told(public))
+    watch.stage("verification")
+    _verify(bundle, executor, watch)
+    watch.stage(HIDDEN)
+    hidden = _complete(run_suite(entrant.policy, season.hidden, secret=season.secret, **playing))
+    finding = audit(entrant.fresh, hidden, season.secret, **playing)
+    if finding is not None:
+        return EntrantResult(
+            row=None, refusal=f"played again, a hidden episode differs: {finding.reason}"
+        )
+    return EntrantResult(
+        row=_row(
+            entrant,
+            season,
+            public_scores(content),
+            hidden_scores(hidden, team),
+            gap(hidden, public),
+        ),
+        refusal=None,
+        hidden_rmse_mm=tuple(episode.scores.rmse_mm for episode in hidden.episodes),
+    )
+
+
+class Playing(TypedDict):
+    """How episodes of an entrant are played; see :func:`.run_suite`."""
+
+    executor: Executor | None
+    progress: Callable[[int], None]
+    keep: Callable[[int, Episode], None]
+
+
+def _check(entrant: Entrant, playing: Playing) -> None:
+    """Check a policy as ``colift check`` does, with the same code.
+
+    Raises
+    ------
+    InputError
+        If it fails.
+    """
+
+    def play(policy: AgentSpec, suite: Suite) -> Run:
+        if policy is entrant.policy:
+            return _complete(run_suite(policy, suite, **playing))
+        return _complete(run_suite(policy, suite, executor=playing["executor"]))
+
+    for check in check_policy(entrant.policy, entrant.fresh, play):
+        if check.name == MACHINE:
+            raise EvaluatorFault(check.told)
+        if not check.ok:
+            raise InputError(f"the check of its {check.name} failed: {check.told}")
+
+
+def episode_count(season: Season) -> int:
+    """Return how many episodes :func:`evaluate` counts, if nothing is refused."""
+    size = season.suite.size
+    played = 0 if shipped_references(season.suite) else len(SPECS) * size
+    return make_suite(SUITE).size + 2 * (size + audited(size)) + played + size
+
+
+def play_team(
+    season: Season, *, executor: Executor | None = None, watch: Callbacks | None = None
+) -> Reference:
+    """Return the human-human team on a season's hidden episodes: once a season.
+
+    Raises
+    ------
+    EvaluatorFault, KeyboardInterrupt
+        As :func:`evaluate`.
+    """
+    watch = watch or Callbacks()
+    watch.stage("human-human team")
+    run = human_team_run(season.hidden, executor=executor, progress=watch.progress)
+    return Reference.of(_complete(run))
+
+
+def _references(
+    season: Season, executor: Executor | None, watch: Callbacks
+) -> dict[str, Reference]:
+    """Return the references on the public episodes."""
+    shipped = shipped_references(season.suite)
+    if shipped is not None:
+        return shipped
+    played = play_references(season.suite, executor=executor, progress=watch.progress)
+    if len(played) < len(SPECS):
+        raise KeyboardInterrupt
+    return played
+
+
+def _complete(run: Run) -> Run:
+    if not run.complete:
+        raise KeyboardInterrupt
+    return run
+
+
+def _verify(bundle: Path, executor: Executor | None, watch: Callbacks) -> None:
+    """Replay the bundle. We have just written it: if that fails, it is this machine."""
+    verdict = verify(bundle, executor=executor, progress=watch.progress)
+    if not verdict.ok:
+        told = "; ".join(map(str, verdict.findings[:3]))
+        raise EvaluatorFault(f"the public run is not repeated by its replay: {told}")
+
+
+def _row(
+    entrant: Entrant, season: Season, public: PublicScores, hidden: HiddenScores, gap_mm: Estimate
+) -> BoardRow:
+    isolation = entrant.policy.isolation
+    return BoardRow(
+        season=season.name,
+        commitment=season.commitment,
+        suite=season.suite.name,
+        suite_digest=season.suite.digest,
+        name=entrant.name,
+        authors=entrant.authors,
+        description=entrant.description,
+        link=entrant.link,
+        licence=entrant.licence,
+        trained_on=entrant.trained_on,
+        submission=entrant.digest,
+        public=public,
+        hidden=hidden,
+        gap_mm=gap_mm,
+        isolation=isolation,
+        verified=isolation in VERIFIABLE,
+        scoring=SCORING,
+        versions=versions(),
+    )
+
+
+def versions() -> dict[str, str]:
+    """Return the versions of the packages that can change a number."""
+    return {name: version(name) for name in LIBRARIES}

@@ -1,0 +1,117 @@
+"""Scores of a row, and the failures listed in a log."""
+
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+from ...benchmark.bundle.content import real_time
+from ...benchmark.episode.episode import Episode
+from ...benchmark.execution.runner import Run
+from ...benchmark.results.baselines import Reference
+from ...benchmark.results.summary import cell, summarise
+from ...benchmark.statistics import Estimate, difference_of_means, probability_better
+from ..records.row import HiddenScores, PublicScores
+
+PLACES: Final = 2
+"""Decimals of what is told of hidden episodes: 0.01 mm, well within any interval."""
+
+
+def public_scores(results: Mapping[str, Any]) -> PublicScores:
+    """Return what a row says of the public run.
+
+    Parameters
+    ----------
+    results
+        The content of its bundle's ``results.json``, the human-human team among the references.
+    """
+    summary = results["summary"]
+    return PublicScores(
+        episodes=summary["episodes"],
+        failed=summary["failed"],
+        rmse_mm=_estimate(summary["rmse_mm"]),
+        vs_human=_estimate(summary["vs_human"]),
+        sparc=summary["sparc"]["mean"],
+        sparc_missing=summary["sparc"]["missing"],
+        human_force_n=summary["human_force_n"]["mean"],
+        step_ms_p50=summary["step_ms"]["p50"],
+        step_ms_p99=summary["step_ms"]["p99"],
+        real_time=summary["real_time"],
+    )
+
+
+def hidden_scores(run: Run, team: Reference) -> HiddenScores:
+    """Return what a row says of the hidden run.
+
+    Parameters
+    ----------
+    run
+        The policy's complete run.
+    team
+        The human-human team on the same episodes.
+    """
+    summary = summarise(run.episodes, team.rmse_mm)
+    failure_lines = _failures(run)
+    sure = probability_better(_rmse(run), team.rmse_mm, team.cells)
+    return HiddenScores(
+        episodes=summary["episodes"],
+        failed=summary["failed"],
+        failures=dict(sorted(failure_lines.items())),
+        rmse_mm=_estimate(summary["rmse_mm"]).rounded(PLACES),
+        vs_human=_estimate(summary["vs_human"]).rounded(PLACES),
+        real_time=real_time(summary["step_ms"]["p99"], run.suite),
+        better_than_human=round(sure, PLACES),
+    )
+
+
+def gap(hidden: Run, public: Run) -> Estimate:
+    """Return by how much the mean RMSE of the hidden run is above the public one's [mm]."""
+    a, b = _rmse(hidden), _rmse(public)
+    cells_a, cells_b = ([cell(episode) for episode in run.episodes] for run in (hidden, public))
+    return difference_of_means(a, cells_a, b, cells_b).rounded(PLACES)
+
+
+def _rmse(run: Run) -> list[float]:
+    return [episode.scores.rmse_mm for episode in run.episodes]
+
+
+def _failures(run: Run) -> Counter[str]:
+    """Count the failed episodes by where they failed; see :attr:`.HiddenScores.failure_lines`."""
+    reasons = [episode.failure for episode in run.episodes if episode.failure is not None]
+    words = (reason.partition(" ")[0].rstrip(":") for reason in reasons)
+    return Counter(word if word in ("start", "step") else "table" for word in words)
+
+
+def _estimate(content: Mapping[str, Any]) -> Estimate:
+    low, high = content["ci95"]
+    return Estimate(mean=content["mean"], ci95=(low, high))
+
+
+MOST: Final = 20
+"""Different errors that are told."""
+
+_STEP: Final = re.compile(r"(step \d+): (.*)", re.DOTALL)
+
+
+def failure_lines(episodes: Sequence[Episode]) -> list[str]:
+    """Return a line for each error, with the lift where it came first, the most frequent first.
+
+    Parameters
+    ----------
+    episodes
+        Lifts that may be told of.
+    """
+    where: dict[str, list[str]] = {}
+    for episode in episodes:
+        if episode.failure is not None:
+            place = f"{episode.behaviour}/{episode.subject} seed {episode.seed}"
+            match = _STEP.fullmatch(episode.failure)
+            reason = match[2] if match else episode.failure
+            where.setdefault(reason, []).append(f"{place}, {match[1]}" if match else place)
+    ordered = sorted(where.items(), key=lambda each: -len(each[1]))
+    lines = [
+        f"{len(places)} {'lift' if len(places) == 1 else 'lifts'}: {reason} (first: {places[0]})"
+        for reason, places in ordered[:MOST]
+    ]
+    left = len(ordered) - MOST
+    return [*lines, f"and {left} other errors"] if left > 0 else lines

@@ -1,0 +1,1 @@
+"""The practice season that is shipped with colift."""

@@ -1,0 +1,203 @@
+"""Practice seasons as files, and boards that start with them.
+
+``practice-SUITE.json`` has secret, rows and errors; ``practice-SUITE.zip`` has a folder for each
+policy, with the parts of its public run that pages show.
+"""
+
+import dataclasses
+import io
+import json
+import os
+import tempfile
+import zipfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any, Final, Self
+
+from ...benchmark.results.baselines import Reference
+from ...benchmark.suites.suite import make_suite
+from ..board.board import SUITE, Board
+from ..board.seasons import ImportedEntry, ImportedSeason
+from ..records.season import BoardEntry, SeasonInfo
+from .practice import SUITES, Played, practice_season
+
+FORMAT: Final = 1
+
+DATA: Final = Path(__file__).parents[1] / "data"
+"""Where what is shipped lies."""
+
+_DATE: Final = (1980, 1, 1, 0, 0, 0)
+"""Of all files in the archive, so that equal files make equal archives."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shipped:
+    """A practice season with its rows."""
+
+    suite: str
+    suite_digest: str
+    began_at: datetime
+    team: Reference
+    """The human-human team on the hidden episodes."""
+    played: tuple[Played, ...]
+    """In the order of their names."""
+
+    @classmethod
+    def read(cls, suite: str, folder: Path = DATA) -> Self | None:
+        """Return what is shipped for a suite, or None if there is nothing."""
+        path, archive = _files(folder, suite)
+        if not (path.is_file() and archive.is_file()):
+            return None
+        content: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        if content["format"] != FORMAT:
+            return None
+        with zipfile.ZipFile(archive) as packed:
+            played = tuple(_played(each, packed) for each in content["played"])
+        return cls(
+            suite=content["suite"],
+            suite_digest=content["suite_digest"],
+            began_at=datetime.fromisoformat(content["began_at"]),
+            team=Reference.read(content["team"]),
+            played=played,
+        )
+
+    def write(self, folder: Path) -> None:
+        """Write the two files; the archive first, so that the other never names what is missing."""
+        path, archive = _files(folder, self.suite)
+        content = {
+            "format": FORMAT,
+            "suite": self.suite,
+            "suite_digest": self.suite_digest,
+            "secret": practice_season(self.suite).secret.hex(),
+            "began_at": self.began_at.isoformat(),
+            "team": self.team.plain(),
+            "played": [
+                {"entry": each.entry.plain(), "hidden_rmse_mm": list(each.hidden_rmse_mm)}
+                for each in self.played
+            ],
+        }
+        text = json.dumps(content, separators=(",", ":"), allow_nan=False).encode()
+        for target, data in ((archive, self._archive()), (path, text + b"\n")):
+            partial = target.with_name(f".{target.name}.partial")
+            partial.write_bytes(data)
+            partial.replace(target)
+
+    def with_played(self, new: Played) -> Self:
+        """Return the same with a policy's evaluation added, or in the place of an older one."""
+        others = [each for each in self.played if each.entry.name != new.entry.name]
+        played = sorted([*others, new], key=lambda each: each.entry.name)
+        return dataclasses.replace(self, played=tuple(played))
+
+    def _archive(self) -> bytes:
+        buffer = io.BytesIO()
+        with zipfile.ZipFile(buffer, "w") as packed:
+            for each in self.played:
+                for name, data in sorted(each.files.items()):
+                    file = zipfile.ZipInfo(f"{each.entry.name}/{name}", _DATE)
+                    packed.writestr(file, data, zipfile.ZIP_DEFLATED, 9)
+        return buffer.getvalue()
+
+
+@contextmanager
+def shipped_practice(
+    suite: str, folder: Path = DATA, *, current: bool = True
+) -> Iterator[ImportedSeason | None]:
+    """Yield the practice season of a suite for a board to adopt; its files are there meanwhile.
+
+    It is None if nothing is shipped for this suite, or what is shipped is of other rules.
+
+    Parameters
+    ----------
+    suite
+        The suite's name.
+    folder
+        Where the files are.
+    current
+        Whether it takes submissions.
+    """
+    found = Shipped.read(suite, folder)
+    if found is None or found.suite_digest != make_suite(suite).digest:
+        yield None
+        return
+    season = practice_season(suite)
+    with tempfile.TemporaryDirectory(prefix="colift-") as temporary:
+        entries = []
+        for each in found.played:
+            bundle = Path(temporary, each.entry.submission)
+            bundle.mkdir()
+            for name, data in each.files.items():
+                (bundle / name).write_bytes(data)
+            entries.append(
+                ImportedEntry(entry=each.entry, hidden_rmse_mm=each.hidden_rmse_mm, bundle=bundle)
+            )
+        info = SeasonInfo(
+            name=season.name,
+            suite=season.suite.name,
+            suite_digest=season.suite.digest,
+            commitment=season.commitment,
+            began_at=found.began_at,
+            current=current,
+            revealed=season.secret.hex(),
+        )
+        yield ImportedSeason(info=info, entries=entries, team=found.team)
+
+
+def _played(content: dict[str, Any], packed: zipfile.ZipFile) -> Played:
+    entry = BoardEntry.read(content["entry"])
+    prefix = f"{entry.name}/"
+    names = [name for name in packed.namelist() if name.startswith(prefix)]
+    return Played(
+        entry=entry,
+        hidden_rmse_mm=tuple(content["hidden_rmse_mm"]),
+        files={name.removeprefix(prefix): packed.read(name) for name in names},
+    )
+
+
+def _files(folder: Path, suite: str) -> tuple[Path, Path]:
+    return folder / f"practice-{suite}.json", folder / f"practice-{suite}.zip"
+
+
+def open_stocked(folder: Path, suite: str | None = None, data: Path = DATA) -> Board:
+    """Return the board in a folder; a new one begins with the season that the project ships.
+
+    The practice seasons of other suites stand beside it, to be looked at.
+
+    Parameters
+    ----------
+    folder, suite
+        As for :meth:`.Board.open`.
+    data
+        Where what is shipped lies.
+
+    Raises
+    ------
+    InputError
+        As :meth:`.Board.open`.
+    """
+    if folder.is_dir() and any(folder.iterdir()):
+        return Board.open(folder, suite)
+    wanted = suite or SUITE
+    with shipped_practice(wanted, data) as practice:
+        board = Board.open(folder, suite, practice=practice)
+    for other in SUITES:
+        if practice is not None and other != wanted:
+            with shipped_practice(other, data, current=False) as shown:
+                if shown is not None:
+                    board.adopt(shown)
+    return board
+
+
+def open_to_read(folder: Path) -> Board:
+    """Return the board in a folder to be looked at, also if the folder cannot be written.
+
+    Raises
+    ------
+    InputError
+        As :meth:`.Board.open`.
+    """
+    if (folder / "board.json").is_file() and not os.access(folder, os.W_OK):
+        return Board.look(folder)
+    return open_stocked(folder)

@@ -1,0 +1,266 @@
+"""Worker of a queue: evaluation of submissions into rows."""
+
+import contextlib
+import logging
+import time
+import traceback
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Final
+
+import sqlalchemy as sa
+
+from ...agents.errors import EvaluatorFault, InputError, told
+from ...benchmark.bundle import read_bundle
+from ...benchmark.execution.runner import placed
+from ..board.board import LOCAL, OWN, Board
+from ..evaluation.entrant import AUTO, Entrant, NoSandboxError, board_level, builtin_entrant
+from ..evaluation.evaluation import EntrantResult, episode_count, evaluate_entrant, play_team
+from ..evaluation.progress import HIDDEN, BudgetError, Callbacks, HiddenRunTimer, Stage
+from ..evaluation.scoring import failure_lines
+from ..records.job import Job
+from ..records.row import BoardRow
+from ..records.season import BoardEntry
+from . import LostError, Queue, WorkerQueue
+from .heartbeat import Heartbeat
+from .jobs import this_worker
+
+log: Final = logging.getLogger("colift.worker")
+
+IDLE_S: Final = 1.0
+"""Time between two looks into an empty queue [s]."""
+
+DETAILS: Final = "the details are for the maintainer of the board"
+"""What is told of a fault when the policy has met hidden lifts."""
+
+
+@dataclass(frozen=True)
+class Worker:
+    """A worker of a board's queue."""
+
+    work: WorkerQueue
+    executor: Executor | None = None
+    """Runs the episodes; None runs all in this process."""
+    name: str = field(default_factory=this_worker)
+    isolation: str = AUTO
+    """What keeps policies apart; see :func:`.board_level`."""
+
+    def run(
+        self,
+        stop: Callable[[], bool] = lambda: False,
+        ended: Callable[[Job], None] = lambda j: None,
+    ) -> None:
+        """Work until it is told to stop.
+
+        Parameters
+        ----------
+        stop
+            Asked before each job.
+        ended
+            Called with every job that was worked on.
+        """
+        while not stop():
+            try:
+                job = self.once()
+            except sa.exc.OperationalError:
+                job = None  # The database is away, or its disk is full; that may end.
+            if job is None:
+                time.sleep(IDLE_S)
+            else:
+                ended(job)
+
+    def once(self, job: str | None = None, watch: Callbacks | None = None) -> Job | None:
+        """Return the job that was worked on, as it is now; None if nothing waits.
+
+        Parameters
+        ----------
+        job
+            Id of the only one that is wanted.
+        watch
+            Whom else to tell how far it is.
+
+        Raises
+        ------
+        KeyboardInterrupt
+            After Ctrl-C; the job is queued again.
+        """
+        claimed = self.work.claim(self.name, job)
+        if claimed is None:
+            return None
+        try:
+            self._work(claimed, watch or Callbacks())
+        except LostError as lost:
+            self._log(claimed, str(lost))
+        now = Queue(self._board).job(claimed.id)
+        if now is not None and now.state == "done":
+            self._board.standings(now.season)  # So that no reader waits for the ranks.
+        return now
+
+    def rescore(
+        self, season: str, digest: str, who: str, why: str, watch: Callbacks | None = None
+    ) -> BoardRow:
+        """Evaluate a row's submission again, replace its bundle and return the new row.
+
+        The entry stays as it was; the row that counts is that of the last rescore.
+
+        Parameters
+        ----------
+        season, digest
+            The row.
+        who, why
+            Who decided it, and the reason, for everybody to read.
+        watch
+            Progress callbacks.
+
+        Raises
+        ------
+        InputError
+            If there is no such row, or the policy fails or is refused now: the row stays.
+        EvaluatorFault
+            If this machine failed.
+        """
+        entry = self._board.entry(season, digest)
+        if entry is None or entry.row is None:
+            raise InputError(f"season {season} has no row of submission {digest}")
+        with self._board.store.workspace(f"rescore-{digest[:16]}", 1) as files:
+            made = files / "bundle"
+            _, result = self._evaluate(entry, made, watch or Callbacks())
+            if result.row is None:
+                raise InputError(
+                    f"{entry.name} keeps its row, but is refused now: {result.refusal}"
+                )
+            self._board.rescore(season, result.row, result.hidden_rmse_mm, who, why)
+            self._board.store.place_bundle(season, digest, made)
+        return result.row
+
+    def _work(self, job: Job, watch: Callbacks) -> None:
+        """Take a job to its end, whatever that is."""
+        self._log(job, f"attempt {job.attempt}")
+        pulse = Heartbeat(self.work, job, self._logged(job, watch))
+        try:
+            with self._board.store.workspace(job.id, job.attempt) as files:
+                with pulse:
+                    entry, evaluation = self._evaluate(job, files / "bundle", pulse.watch())
+                self._log(job, *_failures(files / "bundle"))
+                self.work.finish(job, entry, evaluation.hidden_rmse_mm, files / "bundle")
+            self._log(job, "done" if entry.refusal is None else f"refused: {entry.refusal}")
+        except LostError:
+            raise
+        except KeyboardInterrupt:
+            self._log(job, "interrupted; queued again")
+            with contextlib.suppress(sa.exc.DBAPIError):  # Without it, its lease ends.
+                self.work.release(job)
+            raise
+        except NoSandboxError as error:
+            self._log(job, f"evaluator fault, not the policy's: {error}")
+            self.work.postpone(job, str(error))
+        except InputError as error:
+            self._failed(job, pulse.stage, error)
+        except Exception as error:
+            self._faulty(job, pulse.stage, error)
+
+    def _evaluate(
+        self, job: Job | BoardEntry, bundle: Path, watch: Callbacks
+    ) -> tuple[BoardEntry, EntrantResult]:
+        level = board_level(self.isolation).level
+        try:
+            entrant = self._entrant(job, level)
+            policy, fresh = (placed(p, self.executor) for p in (entrant.policy, entrant.fresh))
+            entrant = replace(entrant, policy=policy, fresh=fresh)
+            season = self._board.season_of(job.season)
+        except InputError as error:
+            raise EvaluatorFault(str(error)) from error  # It was good when it was submitted.
+        vault = self._board.store.vault(job.season)
+        watch.total(episode_count(season) + (0 if vault.known_team() else season.suite.size))
+        team = vault.team(lambda: play_team(season, executor=self.executor, watch=watch))
+        # Who writes to the folder has the secret, too: nothing has to be kept from them.
+        hold = HiddenRunTimer(0 if job.submitter in (LOCAL, OWN) else season.hidden.size)
+        watch = replace(watch, stage=_both(hold.stage, watch.stage))
+        try:
+            evaluation = evaluate_entrant(
+                entrant, season, team, bundle, executor=self.executor, watch=watch
+            )
+        except LostError:
+            raise
+        except Exception:
+            hold.wait()
+            raise
+        hold.wait()
+        entry = BoardEntry(
+            season=job.season,
+            submission=job.submission,
+            name=job.name,
+            submitter=job.submitter,
+            at=self._board.clock(),
+            row=evaluation.row,
+            refusal=evaluation.refusal,
+        )
+        return entry, evaluation
+
+    def _entrant(self, job: Job | BoardEntry, level: str) -> Entrant:
+        """Return who is evaluated: what was submitted, or a policy of the project's own."""
+        if job.submitter != OWN:
+            return Entrant.of(self._board.store.submission(job.submission), level)
+        own = builtin_entrant(job.name, level)
+        if own.digest != job.submission:
+            raise InputError(f"colift's own {job.name} is not the one that was queued")
+        return own
+
+    def _failed(self, job: Job, stage: Stage | None, error: InputError) -> None:
+        """End a job whose policy is to blame."""
+        told = stage != HIDDEN or isinstance(error, BudgetError)
+        reason = str(error) if told else "it cannot be loaded for the hidden lifts"
+        self._log(job, f"failed: {reason}")
+        self.work.fail(job, reason)
+
+    def _faulty(self, job: Job, stage: Stage | None, error: Exception) -> None:
+        """Queue a job again that this machine has failed."""
+        trace = "".join(traceback.format_exception(error))
+        try:
+            self._board.store.add_to_private_log(job.season, job.id, trace)
+        except OSError as refused:
+            log.error("job %s: %s; its log cannot be written: %s", job.id, told(error), refused)
+        reason = DETAILS if stage == HIDDEN else told(error)
+        reason = f"in {stage or 'the beginning'}: {reason}"
+        self._log(job, f"evaluator fault, not the policy's, {reason}")
+        self.work.fault(job, reason)
+
+    def _logged(self, job: Job, watch: Callbacks) -> Callbacks:
+        """Return who is told of the stages, and writes them down."""
+
+        def stage(name: Stage) -> None:
+            self._log(job, name)
+            watch.stage(name)
+
+        return replace(watch, stage=stage)
+
+    def _log(self, job: Job, *lines: str) -> None:
+        now = f"{self._board.clock():%Y-%m-%d %H:%M:%S}"
+        for line in lines:
+            try:
+                self._board.store.add_to_log(job.id, f"{now} {line}")
+            except OSError as refused:  # A full disk, most likely: that is no end of the work.
+                log.error("job %s: %s; its log cannot be written: %s", job.id, line, refused)
+
+    @property
+    def _board(self) -> Board:
+        return self.work.board
+
+
+def _failures(bundle: Path) -> list[str]:
+    """Return what a log says of the public episodes that failed."""
+    episodes = read_bundle(bundle).run().episodes
+    failed = sum(episode.failure is not None for episode in episodes)
+    return [f"{failed} of {len(episodes)} public lifts failed", *failure_lines(episodes)]
+
+
+def _both(*tell: Callable[[Stage], None]) -> Callable[[Stage], None]:
+    """Return what tells several of a stage, in their order."""
+
+    def each(stage: Stage) -> None:
+        for one in tell:
+            one(stage)
+
+    return each

@@ -1,0 +1,1 @@
+"""Records of a board: rows, entries, events, jobs and seasons."""

@@ -1,0 +1,119 @@
+"""Seasons, their entries and their events."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from datetime import datetime
+from typing import Any, Literal, Self
+
+from ...benchmark.suites.hidden import commitment, hidden_suite
+from ...benchmark.suites.suite import Suite
+from .row import BoardRow
+
+
+@dataclass(frozen=True, kw_only=True)
+class Season:
+    """What every submission of a season is evaluated on."""
+
+    name: str
+    suite: Suite
+    """The public episodes."""
+    secret: bytes = field(repr=False)
+    """What the hidden episodes follow from."""
+
+    @property
+    def commitment(self) -> str:
+        """What is published of the secret; see :func:`.commitment`."""
+        return commitment(self.secret)
+
+    @property
+    def hidden(self) -> Suite:
+        """The hidden episodes; see :func:`.hidden_suite`."""
+        return hidden_suite(self.suite, self.secret)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SeasonInfo:
+    """What is published of a season."""
+
+    name: str
+    suite: str
+    suite_digest: str
+    commitment: str
+    """SHA-256 of the secret."""
+    began_at: datetime
+    current: bool
+    """Whether it takes submissions; all others are frozen."""
+    revealed: str | None
+    """The secret, 64 hexadecimal digits, if it has been published: anybody can then play the
+    hidden episodes, and check the commitment."""
+
+
+Kind = Literal[
+    "season",
+    "revelation",
+    "withdrawal",
+    "removal",
+    "reinstatement",
+    "rescore",
+    "retry",
+    "cancellation",
+]
+"""A season began or its secret was published; a submission was withdrawn by who made it, removed
+by who keeps the board, taken back into the ranking, scored anew, queued again, or
+taken out of the queue."""
+
+OUT: tuple[Kind, ...] = ("withdrawal", "removal")
+"""After these a row is in no ranking, until a reinstatement."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Event:
+    """Something that was done to a season, or to a submission in it."""
+
+    at: datetime
+    who: str
+    kind: Kind
+    why: str
+    season: str
+    submission: str | None
+    content: Mapping[str, Any] | None
+    """What belongs to it: a revealed ``secret``, a new ``row``."""
+
+    def plain(self) -> dict[str, Any]:
+        """Return the event as JSON has it."""
+        return {**vars(self), "at": self.at.isoformat()}
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoardEntry:
+    """An evaluated submission: its row, or why it has none."""
+
+    season: str
+    submission: str
+    """Digest of its content."""
+    name: str
+    """What its policy is called."""
+    submitter: str
+    """Who put it on the board: the name of a token, or ``local``."""
+    at: datetime
+    row: BoardRow | None
+    refusal: str | None
+
+    def plain(self) -> dict[str, Any]:
+        """Return the entry as JSON has it."""
+        return {
+            "season": self.season,
+            "submission": self.submission,
+            "name": self.name,
+            "submitter": self.submitter,
+            "at": self.at.isoformat(),
+            "row": None if self.row is None else self.row.plain(),
+            "refusal": self.refusal,
+        }
+
+    @classmethod
+    def read(cls, content: Mapping[str, Any]) -> Self:
+        """Return the entry that :meth:`plain` has written."""
+        row = None if content["row"] is None else BoardRow.read(content["row"])
+        at = datetime.fromisoformat(content["at"])
+        return cls(**{**content, "row": row, "at": at})

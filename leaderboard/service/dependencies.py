@@ -1,0 +1,118 @@
+"""Parameters that routes share: the service's state and parts of a request."""
+
+import asyncio
+from dataclasses import dataclass, field
+from typing import Annotated, Any, Final
+
+from fastapi import Depends, Path, Query, Request
+
+from ..board.board import Board
+from ..board.tokens import Tokens
+from ..queue import Queue
+from .errors import Problem
+from .security import Rate, RateLimit
+from .slots import Slots
+
+PATIENCE_S: Final = 20.0
+"""How long an upload or download waits for its turn [s]."""
+
+UNPACKING: Final = 4
+"""Uploads that are unpacked at the same time: it bounds what they take on the disk."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rates:
+    """How often one client may ask."""
+
+    address: Rate = field(default_factory=lambda: Rate(per_second=50.0, burst=500))
+    """Of requests from an address."""
+    submitter: Rate = field(default_factory=lambda: Rate(per_second=0.1, burst=20))
+    """Of uploads by a submitter."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class State:
+    """The state of a service."""
+
+    board: Board
+    queue: Queue
+    tokens: Tokens
+    uploads: RateLimit
+    """By submitter."""
+    contact: str = ""
+    """How the maintainer is reached."""
+    receiving: Slots = field(
+        default_factory=lambda: Slots(what="uploads", each=2, total=32, patience_s=PATIENCE_S)
+    )
+    """For uploads, by submitter."""
+    unpacking: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(UNPACKING))
+    sending: Slots = field(
+        default_factory=lambda: Slots(what="downloads", each=4, total=64, patience_s=PATIENCE_S)
+    )
+    """For bundles, by address."""
+    packing: asyncio.Lock = field(default_factory=asyncio.Lock)
+    """Held while a bundle is packed."""
+    streams: Slots = field(
+        default_factory=lambda: Slots(what="streams", each=100, total=100, patience_s=0.0)
+    )
+    """For news of jobs, by address."""
+
+
+def service_state(request: Request) -> State:
+    """Return the state of the service that a request has come to."""
+    state: State = request.app.state.service
+    return state
+
+
+Service = Annotated[State, Depends(service_state)]
+"""The type of a route's parameter."""
+
+
+PREFIX: Final = "/api/v1"
+
+SeasonName = Annotated[
+    str, Path(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,39}$", description="Name of a season.")
+]
+Digest = Annotated[
+    str, Path(pattern="^[0-9a-f]{64}$", description="Digest of a submission's content.")
+]
+JobId = Annotated[str, Path(pattern="^[0-9a-f]{32}$", description="A job.")]
+SeasonAsked = Annotated[
+    str | None,
+    Query(
+        pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,39}$",
+        description="Name of a season; by default the one that takes submissions.",
+    ),
+]
+_WORD: Final = r"^[A-Za-z0-9_-]{1,40}$"
+BehaviourAsked = Annotated[
+    str | None,
+    Query(
+        pattern=_WORD,
+        description="A way to lift, such as `jerky`: each row also tells its public lifts of that "
+        "behaviour, subject by subject.",
+    ),
+]
+SubjectAsked = Annotated[
+    str | None,
+    Query(
+        pattern=_WORD,
+        description="A person, such as `S1`: each row also tells its public lifts with them, "
+        "behaviour by behaviour.",
+    ),
+]
+
+BINARY: Final = {"type": "string", "format": "binary"}
+
+MISSING: Final[dict[int | str, dict[str, Any]]] = {
+    404: {"model": Problem, "description": "It is not there."}
+}
+
+UNKNOWN: Final[dict[int | str, dict[str, Any]]] = {
+    401: {"model": Problem, "description": "There is no token, or it does not count."}
+}
+
+
+def api_root(request: Request) -> str:
+    """Return where the API is, as the client sees it: a proxy may have put it below a path."""
+    return f"{request.scope.get('root_path', '').rstrip('/')}{PREFIX}"

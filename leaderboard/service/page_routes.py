@@ -1,0 +1,231 @@
+"""The pages of the service; they need no login."""
+
+import contextlib
+from typing import Annotated, Any, Final
+
+from fastapi import APIRouter, Path, Query, Request
+from fastapi.responses import HTMLResponse, Response
+
+from ...agents.errors import InputError
+from ..pages.formats import badge_text as told_by_badge
+from ..pages.links import ServiceLinks
+from ..pages.rendering import prose, render_page, template_archive
+from ..replays.chosen import has_replays, replays_of
+from ..replays.html import KEYS, SCRIPTS, replay_data, replay_files, replay_page
+from ..views.board import board_view, find_season, ordered_seasons
+from ..views.compare import compare_view
+from ..views.exports import news_of
+from ..views.job import STAGES, job_view, open_jobs
+from ..views.method import method_view
+from ..views.policy import PolicyView, policy_view
+from ..views.scenario import scenario_view, scenarios_view
+from .dependencies import Service, State
+from .published import rules_of
+
+SUBMISSIONS: Final = "/api/v1/submissions"
+JOBS: Final = "/api/v1/jobs"
+MINE: Final = "/api/v1/me/submissions"
+
+SeasonName = Annotated[str, Path(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,39}$")]
+Digest = Annotated[str, Path(pattern="^[0-9a-f]{64}$")]
+Chosen = Annotated[list[str] | None, Query(max_length=20)]
+
+router: Final = APIRouter(include_in_schema=False, default_response_class=HTMLResponse)
+
+
+@router.get("/")
+def front(service: Service, request: Request) -> HTMLResponse:
+    """Show the board of the current season."""
+    return _board(service, request, None)
+
+
+@router.get("/seasons/{season}")
+def season_board(service: Service, request: Request, season: SeasonName) -> HTMLResponse:
+    """Show the board of a season."""
+    return _board(service, request, season)
+
+
+@router.get("/seasons/{season}/policies/{digest}")
+def policy(service: Service, request: Request, season: SeasonName, digest: Digest) -> HTMLResponse:
+    """Show a submission."""
+    view = policy_view(service.board, season, digest)
+    if view is None:
+        return _missing(service, request, f"Season {season} has no submission {digest[:16]}.")
+    if not isinstance(view, PolicyView):
+        return _page(request, "refusal.html", view=view)
+    bundle = service.board.bundle(season, digest)
+    replays = bundle is not None and has_replays(bundle)
+    return _page(request, "policy.html", view=view, has_replays=replays)
+
+
+@router.get("/seasons/{season}/policies/{digest}/badge.svg", response_class=Response)
+def badge_svg(service: Service, request: Request, season: SeasonName, digest: Digest) -> Response:
+    """Send the badge of a row, for pages elsewhere."""
+    found = [s for s in service.board.standings(season) if s.row.submission == digest]
+    if not found:
+        return _missing(service, request, f"Season {season} has no row {digest[:16]}.")
+    svg = render_page("badge.svg", _links(request), told=told_by_badge(found[0]))
+    headers = {"Cross-Origin-Resource-Policy": "cross-origin", "Cache-Control": "max-age=300"}
+    return Response(svg, media_type="image/svg+xml", headers=headers)
+
+
+@router.get("/seasons/{season}/feed.atom", response_class=Response)
+def feed(service: Service, request: Request, season: SeasonName) -> Response:
+    """Send the rows of a season, newest first."""
+    news = news_of(service.board, season)
+    if news is None:
+        return _missing(service, request, f"There is no season {season}.")
+    text = render_page("feed.xml", _links(request), news=news, prefix=_origin(request))
+    return Response(text, media_type="application/atom+xml")
+
+
+@router.get("/seasons/{season}/policies/{digest}/replays")
+def replays(service: Service, request: Request, season: SeasonName, digest: Digest) -> HTMLResponse:
+    """Show lifts of a submission."""
+    info = find_season(ordered_seasons(service.board), season)
+    entry = service.board.entry(season, digest)
+    found = _replays(service, season, digest)
+    if info is None or entry is None or not found:
+        return _missing(service, request, "There are no replays of this submission.")
+    return _page(
+        request,
+        "replays.html",
+        season=info,
+        digest=digest,
+        name=entry.name,
+        replays=replay_data(found),
+        files=replay_files(found),
+        scripts=SCRIPTS,
+        keys=KEYS,
+    )
+
+
+@router.get("/seasons/{season}/policies/{digest}/replays/{name}.html")
+def replay_file(
+    service: Service, request: Request, season: SeasonName, digest: Digest, name: str
+) -> HTMLResponse:
+    """Send one lift of a submission as a file that needs nothing else."""
+    found = replay_files(_replays(service, season, digest))
+    if name not in found:
+        return _missing(service, request, "There is no such replay.")
+    told = f'attachment; filename="{digest[:16]}-{name}.html"'
+    page = replay_page([found[name]])
+    return HTMLResponse(page, headers={"Content-Disposition": told})
+
+
+@router.get("/seasons/{season}/compare")
+def compare_page(
+    service: Service, request: Request, season: SeasonName, p: Chosen = None
+) -> HTMLResponse:
+    """Compare some policies."""
+    view = compare_view(service.board, season, p or [])
+    if view is None:
+        return _missing(service, request, f"There is no season {season}.")
+    return _page(request, "compare.html", view=view, asked=p)
+
+
+@router.get("/seasons/{season}/scenarios")
+def scenarios(service: Service, request: Request, season: SeasonName) -> HTMLResponse:
+    """Show the list of the scenarios."""
+    view = scenarios_view(service.board, season)
+    if view is None:
+        return _missing(
+            service, request, f"This colift does not play the suite of season {season}."
+        )
+    return _page(request, "scenarios.html", view=view)
+
+
+@router.get("/seasons/{season}/scenarios/{behaviour}/{subject}")
+def scenario_page(
+    service: Service, request: Request, season: SeasonName, behaviour: str, subject: str
+) -> HTMLResponse:
+    """Show a scenario."""
+    view = scenario_view(service.board, season, behaviour, subject)
+    if view is None:
+        return _missing(service, request, f"Season {season} has no such scenario.")
+    return _page(request, "scenario.html", view=view)
+
+
+@router.get("/method")
+def method(service: Service, request: Request) -> HTMLResponse:
+    """Explain the numbers."""
+    return _page(request, "method.html", view=method_view(service.board))
+
+
+@router.get("/open")
+def open_questions(service: Service, request: Request) -> HTMLResponse:
+    """Show what nobody has solved."""
+    info = find_season(ordered_seasons(service.board), None)
+    return _page(request, "open.html", season=info, text=prose("open.md"))
+
+
+@router.get("/template.zip", response_class=Response)
+def template_zip() -> Response:
+    """Send the template of a submission."""
+    headers = {"Content-Disposition": 'attachment; filename="my-policy.zip"'}
+    return Response(template_archive(), media_type="application/zip", headers=headers)
+
+
+@router.get("/submit")
+def submit_page(service: Service, request: Request) -> HTMLResponse:
+    """Show the form for submissions, and the queue."""
+    view = method_view(service.board)
+    root = _links(request).root
+    return _page(
+        request,
+        "submit.html",
+        season=view.season,
+        lifts=view.lifts,
+        jobs=open_jobs(service.queue),
+        api=root + SUBMISSIONS,
+        mine=root + MINE,
+        rules=rules_of(service),
+        address=str(request.base_url).rstrip("/"),
+    )
+
+
+@router.get("/jobs/{job}")
+def job_page(
+    service: Service, request: Request, job: Annotated[str, Path(pattern="^[0-9a-f]{32}$")]
+) -> HTMLResponse:
+    """Show how far a submission is; only who has its address knows of it."""
+    view = job_view(service.board, service.queue, job)
+    if view is None:
+        return _missing(service, request, "There is no such job.")
+    info = find_season(ordered_seasons(service.board), view.job.season)
+    api = f"{_links(request).root}{JOBS}/{job}"
+    return _page(request, "job.html", season=info, view=view, stages=STAGES, api=api)
+
+
+def _replays(service: State, season: str, digest: str) -> list[dict[str, Any]]:
+    """Return the replays of a submission: none of a suite that this colift plays no more."""
+    entry = service.board.entry(season, digest)
+    bundle = service.board.bundle(season, digest)
+    with contextlib.suppress(InputError):
+        return [] if entry is None or bundle is None else replays_of(bundle, entry.name)
+    return []
+
+
+def _board(service: State, request: Request, season: str | None) -> HTMLResponse:
+    view = board_view(service.board, season)
+    if view is None:
+        return _missing(service, request, f"There is no season {season}.")
+    return _page(request, "board.html", view=view)
+
+
+def _missing(service: State, request: Request, told: str) -> HTMLResponse:
+    season = find_season(ordered_seasons(service.board), None)
+    return _page(request, "missing.html", status=404, season=season, told=told)
+
+
+def _page(request: Request, template: str, *, status: int = 200, **content: Any) -> HTMLResponse:
+    return HTMLResponse(render_page(template, _links(request), **content), status)
+
+
+def _origin(request: Request) -> str:
+    """Return the service's address as clients see it, without a path."""
+    return f"{request.url.scheme}://{request.url.netloc}"
+
+
+def _links(request: Request) -> ServiceLinks:
+    return ServiceLinks(str(request.scope.get("root_path", "")).rstrip("/"))

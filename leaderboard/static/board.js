@@ -1,0 +1,267 @@
+// The board's table: sort, filter, search, columns. The state is in the address, behind the #.
+"use strict";
+(() => {
+  const table = document.querySelector("table.board");
+  if (!table) return;
+  const data = JSON.parse(document.getElementById("data").textContent);
+  const body = table.tBodies[0];
+  const sorts = [...table.tHead.querySelectorAll("button")].map((button) => button.dataset.sort);
+  const rows = [...body.rows].map((tr) => ({
+    tr,
+    text: tr.dataset.text,
+    cell: Object.fromEntries(
+      sorts.filter((name) => name !== "name").map((name) => [name, tr.querySelector("td." + name)])),
+    name: tr.querySelector("th a").textContent,
+    dot: tr.querySelector(".dot"),
+    off: tr.querySelector(".off"),
+    index: Number(tr.dataset.row),
+  }));
+  // Two people and the bounds, below the policies.
+  const references = [...table.querySelectorAll(".references tr")].map((tr) => ({
+    tr,
+    bound: tr.dataset.bound,
+    cell: Object.fromEntries(["rmse", "ratio", "sparc", "force"].map((name) => [name, tr.querySelector("td." + name)])),
+    dot: tr.querySelector(".dot"),
+    off: tr.querySelector(".off"),
+  }));
+  const drawn = [...rows, ...references];
+  for (const row of drawn) {
+    row.whole = {};
+    for (const name of ["rmse", "ratio", "sparc", "force"]) {
+      const cell = row.cell[name];
+      row.whole[name] = { value: cell.dataset.value, html: [...cell.childNodes] };
+    }
+    row.at = row.dot.getAttribute("cx");
+    row.away = [row.dot, row.off].map((part) => part.classList.contains("away"));
+  }
+  const lines = (name) => [...document.querySelectorAll(`#backdrop .${name}, .board .scale .${name}`)].map((line) => ({
+    line, at: line.getAttribute("x1") || line.getAttribute("x"),
+  }));
+  const teams = lines("team"), bounds = lines("bound");
+  const bands = [...document.querySelectorAll("#backdrop .band")];
+  const field = (id) => document.getElementById(id);
+  const [query, behaviour, subject, choice, columns, told, more] =
+    ["q", "behaviour", "subject", "sort", "columns", "told", "more"].map(field);
+  const whole = told.textContent;
+  const filters = { q: query, behaviour, subject, columns };
+  let sort = "rank", order = rows, limit = 200;  // So many rows are laid out at once.
+
+  const write = (value, places) => (value === null ? "–" : value.toFixed(places).replace("-", "−"));
+  const at = (mm) => (100 * Math.min(mm / data.top, 1)).toFixed(2) + "%";
+
+  // Means over the public lifts of the chosen cells; what is missing weighs nothing.
+  function mean(pairs) {
+    let sum = 0, weight = 0;
+    for (const [value, count] of pairs) if (value !== null) { sum += value * count; weight += count; }
+    return weight ? sum / weight : null;
+  }
+
+  function scores(row, chosen) {
+    const cells = chosen.map((i) => [data.rows[row.index][i], data.cells[i]]);
+    if (cells.some(([cell]) => !cell)) return { rmse: null, ratio: null, sparc: null, force: null, missing: 0 };
+    const rmse = mean(cells.map(([cell, [, , lifts]]) => [cell[0], lifts]));
+    const team = mean(cells.map(([, [, , lifts, mm]]) => [mm, lifts]));
+    return {
+      rmse, team, ratio: team ? rmse / team : null,
+      sparc: mean(cells.map(([cell, [, , lifts]]) => [cell[1], lifts - cell[2]])),
+      missing: cells.reduce((sum, [cell]) => sum + cell[2], 0),
+      force: mean(cells.map(([cell, [, , lifts]]) => [cell[3], lifts])),
+    };
+  }
+
+  function show(cell, value, text, small) {
+    cell.dataset.value = value === null ? "" : value;
+    cell.replaceChildren(text);
+    if (small) {
+      const note = document.createElement("small");
+      note.textContent = small;
+      cell.append(note);
+    }
+  }
+
+  function draw(row, rmse, place) {
+    row.dot.setAttribute("cx", place);
+    row.dot.classList.toggle("away", rmse === null || rmse > data.top);
+    row.off.classList.toggle("away", rmse === null || rmse <= data.top);
+  }
+
+  function move(moved, mm) {
+    for (const { line, at: usual } of moved) {
+      const x = mm === null ? usual : at(mm);
+      for (const name of line.tagName === "text" ? ["x"] : ["x1", "x2"]) line.setAttribute(name, x);
+    }
+  }
+
+  function moveLines(team, bound) {
+    move(teams, team);
+    move(bounds, bound);
+    for (const band of bands) band.classList.toggle("away", team !== null);
+  }
+
+  function part() {
+    const chosen = [];
+    data.cells.forEach(([b, s], i) => {
+      if ((!behaviour.value || b === behaviour.value) && (!subject.value || s === subject.value)) chosen.push(i);
+    });
+    table.classList.add("part");
+    let team = null;
+    for (const row of rows) {
+      const found = scores(row, chosen);
+      team = team === null ? found.team ?? null : team;
+      show(row.cell.rmse, found.rmse, write(found.rmse, 1));
+      show(row.cell.ratio, found.ratio, write(found.ratio, 2));
+      show(row.cell.sparc, found.sparc === null ? null : found.missing * 1000 - found.sparc, write(found.sparc, 2),
+        found.sparc !== null && found.missing ? "none in " + found.missing : "");
+      show(row.cell.force, found.force, write(found.force, 2));
+      draw(row, found.rmse, at(found.rmse || 0));
+    }
+    let causal = null;
+    for (const row of references) {
+      const rmse = row.bound === undefined ? team :
+        mean(chosen.map((i) => [data.bounds[row.bound][i], data.cells[i][2]]));
+      show(row.cell.rmse, rmse, write(rmse, 1));
+      show(row.cell.ratio, null, write(rmse === null || !team ? null : rmse / team, 2));
+      for (const name of ["sparc", "force"]) show(row.cell[name], null, "–");
+      draw(row, rmse, at(rmse || 0));
+      if (row.tr.dataset.causal !== undefined) causal = rmse;
+    }
+    moveLines(team, causal);
+    return chosen;
+  }
+
+  function all() {
+    if (!table.classList.contains("part")) return;
+    table.classList.remove("part");
+    for (const row of drawn) {
+      for (const [name, { value, html }] of Object.entries(row.whole)) {
+        row.cell[name].dataset.value = value;
+        row.cell[name].replaceChildren(...html);
+      }
+      row.dot.setAttribute("cx", row.at);
+      [row.dot, row.off].forEach((part, i) => part.classList.toggle("away", row.away[i]));
+    }
+    moveLines(null, null);
+  }
+
+  function key(row, name) {
+    if (name === "name") return row.name.toLowerCase();
+    const value = row.cell[name].dataset.value;
+    if (value === "" || value === undefined) return Infinity;
+    return name === "licence" ? value : Number(value);
+  }
+
+  function arrange() {
+    const down = sort.startsWith("-"), name = sort.replace("-", "");
+    const sign = down ? -1 : 1;
+    const keyed = rows.map((row) => [key(row, name), row]);
+    keyed.sort(([a, x], [b, y]) => {
+      if (a === b) return x.index - y.index;
+      if (a === Infinity || b === Infinity) return a === Infinity ? 1 : -1;  // What has none is last either way.
+      return (a < b ? -1 : 1) * sign;
+    });
+    const next = keyed.map(([, row]) => row);
+    if (next.some((row, i) => row !== order[i])) {
+      const sorted = document.createDocumentFragment();
+      for (const row of next) sorted.append(row.tr);
+      body.append(sorted);
+      order = next;
+    }
+    table.dataset.sorted = sort;
+    for (const button of table.querySelectorAll("thead button")) {
+      const header = button.closest("th");
+      if (button.dataset.sort === name) header.setAttribute("aria-sort", down ? "descending" : "ascending");
+      else header.removeAttribute("aria-sort");
+    }
+    choice.value = name;
+  }
+
+  function search() {
+    const words = query.value.toLowerCase().split(/\s+/).filter(Boolean);
+    let count = 0;
+    for (const row of order) {
+      const fits = words.every((word) => row.text.includes(word));
+      count += fits;
+      row.tr.hidden = !fits || count > limit;
+    }
+    more.hidden = count <= limit;
+    more.textContent = `Show all ${count}`;
+    return count;
+  }
+
+  function update() {
+    for (const option of columns.options) if (option.value) table.classList.toggle("show-" + option.value, option.selected);
+    const chosen = behaviour.value || subject.value ? part() : (all(), null);
+    arrange();
+    const count = search();
+    if (chosen === null && count === rows.length) told.textContent = whole;
+    else {
+      const where = chosen === null ? "scored on hidden lifts" :
+        `means over the public lifts of ${behaviour.value ? behaviour.selectedOptions[0].text : "all behaviours"} ` +
+        `with ${subject.value || "all subjects"}; ranks and gaps are over all hidden lifts`;
+      told.textContent = `${count} of ${rows.length} policies, ${where}.` +
+        (chosen && !chosen.length ? " The suite has no such lifts." : "");
+    }
+  }
+
+  function remember() {
+    const state = new URLSearchParams();
+    for (const [name, input] of Object.entries(filters)) if (input.value) state.set(name, input.value);
+    if (sort !== "rank") state.set("sort", sort);
+    const text = state.toString();
+    history.replaceState(null, "", text ? "#" + text : location.pathname + location.search);
+  }
+
+  function recall() {
+    const state = new URLSearchParams(location.hash.slice(1));
+    for (const [name, input] of Object.entries(filters)) {
+      input.value = state.get(name) || "";
+      if (input.selectedIndex === -1) input.value = "";
+    }
+    const wanted = state.get("sort") || "rank";
+    sort = [...choice.options].some((option) => option.value === wanted.replace("-", "")) ? wanted : "rank";
+    update();
+  }
+
+  table.tHead.addEventListener("click", (event) => {
+    const button = event.target.closest("button");
+    if (!button) return;
+    sort = sort === button.dataset.sort ? "-" + sort : button.dataset.sort;
+    update();
+    remember();
+  });
+  choice.addEventListener("change", () => { sort = choice.value; update(); remember(); });
+  for (const input of Object.values(filters)) input.addEventListener("input", () => { update(); remember(); });
+  more.addEventListener("click", () => {
+    const next = body.querySelector("tr[hidden] a");
+    limit = Infinity;
+    update();
+    if (next) next.focus();
+  });
+  addEventListener("hashchange", recall);
+  // On a telephone a row unfolds by a tap, and so do the filters.
+  body.addEventListener("click", (event) => {
+    const button = event.target.closest(".unfold");
+    if (!button) return;
+    const open = button.closest("tr").classList.toggle("open");
+    button.setAttribute("aria-expanded", open);
+  });
+  const narrow = matchMedia("(max-width: 46rem)");
+  const fold = () => { field("filters").open = !narrow.matches; };
+  narrow.addEventListener("change", fold);
+  fold();
+
+  // Two to four may be compared.
+  const form = field("compare"), button = form.querySelector("button");
+  function count() {
+    const boxes = [...body.querySelectorAll("input[name=p]")];
+    const picked = boxes.filter((box) => box.checked).length;
+    button.textContent = picked ? `Compare ${picked}` : "Compare";
+    button.disabled = picked < 2;
+    button.title = picked < 2 ? "tick two to four policies" : "";
+    for (const box of boxes) box.disabled = picked >= 4 && !box.checked;
+  }
+  body.addEventListener("change", count);
+  addEventListener("pageshow", count);
+  count();
+  recall();
+})();

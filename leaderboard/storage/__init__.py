@@ -1,0 +1,1 @@
+"""Files of a board: submissions, bundles, uploads, archives and season secrets."""

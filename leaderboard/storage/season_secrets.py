@@ -1,0 +1,91 @@
+"""Private files of a season: its secret, and data about the hidden episodes."""
+
+import os
+import stat
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from ...agents.errors import InputError
+from ...benchmark.results.baselines import Reference
+from ...benchmark.suites.hidden import SECRET_BYTES
+from .files import read_json, sync, write_json
+
+OWN: Final = 0o600
+"""A file that only its owner may read."""
+
+FOLDER: Final = 0o700
+"""A folder that only its owner may enter."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SeasonSecrets:
+    """The private files of a season; nothing of them is published."""
+
+    folder: Path
+
+    def keep_secret(self, secret: bytes) -> None:
+        """Keep the season's secret, before anything follows from it.
+
+        Raises
+        ------
+        FileExistsError
+            If there is one.
+        """
+        self.folder.mkdir(mode=FOLDER, parents=True, exist_ok=True)
+        handle = os.open(self._secret, os.O_WRONLY | os.O_CREAT | os.O_EXCL, OWN)
+        with os.fdopen(handle, "w") as file:
+            file.write(f"{secret.hex()}\n")
+            file.flush()
+            os.fsync(file.fileno())
+        sync(self.folder)
+        sync(self.folder.parent)
+
+    def forget_secret(self) -> None:
+        """Remove a secret that nothing follows from: its season did not come to begin."""
+        self._secret.unlink(missing_ok=True)
+
+    def secret(self) -> bytes:
+        """Return the season's secret.
+
+        Raises
+        ------
+        InputError
+            If there is none, others may read it, or it is no secret of ours.
+        """
+        path = self._secret
+        if not path.exists():
+            raise InputError(f"{path} is missing: is this the folder of the database's board?")
+        mode = stat.S_IMODE(path.stat().st_mode)
+        if mode & 0o077:
+            raise InputError(f"{path} has mode {mode:o}, others may read it; it must be {OWN:o}")
+        try:
+            secret = bytes.fromhex(path.read_text())
+        except ValueError:
+            secret = b""
+        if len(secret) != SECRET_BYTES:
+            raise InputError(f"{path} must hold {2 * SECRET_BYTES} hexadecimal digits")
+        return secret
+
+    def team(self, play: Callable[[], Reference]) -> Reference:
+        """Return the human-human team on the hidden episodes; it is played only once."""
+        known = self.known_team()
+        if known is None:
+            known = play()
+            self.keep_team(known)
+        return known
+
+    def known_team(self) -> Reference | None:
+        """Return what :meth:`team` has kept, or None if it was not played yet."""
+        path = self.folder / "team.json"
+        return Reference.read(read_json(path)) if path.exists() else None
+
+    def keep_team(self, team: Reference) -> None:
+        """Keep the human-human team that was played elsewhere."""
+        self.folder.mkdir(mode=FOLDER, parents=True, exist_ok=True)
+        write_json(self.folder / "team.json", team.plain(), mode=OWN)
+
+    @property
+    def _secret(self) -> Path:
+        return self.folder / "secret"

@@ -1,0 +1,107 @@
+"""Staging folders for incoming submissions."""
+
+import fcntl
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final, Self
+
+from ...agents.errors import InputError
+from ...agents.submissions.folder import read_folder
+from ...agents.submissions.submission import Submission
+from .files import sync, sync_tree
+
+PREFIX: Final = ".new-"
+"""How such a folder is called."""
+
+_LOCK: Final = "lock"
+"""A file in it; a process holds its lock as long as it works there."""
+
+
+@contextmanager
+def staging(parent: Path) -> Iterator[Path]:
+    """Yield a new folder in another one; at the end it is removed with all that is left in it."""
+    place, lock = _locked(parent)
+    try:
+        yield place
+    finally:
+        shutil.rmtree(place, ignore_errors=True)
+        os.close(lock)
+
+
+def remove_abandoned(parent: Path) -> None:
+    """Remove what processes have left of their work that were killed in the middle of it."""
+    for place in parent.glob(f"{PREFIX}*"):
+        try:
+            lock = _opened(place)
+        except FileNotFoundError:
+            continue  # It has just been removed.
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            shutil.rmtree(place, ignore_errors=True)
+        except BlockingIOError:
+            pass  # Somebody is at work there.
+        finally:
+            os.close(lock)
+
+
+def _opened(place: Path) -> int:
+    return os.open(place / _LOCK, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o600)
+
+
+def _locked(parent: Path) -> tuple[Path, int]:
+    """Return a new folder and the descriptor that holds its lock."""
+    while True:
+        place = Path(tempfile.mkdtemp(dir=parent, prefix=PREFIX))
+        try:
+            lock = _opened(place)
+        except FileNotFoundError:
+            continue  # A sweep was quicker than the lock.
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if (place / _LOCK).exists():
+                return place, lock
+        except BlockingIOError:
+            pass
+        os.close(lock)
+
+
+@dataclass(frozen=True)
+class Incoming:
+    """A submission that can be put in its place in a moment: all that takes time has been done."""
+
+    submission: Submission
+    target: Path
+    """Its place."""
+    spoilt: bool
+    """Whether something else is there, such as what a power failure has left of it."""
+
+    @classmethod
+    def of(cls, submission: Submission, target: Path) -> Self:
+        """Return a submission on its way to a place; its files are on the disk then."""
+        there = target.is_dir()
+        intact = there and _digest(target) == submission.contents.digest
+        if not intact:
+            sync_tree(submission.folder)
+        return cls(submission, target, spoilt=there and not intact)
+
+    def place(self) -> None:
+        """Put the files in their place; equal files that are there stay."""
+        if self.spoilt:
+            self.target.rename(self.submission.folder.with_name("spoilt"))
+        if self.target.is_dir():
+            os.utime(self.target)  # It is wanted again: a sweep leaves it.
+        else:
+            self.submission.folder.rename(self.target)
+            sync(self.target.parent)
+
+
+def _digest(folder: Path) -> str | None:
+    try:
+        return read_folder(folder).digest
+    except InputError:
+        return None

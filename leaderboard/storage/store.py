@@ -1,0 +1,250 @@
+"""The files of a board, beside its database.
+
+::
+
+    board.json                               that it is a board, and where its database is
+    submissions/DIGEST/                      what was submitted, by its content
+    public/SEASON/entries/DIGEST/bundle/     the bundle of the public run
+    public/SEASON/entries/DIGEST/bundle.zip  the same in one file, since somebody asked for it
+    logs/JOB.txt                             what the workers wrote of a job
+    private/SEASON/                          the secret, the human-human team, faults in detail
+    private/work/                            what is being evaluated
+
+Only ``public`` may be shown to anybody, and of ``logs`` that of a job to who knows its id.
+"""
+
+import fcntl
+import re
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from ...agents.errors import InputError
+from ...agents.submissions.folder import copy_folder
+from ...agents.submissions.submission import Submission, read_submission
+from .archive import pack
+from .files import read_json, sync, sync_tree, write_json
+from .season_secrets import FOLDER, OWN, SeasonSecrets
+from .staging import Incoming, staging
+
+FORMAT: Final = 2
+"""Version of the layout."""
+
+PARTS: Final = (
+    "board.json",
+    "board.sqlite",
+    "board.sqlite-shm",
+    "board.sqlite-wal",
+    "lock",
+    "logs",
+    "private",
+    "public",
+    "submissions",
+)
+"""What is in a board that is being made; one that is there may hold anything else, too."""
+
+LOG_BYTES: Final = 100_000
+"""So much of a log's end is shown."""
+
+_FOLDERS: Final = re.compile(r"(?<![\w/.:])/(?:[^\s/'\"<>:,]+/)+")
+"""The folders of an absolute path; no part of a URL, nor of a quotient."""
+
+
+@dataclass(frozen=True)
+class Store:
+    """A board's folder."""
+
+    folder: Path
+
+    def prepare(self, database: str) -> None:
+        """Make the folder.
+
+        Parameters
+        ----------
+        database
+            Where the tables are: ``SQLite`` in this folder, or ``PostgreSQL``.
+
+        Raises
+        ------
+        InputError
+            If something else is there, or its tables are elsewhere.
+        OSError
+            If it cannot be written.
+        """
+        if self.folder.is_dir() and not (self.folder / "board.json").exists():
+            others = sorted({path.name for path in self.folder.iterdir()} - set(PARTS))
+            if others:
+                raise InputError(
+                    f"{self.folder} is no board: it holds {others[0]}; name a new folder"
+                )
+        self.folder.mkdir(parents=True, exist_ok=True)
+        for name in ("private", "submissions", "logs"):
+            (self.folder / name).mkdir(mode=FOLDER, exist_ok=True)
+        (self.folder / "public").mkdir(exist_ok=True)
+        with self.alone():
+            self._mark(database)
+
+    def _mark(self, database: str) -> None:
+        """Write down where the tables are, or check that they are there."""
+        mark = self.folder / "board.json"
+        if not mark.exists():
+            write_json(mark, {"format": FORMAT, "database": database})
+        self.check(database)
+
+    def check(self, database: str) -> None:
+        """Refuse another layout, and another database than the board's; as :meth:`prepare`."""
+        mark = self.folder / "board.json"
+        try:
+            told = read_json(mark)
+        except ValueError as error:
+            raise InputError(f"{mark} cannot be read: {error}") from error
+        if told.get("format") != FORMAT:
+            raise InputError(f"{mark}: format must be {FORMAT}, is {told.get('format')!r}")
+        if told.get("database") != database:
+            change = "set" if database == "SQLite" else "unset"
+            raise InputError(
+                f"{self.folder} has its tables in {told.get('database')}, not in {database}: "
+                f"{change} COLIFT_DATABASE_URL"
+            )
+
+    @contextmanager
+    def alone(self) -> Iterator[None]:
+        """Hold the board's lock; it ends with this process, however that ends."""
+        with (self.folder / "lock").open("a") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            yield
+
+    def vault(self, season: str) -> SeasonSecrets:
+        """Return the private files of a season."""
+        return SeasonSecrets(folder=self.folder / "private" / season)
+
+    def keep(self, folder: Path) -> Submission:
+        """Copy a submission into the board, under its digest; a damaged copy there is replaced.
+
+        Raises
+        ------
+        InputError
+            If it is not what a submission must be.
+        """
+        with self.staging() as place:
+            made = place / "submission"
+            made.mkdir()
+            copy_folder(folder, made)
+            incoming = self.incoming(made)
+            incoming.place()
+        return self.submission(incoming.submission.contents.digest)
+
+    @contextmanager
+    def staging(self) -> Iterator[Path]:
+        """Yield a folder for files on their way to the submissions; see :func:`.staging`."""
+        with staging(self.folder / "submissions") as place:
+            yield place
+
+    def incoming(self, files: Path) -> Incoming:
+        """Return the submission that files of :meth:`staging` are, ready to be placed.
+
+        Raises
+        ------
+        InputError
+            If they are not what a submission must be.
+        """
+        submission = read_submission(files)
+        target = self.folder / "submissions" / submission.contents.digest
+        return Incoming.of(submission, target)
+
+    def submission(self, digest: str) -> Submission:
+        """Return a submission that was kept.
+
+        Raises
+        ------
+        InputError
+            If it is not there, or has been changed.
+        """
+        place = self.folder / "submissions" / digest
+        told = f"submission {digest} is not as it was submitted: submit the same files again"
+        try:
+            kept = read_submission(place)
+        except InputError as error:
+            raise InputError(told) from error
+        if kept.contents.digest != digest:
+            raise InputError(told)
+        return kept
+
+    def bundle(self, season: str, digest: str) -> Path:
+        """Return where the bundle of a submission's public run is, or will be."""
+        return self.folder / "public" / season / "entries" / digest / "bundle"
+
+    def place_bundle(self, season: str, digest: str, made: Path) -> None:
+        """Move a bundle to its place; what an attempt that was killed has left there gives way."""
+        place = self.bundle(season, digest)
+        shutil.rmtree(place, ignore_errors=True)
+        place.with_name("bundle.zip").unlink(missing_ok=True)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        sync_tree(made)
+        made.rename(place)
+        for folder in place.parents[:4]:  # As far as they may be new: to the board's own.
+            sync(folder)
+
+    def packed_bundle(self, season: str, digest: str) -> Path | None:
+        """Return the zip archive of a bundle, made if it is not there; None without a bundle."""
+        folder = self.bundle(season, digest)
+        packed = folder.with_name("bundle.zip")
+        if packed.is_file():
+            return packed
+        if not folder.is_dir():
+            return None
+        with self.staging() as place:
+            made = place / packed.name
+            with made.open("wb") as file:
+                pack(folder, file)
+            sync(made)
+            made.rename(packed)
+        return packed
+
+    @contextmanager
+    def workspace(self, job: str, attempt: int) -> Iterator[Path]:
+        """Yield an empty private folder for an attempt; what earlier ones have left is removed."""
+        work = self.folder / "private" / "work"
+        work.mkdir(mode=FOLDER, exist_ok=True)
+        for old in work.glob(f"{job}-*"):
+            shutil.rmtree(old, ignore_errors=True)
+        files = work / f"{job}-{attempt}"
+        files.mkdir(mode=FOLDER)
+        try:
+            yield files
+        finally:
+            shutil.rmtree(files, ignore_errors=True)
+
+    def log(self, job: str) -> str | None:
+        """Return the end of a job's log, or None if there is none."""
+        try:
+            with self._log(job).open("rb") as file:
+                file.seek(0, 2)
+                file.seek(max(0, file.tell() - LOG_BYTES))
+                return file.read().decode(errors="replace")
+        except FileNotFoundError:
+            return None
+
+    def placeless(self, text: str) -> str:
+        """Return a text for everybody: files by their names, without this machine's folders."""
+        return _FOLDERS.sub("", text.replace(f"{self.folder}/", "/-/"))
+
+    def add_to_log(self, job: str, text: str) -> None:
+        """Append lines to a job's log."""
+        with self._log(job).open("ab") as file:
+            file.write(f"{text.rstrip()}\n".encode(errors="replace"))
+
+    def add_to_private_log(self, season: str, job: str, text: str) -> None:
+        """Append to the log that only the maintainer may read: it may reveal hidden lifts."""
+        folder = self.vault(season).folder / "logs"
+        folder.mkdir(mode=FOLDER, exist_ok=True)
+        path = folder / f"{job}.txt"
+        path.touch(mode=OWN)
+        with path.open("ab") as file:
+            file.write(f"{text.rstrip()}\n".encode(errors="replace"))
+
+    def _log(self, job: str) -> Path:
+        return self.folder / "logs" / f"{job}.txt"

@@ -1,0 +1,77 @@
+"""The bounds beside a table: how level the ends can be kept at all, on the public lifts."""
+
+import functools
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ...benchmark.results.baselines import (
+    HUMAN_HUMAN,
+    Reference,
+    shipped_bounds,
+    shipped_references,
+)
+from ...benchmark.results.summary import Cell
+from ...benchmark.statistics import Estimate
+from ...benchmark.suites.suite import Suite
+from ..records.season import SeasonInfo
+from .suites import season_suite
+
+TOLD: Final[Mapping[str, str]] = {
+    "causal_bound": "sees what a policy sees, foresees as well as has been learned so far, and "
+    "spends nothing on smoothness",
+    "oracle": "knows where the person is going, and rehearses the lift",
+}
+"""What each bound is, in the order in which they are shown."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PublicBound:
+    """What could be reached on the public lifts; no policy, and in no ranking."""
+
+    name: str
+    told: str
+    rmse_mm: Estimate
+    vs_human: float
+    """RMSE over that of the human-human team, on the same lifts."""
+    means: Mapping[str, float | None]
+    """Of the other metrics that boards show."""
+    cells: Mapping[Cell, float]
+    """Mean RMSE [mm] by behaviour and subject."""
+
+    @property
+    def causal(self) -> bool:
+        """Whether it sees no more than a policy."""
+        return self.name == "causal bound"
+
+    def mean_mm(self, behaviour: str) -> float:
+        """Return the mean RMSE [mm] on a behaviour; all its cells have as many lifts."""
+        return float(np.mean([mm for (each, _), mm in self.cells.items() if each == behaviour]))
+
+
+def bounds_of(info: SeasonInfo) -> tuple[PublicBound, ...]:
+    """Return the bounds of a season's public lifts; none if none are shipped for its suite."""
+    suite = season_suite(info)
+    return () if suite is None else _bounds(suite)
+
+
+@functools.lru_cache(maxsize=8)
+def _bounds(suite: Suite) -> tuple[PublicBound, ...]:
+    references, found = shipped_references(suite), shipped_bounds(suite)
+    if references is None or found is None:
+        return ()
+    team = references[HUMAN_HUMAN]
+    return tuple(_bound(name, found[name], team) for name in TOLD if name in found)
+
+
+def _bound(name: str, reference: Reference, team: Reference) -> PublicBound:
+    return PublicBound(
+        name=name.replace("_", " "),
+        told=TOLD[name],
+        rmse_mm=reference.estimate,
+        vs_human=reference.mean / team.mean,
+        means=reference.means,
+        cells=reference.by_cell(),
+    )

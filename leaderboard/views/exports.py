@@ -1,0 +1,101 @@
+"""The rows of a season for other programs: CSV, JSON and an Atom feed."""
+
+import json
+import uuid
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Final
+
+from ..board.board import Board
+from ..board.standings import RankedRow
+from ..records.season import SeasonInfo
+from .board import find_season, ordered_seasons
+
+FORMULA: Final = ("=", "+", "-", "@", "\t", "\r")
+"""Beginnings of a text that spreadsheets take for a formula."""
+
+
+def standings_csv(board: Board, season: str | None = None) -> str:
+    """Return the rows that are in a ranking as CSV, in the columns of :meth:`.Board.ranking`.
+
+    A text that a spreadsheet would take for a formula has an apostrophe before it.
+
+    Raises
+    ------
+    InputError
+        If there is no such season, or pandas is not installed.
+    """
+    frame = board.ranking(season)
+    return str(frame.map(_harmless).to_csv(index=False, lineterminator="\n"))
+
+
+def standings_json(board: Board, season: str) -> str:
+    """Return all rows as JSON: with rank group, time, submitter and events."""
+    table = [
+        {
+            "section": each.section,
+            "group": each.group,
+            "at": each.at.isoformat(),
+            "submitter": each.submitter,
+            "row": each.row.plain(),
+            "events": [event.plain() for event in each.events],
+        }
+        for each in board.standings(season)
+    ]
+    return json.dumps(table, indent=1) + "\n"
+
+
+def _harmless(value: object) -> object:
+    return f"'{value}" if isinstance(value, str) and value.startswith(FORMULA) else value
+
+
+MOST: Final = 100
+"""Rows in a feed."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class NewRow:
+    """A row of the board."""
+
+    id: uuid.UUID
+    """The same wherever the board is shown."""
+    standing: RankedRow
+    updated: datetime
+    """When something was done to it last."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class News:
+    """What a feed tells of a season."""
+
+    id: uuid.UUID
+    season: SeasonInfo
+    updated: datetime
+    rows: tuple[NewRow, ...]
+
+
+def news_of(board: Board, season: str) -> News | None:
+    """Return the newest :data:`MOST` rows of a season; None if there is no such season."""
+    info = find_season(ordered_seasons(board), season)
+    if info is None:
+        return None
+    newest = sorted(board.standings(season), key=lambda each: each.at, reverse=True)[:MOST]
+    rows = tuple(
+        NewRow(
+            id=_identifier(info, each.row.submission),
+            standing=each,
+            updated=max([each.at, *(event.at for event in each.events)]),
+        )
+        for each in newest
+    )
+    return News(
+        id=_identifier(info, ""),
+        season=info,
+        updated=max([info.began_at, *(row.updated for row in rows)]),
+        rows=rows,
+    )
+
+
+def _identifier(info: SeasonInfo, submission: str) -> uuid.UUID:
+    """Return an identifier that follows from what is published of a season and a submission."""
+    return uuid.uuid5(uuid.NAMESPACE_OID, f"{info.name} {info.commitment} {submission}")

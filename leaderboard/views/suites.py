@@ -1,0 +1,14 @@
+"""The suite of a season, as far as this colift still plays it."""
+
+from ...agents.errors import InputError
+from ...benchmark.suites.suite import Suite, make_suite
+from ..records.season import SeasonInfo
+
+
+def season_suite(info: SeasonInfo) -> Suite | None:
+    """Return the public lifts of a season; None if this colift has another suite of that name."""
+    try:
+        suite = make_suite(info.suite)
+    except InputError:
+        return None
+    return suite if suite.digest == info.suite_digest else None

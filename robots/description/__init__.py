@@ -1,0 +1,1 @@
+"""URDF parts of any robot: parsing, welding, rotations."""

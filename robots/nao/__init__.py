@@ -1,0 +1,1 @@
+"""The NAO: its facts, shapes, arm kinematics and URDF."""

@@ -1,0 +1,75 @@
+"""A benchmark for human-robot cooperative lifting.
+
+====================== ==========================================================================
+name                   what it is
+====================== ==========================================================================
+:func:`evaluate`       scores a policy: an object, a class, a name, a file or a folder
+:func:`list_policies`  names that :func:`evaluate` takes; also ``list_suites``, ``list_humans``
+:func:`parallel_env`   the PettingZoo environment, both agents at once; :func:`env` takes turns
+:func:`make`           the Gymnasium environment: the robot is the agent
+:mod:`colift_v0`       the environment as a module, as PettingZoo's own are
+====================== ==========================================================================
+
+Importing it loads none of its parts: each is loaded when it is first used. It registers
+``colift/Lift-v0`` with Gymnasium, whichever of the two is imported first.
+"""
+
+import importlib
+from typing import TYPE_CHECKING, Any, Final
+
+from .registration import register_with_gymnasium
+
+if TYPE_CHECKING:
+    from . import colift_v0
+    from .colift_v0 import env, parallel_env
+    from .evaluation import Evaluation, evaluate
+    from .listing import list_humans, list_policies, list_suites
+    from .registration import make
+
+    __version__: str
+
+__all__ = [
+    "Evaluation",
+    "__version__",
+    "colift_v0",
+    "env",
+    "evaluate",
+    "list_humans",
+    "list_policies",
+    "list_suites",
+    "make",
+    "parallel_env",
+]
+
+_PLACES: Final = {
+    "Evaluation": "evaluation",
+    "env": "colift_v0",
+    "evaluate": "evaluation",
+    "list_humans": "listing",
+    "list_policies": "listing",
+    "list_suites": "listing",
+    "make": "registration",
+    "parallel_env": "colift_v0",
+}
+"""The module of each public name."""
+
+
+def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("colift")
+    if name == "colift_v0":
+        return importlib.import_module(f".{name}", __name__)
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(importlib.import_module(f".{_PLACES[name]}", __name__), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__
+
+
+register_with_gymnasium()

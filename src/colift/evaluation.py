@@ -1,0 +1,158 @@
+"""``colift.evaluate``: a policy's scores on a suite, by one call."""
+
+import inspect
+import textwrap
+from contextlib import nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+from typing import cast
+
+from .agents.agent import Agent
+from .agents.errors import InputError
+from .agents.identity import source_hash
+from .agents.loading.loading import source_digest
+from .agents.spec import AgentSpec, InProcess
+from .benchmark.bundle import results
+from .benchmark.execution.pool import local_pool
+from .benchmark.execution.runner import run_suite
+from .benchmark.results.baselines import SPECS, play_references, shipped_references
+from .benchmark.suites.suite import Suite, make_suite
+from .cli.policies import AUTO, NONE, choose_policy
+from .cli.progress import progress_bar
+from .outcome import Evaluation
+
+UNKNOWN = "unknown"
+"""The digest of a policy whose source cannot be read, such as one typed at a prompt."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class GivenPolicy(InProcess):
+    """Where the agent comes from: it is here already."""
+
+    given: object
+    """An object with ``reset`` and ``act``, or a class of such objects."""
+
+    @property
+    def type(self) -> type:
+        """The policy's class."""
+        return self.given if isinstance(self.given, type) else type(self.given)
+
+    @property
+    def name(self) -> str:
+        """The name of the class."""
+        return self.type.__name__
+
+    def check(self) -> None:
+        """Raise an InputError if it has no ``reset`` or ``act``, or the class needs arguments."""
+        for method in ("reset", "act"):
+            if not callable(getattr(self.given, method, None)):
+                raise InputError(
+                    f"policy {self.given!r} has no method {method}(): give an object or a class "
+                    "with reset(seed) and act(observation), or a name of colift.list_policies()"
+                )
+        if isinstance(self.given, type):
+            try:
+                inspect.signature(self.given).bind()
+            except TypeError as error:
+                raise InputError(
+                    f"policy {self.name} cannot be made without arguments ({error}): give an object"
+                ) from error
+
+    def digest(self) -> str:
+        """Return the hash of the source of the class, as far as it can be read.
+
+        What an object has been made with or has learned is not in it.
+        """
+        try:
+            if self.type.__module__.startswith("colift."):
+                return source_digest(self.type)
+            source = inspect.getsource(self.type)
+        except (OSError, TypeError):
+            return UNKNOWN
+        return source_hash(textwrap.dedent(source).encode())
+
+    def make(self) -> Agent:
+        """Return the object, or a new one of the class."""
+        made = self.given() if isinstance(self.given, type) else self.given
+        return cast(Agent, made)
+
+
+__all__ = ["Evaluation", "evaluate"]
+
+
+def evaluate(
+    policy: Agent | type[Agent] | str | Path,
+    suite: str | Suite = "quick-v1",
+    *,
+    isolation: str = AUTO,
+    jobs: int = 1,
+    progress: bool = False,
+) -> Evaluation:
+    """Play a policy through a suite of lifts and score it.
+
+    Parameters
+    ----------
+    policy
+        An object with ``reset(seed)`` and ``act(observation)``, or a class of such objects: it acts
+        in this process. Or what ``colift run`` takes: a name of :func:`.list_policies`, with
+        parameters after a comma if any, ``module:Class``, ``file.py:Class``, or the folder of a
+        submission.
+        An object plays all lifts: its ``reset`` must make it forget the last one. Of a class
+        there is a new object for each lift.
+    suite
+        A name of :func:`.list_suites`, or a suite made by :mod:`colift.benchmark.suites.suite`.
+    isolation
+        For names, files and folders, as ``colift run --isolation``: colift's own policies are
+        played in this process, all others in the strongest sandbox that works here.
+    jobs
+        Number of worker processes. With 1 everything is done in this one. A script that asks for
+        more must do so under ``if __name__ == "__main__":``, as with any pool of processes.
+    progress
+        Whether to show a bar on a terminal's stderr.
+
+    Returns
+    -------
+    Evaluation
+        What came of it: print it, or see its attributes.
+
+    Raises
+    ------
+    InputError
+        If there is no such policy, suite or isolation, or the policy cannot be used.
+    EvaluatorFault
+        If the machine fails again and again.
+    KeyboardInterrupt
+        If it is interrupted: partial results are not compared with anything.
+    """
+    spec = _spec(policy, isolation, jobs)
+    played = make_suite(suite) if isinstance(suite, str) else suite
+    references = shipped_references(played)
+    total = played.size * (1 if references else 1 + len(SPECS))
+    bar = progress_bar(spec.name, total) if progress else nullcontext(lambda done: None)
+    with bar as advance, local_pool(jobs) as pool:
+        run = run_suite(spec, played, executor=pool, progress=advance)
+        if not run.complete:
+            raise KeyboardInterrupt
+        if references is None:
+            references = play_references(played, executor=pool, progress=advance)
+            if references.keys() != SPECS.keys():
+                raise KeyboardInterrupt
+    return Evaluation(run=run, results=results(run, references))
+
+
+def _spec(policy: object, isolation: str, jobs: int) -> AgentSpec:
+    """Return where the policy comes from."""
+    if isinstance(policy, str | Path):
+        return choose_policy(str(policy), isolation)
+    if isolation not in (AUTO, NONE):
+        raise InputError(
+            f"isolation {isolation!r}: an object or a class acts in this process; name its file, "
+            "file.py:Class, to have it in a sandbox"
+        )
+    given = GivenPolicy(given=policy)
+    if jobs > 1 and given.type.__module__ == "__main__":
+        raise InputError(
+            f"{jobs} processes cannot import {given.name}, which is defined in this script or "
+            "notebook: put it into a module, or say jobs=1"
+        )
+    return given

@@ -1,0 +1,19 @@
+"""What there is, by name."""
+
+from .agents.registry import HUMANS, POLICIES, entries
+from .benchmark.suites.suite import SUITES
+
+
+def list_policies() -> list[str]:
+    """Return the names of the robot policies, colift's and those of other packages."""
+    return list(entries(POLICIES))
+
+
+def list_humans() -> list[str]:
+    """Return the names of the human behaviours: what ``scenario`` may be in :func:`.make`."""
+    return list(entries(HUMANS))
+
+
+def list_suites() -> list[str]:
+    """Return the names of the suites that :func:`.evaluate` takes."""
+    return list(SUITES)

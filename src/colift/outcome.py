@@ -1,0 +1,97 @@
+"""What came of an evaluation, to be read by people and programs."""
+
+import html
+import io
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+from rich.console import Console
+
+from .agents.errors import InputError
+from .benchmark.execution.runner import Run
+from .cli.printing import show
+from .cli.tables.results import results_table, standing
+
+WIDTH = 100
+"""Columns of the table as text."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Evaluation:
+    """Scores of a policy on a suite; ``print`` shows them by the way the human moves."""
+
+    run: Run
+    """The lifts: ``run.episodes``, each with its scores and its trace."""
+    results: dict[str, Any]
+    """All numbers, as in the ``results.json`` of ``colift run --out``."""
+
+    @property
+    def rmse_mm(self) -> float:
+        """Mean over the lifts of the RMSE between the table's ends [mm]: less is better."""
+        return float(self.results["summary"]["rmse_mm"]["mean"])
+
+    @property
+    def rmse_mm_ci95(self) -> tuple[float, float]:
+        """95 % confidence interval of :attr:`rmse_mm` [mm]."""
+        low, high = self.results["summary"]["rmse_mm"]["ci95"]
+        return low, high
+
+    @property
+    def vs_human(self) -> float:
+        """:attr:`rmse_mm` over that of a team of two humans: 1 is as good, less is better."""
+        return float(self.results["summary"]["vs_human"]["mean"])
+
+    @property
+    def failures(self) -> tuple[str, ...]:
+        """Why lifts ended early, one line for each that did."""
+        return tuple(
+            f"{episode.behaviour}/{episode.subject} seed {episode.seed}: {episode.failure}"
+            for episode in self.run.episodes
+            if episode.failure is not None
+        )
+
+    def rows(self) -> list[dict[str, object]]:
+        """Return one row a lift: who lifts, the seed, the scores, and why it failed, if it did."""
+        return [episode.row() for episode in self.run.episodes]
+
+    def to_frame(self) -> Any:
+        """Return :meth:`rows` as a ``pandas.DataFrame``.
+
+        Raises
+        ------
+        InputError
+            If pandas is not installed.
+        """
+        try:
+            pandas = import_module("pandas")
+        except ImportError as error:
+            raise InputError("a DataFrame needs pandas: pip install pandas") from error
+        return pandas.DataFrame(self.rows())
+
+    def __str__(self) -> str:
+        """Return the table and the lines below it."""
+        console = Console(file=io.StringIO(), width=WIDTH, no_color=True, _environ={})
+        show(results_table(self.results), *self._lines(), console=console)
+        assert isinstance(console.file, io.StringIO)
+        return console.file.getvalue().strip("\n")
+
+    def __repr__(self) -> str:
+        """Return policy, suite and error in one line."""
+        return (
+            f"<Evaluation of {self.run.policy} on {self.run.suite.name}: "
+            f"RMSE {self.rmse_mm:.2f} mm, vs_human {self.vs_human:.2f}>"
+        )
+
+    def _repr_html_(self) -> str:
+        """Return what a notebook shows: the picture, and the table."""
+        from .picture import evaluation_picture
+
+        return f"{evaluation_picture(self.run, self.results)}<pre>{html.escape(str(self))}</pre>"
+
+    def _lines(self) -> list[str]:
+        told = [standing(self.results)]
+        if self.failures:
+            count, first = len(self.failures), self.failures[0]
+            told.append(f"{count} of {len(self.run.episodes)} lifts failed; the first, {first}")
+        return told

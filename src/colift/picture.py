@@ -1,0 +1,58 @@
+"""The picture of an evaluation: each lift's error, by the way the human moves."""
+
+import io
+from collections.abc import Mapping
+from typing import Any, Final
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.figure import Figure
+
+from .benchmark.execution.runner import Run
+from .benchmark.rendering.style import HUMAN, INK, ROBOT, plain
+
+ROW: Final = 0.42
+"""Height of a row [inches]."""
+
+
+def evaluation_picture(run: Run, results: Mapping[str, Any]) -> str:
+    """Return the picture as an SVG element.
+
+    Parameters
+    ----------
+    run
+        The lifts: a dot each, and a solid line at the mean of each behaviour.
+    results
+        The content of ``results.json``: a dashed line at the mean of two humans.
+    """
+    behaviours = list(dict.fromkeys(episode.behaviour for episode in run.episodes))
+    figure = Figure(figsize=(7.0, 1.0 + ROW * len(behaviours)), layout="constrained")
+    axes = figure.add_subplot()
+    plain(axes)
+    for row, behaviour in enumerate(behaviours):
+        errors = [e.scores.rmse_mm for e in run.episodes if e.behaviour == behaviour]
+        groups = [group for group in results["groups"] if group["behaviour"] == behaviour]
+        team = np.average(
+            [group["human_human_rmse_mm"]["mean"] for group in groups],
+            weights=[group["episodes"] for group in groups],
+        )
+        axes.plot(errors, np.full(len(errors), row), "o", color=ROBOT, alpha=0.35, ms=5, mew=0)
+        ends = [row - 0.3, row + 0.3]
+        axes.plot([np.mean(errors)] * 2, ends, color=ROBOT, lw=2, label=_once(run.policy, row))
+        axes.plot([team] * 2, ends, "--", color=HUMAN, lw=1.5, label=_once("two humans", row))
+    axes.set_yticks(range(len(behaviours)), behaviours)
+    axes.set_ylim(len(behaviours) - 0.5, -0.5)
+    axes.set_xlim(left=0)
+    axes.set_xlabel("RMSE of the height difference [mm]", fontsize=9, color=INK)
+    axes.set_title(f"{run.policy} on {run.suite.name}", loc="left", fontsize=10, color=INK)
+    figure.legend(loc="outside right upper", frameon=False, fontsize=8.5)
+    buffer = io.StringIO()
+    with mpl.rc_context({"svg.fonttype": "none", "svg.hashsalt": "evaluation"}):
+        figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
+    text = buffer.getvalue()
+    return text[text.index("<svg") :]
+
+
+def _once(label: str, row: int) -> str:
+    """Return the label in the first row, else one that a legend leaves out."""
+    return label if row == 0 else "_"

@@ -1,0 +1,56 @@
+"""Registration of ``colift/Lift-v0`` with Gymnasium, and the environment by one call."""
+
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, Final
+
+import wrapt
+
+if TYPE_CHECKING:
+    from gymnasium import Env
+
+GYMNASIUM: Final = "gymnasium"
+ID: Final = "colift/Lift-v0"
+
+
+def register_with_gymnasium() -> None:
+    """Register the environment now if Gymnasium is loaded, else as soon as it is.
+
+    Gymnasium reads no entry points since 1.0, and takes some tenths of a second to import.
+    """
+    wrapt.register_post_import_hook(_register, GYMNASIUM)
+
+
+def _register(gymnasium: ModuleType) -> None:
+    gymnasium.register(id=ID, entry_point="colift.benchmark.environment.single:RobotEnv")
+
+
+def make(
+    scenario: str = "smooth",
+    subject: str = "S1",
+    *,
+    render_mode: str | None = None,
+    **settings: Any,
+) -> "Env[Any, Any]":
+    """Return ``gymnasium.make("colift/Lift-v0", ...)``: the robot is the agent.
+
+    Parameters
+    ----------
+    scenario
+        Name of the human's behaviour; see :func:`colift.list_humans`.
+    subject
+        Name of the human: ``"S1"`` to ``"S5"``, or ``"draw-N"``.
+    render_mode
+        ``None``, ``"rgb_array"`` or ``"human"``.
+    settings
+        ``control_period`` and ``latency`` [s], and what ``gymnasium.make`` takes itself.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown (the message lists the known ones) or a time is out of range.
+    """
+    import gymnasium
+
+    return gymnasium.make(
+        ID, scenario=scenario, subject=subject, render_mode=render_mode, **settings
+    )

@@ -1,0 +1,156 @@
+"""Policies that use up memory, processes, files or the disk."""
+
+from .policy import LATE, MANY, MEMORY, NO_COUNT, Hostile
+
+RESOURCES = [
+    Hostile(
+        name="memory bomb",
+        act="bytearray(1 << 33)",
+        reason="MemoryError",
+    ),
+    Hostile(
+        name="memory bomb in pieces",
+        act="kept = [bytearray(1 << 20) for _ in range(1000)]",
+        reason=f"MemoryError|{MEMORY}",
+    ),
+    Hostile(
+        name="memory of many processes",
+        act="""
+        for _ in range(4):
+            if os.fork() == 0:
+                kept = b"x" * (60 << 20)
+                time.sleep(60)
+        time.sleep(60)
+        """,
+        reason=MEMORY,
+    ),
+    Hostile(
+        name="memory that hides",
+        act="""
+        for _ in range(4):
+            if os.fork() == 0:
+                libc().prctl(4, 0, 0, 0, 0)
+                kept = b"x" * (60 << 20)
+                time.sleep(60)
+        time.sleep(60)
+        """,
+        reason=MEMORY,
+    ),
+    Hostile(
+        name="shared memory",
+        act="""
+        import mmap
+        kept = [mmap.mmap(-1, 1 << 26) for _ in range(4)]
+        for each in kept:
+            each.write(b"x" * (1 << 26))
+        """,
+        reason="PermissionError: .*",
+    ),
+    Hostile(
+        name="memory of files",
+        act="""
+        for place in ("/tmp", "/dev/shm"):
+            with open(place + "/big", "wb") as file:
+                for _ in range(90):
+                    file.write(bytes(1 << 20))
+        time.sleep(60)
+        """,
+        reason=MEMORY,
+        sparing=True,
+        needs_namespaces="without a private /tmp only the size of each file is limited",
+    ),
+    Hostile(
+        name="processor time of many processes",
+        act="""
+        for _ in range(3):
+            if os.fork() == 0:
+                while True: pass
+        while True: time.sleep(1)
+        """,
+        reason=r"used more than 3 s of processor time",
+        sparing=True,
+    ),
+    Hostile(
+        name="many processes",
+        act="""
+        for _ in range(500):
+            if os.fork() == 0:
+                time.sleep(60)
+        time.sleep(60)
+        """,
+        reason=rf"BlockingIOError: .*|{MANY}",
+    ),
+    Hostile(
+        name="fork bomb",
+        act="""
+        while True:
+            try:
+                os.fork()
+            except OSError:
+                pass
+        """,
+        reason=f"{LATE}|{MANY}|more than one answer to a request",
+        needs_namespaces=NO_COUNT,
+    ),
+    Hostile(
+        name="thread bomb",
+        act="""
+        # Small ones: else memory may run out before their number does.
+        import _thread
+        threading.stack_size(1 << 16)
+        while True:
+            _thread.start_new_thread(time.sleep, (60,))
+        """,
+        reason=rf"RuntimeError: can't start new thread|{MANY}",
+    ),
+    Hostile(
+        name="2 GB file",
+        act="""
+        with open(os.environ["TMPDIR"] + "/big", "wb") as file:
+            for _ in range(2048):
+                file.write(bytes(1 << 20))
+        """,
+        reason=r"OSError: \[Errno 2[78]\].*",
+    ),
+    Hostile(
+        name="2 GB file by truncate",
+        act="""
+        with open(os.environ["TMPDIR"] + "/big", "wb") as file:
+            file.truncate(2 << 30)
+        """,
+        reason=r"OSError: \[Errno 27\].*",
+    ),
+    Hostile(
+        name="many files",
+        act="""
+        for number in range(4000):
+            with open(os.environ["TMPDIR"] + f"/{number}", "wb") as file:
+                file.write(bytes(1 << 16))
+        """,
+        reason=r"OSError: \[Errno 28\].*",
+        needs_namespaces="without a private /tmp only the size of each file is limited",
+    ),
+    Hostile(
+        name="many open files",
+        act="kept = [open('/dev/null') for _ in range(10_000)]",
+        reason=r"OSError: \[Errno 24\].*",
+    ),
+    Hostile(
+        name="memory without a process",
+        act="denied(lambda: os.memfd_create('x')); return [0.0]",
+    ),
+    Hostile(
+        name="flood of stdout", act="while True: print('x' * 100_000)", reason=LATE, output="x"
+    ),
+    Hostile(
+        name="flood of stderr",
+        act="while True: os.write(2, b'y' * 100_000)",
+        reason=LATE,
+        output="y",
+    ),
+    Hostile(
+        name="flood, then act",
+        act="os.write(1, b'z' * 200_000); return [0.0]",
+        output="z",
+    ),
+]

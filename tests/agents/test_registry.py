@@ -1,0 +1,147 @@
+"""Finding policies by name, and what holds for every policy that is found."""
+
+import numpy as np
+import pytest
+from colift.agents.agent import Agent, Explaining
+from colift.agents.errors import InputError
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.registry import HUMANS, POLICIES, entries, lookup, summary
+
+NAMES = tuple(entries(POLICIES))
+
+
+def views(seed=0):
+    """Return what a robot sees of a lift, with a hand that lags."""
+    rng = np.random.default_rng(seed)
+    k = np.arange(40)
+    human = 0.1 * (1 - np.cos(np.pi * k / 39))
+    hand = np.concatenate(([0.0], human[:-1]))
+    seen = np.column_stack((human, hand, hand, hand, 0.1 * k))
+    seen[:, :3] += rng.normal(0.0, 2e-4, (40, 3))
+    return seen
+
+
+def run(policy, seen, seed=3):
+    policy.reset(seed)
+    return np.array([policy.act(view) for view in seen])
+
+
+@pytest.fixture
+def install(tmp_path, monkeypatch):
+    """Install a distribution that registers policies, for the time of a test."""
+
+    def put(name, entry_points):
+        about = tmp_path / f"{name}-1.0.dist-info"
+        about.mkdir()
+        about.joinpath("METADATA").write_text(
+            f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n"
+        )
+        about.joinpath("entry_points.txt").write_text(f"[{POLICIES}]\n{entry_points}\n")
+        monkeypatch.syspath_prepend(tmp_path)
+        entries.cache_clear()
+
+    yield put
+    monkeypatch.undo()
+    entries.cache_clear()
+
+
+def test_another_labs_policy_is_found_like_ours(install, tmp_path):
+    tmp_path.joinpath("otherlab_lifting.py").write_text(
+        "class Lifter:\n"
+        "    '''Lifts like the other lab.'''\n"
+        "    def reset(self, seed): pass\n"
+        "    def act(self, observation): return observation[:1]\n"
+    )
+    install("otherlab", "lifter = otherlab_lifting:Lifter")
+    assert set(entries(POLICIES)) == {*NAMES, "lifter"}
+    policy = PolicySpec(text="lifter").make()
+    assert summary(type(policy)) == "Lifts like the other lab."
+    assert run(policy, views()).shape == (40, 1)
+
+
+def test_an_uninstalled_policy_is_gone():
+    assert "lifter" not in tuple(entries(POLICIES))
+
+
+def test_a_name_is_registered_once(install):
+    install("otherlab", "blend = otherlab_lifting:Blend")
+    with pytest.raises(InputError, match=r"policy 'blend' is registered twice: .*otherlab_lifting"):
+        tuple(entries(POLICIES))
+
+
+def test_the_same_entry_found_twice_is_one(install):
+    install("copied", "hold = colift.agents.policies.hold:Hold")
+    assert tuple(entries(POLICIES)) == NAMES
+
+
+def test_an_unknown_name_is_told_all_names():
+    with pytest.raises(InputError) as error:
+        lookup(POLICIES, "blnd")
+    assert str(error.value) == (
+        f"unknown policy 'blnd'; did you mean blend? known: {', '.join(NAMES)}"
+    )
+    with pytest.raises(InputError, match=r"unknown human behaviour 'hold'; known: changing_goal, "):
+        lookup(HUMANS, "hold")
+
+
+def test_names_are_in_order():
+    assert list(NAMES) == sorted(NAMES)
+    assert len(NAMES) >= 6
+
+
+@pytest.mark.parametrize("name", NAMES)
+class TestEveryPolicy:
+    def test_is_an_agent_with_a_line_to_be_listed(self, name):
+        assert isinstance(PolicySpec(text=name).make(), Agent)
+        assert summary(lookup(POLICIES, name)).endswith((".", ")."))
+
+    def test_acts_by_one_number_in_double_precision(self, name):
+        policy = PolicySpec(text=name).make()
+        policy.reset(0)
+        for view in views():
+            action = policy.act(view)
+            assert action.dtype == np.float64
+            assert action.shape == (1,)
+            assert np.isfinite(action).all()
+
+    def test_leaves_the_observation_and_its_last_action_alone(self, name):
+        policy = PolicySpec(text=name).make()
+        policy.reset(0)
+        seen = views()
+        before = seen.copy()
+        kept = [(action := policy.act(view), action.copy()) for view in seen]
+        assert (seen == before).all()
+        assert all((action == copy).all() for action, copy in kept)
+        assert not any(np.shares_memory(action, seen) for action, _ in kept)
+
+    def test_is_deterministic_and_keeps_nothing_over_a_reset(self, name):
+        used, fresh = PolicySpec(text=name).make(), PolicySpec(text=name).make()
+        run(used, views(1)[::-1], seed=9)
+        assert (run(used, views()) == run(fresh, views())).all()
+
+    def test_two_of_them_do_not_disturb_each_other(self, name):
+        alone = run(PolicySpec(text=name).make(), views())
+        one, other = PolicySpec(text=name).make(), PolicySpec(text=name).make()
+        one.reset(3)
+        other.reset(4)
+        together = []
+        for view, elsewhere in zip(views(), views(2), strict=True):
+            together.append(one.act(view))
+            other.act(elsewhere)
+        assert (np.array(together) == alone).all()
+
+    def test_explains_itself_by_the_same_names_every_time(self, name):
+        policy = PolicySpec(text=name).make()
+        if not isinstance(policy, Explaining):
+            assert name not in ("blend", "proactive")
+            return
+        policy.reset(0)
+        told = []
+        for view in views():
+            policy.act(view)
+            told.append(policy.internals())
+        assert len({tuple(internals) for internals in told}) == 1
+        assert all(np.isfinite(list(internals.values())).all() for internals in told)
+        assert all(0.0 <= internals.get("role", 0.0) <= 1.0 for internals in told)
+        assert all(0.0 <= internals.get("confidence", 0.0) <= 1.0 for internals in told)
+        assert told[0] is not told[1]

@@ -1,0 +1,307 @@
+"""Digests: whatever changes a score changes them, and nothing that only tidies does."""
+
+import ast
+import importlib
+import json
+import os
+import pkgutil
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import colift
+import pytest
+from colift import agents, benchmark, robots
+from colift.agents import control, estimators, humans, policies
+from colift.agents.identity import Code
+from colift.agents.identity.modules import bound_names
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.registry import POLICIES, own_entries
+from colift.benchmark import episode, world
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.identity import PLANS, PLAYS_AND_SCORES, SIMULATES, STATED, numbers
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.scores import score
+from colift.benchmark.execution.provenance import PLAYS
+from colift.benchmark.suites.suite import make_suite
+
+LOOSE = ("agents.actions", "agents.agent")
+SUITE = (*PLAYS_AND_SCORES, *PLANS, Scenario, humans.Subject, humans.Recording)
+"""The roots of what a suite's digest has of the code."""
+
+PLAY = """
+import json, sys
+from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.suites.suite import make_suite
+run = run_suite(PolicySpec(text="copy"), make_suite("quick-v1"))
+print(json.dumps([[each.trace.digest(), repr(each.scores)] for each in run.episodes]))
+"""
+
+
+def modules(package):
+    found = pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
+    return [each.name for each in found]
+
+
+def mutated():
+    """Return the names of the modules of the world, the humans, sensors, metrics and the robot."""
+    found = [name for package in (robots, world, humans, episode) for name in modules(package)]
+    return found + [f"colift.{name}" for name in LOOSE]
+
+
+def source(name):
+    return Path(importlib.import_module(name).__file__).read_text()
+
+
+def constants(tree):
+    """Yield the numbers of a module, without those of annotations."""
+    annotations = {
+        id(each)
+        for node in ast.walk(tree)
+        for field in ("annotation", "returns")
+        if (value := getattr(node, field, None)) is not None
+        for each in ast.walk(value)
+    }
+    for node in ast.walk(tree):
+        number = isinstance(node, ast.Constant) and type(node.value) in (int, float)
+        if number and id(node) not in annotations:
+            yield node
+
+
+def another(value):
+    return value + 1 if isinstance(value, int) else value * 1.25 + 0.001
+
+
+def survivors(names):
+    """Return how many numbers there are, and of each module those that change no digest."""
+    code = Code()
+    before = code.hash(*SUITE, without=STATED)
+    count, left = 0, {}
+    for name in names:
+        tree = ast.parse(source(name))
+        for node in constants(tree):
+            count += 1
+            value, node.value = node.value, another(node.value)
+            if code.with_tree(name, tree).hash(*SUITE, without=STATED) == before:
+                left.setdefault(name, []).append((node.lineno, node.col_offset))
+            node.value = value
+    return count, left
+
+
+def played(folder=None):
+    """Return what quick-v1 gives, of the sources in a folder."""
+    path = {} if folder is None else {"PYTHONPATH": str(folder)}
+    done = subprocess.run(
+        [sys.executable, "-c", PLAY],
+        env={**os.environ, **path},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    return json.loads(done.stdout)
+
+
+def test_every_number_changes_the_digest_or_no_bit_of_a_lift(tmp_path):
+    """Those that change no digest are all changed at once, and the suite is played."""
+    count, left = survivors(mutated())
+    assert count > 1000
+    assert 0 < sum(map(len, left.values())) < count / 20
+    root = Path(colift.__path__[0])
+    shutil.copytree(
+        root, tmp_path / "colift", ignore=shutil.ignore_patterns("__pycache__", "leaderboard")
+    )
+    for name, places in left.items():
+        path = Path(importlib.import_module(name).__file__)
+        tree = ast.parse(path.read_text())
+        for node in constants(tree):
+            if (node.lineno, node.col_offset) in places:
+                node.value = another(node.value)
+        copied = Path(tmp_path, *name.split("."))
+        copied = copied / "__init__.py" if copied.is_dir() else copied.with_suffix(".py")
+        copied.write_text(ast.unparse(tree))
+    assert played(tmp_path) == played()
+
+
+def run_through(play):
+    """Return the top-level definitions of colift that run, as (module, name)."""
+    found = set()
+
+    def note(frame, event, argument):
+        if event == "call":
+            name = frame.f_globals.get("__name__", "")
+            first = frame.f_code.co_qualname.partition(".")[0]
+            generated = frame.f_code.co_filename == "<string>" or first.startswith("<")
+            if name.startswith("colift.") and not generated:
+                found.add((name, first))
+
+    sys.setprofile(note)
+    try:
+        play()
+    finally:
+        sys.setprofile(None)
+    return found
+
+
+@pytest.mark.parametrize("name", own_entries(POLICIES))
+def test_what_runs_is_in_a_digest(name):
+    """What plays and scores a lift is in the suite's, what decides in the policy's."""
+    policy = PolicySpec(text=name).load()
+    code = Code()
+    known = {*code.definitions(*SUITE, without=STATED), *code.definitions(policy)}
+    scenario = make_suite("quick-v1").scenarios[2]
+
+    def play():
+        run_episode(Lift(scenario), policy(), 0)
+
+    ran = run_through(play)
+    assert (score.__module__, "score") in ran
+    assert not ran - known
+    assert not {each for each in ran - set(code.definitions(policy)) if policies.__name__ in each}
+
+
+def tidied(text):
+    """Return a source without comments and docstrings, with an import that nothing uses.
+
+    Its functions stand in another order, and what it raises says something else.
+    """
+    tree = ast.parse(text)
+    for node in ast.walk(tree):
+        body = getattr(node, "body", None)
+        match body:
+            case [ast.Expr(value=ast.Constant() as docstring), *_]:
+                docstring.value = "Other words."
+        if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
+            node.exc.args = [ast.Constant("another message")]
+    functions = [each for each in tree.body if isinstance(each, ast.FunctionDef)]
+    others = [each for each in tree.body if not isinstance(each, ast.FunctionDef)]
+    first = 1 + max((i for i, each in enumerate(others) if is_import(each)), default=0)
+    body = [*others[:first], *functions[::-1], *others[first:]]
+    return (
+        f"{ast.unparse(ast.Module(body, []))}\nimport colorsys\nfrom email import message as _m\n"
+    )
+
+
+def is_import(node):
+    future = isinstance(node, ast.ImportFrom) and node.module == "__future__"
+    return isinstance(node, ast.Import | ast.ImportFrom) or future
+
+
+def moved(name, text):
+    """Return the sources of a module and of a new one, in which its first function now is."""
+    tree = ast.parse(text)
+    functions = [each for each in tree.body if isinstance(each, ast.FunctionDef)]
+    if not functions:
+        return {name: text}
+    function = functions[0]
+    package = name if is_package(name) else name.rpartition(".")[0]
+    top = [each for each in tree.body if is_import(each)]
+    rest = [
+        name
+        for each in tree.body
+        if each is not function and not is_import(each)
+        for name in bound_names([each])
+    ]
+    old, function.name = function.name, "elsewhere"
+    for node in ast.walk(function):
+        if isinstance(node, ast.Name) and node.id == old:
+            node.id = "elsewhere"
+    back = f"from {name} import {', '.join(rest)}\n" if rest else ""
+    tree.body.remove(function)
+    there = "\n".join(map(ast.unparse, top)) + f"\n{back}{ast.unparse(function)}"
+    here = f"from {package}.moved_out import elsewhere as {old}\n{ast.unparse(tree)}"
+    return {name: here, f"{package}.moved_out": there}
+
+
+def is_package(name):
+    return hasattr(importlib.import_module(name), "__path__")
+
+
+def hashes(code):
+    """Return every hash of code that identifies something."""
+    own = {name: code.hash(PolicySpec(text=name).load()) for name in own_entries(POLICIES)}
+    return {
+        "suite": code.hash(*SUITE, without=STATED),
+        "simulation": code.hash(*SIMULATES, *PLANS),
+        "colift": code.hash(*PLAYS),
+        **own,
+    }
+
+
+@pytest.fixture(scope="module")
+def everything():
+    """Return the names of all modules that any digest is over."""
+    code = Code()
+    loaded = [PolicySpec(text=name).load() for name in own_entries(POLICIES)]
+    return sorted({each.module for each in code.definitions(*SUITE, *PLAYS, *loaded)})
+
+
+def test_tidying_changes_no_digest(everything):
+    assert len(everything) > 100
+    sources = {name: tidied(source(name)) for name in everything}
+    assert hashes(Code(changed=sources)) == hashes(Code())
+
+
+def test_moving_a_function_out_of_any_module_changes_no_digest(everything):
+    before = hashes(Code())
+    by_package = {}
+    for name in everything:
+        package = name if is_package(name) else name.rpartition(".")[0]
+        by_package.setdefault(package, []).append(name)
+    for turn in range(max(map(len, by_package.values()))):
+        changed = {}
+        for names in by_package.values():
+            if turn < len(names):
+                changed |= moved(names[turn], source(names[turn]))
+        assert hashes(Code(changed=changed)) == before, sorted(changed)
+
+
+def test_a_policy_s_digest_is_its_own():
+    """A change of one policy, or of a part that some use, changes no other's."""
+    code = Code()
+    loaded = {name: PolicySpec(text=name).load() for name in own_entries(POLICIES)}
+    before = {name: code.hash(each) for name, each in loaded.items()}
+    assert len(set(before.values())) == len(before)
+    cases = {
+        policies.copy.__name__: {"copy"},
+        estimators.residuals.__name__: None,
+        control.task.__name__: {"task_model"},
+    }
+    for module, wanted in cases.items():
+        tree = ast.parse(source(module))
+        for node in constants(tree):
+            node.value = another(node.value)
+        changed = Code(changed={module: ast.unparse(tree) + "\nNEW = 1\n"})
+        differ = {name for name, each in loaded.items() if changed.hash(each) != before[name]}
+        assert differ < set(loaded)
+        if wanted is not None:
+            assert differ <= wanted
+
+
+def test_data_that_is_read_counts_and_no_other(monkeypatch):
+    read = Path.read_bytes
+    before = {
+        name: Code().hash(PolicySpec(text=name).load())
+        for name in ("anticipate", "reactive", "task_model", "copy")
+    }
+    for file, wanted in (
+        ("anticipate.json", {"anticipate"}),
+        ("reactive.json", {"reactive"}),
+        ("task_model.json", {"task_model"}),
+    ):
+        other = lambda self, file=file: read(self) + b" " * (self.name == file)  # noqa: E731
+        monkeypatch.setattr(Path, "read_bytes", other)
+        found = {name: Code().hash(PolicySpec(text=name).load()) for name in before}
+        assert {name for name in before if found[name] != before[name]} == wanted
+
+
+def test_the_numbers_have_names_and_values():
+    def values(each):
+        return [v for e in each.values() for v in values(e)] if isinstance(each, dict) else [each]
+
+    assert all(value is not None for value in values(dict(numbers())))
+    assert benchmark.__name__ not in json.dumps(list(numbers()))
+    assert agents.__name__ not in json.dumps(list(numbers()))

@@ -1,0 +1,99 @@
+"""Suites: what is in them, and what their digest stands for."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from colift.agents.errors import InputError
+from colift.benchmark.suites.suite import SUITES, make_suite, recorded_suite
+from colift.benchmark.world import table
+
+
+def test_the_suites_have_the_sizes_that_their_descriptions_say():
+    assert {name: make_suite(name).size for name in SUITES} == {
+        "standard-v1": 5 * 4 * 15,
+        "paper-v1": 5 * 10,
+        "quick-v1": 12,
+    }
+
+
+def test_a_digest_is_the_same_each_time_and_differs_between_suites():
+    digests = [make_suite(name).digest for name in SUITES for _ in range(2)]
+    assert digests[::2] == digests[1::2]
+    assert len(set(digests)) == len(SUITES)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda s: dataclasses.replace(s, latency=0.05),
+        lambda s: dataclasses.replace(s, control_period=0.05),
+        lambda s: dataclasses.replace(
+            s, subject=dataclasses.replace(s.subject, stiffness=s.subject.stiffness + 1)
+        ),
+        lambda s: dataclasses.replace(s, partner="human"),
+    ],
+)
+def test_a_digest_changes_with_everything_that_changes_a_number(change):
+    suite = make_suite("quick-v1")
+    scenarios = (change(suite.scenarios[0]), *suite.scenarios[1:])
+    assert dataclasses.replace(suite, scenarios=scenarios).digest != suite.digest
+
+
+def test_a_digest_changes_with_the_seeds_but_not_with_the_name():
+    suite = make_suite("quick-v1")
+    assert suite.with_seeds(0, 4).digest != suite.digest
+    assert suite.with_seeds(0, 3).digest == suite.digest
+    assert dataclasses.replace(suite, name="other").digest == suite.digest
+
+
+@pytest.mark.parametrize(("start", "stop"), [(5, 5), (5, 4), (-1, 3)])
+def test_an_empty_range_of_seeds_is_refused(start, stop):
+    with pytest.raises(InputError, match="0 <= A < B"):
+        make_suite("quick-v1").with_seeds(start, stop)
+
+
+def test_a_digest_changes_with_the_constants_of_the_world(monkeypatch):
+    before = make_suite("quick-v1").digest
+    monkeypatch.setattr(table, "TABLE_MASS", 0.36)
+    assert make_suite("quick-v1").digest != before
+
+
+def test_an_unknown_suite_is_refused_with_the_names():
+    with pytest.raises(InputError, match="standard-v1, paper-v1, quick-v1"):
+        make_suite("best-v1")
+
+
+def test_another_timing_is_told_in_the_name_and_in_the_digest():
+    suite = make_suite("quick-v1")
+    changed = suite.with_timing(0.05, None)
+    assert "latency 0.05" in changed.name
+    assert changed.digest != suite.digest
+    assert suite.with_timing(None, None) == suite
+    with pytest.raises(InputError, match="control_period"):
+        suite.with_timing(None, 7.0)
+
+
+def test_recordings_make_one_scenario_a_trial_with_the_subjects_in_turn(tmp_path):
+    path = tmp_path / "lifts.csv"
+    times = np.arange(0, 2, 0.02)
+    rows = [
+        f"trial{k},{t:.2f},{0.3 * np.sin(np.pi * t / 2) ** 2:.4f}" for k in range(7) for t in times
+    ]
+    path.write_text("trial,t_s,z_m\n" + "\n".join(rows) + "\n")
+    suite = recorded_suite(path)
+    assert suite.size == 7
+    assert [scenario.subject.name for scenario in suite.scenarios][:6] == [
+        "S1",
+        "S2",
+        "S3",
+        "S4",
+        "S5",
+        "S1",
+    ]
+    assert {scenario.behaviour for scenario in suite.scenarios} == {"recorded"}
+    assert suite.scenarios[3].trial == "trial3"
+    other = recorded_suite(path)
+    assert other.digest == suite.digest
+    path.write_text(path.read_text().replace("0.02,0.0003", "0.02,0.0004"))
+    assert recorded_suite(path).digest != suite.digest

@@ -1,0 +1,59 @@
+"""The project's own policies in a season: queued and evaluated like anybody's."""
+
+import dataclasses
+
+import pytest
+from colift.agents.errors import InputError
+from colift.leaderboard.board.board import OWN
+from colift.leaderboard.board.tokens import Tokens
+from colift.leaderboard.evaluation.entrant import LEARNED, builtin_entrant, builtin_names
+from colift.leaderboard.queue import Queue, WorkerQueue
+from colift.leaderboard.queue.worker import Worker
+
+
+@pytest.fixture
+def database():
+    """No URL: the file in the board's folder."""
+
+
+@pytest.fixture
+def board(open_board, tiny_suite):
+    return open_board(suite="tiny")
+
+
+def test_an_own_policy_becomes_a_verified_row(board):
+    queue = Queue(board)
+    job = queue.enqueue_own(builtin_entrant("copy"))
+    assert queue.enqueue_own(builtin_entrant("copy")).id == job.id
+    done = Worker(WorkerQueue(queue.board)).once()
+    assert done.state == "done", done.reason
+    (standing,) = board.standings()
+    assert (standing.row.name, standing.submitter, standing.row.verified) == ("copy", OWN, True)
+
+
+def test_a_policy_that_has_changed_since_it_was_queued_is_not_evaluated(board):
+    queue = Queue(board)
+    queue.enqueue_own(dataclasses.replace(builtin_entrant("copy"), digest="0" * 64))
+    done = Worker(WorkerQueue(queue.board)).once()
+    assert done.state == "evaluator fault"
+    assert "is not the one that was queued" in done.reason
+
+
+def test_all_of_them_fit_into_the_queue_whatever_the_quota_of_others(board):
+    queue = Queue(board)
+    for name in builtin_names():
+        queue.enqueue_own(builtin_entrant(name))
+    assert {job.name for job in queue.jobs("queued")} == set(builtin_names())
+
+
+def test_what_was_learned_says_by_which_command_and_the_rest_from_nothing():
+    told = {name: builtin_entrant(name).trained_on for name in builtin_names()}
+    assert "colift learn anticipate --lifts 1500" in told["anticipate"]
+    assert told["blend"] == told["reactive"] != told["task_model"]
+    assert {name for name, text in told.items() if text != "nothing"} == set(LEARNED)
+    assert {builtin_entrant(name).licence for name in builtin_names()} == {"MIT"}
+
+
+def test_nobody_else_can_submit_under_their_name(board):
+    with pytest.raises(InputError, match="not local or colift"):
+        Tokens(board).add(OWN)

@@ -1,0 +1,136 @@
+"""The practice season: made by the evaluation, written, read, adopted."""
+
+import dataclasses
+import hashlib
+import json
+from datetime import UTC, datetime
+
+import pytest
+from colift.agents.errors import InputError
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.evaluation.entrant import builtin_entrant, builtin_names
+from colift.leaderboard.evaluation.evaluation import play_team
+from colift.leaderboard.practice.practice import is_current, play_policy, practice_season
+from colift.leaderboard.practice.shipped import DATA, Shipped, shipped_practice
+from colift.leaderboard.replays.chosen import replays_of
+
+SUITE = "tiny"
+NOW = datetime(2026, 1, 2, tzinfo=UTC)
+
+
+@pytest.fixture(scope="module")
+def season(tiny_suite):
+    return practice_season(SUITE)
+
+
+@pytest.fixture(scope="module")
+def played(season):
+    team = play_team(season)
+    return team, play_policy("copy", season, team, NOW)
+
+
+@pytest.fixture(scope="module")
+def shipped(season, played, tmp_path_factory):
+    team, copy = played
+    folder = tmp_path_factory.mktemp("data")
+    made = Shipped(
+        suite=SUITE, suite_digest=season.suite.digest, began_at=NOW, team=team, played=()
+    )
+    made.with_played(copy).write(folder)
+    return folder
+
+
+def test_an_own_policy_is_isolated_and_verified_as_anybodys(played, season):
+    _, copy = played
+    row = copy.entry.row
+    assert row.verified
+    assert row.name == copy.entry.name == "copy"
+    assert row.submission == builtin_entrant("copy").digest
+    assert row.commitment == hashlib.sha256(season.secret).hexdigest()
+    assert (row.public.failed, row.hidden.failed) == (0, 0)
+    assert len(copy.hidden_rmse_mm) == season.suite.size
+
+
+def test_own_policies_have_digests_of_their_own():
+    digests = {builtin_entrant(name).digest for name in builtin_names()}
+    assert len(digests) == len(builtin_names())
+    with pytest.raises(InputError, match=r"no policy 'nonesuch'.*blend"):
+        builtin_entrant("nonesuch")
+
+
+def test_what_is_written_is_read(shipped, played):
+    team, copy = played
+    found = Shipped.read(SUITE, shipped)
+    assert found.team == team
+    assert found.began_at == NOW
+    assert found.played == (copy,)
+    assert Shipped.read("paper-v1", shipped) is None
+
+
+def test_equal_content_makes_equal_files(shipped, tmp_path):
+    Shipped.read(SUITE, shipped).write(tmp_path)
+    for path in shipped.iterdir():
+        assert (tmp_path / path.name).read_bytes() == path.read_bytes()
+
+
+def test_what_is_no_longer_true_is_made_again(played, season):
+    _, copy = played
+    assert is_current(copy, season)
+    row = copy.entry.row
+    for changed in (
+        dataclasses.replace(row, submission="0" * 64),
+        dataclasses.replace(row, suite_digest="0" * 16),
+        dataclasses.replace(row, versions={**row.versions, "numpy": "1.0"}),
+        None,
+    ):
+        entry = dataclasses.replace(copy.entry, row=changed)
+        assert not is_current(dataclasses.replace(copy, entry=entry), season)
+
+
+def test_a_board_adopts_what_is_shipped(shipped, played, tmp_path):
+    _, copy = played
+    board = Board.open(tmp_path / "board", SUITE)
+    with shipped_practice(SUITE, shipped) as practice:
+        board.adopt(practice)
+    info = board.season_info()
+    assert (info.name, info.current) == ("practice-tiny", True)
+    assert board.season.secret == bytes.fromhex(info.revealed) == practice_season(SUITE).secret
+    (standing,) = board.standings()
+    assert standing.row == copy.entry.row
+    assert standing.ranked
+    bundle = board.bundle(info.name, copy.entry.submission)
+    assert len(replays_of(bundle, "copy")) == 2
+    groups = json.loads((bundle / "results.json").read_text())["groups"]
+    assert [group["episodes"] for group in groups] == [2]
+    assert board.new_season("2").secret != practice_season(SUITE).secret
+    assert board.season_info().revealed is None
+    board.close()
+
+
+def test_a_shipped_season_can_be_one_to_look_at_only(shipped, tmp_path):
+    board = Board.open(tmp_path / "board", SUITE)
+    with shipped_practice(SUITE, shipped, current=False) as practice:
+        board.adopt(practice)
+    assert [(each.name, each.current) for each in board.seasons()] == [
+        ("1", True),
+        ("practice-tiny", False),
+    ]
+    board.close()
+
+
+def test_what_is_shipped_for_other_rules_is_left_alone(shipped, tmp_path, monkeypatch):
+    old = dataclasses.replace(Shipped.read(SUITE, shipped), suite_digest="0" * 16)
+    old.write(tmp_path)
+    with shipped_practice(SUITE, tmp_path) as found:
+        assert found is None
+
+
+@pytest.mark.parametrize("suite", ["standard-v1", "paper-v1"])
+def test_what_the_project_ships_is_of_its_suites(suite):
+    found = Shipped.read(suite, DATA)
+    if found is None:
+        pytest.skip("nothing is shipped yet")
+    season = practice_season(suite)
+    assert found.suite_digest == season.suite.digest
+    assert {each.entry.name for each in found.played} == set(builtin_names())
+    assert all(each.entry.row.commitment == season.commitment for each in found.played)

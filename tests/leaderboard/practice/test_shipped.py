@@ -1,0 +1,80 @@
+"""A new board shows what the project ships; one that is there is left as it is."""
+
+import dataclasses
+from datetime import UTC, datetime
+
+import pytest
+from colift.benchmark.suites.suite import make_suite
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.practice.practice import Played
+from colift.leaderboard.practice.shipped import Shipped, open_stocked
+from colift.leaderboard.records.season import BoardEntry
+
+from ..rows import digest, make_errors, make_row
+
+SUITE = make_suite("quick-v1")
+SEASON = "practice-quick-v1"
+
+
+@pytest.fixture
+def data(tmp_path, team):
+    """A folder with a shipped season of one row."""
+    at = datetime(2026, 1, 1, tzinfo=UTC)
+    entry = BoardEntry(
+        season=SEASON,
+        submission=digest("blend"),
+        name="blend",
+        submitter="colift",
+        at=at,
+        row=make_row("blend", season=SEASON),
+        refusal=None,
+    )
+    played = Played(entry=entry, hidden_rmse_mm=make_errors(10.0), files={"results.json": b"{}"})
+    shipped = Shipped(
+        suite=SUITE.name, suite_digest=SUITE.digest, began_at=at, team=team, played=(played,)
+    )
+    folder = tmp_path / "data"
+    folder.mkdir()
+    shipped.write(folder)
+    return folder
+
+
+@pytest.fixture
+def opened(tmp_path, data, monkeypatch):
+    """Return what opens a board stocked, and says which seasons and rows it has."""
+    monkeypatch.delenv("COLIFT_DATABASE_URL", raising=False)
+
+    def look():
+        board = open_stocked(tmp_path / "board", SUITE.name, data)
+        try:
+            return (
+                [(each.name, each.current) for each in board.seasons()],
+                [each.row.name for each in board.standings()],
+            )
+        finally:
+            board.close()
+
+    return look
+
+
+def test_a_new_board_shows_the_shipped_rows_and_takes_submissions_beside_them(opened):
+    expected = ([(SEASON, True)], ["blend"])
+    assert opened() == expected
+    assert opened() == expected
+
+
+def test_a_board_that_is_there_is_left_as_it_is(tmp_path, opened):
+    Board.open(tmp_path / "board", SUITE.name).close()
+    assert opened() == ([("1", True)], [])
+
+
+def test_what_was_shipped_under_other_rules_is_not_shown(data, opened, team):
+    shipped = Shipped.read(SUITE.name, data)
+    dataclasses.replace(shipped, suite_digest="0" * 16).write(data)
+    assert opened() == ([("1", True)], [])
+
+
+def test_nothing_shipped_is_nothing_shown(data, opened):
+    for path in data.iterdir():
+        path.unlink()
+    assert opened() == ([("1", True)], [])

@@ -1,0 +1,64 @@
+"""What README and docs show is what the code does."""
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from colift.agents.actions import action_limit
+from colift.agents.sandbox.host.policy import close_sandboxes
+from colift.agents.submissions.new import write_template
+from colift.agents.submissions.submission import open_submission, read_submission
+from colift.benchmark.episode.scenario import CONTROL_PERIOD
+
+ROOT = Path(__file__).parents[1]
+OBSERVATION = np.array([0.12, 0.1, 0.105, 0.11, 3.0])
+
+
+def python_blocks(page):
+    """Return the blocks of Python in a page, in order."""
+    return re.findall(r"^```python\n(.*?)^```", (ROOT / page).read_text(), re.DOTALL | re.MULTILINE)
+
+
+def test_the_first_policy_is_the_same_in_readme_and_template(tmp_path):
+    (source,) = (block for block in python_blocks("README.md") if "class Policy" in block)
+    shown = {}
+    exec(source, shown)
+    write_template(tmp_path / "mine")
+    template = read_submission(tmp_path / "mine").trusted().make()
+    template.reset(0)
+    action = template.act(OBSERVATION)
+    assert action == pytest.approx(1.8 * (OBSERVATION[0] - OBSERVATION[2]))
+    assert shown["Policy"]().act(OBSERVATION) == action
+
+
+@pytest.mark.parametrize(
+    "page", ["README.md", "docs/submissions.md", "agents/submissions/template/policy.py"]
+)
+def test_the_largest_action_is_where_a_submitter_reads(page):
+    assert f"{action_limit(CONTROL_PERIOD):.2f} m" in (ROOT / page).read_text()
+
+
+def test_the_recipe_for_a_trained_net_plays_what_the_net_says(tmp_path):
+    """The weights are of a net that is known: two linear layers, here evaluated by hand."""
+    (source,) = (each for each in python_blocks("docs/submissions.md") if "weights.npz" in each)
+    assert len(source.strip().splitlines()) <= 25
+    write_template(tmp_path / "mine")
+    (tmp_path / "mine" / "policy.py").write_text(source)
+    rng = np.random.default_rng(1)
+    w0, b0 = rng.normal(0.0, 1.0, (8, 4)), rng.normal(0.0, 1.0, 8)
+    w1, b1 = rng.normal(0.0, 0.01, (1, 8)), rng.normal(0.0, 0.01, 1)
+    np.savez(tmp_path / "mine" / "weights.npz", w0=w0, w1=w1, b0=b0, b1=b1)
+    with open_submission(tmp_path / "mine").sandboxed().agent() as policy:
+        policy.reset(0)
+        policy.act(OBSERVATION)
+        (action,) = policy.act(OBSERVATION)
+    close_sandboxes()
+    inputs = [OBSERVATION[2], 0.0, OBSERVATION[0], OBSERVATION[0]]
+    hidden = [
+        math.tanh(sum(w * x for w, x in zip(row, inputs, strict=True)) + b)
+        for row, b in zip(w0, b0, strict=True)
+    ]
+    wanted = sum(w * h for w, h in zip(w1[0], hidden, strict=True)) + b1[0]
+    assert action == pytest.approx(wanted, rel=1e-9)
