@@ -13,7 +13,7 @@ class EvaluatorFault(Exception):  # noqa: N818
     """The machine failed, not the policy: the episode is played again and never counted."""
 
 
-def told(error: BaseException) -> str:
+def error_text(error: BaseException) -> str:
     """Return an error in a line: its class and what it says."""
     if isinstance(error, PolicyError | EvaluatorFault):
         return str(error)

@@ -35,7 +35,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
     "Maintain colift": {
         "learn": "learn:app",
         "calibrate": "calibrate:calibrate",
-        "references": "references:references",
+        "baselines": "baselines:baselines",
         "practice": "practice:practice",
         "bounds": "bounds:bounds",
         "ablate": "ablate:ablate_policies",

@@ -18,7 +18,7 @@ from ..benchmark.execution.cluster import Cluster
 from ..benchmark.execution.journal import Journal, open_journal
 from ..benchmark.execution.provenance import origin, platform_of
 from ..benchmark.execution.runner import Run, run_suite
-from ..benchmark.results.baselines import SPECS, Reference, play_references, shipped_references
+from ..benchmark.results.baselines import SPECS, Baseline, play_baselines, shipped_baselines
 from ..benchmark.suites.suite import Suite
 from .completion import policies, suites
 from .options import STANDARD, Jobs, chosen_suite, executor
@@ -92,9 +92,9 @@ def run(
             there = workers.origin
             _mention_idle(workers)
         with _journal(out, resume, _identity(spec, episodes, there)) as journal:
-            done, references = _evaluate(spec, episodes, workers, journal)
-            finished = done.complete and references.keys() == SPECS.keys()
-            content = results(done, references) if done.episodes else None
+            done, baselines = _evaluate(spec, episodes, workers, journal)
+            finished = done.complete and baselines.keys() == SPECS.keys()
+            content = results(done, baselines) if done.episodes else None
             if content is not None and out is not None:
                 write_bundle(out, done, content, platform=platform_of(there))
             if journal is not None and finished:
@@ -126,9 +126,9 @@ def _journal(
 
 def _evaluate(
     spec: AgentSpec, suite: Suite, workers: Executor | None, journal: Journal | None
-) -> tuple[Run, Mapping[str, Reference]]:
-    """Run the policy, then the references on the same episodes, unless they are shipped."""
-    ready = shipped_references(suite)
+) -> tuple[Run, Mapping[str, Baseline]]:
+    """Run the policy, then the baselines on the same episodes, unless they are shipped."""
+    ready = shipped_baselines(suite)
     total = suite.size * (1 if ready else 1 + len(SPECS))
     with progress_bar(spec.name, total) as progress:
         play = partial(run_suite, spec, suite, executor=workers, progress=progress)
@@ -137,7 +137,7 @@ def _evaluate(
             if not done.complete:
                 return done, {}
             if ready is None:
-                ready = play_references(suite, executor=workers, progress=progress)
+                ready = play_baselines(suite, executor=workers, progress=progress)
         except EvaluatorFault as fault:
             if journal is None:
                 raise
@@ -175,7 +175,7 @@ def _complain(run: Run, *, finished: bool, hint: str) -> bool:
     run
         What was played.
     finished
-        Whether that is everything, the references included.
+        Whether that is everything, the baselines included.
     hint
         How to go on with what is not finished.
     """
@@ -207,4 +207,4 @@ def _interrupted(run: Run) -> str:
         return "interrupted before the first lift was finished"
     if not run.complete:
         return f"interrupted: partial results of {len(run.episodes)} of {run.suite.size} lifts"
-    return "interrupted before the references were played: there is nothing to compare with"
+    return "interrupted before the baselines were played: there is nothing to compare with"

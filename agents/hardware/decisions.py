@@ -7,7 +7,7 @@ from typing import Final, Protocol
 
 from ..actions import checked_action
 from ..agent import Agent, Observation
-from ..errors import told
+from ..errors import error_text
 from .stops import HoldReason
 
 POLICY_SHARE: Final = 0.6
@@ -42,7 +42,7 @@ def ask(policy: Agent, observation: Observation) -> Decision:
     try:
         return Decision(action=checked_action("robot", policy.act(observation), 1)[0])
     except (Exception, SystemExit) as error:
-        return Decision(hold=HoldReason.POLICY_FAILED, reason=told(error))
+        return Decision(hold=HoldReason.POLICY_FAILED, reason=error_text(error))
 
 
 class Inline:

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from ..agent import Agent, RobotObservation
-from ..errors import InputError, told
+from ..errors import InputError, error_text
 from . import setup
 from .decisions import Decider, Timed
 from .dry_run import DryArm
@@ -202,7 +202,9 @@ def warm_up(policy: Agent, seed: int) -> None:
         with ThreadPoolExecutor(1) as aside:
             aside.submit(_rehearse, policy, seed).result()
     except (Exception, SystemExit) as error:
-        raise StopTrialError(Stop.POLICY, f"the policy fails at once: {told(error)}") from error
+        raise StopTrialError(
+            Stop.POLICY, f"the policy fails at once: {error_text(error)}"
+        ) from error
 
 
 def _rehearse(policy: Agent, seed: int) -> None:

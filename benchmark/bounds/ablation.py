@@ -12,7 +12,7 @@ from ...agents.control.anticipation_controller import AnticipateParameters
 from ...agents.control.senses import Window
 from ..episode.scenario import CONTROL_PERIOD
 from ..execution.runner import Run, run_suite
-from ..results.summary import cell
+from ..results.summary import stratum
 from ..statistics import Estimate, paired_difference
 from ..suites.suite import BEHAVIOURS, Suite
 from ..training.anticipation import HIDDEN, WAYS, Lesson, learned
@@ -135,10 +135,10 @@ def _against(name: str, run: Run, whole: Run) -> Ablation:
     rmse, sparc = _values(run, "rmse_mm"), _values(run, "sparc")
     worse = rougher = None
     if run is not whole:
-        cells = [cell(episode) for episode in run.episodes]
-        worse = paired_difference(rmse, _values(whole, "rmse_mm"), cells)
+        strata = [stratum(episode) for episode in run.episodes]
+        worse = paired_difference(rmse, _values(whole, "rmse_mm"), strata)
         both = ~np.isnan(sparc - _values(whole, "sparc"))
-        moved = [cell for cell, taken in zip(cells, both, strict=True) if taken]
+        moved = [stratum for stratum, taken in zip(strata, both, strict=True) if taken]
         rougher = paired_difference(_values(whole, "sparc")[both], sparc[both], moved)
     return Ablation(
         name=name,

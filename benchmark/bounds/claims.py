@@ -53,8 +53,8 @@ def claims(contest: Contest) -> tuple[Claim, ...]:
     recorded lifts the team and the bound are no limits: people are no plan.
     """
     entries = {entry.name: entry for entry in contest.entries}
-    cells = contest.team.cells
-    behaviours = np.array([behaviour for behaviour, _ in cells])
+    strata = contest.team.strata
+    behaviours = np.array([behaviour for behaviour, _ in strata])
     mine, blend = (_values(entries[name], "rmse_mm") for name in (POLICY, "blend"))
     bound, team = (
         np.array(other.rmse_mm) for other in (contest.bounds[CAUSAL_BOUND], contest.team)
@@ -62,12 +62,12 @@ def claims(contest: Contest) -> tuple[Claim, ...]:
     found: list[Claim] = []
 
     def ratio(text: str, other: FloatArray, chosen: FloatArray, limit: float) -> None:
-        some = [cell for cell, taken in zip(cells, chosen, strict=True) if taken]
+        some = [stratum for stratum, taken in zip(strata, chosen, strict=True) if taken]
         of = ratio_of_means(mine[chosen], other[chosen], some)
         text = f"RMSE over that of {text}"
         found.append(Claim(text=text, value=of.mean, ci95=of.ci95, limit=limit))
 
-    everything = np.full(len(cells), True)
+    everything = np.full(len(strata), True)
     for behaviour in dict.fromkeys(behaviours.tolist()):
         chosen = behaviours == behaviour
         if behaviour in TO_TEAM:
@@ -95,8 +95,10 @@ def _kinder(entries: dict[str, Entry], contest: Contest) -> Iterator[Claim]:
     for name in RIVALS:
         smoother = [_values(entries[other], "sparc") for other in (POLICY, name)]
         moved = ~(np.isnan(smoother[0]) | np.isnan(smoother[1]))
-        cells = [cell for cell, taken in zip(contest.team.cells, moved, strict=True) if taken]
-        difference = paired_difference(smoother[0][moved], smoother[1][moved], cells)
+        strata = [
+            stratum for stratum, taken in zip(contest.team.strata, moved, strict=True) if taken
+        ]
+        difference = paired_difference(smoother[0][moved], smoother[1][moved], strata)
         yield Claim(
             text=f"SPARC minus that of {name}, paired",
             value=difference.mean,
@@ -105,7 +107,7 @@ def _kinder(entries: dict[str, Entry], contest: Contest) -> Iterator[Claim]:
             least=True,
         )
     force = [_values(entries[other], "human_force_n") for other in (POLICY, "blend")]
-    difference = paired_difference(force[0], force[1], contest.team.cells)
+    difference = paired_difference(force[0], force[1], contest.team.strata)
     yield Claim(
         text="rms force at the human's hands minus that with blend [N], paired",
         value=difference.mean,

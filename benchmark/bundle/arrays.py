@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ...agents.errors import InputError, told
+from ...agents.errors import InputError, error_text
 
 MOST_BYTES: Final = 2**30
 """Bytes that all arrays of a file may take together, unpacked."""
@@ -82,7 +82,7 @@ def parse_arrays(data: bytes, file: str, most: int = MOST_BYTES) -> Arrays:
         raise
     except Exception as error:
         # A broken archive raises whatever its broken part makes the reader do.
-        raise InputError(f"{file}: damaged, or not an .npz file: {told(error)}") from None
+        raise InputError(f"{file}: damaged, or not an .npz file: {error_text(error)}") from None
 
 
 def _check_directory(entries: list[zipfile.ZipInfo], file: str, most: int) -> None:

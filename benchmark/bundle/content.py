@@ -7,13 +7,13 @@ from typing import Any
 from ...agents.hardware.decisions import POLICY_SHARE
 from ..episode.scores import SCORING
 from ..execution.runner import Run
-from ..results.baselines import HUMAN_HUMAN, Reference
+from ..results.baselines import HUMAN_HUMAN, Baseline
 from ..results.summary import group, summarise
 from ..suites.suite import Suite
 from .table import one_line
 
 
-def results(run: Run, references: Mapping[str, Reference]) -> dict[str, Any]:
+def results(run: Run, baselines: Mapping[str, Baseline]) -> dict[str, Any]:
     """Return the content of ``results.json``.
 
     Everything follows from the episodes, but for what :func:`with_circumstances` names.
@@ -22,10 +22,10 @@ def results(run: Run, references: Mapping[str, Reference]) -> dict[str, Any]:
     ----------
     run
         The policy's episodes.
-    references
+    baselines
         Other agents on the same episodes, by name; see :mod:`colift.benchmark.results.baselines`.
     """
-    team = references.get(HUMAN_HUMAN)
+    team = baselines.get(HUMAN_HUMAN)
     summary = summarise(run.episodes, team.rmse_mm if team else None)
     summary["real_time"] = real_time(summary["step_ms"]["p99"], run.suite)
     return {
@@ -38,8 +38,8 @@ def results(run: Run, references: Mapping[str, Reference]) -> dict[str, Any]:
         "isolation": one_line(run.isolation),
         "evaluator_faults": run.faults,
         "summary": summary,
-        "groups": group(run.episodes, team.by_cell() if team else None),
-        "references": {name: _reference(value) for name, value in references.items()},
+        "groups": group(run.episodes, team.by_stratum() if team else None),
+        "baselines": {name: _baseline(value) for name, value in baselines.items()},
     }
 
 
@@ -75,11 +75,11 @@ def with_circumstances(
     }
 
 
-def _reference(reference: Reference) -> dict[str, Any]:
+def _baseline(baseline: Baseline) -> dict[str, Any]:
     return {
         "rmse_mm": {
-            "mean": reference.estimate.mean,
-            "ci95": list(reference.estimate.ci95),
+            "mean": baseline.estimate.mean,
+            "ci95": list(baseline.estimate.ci95),
         },
-        **{name: {"mean": mean} for name, mean in reference.means.items()},
+        **{name: {"mean": mean} for name, mean in baseline.means.items()},
     }

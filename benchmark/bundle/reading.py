@@ -152,7 +152,7 @@ def _results(data: bytes, *, acted: bool) -> dict[str, Any]:
     for path in ("colift", "suite", "suite_digest", "policy.name", "policy.digest", "isolation"):
         _line(pick(content, path, str, RESULTS), f"{RESULTS}: {path}")
     pick(content, "complete", bool, RESULTS)
-    pick(content, "references", dict, RESULTS)
+    pick(content, "baselines", dict, RESULTS)
     for path in ("scoring", "evaluator_faults"):
         if not 0 <= pick(content, path, int, RESULTS) <= MOST_COUNTED:
             raise InputError(f"{RESULTS}: {path} must be from 0 to {MOST_COUNTED}")

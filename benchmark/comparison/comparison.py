@@ -1,6 +1,6 @@
 """The comparison: scopes, and the Pareto front of level and smooth.
 
-References
+Baselines
 ----------
 K. Miettinen (1999). Nonlinear multiobjective optimization. Kluwer, chapter 2.
 """
@@ -64,7 +64,7 @@ class Comparison:
 
 def compare(contest: Contest) -> Comparison:
     """Return the comparison of the policies: overall, on each behaviour, with each subject."""
-    overall = scope(contest, "all", "all", range(len(contest.team.cells)))
+    overall = scope(contest, "all", "all", range(len(contest.team.strata)))
     points = {
         standing.name: Point(
             rmse_mm=standing.rmse_mm.mean,
@@ -76,8 +76,10 @@ def compare(contest: Contest) -> Comparison:
     return Comparison(
         contest=contest,
         overall=overall,
-        behaviours=_parts(contest, "behaviour", [behaviour for behaviour, _ in contest.team.cells]),
-        subjects=_parts(contest, "subject", [subject for _, subject in contest.team.cells]),
+        behaviours=_parts(
+            contest, "behaviour", [behaviour for behaviour, _ in contest.team.strata]
+        ),
+        subjects=_parts(contest, "subject", [subject for _, subject in contest.team.strata]),
         front=pareto_front(points),
     )
 

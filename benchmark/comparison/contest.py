@@ -16,12 +16,12 @@ from ..episode.scores import SCORING, Scores
 from ..execution.runner import Run, run_suite
 from ..results.baselines import (
     HUMAN_HUMAN,
-    Reference,
+    Baseline,
     human_team_run,
+    shipped_baselines,
     shipped_bounds,
-    shipped_references,
 )
-from ..results.summary import Cell, cell
+from ..results.summary import Stratum, stratum
 from ..suites.suite import Suite
 
 TEAM: Final = "human-human team"
@@ -34,7 +34,7 @@ class Entry:
     name: str
     digest: str
     """Hash of the policy's source."""
-    cells: tuple[Cell, ...]
+    strata: tuple[Stratum, ...]
     """Behaviour and subject of each episode, in the suite's order."""
     scores: tuple[Scores, ...]
     failures: tuple[str | None, ...]
@@ -50,7 +50,7 @@ class Entry:
         return cls(
             name=name,
             digest=run.policy_digest,
-            cells=tuple(cell(episode) for episode in run.episodes),
+            strata=tuple(stratum(episode) for episode in run.episodes),
             scores=tuple(episode.scores for episode in run.episodes),
             failures=tuple(episode.failure for episode in run.episodes),
             step_ms=(float(p50), float(p99)) if times else None,
@@ -72,20 +72,20 @@ class Contest:
 
     suite: Suite
     entries: tuple[Entry, ...]
-    team: Reference
+    team: Baseline
     """The human-human team."""
-    bounds: Mapping[str, Reference] = field(default_factory=dict)
+    bounds: Mapping[str, Baseline] = field(default_factory=dict)
     """What no policy is expected to beat."""
 
     @property
-    def references(self) -> dict[str, Reference]:
+    def baselines(self) -> dict[str, Baseline]:
         """What policies are set against, by name: the team, then the bounds; none has a rank."""
         return {TEAM: self.team, **self.bounds}
 
 
 def amount(policies: int, suite: Suite, *, bounds: int = 0) -> int:
     """Return how many episodes :func:`play_contest` will play with so many policies and bounds."""
-    team = shipped_references(suite) is None
+    team = shipped_baselines(suite) is None
     return suite.size * (policies + team + bounds * (shipped_bounds(suite) is None))
 
 
@@ -125,9 +125,9 @@ def play_contest(
     bounding = shipped_bounds(suite)
     if bounding is None:
         bounding = play_bounds(bounds or {}, suite, executor=executor, progress=progress)
-    shipped = shipped_references(suite)
+    shipped = shipped_baselines(suite)
     if shipped is None:
-        team = Reference.of(_complete(human_team_run(suite, executor=executor, progress=progress)))
+        team = Baseline.of(_complete(human_team_run(suite, executor=executor, progress=progress)))
     else:
         team = shipped[HUMAN_HUMAN]
     return Contest(suite=suite, entries=(*entries, *stored), team=team, bounds=bounding)
@@ -139,10 +139,10 @@ def play_bounds(
     *,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
-) -> dict[str, Reference]:
+) -> dict[str, Baseline]:
     """Return how far each of the bounds comes on a suite; arguments as of :func:`play_contest`."""
     return {
-        name: Reference.of(_complete(play(suite, executor=executor, progress=progress)))
+        name: Baseline.of(_complete(play(suite, executor=executor, progress=progress)))
         for name, play in bounds.items()
     }
 

@@ -46,9 +46,9 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
         "suite_digest": suite.digest,
         "episodes": comparison.overall.episodes,
         "decisive": comparison.overall.decisive,
-        "human_human": _reference(comparison, TEAM),
+        "human_human": _baseline(comparison, TEAM),
         "bounds": [
-            {"name": name, **_reference(comparison, name)} for name in comparison.contest.bounds
+            {"name": name, **_baseline(comparison, name)} for name in comparison.contest.bounds
         ],
         "policies": policies,
         "behaviours": [_part(scope) for scope in comparison.behaviours],
@@ -67,11 +67,11 @@ def _policy(standing: Standing) -> dict[str, Any]:
     }
 
 
-def _reference(comparison: Comparison, name: str) -> dict[str, Any]:
-    reference = comparison.contest.references[name]
+def _baseline(comparison: Comparison, name: str) -> dict[str, Any]:
+    baseline = comparison.contest.baselines[name]
     return {
-        "rmse_mm": dataclasses.asdict(comparison.overall.references_rmse_mm[name]),
-        **{name: {"mean": mean} for name, mean in reference.means.items()},
+        "rmse_mm": dataclasses.asdict(comparison.overall.baselines_rmse_mm[name]),
+        **{name: {"mean": mean} for name, mean in baseline.means.items()},
     }
 
 

@@ -82,21 +82,21 @@ def _picture(comparison: Comparison, kind: str, width: float, height: float) -> 
 def _ranks(comparison: Comparison) -> list[Row]:
     entries = {entry.name: entry for entry in comparison.contest.entries}
     rows = [_rank_row(comparison.overall, s, entries[s.name]) for s in comparison.overall.standings]
-    rows += [_reference_row(comparison, name) for name in comparison.contest.references]
+    rows += [_baseline_row(comparison, name) for name in comparison.contest.baselines]
     return rows
 
 
-def _reference_row(comparison: Comparison, name: str) -> Row:
-    reference, overall = comparison.contest.references[name], comparison.overall
-    rmse = overall.references_rmse_mm[name]
+def _baseline_row(comparison: Comparison, name: str) -> Row:
+    baseline, overall = comparison.contest.baselines[name], comparison.overall
+    rmse = overall.baselines_rmse_mm[name]
     cells = [
         Cell(""),
         _estimate(rmse, ".2f"),
         Cell(f"{rmse.mean / overall.team_rmse_mm.mean:.2g}"),
-        *(Cell(metric.text(reference.means[metric.name])) for metric in BOARD),
+        *(Cell(metric.text(baseline.means[metric.name])) for metric in BOARD),
         Cell(""),
     ]
-    return Row(name, cells, kind="reference")
+    return Row(name, cells, kind="baseline")
 
 
 def _rank_row(overall: Scope, standing: Standing, entry: Entry) -> Row:
@@ -145,10 +145,10 @@ def _parts(comparison: Comparison, scopes: Sequence[Scope]) -> list[Row]:
             for scope, column in zip(scopes, columns, strict=True)
         ]
         rows.append(Row(standing.name, parts))
-    for name in scopes[0].references_rmse_mm:
-        means = [scope.references_rmse_mm[name] for scope in scopes]
+    for name in scopes[0].baselines_rmse_mm:
+        means = [scope.baselines_rmse_mm[name] for scope in scopes]
         errors = [_estimate(mean, digits(mean.mean)) for mean in means]
-        rows.append(Row(name, errors, kind="reference"))
+        rows.append(Row(name, errors, kind="baseline"))
     return rows
 
 

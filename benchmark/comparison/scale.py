@@ -90,7 +90,7 @@ class Scale:
 
 def spots(comparison: Comparison) -> list[Spot]:
     """Return the policies, the most level first, then the human-human team and the bounds."""
-    references = comparison.contest.references
+    baselines = comparison.contest.baselines
     return [
         *(_spot(standing, comparison.front) for standing in comparison.overall.standings),
         *(
@@ -98,14 +98,14 @@ def spots(comparison: Comparison) -> list[Spot]:
                 name=name,
                 x=rmse.mean,
                 x_bar=rmse.ci95,
-                y=references[name].means["sparc"],
+                y=baselines[name].means["sparc"],
                 y_bar=None,
                 colour=HUMAN,
                 marker="D" if name == TEAM else "s",
                 filled=name == TEAM,
                 bound=name != TEAM,
             )
-            for name, rmse in comparison.overall.references_rmse_mm.items()
+            for name, rmse in comparison.overall.baselines_rmse_mm.items()
         ),
     ]
 

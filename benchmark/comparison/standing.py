@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 
 from ..episode.scores import BOARD
-from ..results.summary import Cell
+from ..results.summary import Stratum
 from ..statistics import (
     Estimate,
     FloatArray,
@@ -82,8 +82,8 @@ class Scope:
     name: str
     """The behaviour or the subject; ``all`` for all episodes."""
     episodes: int
-    references_rmse_mm: Mapping[str, Estimate]
-    """RMSE of each of :attr:`.Contest.references`."""
+    baselines_rmse_mm: Mapping[str, Estimate]
+    """RMSE of each of :attr:`.Contest.baselines`."""
     standings: tuple[Standing, ...]
     """In the order of the mean RMSE, the best first."""
     decisive: bool
@@ -92,7 +92,7 @@ class Scope:
     @property
     def team_rmse_mm(self) -> Estimate:
         """RMSE of the human-human team."""
-        return self.references_rmse_mm[TEAM]
+        return self.baselines_rmse_mm[TEAM]
 
     def best(self, standing: Standing) -> bool:
         """Whether a policy is the best here or cannot be told from it, as far as that is known."""
@@ -112,38 +112,40 @@ def scope(contest: Contest, kind: Kind, name: str, members: Sequence[int]) -> Sc
         Indices of the episodes, in the suite's order.
     """
     chosen = np.array(members)
-    cells = [contest.team.cells[i] for i in members]
+    strata = [contest.team.strata[i] for i in members]
     team = np.array(contest.team.rmse_mm)[chosen]
     errors = {entry.name: _values(entry, "rmse_mm")[chosen] for entry in contest.entries}
     groups = rank_groups(errors)
     order = [name for group in groups for name in group]
     ranks = {name: rank for rank, group in enumerate(groups, 1) for name in group}
-    differences = _to_best([errors[name] for name in order], cells)
+    differences = _to_best([errors[name] for name in order], strata)
     entries = {entry.name: entry for entry in contest.entries}
     return Scope(
         kind=kind,
         name=name,
         episodes=len(members),
-        references_rmse_mm={
-            name: mean_of(np.array(reference.rmse_mm)[chosen], cells)
-            for name, reference in contest.references.items()
+        baselines_rmse_mm={
+            name: mean_of(np.array(baseline.rmse_mm)[chosen], strata)
+            for name, baseline in contest.baselines.items()
         },
         standings=tuple(
-            _standing(entries[name], chosen, cells, team, ranks[name], difference)
+            _standing(entries[name], chosen, strata, team, ranks[name], difference)
             for name, difference in zip(order, differences, strict=True)
         ),
         decisive=decisive(len(errors), len(members)),
     )
 
 
-def _to_best(errors: Sequence[FloatArray], cells: Sequence[Cell]) -> list[PairedDifference | None]:
+def _to_best(
+    errors: Sequence[FloatArray], strata: Sequence[Stratum]
+) -> list[PairedDifference | None]:
     """Return the difference of each policy to the first."""
     best, *others = errors
     ps = holm_correction(permutation_ps_against(best, others))
     return [
         None,
         *(
-            PairedDifference.of(error, best, cells, float(p))
+            PairedDifference.of(error, best, strata, float(p))
             for error, p in zip(others, ps, strict=True)
         ),
     ]
@@ -152,7 +154,7 @@ def _to_best(errors: Sequence[FloatArray], cells: Sequence[Cell]) -> list[Paired
 def _standing(
     entry: Entry,
     chosen: FloatArray,
-    cells: Sequence[Cell],
+    strata: Sequence[Stratum],
     team: FloatArray,
     rank: int,
     to_best: PairedDifference | None,
@@ -162,11 +164,11 @@ def _standing(
         name=entry.name,
         rank=rank,
         failed=sum(entry.failures[i] is not None for i in chosen),
-        rmse_mm=mean_of(rmse, cells),
-        vs_human=ratio_of_means(rmse, team, cells),
-        better_than_human=probability_better(rmse, team, cells),
+        rmse_mm=mean_of(rmse, strata),
+        vs_human=ratio_of_means(rmse, team, strata),
+        better_than_human=probability_better(rmse, team, strata),
         metrics={
-            metric.name: _metric_mean(_values(entry, metric.name)[chosen], cells)
+            metric.name: _metric_mean(_values(entry, metric.name)[chosen], strata)
             for metric in BOARD
         },
         clipped=mean_with_missing(_values(entry, "clipped")[chosen]).mean,
@@ -174,9 +176,9 @@ def _standing(
     )
 
 
-def _metric_mean(values: FloatArray, cells: Sequence[Cell]) -> MetricMean:
+def _metric_mean(values: FloatArray, strata: Sequence[Stratum]) -> MetricMean:
     known = ~np.isnan(values)
-    some = [cell for cell, there in zip(cells, known, strict=True) if there]
+    some = [stratum for stratum, there in zip(strata, known, strict=True) if there]
     return MetricMean(
         estimate=mean_of(values[known], some) if some else None,
         missing=len(values) - len(some),

@@ -6,7 +6,7 @@ from typing import Final
 
 from ...agents.actions import ActionError, checked_action
 from ...agents.agent import Agent, Explaining, Printing
-from ...agents.errors import EvaluatorFault, told
+from ...agents.errors import EvaluatorFault, error_text
 from .lift import Lift
 from .recorder import Recorder
 from .scores import Scores, score
@@ -106,7 +106,7 @@ def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
         except EvaluatorFault:
             raise
         except (Exception, SystemExit) as error:
-            reason = error if isinstance(error, ActionError) else told(error)
+            reason = error if isinstance(error, ActionError) else error_text(error)
             failure = f"{STEP}{recorder.steps}: {reason}"
             break
         reference = checked_action("human", human.act(lift.human_observation()), frames)
@@ -135,7 +135,7 @@ def _start(partner: Agent) -> str | None:
     except EvaluatorFault:
         raise
     except (Exception, SystemExit) as error:
-        return f"{START}{told(error)}"
+        return f"{START}{error_text(error)}"
     return None
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Final
 
-from ...agents.errors import InputError, told
+from ...agents.errors import InputError, error_text
 from ...agents.extras import how_to_install
 from .cluster import Cluster
 from .provenance import COLIFT, compare, origin
@@ -60,7 +60,7 @@ def _reach(address: str) -> None:
         kind = asyncio.run(asyncio.wait_for(_kind(address), CONNECT_SECONDS))
     except Exception as error:
         raise InputError(
-            f"--dask {address}: no Dask scheduler answers ({told(error)}); "
+            f"--dask {address}: no Dask scheduler answers ({error_text(error)}); "
             "it should be such as tcp://host:8786"
         ) from error
     if kind != "Scheduler":
@@ -97,7 +97,9 @@ def _agreed(client: Any, address: str) -> dict[str, str]:
         if isinstance(said, OSError):
             continue  # It has just died; the next one is looked at when it works.
         if isinstance(said, BaseException):
-            raise InputError(f"--dask {address}: worker {worker} cannot run colift: {told(said)}")
+            raise InputError(
+                f"--dask {address}: worker {worker} cannot run colift: {error_text(said)}"
+            )
         compare(said, {COLIFT: origin()[COLIFT]}, f"on worker {worker}", "here")
         agreed = agreed or said
         compare(said, agreed, f"on worker {worker}", "on another worker")

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from multiprocessing.connection import Connection
 from typing import Any, Final, ParamSpec, TypeVar
 
-from ...agents.errors import EvaluatorFault, InputError, told
+from ...agents.errors import EvaluatorFault, InputError, error_text
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -174,10 +174,10 @@ def _outcome(call: bytes) -> bytes:
             data = pickle.dumps((True, error))
             pickle.loads(data)
             return data
-        return pickle.dumps((True, EvaluatorFault(told(error))))
+        return pickle.dumps((True, EvaluatorFault(error_text(error))))
     except BaseException as error:
         # Whatever a policy raises to end this process, or as if someone had pressed Ctrl-C.
-        return pickle.dumps((True, EvaluatorFault(told(error))))
+        return pickle.dumps((True, EvaluatorFault(error_text(error))))
 
 
 def _exit(code: int | None) -> str:

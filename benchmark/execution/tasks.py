@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from ...agents.agent import Action, Agent, Observation
-from ...agents.errors import EvaluatorFault, InputError, told
+from ...agents.errors import EvaluatorFault, InputError, error_text
 from ...agents.spec import AgentSpec, Paced
 from ..episode.episode import Episode, run_episode
 from ..episode.lift import Lift
@@ -154,7 +154,7 @@ class Faults:
         """
         self.count += 1
         if attempt >= ATTEMPTS:
-            raise EvaluatorFault(f"tried {ATTEMPTS} times: {told(error)}") from error
+            raise EvaluatorFault(f"tried {ATTEMPTS} times: {error_text(error)}") from error
 
 
 def gather(
@@ -225,4 +225,4 @@ def _submitted(task: Task, executor: Executor) -> Future[list[tuple[int, Episode
     try:
         return executor.submit(task)
     except Exception as error:
-        raise EvaluatorFault(f"cannot go on: {told(error)}") from error
+        raise EvaluatorFault(f"cannot go on: {error_text(error)}") from error

@@ -12,7 +12,7 @@ from ..bundle import results, write_bundle
 from ..execution.connecting import dask_pool
 from ..execution.pool import process_pool
 from ..execution.runner import run_suite
-from ..results.baselines import shipped_references
+from ..results.baselines import shipped_baselines
 from ..suites.suite import make_suite
 from ..verification import verify
 from .loopback import loopback_cluster
@@ -38,7 +38,7 @@ def scale(
     policy
         The name of what is run: the less time it takes, the more the rest shows.
     suite
-        What is run: a suite with shipped references.
+        What is run: a suite with shipped baselines.
     rounds
         How often each is run.
     progress
@@ -52,7 +52,7 @@ def scale(
         its own; ``verify_ratio`` of verifying a bundle over making it.
     """
     spec, episodes = PolicySpec(text=policy), make_suite(suite)
-    references = shipped_references(episodes) or {}
+    baselines = shipped_baselines(episodes) or {}
     ratios: dict[str, list[float]] = {"dask_ratio": [], "verify_ratio": []}
     with (
         tempfile.TemporaryDirectory(prefix="colift-") as folder,
@@ -66,7 +66,7 @@ def scale(
         for _ in range(rounds):
             alone, run = _timed(run_suite, spec, episodes, executor=local, progress=progress)
             far, _ = _timed(run_suite, spec, episodes, executor=cluster, progress=progress)
-            write, _ = _timed(write_bundle, bundle, run, results(run, references))
+            write, _ = _timed(write_bundle, bundle, run, results(run, baselines))
             again, _ = _timed(verify, bundle, executor=local, progress=progress)
             ratios["dask_ratio"].append(alone / far)
             ratios["verify_ratio"].append((alone + write) / again)

@@ -35,7 +35,7 @@ class Cell:
 
 @dataclass(frozen=True)
 class Row:
-    """A row of a table; ``kind`` is its class, such as ``reference``."""
+    """A row of a table; ``kind`` is its class, such as ``baseline``."""
 
     name: str
     cells: Sequence[Cell]

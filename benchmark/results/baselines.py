@@ -1,6 +1,6 @@
 """What every result is set against: the human-human team, and the policies hold and copy.
 
-For the public suites the references are shipped, and with them the bounds (:mod:`.bounds`), which
+For the public suites the baselines are shipped, and with them the bounds (:mod:`.bounds`), which
 take minutes to play; for any other set of episodes they are played.
 """
 
@@ -21,7 +21,7 @@ from ..episode.scores import BOARD
 from ..execution.runner import Run, run_suite
 from ..statistics import Estimate, mean_of, mean_with_missing
 from ..suites.suite import Suite
-from .summary import Cell, cell
+from .summary import Stratum, stratum
 
 HUMAN_HUMAN: Final = "human_human"
 
@@ -31,10 +31,10 @@ TEAM_PARTNER: Final = InMemorySpec(name=HUMAN_HUMAN, factory=Partner, source=Par
 
 
 @dataclass(frozen=True, kw_only=True)
-class Reference:
-    """What remains of a reference's run: enough for paired comparisons of RMSE."""
+class Baseline:
+    """What remains of a baseline's run: enough for paired comparisons of RMSE."""
 
-    cells: tuple[Cell, ...]
+    strata: tuple[Stratum, ...]
     """Behaviour and subject of each episode, in the suite's order."""
     rmse_mm: tuple[float, ...]
     """RMSE of each episode."""
@@ -42,10 +42,10 @@ class Reference:
     """Means of the other metrics that boards show; None where no episode has a value."""
 
     @classmethod
-    def of(cls, run: Run) -> "Reference":
-        """Return the reference that a complete run is."""
+    def of(cls, run: Run) -> "Baseline":
+        """Return the baseline that a complete run is."""
         return cls(
-            cells=tuple(cell(episode) for episode in run.episodes),
+            strata=tuple(stratum(episode) for episode in run.episodes),
             rmse_mm=tuple(episode.scores.rmse_mm for episode in run.episodes),
             means={
                 metric.name: mean_with_missing(
@@ -56,18 +56,18 @@ class Reference:
         )
 
     def plain(self) -> dict[str, Any]:
-        """Return the reference as JSON has it."""
+        """Return the baseline as JSON has it."""
         return {
-            "cells": [list(key) for key in self.cells],
+            "strata": [list(key) for key in self.strata],
             "rmse_mm": list(self.rmse_mm),
             **self.means,
         }
 
     @classmethod
     def read(cls, content: Mapping[str, Any]) -> Self:
-        """Return the reference that :meth:`plain` has written."""
+        """Return the baseline that :meth:`plain` has written."""
         return cls(
-            cells=tuple((behaviour, subject) for behaviour, subject in content["cells"]),
+            strata=tuple((behaviour, subject) for behaviour, subject in content["strata"]),
             rmse_mm=tuple(content["rmse_mm"]),
             means={metric.name: content[metric.name] for metric in BOARD},
         )
@@ -80,12 +80,12 @@ class Reference:
     @functools.cached_property
     def estimate(self) -> Estimate:
         """Mean RMSE with its interval [mm]."""
-        return mean_of(self.rmse_mm, self.cells)
+        return mean_of(self.rmse_mm, self.strata)
 
-    def by_cell(self) -> dict[Cell, float]:
+    def by_stratum(self) -> dict[Stratum, float]:
         """Return the mean RMSE of each behaviour and subject [mm]."""
-        members: dict[Cell, list[float]] = {}
-        for key, value in zip(self.cells, self.rmse_mm, strict=True):
+        members: dict[Stratum, list[float]] = {}
+        for key, value in zip(self.strata, self.rmse_mm, strict=True):
             members.setdefault(key, []).append(value)
         return {key: float(np.mean(values)) for key, values in members.items()}
 
@@ -95,7 +95,7 @@ SPECS: Final[Mapping[str, AgentSpec]] = {
     "hold": PolicySpec(text="hold"),
     "copy": PolicySpec(text="copy"),
 }
-"""Where each reference comes from."""
+"""Where each baseline comes from."""
 
 
 def human_team_run(
@@ -110,41 +110,41 @@ def human_team_run(
     )
 
 
-def play_references(
+def play_baselines(
     suite: Suite,
     *,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
-) -> dict[str, Reference]:
-    """Play the references on a suite's episodes; after Ctrl-C, those finished by then."""
+) -> dict[str, Baseline]:
+    """Play the baselines on a suite's episodes; after Ctrl-C, those finished by then."""
     found = {}
     for name, spec in SPECS.items():
         played = suite.with_partner("human") if name == HUMAN_HUMAN else suite
         run = run_suite(spec, played, executor=executor, progress=progress)
         if not run.complete:
             break
-        found[name] = Reference.of(run)
+        found[name] = Baseline.of(run)
     return found
 
 
-def shipped_references(suite: Suite) -> dict[str, Reference] | None:
-    """Return the shipped references of a suite, or None if there are none for its digest."""
-    return _shipped(suite, "references")
+def shipped_baselines(suite: Suite) -> dict[str, Baseline] | None:
+    """Return the shipped baselines of a suite, or None if there are none for its digest."""
+    return _shipped(suite, "baselines")
 
 
-def shipped_bounds(suite: Suite) -> dict[str, Reference] | None:
+def shipped_bounds(suite: Suite) -> dict[str, Baseline] | None:
     """Return the shipped bounds of a suite, or None if there are none for its digest."""
     return _shipped(suite, "bounds")
 
 
-def _shipped(suite: Suite, kind: str) -> dict[str, Reference] | None:
+def _shipped(suite: Suite, kind: str) -> dict[str, Baseline] | None:
     path = files(__package__).joinpath("data", "baselines.json")
     if not path.is_file():
         return None
     content = json.loads(path.read_text()).get(suite.digest)
     if content is None:
         return None
-    return {name: Reference.read(value) for name, value in content[kind].items()}
+    return {name: Baseline.read(value) for name, value in content[kind].items()}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -152,16 +152,16 @@ class ToShip:
     """What is shipped for a suite."""
 
     suite: Suite
-    references: Mapping[str, Reference]
-    bounds: Mapping[str, Reference]
+    baselines: Mapping[str, Baseline]
+    bounds: Mapping[str, Baseline]
 
 
-def references_json(played: Sequence[ToShip]) -> str:
-    """Return the content of the shipped file: references and bounds by suite digest."""
+def baselines_json(played: Sequence[ToShip]) -> str:
+    """Return the content of the shipped file: baselines and bounds by suite digest."""
     content = {
         each.suite.digest: {
             "suite": each.suite.name,
-            "references": {name: value.plain() for name, value in each.references.items()},
+            "baselines": {name: value.plain() for name, value in each.baselines.items()},
             "bounds": {name: value.plain() for name, value in each.bounds.items()},
         }
         for each in played

@@ -16,10 +16,10 @@ from ..statistics import (
     ratio_of_means,
 )
 
-Cell = tuple[str, str]
+Stratum = tuple[str, str]
 
 
-def cell(episode: Episode) -> Cell:
+def stratum(episode: Episode) -> Stratum:
     """Return the behaviour and the subject of an episode: its stratum."""
     return episode.behaviour, episode.subject
 
@@ -45,8 +45,8 @@ def summarise(
         as a human partner, less is better. Without it, ``vs_human`` is None.
     """
     rmse = [episode.scores.rmse_mm for episode in episodes]
-    cells = [cell(episode) for episode in episodes]
-    mean = mean_of(rmse, cells)
+    strata = [stratum(episode) for episode in episodes]
+    mean = mean_of(rmse, strata)
     summary: dict[str, Any] = {
         "episodes": len(episodes),
         "failed": sum(episode.failure is not None for episode in episodes),
@@ -56,7 +56,7 @@ def summarise(
             "iqm": float(interquartile_mean(rmse)),
             "ci95": list(mean.ci95),
         },
-        "vs_human": _vs_human(rmse, human_human, cells),
+        "vs_human": _vs_human(rmse, human_human, strata),
     }
     for name in METRICS:
         if name != "rmse_mm":
@@ -68,24 +68,24 @@ def summarise(
 
 
 def _vs_human(
-    rmse: Sequence[float], human_human: Sequence[float] | None, cells: Sequence[Cell]
+    rmse: Sequence[float], human_human: Sequence[float] | None, strata: Sequence[Stratum]
 ) -> dict[str, Any] | None:
     if human_human is None or len(human_human) != len(rmse):
         return None
-    ratio = ratio_of_means(rmse, human_human, cells)
+    ratio = ratio_of_means(rmse, human_human, strata)
     return {"mean": ratio.mean, "ci95": list(ratio.ci95)}
 
 
 def group(
-    episodes: Sequence[Episode], human_human: Mapping[Cell, float] | None = None
+    episodes: Sequence[Episode], human_human: Mapping[Stratum, float] | None = None
 ) -> list[dict[str, Any]]:
     """Return one entry for each behaviour and subject, in order of appearance.
 
-    ``human_human`` is the mean RMSE of the human-human team in each cell [mm], if it is known.
+    ``human_human`` is the mean RMSE of the human-human team in each stratum [mm], if it is known.
     """
-    members: dict[Cell, list[Episode]] = {}
+    members: dict[Stratum, list[Episode]] = {}
     for episode in episodes:
-        members.setdefault(cell(episode), []).append(episode)
+        members.setdefault(stratum(episode), []).append(episode)
     return [
         {
             "behaviour": behaviour,

@@ -109,8 +109,8 @@ def _grid(name: str, behaviours: Sequence[str], seeds: int) -> Suite:
 
 
 def _quick() -> Suite:
-    cells = zip(BEHAVIOURS, ("S1", "S2", "S3", "S5"), strict=True)
-    scenarios = tuple(make_scenario(behaviour, subject) for behaviour, subject in cells)
+    strata = zip(BEHAVIOURS, ("S1", "S2", "S3", "S5"), strict=True)
+    scenarios = tuple(make_scenario(behaviour, subject) for behaviour, subject in strata)
     return Suite(name="quick-v1", scenarios=scenarios, seeds=(0, 1, 2))
 
 
@@ -123,7 +123,7 @@ SUITES: Final[dict[str, tuple[str, Callable[[], Suite]]]] = {
         "5 subjects x 10 smooth lifts: the paper's Table I",
         lambda: _grid("paper-v1", ("smooth",), 10),
     ),
-    "quick-v1": ("12 lifts, one cell of each behaviour: a first look", _quick),
+    "quick-v1": ("12 lifts, one stratum of each behaviour: a first look", _quick),
 }
 """The suites by name: one line about each, and what makes it."""
 

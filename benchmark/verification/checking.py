@@ -14,7 +14,7 @@ from ..episode.scenario import CONTROL_PERIOD
 from ..episode.scores import MOSTLY_CLIPPED
 from ..execution.runner import Run
 from ..execution.tasks import play
-from ..results.baselines import HUMAN_HUMAN, SPECS, Reference, shipped_references
+from ..results.baselines import HUMAN_HUMAN, SPECS, Baseline, shipped_baselines
 from ..results.headline import headline
 from ..suites.catalogue import make_scenario
 from ..suites.suite import Suite, make_suite
@@ -101,19 +101,19 @@ def _checks(
         told = f"interrupted after {len(run.episodes)} of {suite.size} lifts"
         yield Check(name="score", ok=False, told=told)
         return
-    content = results(run, shipped_references(suite) or _references(suite, evaluate))
+    content = results(run, shipped_baselines(suite) or _baselines(suite, evaluate))
     yield _score(run, content)
     yield _actions(content["summary"])
     yield _time(content["summary"], run.episodes)
 
 
-def _references(suite: Suite, evaluate: Callable[[AgentSpec, Suite], Run]) -> dict[str, Reference]:
+def _baselines(suite: Suite, evaluate: Callable[[AgentSpec, Suite], Run]) -> dict[str, Baseline]:
     """Return what the score is set against, played: without the human team, if interrupted."""
     played = {}
     for name, spec in SPECS.items():
         run = evaluate(spec, suite.with_partner("human") if name == HUMAN_HUMAN else suite)
         if run.complete:
-            played[name] = Reference.of(run)
+            played[name] = Baseline.of(run)
     return played
 
 
@@ -177,9 +177,9 @@ def _worse(content: dict[str, Any]) -> str:
     """Say which simple policies are better: one that never moves, one that only copies."""
     error = content["summary"]["rmse_mm"]["mean"]
     means = {
-        name: reference["rmse_mm"]["mean"]
-        for name, reference in content["references"].items()
-        if name != HUMAN_HUMAN and reference["rmse_mm"]["mean"] < error
+        name: baseline["rmse_mm"]["mean"]
+        for name, baseline in content["baselines"].items()
+        if name != HUMAN_HUMAN and baseline["rmse_mm"]["mean"] < error
     }
     if not means:
         return ""

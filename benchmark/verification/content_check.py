@@ -14,12 +14,12 @@ from ..episode.episode import Episode
 from ..episode.scenario import CONTROL_PERIOD
 from ..episode.scores import SCORING
 from ..execution.runner import Run
-from ..results.baselines import SPECS, Reference, play_references, shipped_references
+from ..results.baselines import SPECS, Baseline, play_baselines, shipped_baselines
 from ..suites.suite import SUITES, Suite, make_suite
 from .deviation import REFERENCES, SCORES
 from .verdict import Finding
 
-_FROM_REFERENCES: Final = ("references", "summary.vs_human", "human_human_rmse_mm")
+_FROM_BASELINES: Final = ("baselines", "summary.vs_human", "human_human_rmse_mm")
 
 
 def suite_label(suite: Suite) -> str:
@@ -93,27 +93,27 @@ def _name(behaviour: str, subject: str, trial: str, seed: int) -> str:
 def rebuilt(bundle: Bundle, run: Run, executor: Executor | None) -> dict[str, Any]:
     """Return what ``results.json`` should say of a run.
 
-    What no simulation can tell is as the bundle has it; so is which references there are.
+    What no simulation can tell is as the bundle has it; so is which baselines there are.
 
     Raises
     ------
     InputError
-        If the bundle names an unknown reference.
+        If the bundle names an unknown baseline.
     """
-    content = results(run, _references(bundle, run, executor))
+    content = results(run, _baselines(bundle, run, executor))
     content = with_circumstances(content, bundle.results, run.suite)
     plain: dict[str, Any] = json.loads(json.dumps(content))
     return plain
 
 
-def _references(bundle: Bundle, run: Run, executor: Executor | None) -> dict[str, Reference]:
-    wanted = bundle.results["references"]
+def _baselines(bundle: Bundle, run: Run, executor: Executor | None) -> dict[str, Baseline]:
+    wanted = bundle.results["baselines"]
     if not wanted:
         return {}
     for name in wanted:
         if name not in SPECS:
-            raise InputError(f"{RESULTS}: there is no reference {name!r:.80}")
-    known = shipped_references(run.suite) or play_references(run.suite, executor=executor)
+            raise InputError(f"{RESULTS}: there is no baseline {name!r:.80}")
+    known = shipped_baselines(run.suite) or play_baselines(run.suite, executor=executor)
     return {name: known[name] for name in wanted}
 
 
@@ -130,10 +130,10 @@ def score_findings(
         What follows from the actions: the episodes, and :func:`rebuilt`.
     exact
         Whether equal bits are demanded; else :data:`.SCORES` holds, and :data:`.REFERENCES` for
-        references that are not shipped.
+        baselines that are not shipped.
     """
     tolerance = 0.0 if exact else SCORES
-    played = not exact and shipped_references(run.suite) is None
+    played = not exact and shipped_baselines(run.suite) is None
     for claim, true in zip(bundle.episodes, run.episodes, strict=True):
         scores = (dataclasses.asdict(each.scores) for each in (claim, true))
         for difference in differences(*scores, tolerance=tolerance):
@@ -144,7 +144,7 @@ def score_findings(
 
 
 def _near(difference: Difference) -> bool:
-    """Return whether a number that follows from the references is near enough."""
-    if not any(name in difference.path for name in _FROM_REFERENCES):
+    """Return whether a number that follows from the baselines is near enough."""
+    if not any(name in difference.path for name in _FROM_BASELINES):
         return False
     return not [*differences(difference.claimed, difference.true, tolerance=REFERENCES)]

@@ -36,7 +36,7 @@ SCORES: Final = 1e-6
 """Relative tolerance of scores that are computed from one and the same trace."""
 
 REFERENCES: Final = 0.01
-"""Relative tolerance of the scores of references that another platform has played."""
+"""Relative tolerance of the scores of baselines that another platform has played."""
 
 
 def first_difference(logged: Trace, found: Simulated) -> Place | None:

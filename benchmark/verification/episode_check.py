@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass
 
-from ...agents.errors import EvaluatorFault, InputError, told
+from ...agents.errors import EvaluatorFault, InputError, error_text
 from ..bundle import Bundle, one_line
 from ..bundle.files import EPISODES, MANIFEST, TRACES
 from ..episode.episode import Episode
@@ -152,7 +152,7 @@ def _parts(
         for future in as_completed(futures):
             yield future.result()
     except Exception as error:
-        raise EvaluatorFault(f"a worker of the verification failed: {told(error)}") from error
+        raise EvaluatorFault(f"a worker of the verification failed: {error_text(error)}") from error
     finally:
         for future in futures:
             future.cancel()

@@ -34,7 +34,7 @@ def verify(
     Every file's hash is checked, the suite is made again from its recipe, every episode is
     simulated again (:func:`.replay`) and scored again, and every number is compared. Every bit must
     be equal; only lifts from another platform that differ in some have a tolerance.
-    References that are not shipped are played again.
+    Baselines that are not shipped are played again.
 
     Parameters
     ----------

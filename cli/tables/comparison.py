@@ -28,7 +28,7 @@ FEWER: Final = "†: over the lifts in which the robot moves along."
 
 NO_POLICIES: Final = "The oracle and the causal bound are no policies: how far one might come."
 
-REFERENCE: Final = "blue"
+BASELINE: Final = "blue"
 """Style of the rows of the human-human team and of the bounds."""
 
 
@@ -41,8 +41,8 @@ def ranks_table(comparison: Comparison) -> Table:
         for standing in overall.standings
     ]
     rows += [
-        (overall.references_rmse_mm[name].mean, styled(_reference_row(comparison, name), REFERENCE))
-        for name in comparison.contest.references
+        (overall.baselines_rmse_mm[name].mean, styled(_baseline_row(comparison, name), BASELINE))
+        for name in comparison.contest.baselines
     ]
     return table(
         title(comparison),
@@ -61,16 +61,16 @@ def ranks_table(comparison: Comparison) -> Table:
     )
 
 
-def _reference_row(comparison: Comparison, name: str) -> list[str]:
-    reference, overall = comparison.contest.references[name], comparison.overall
-    rmse = overall.references_rmse_mm[name]
+def _baseline_row(comparison: Comparison, name: str) -> list[str]:
+    baseline, overall = comparison.contest.baselines[name], comparison.overall
+    rmse = overall.baselines_rmse_mm[name]
     return [
         "",
         name,
         f"{rmse.mean:.2f}",
         _interval(rmse),
         f"{rmse.mean / overall.team_rmse_mm.mean:.2g}",
-        *(metric.text(reference.means[metric.name]) for metric in BOARD),
+        *(metric.text(baseline.means[metric.name]) for metric in BOARD),
         "",
     ]
 
@@ -127,10 +127,10 @@ def behaviours_table(comparison: Comparison) -> Table:
         [_name(name), *map(_mark, scopes, (column[name] for column in columns))]
         for name in (standing.name for standing in comparison.overall.standings)
     ]
-    for name in comparison.contest.references:
-        errors = (scope.references_rmse_mm[name].mean for scope in scopes)
+    for name in comparison.contest.baselines:
+        errors = (scope.baselines_rmse_mm[name].mean for scope in scopes)
         cells = (f"{error:{digits(error)}}  " for error in errors)
-        rows.append(styled((name, *cells), REFERENCE))
+        rows.append(styled((name, *cells), BASELINE))
     return table(
         "RMSE mm on each behaviour",
         ("policy", *(scope.name for scope in scopes)),

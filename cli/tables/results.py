@@ -66,8 +66,8 @@ def standing(content: dict[str, Any]) -> str:
     lines = [error(summary)]
     if summary["vs_human"] is not None:
         lines.append(f"{versus_human(summary)}: 1 is as good as a human partner, less is better")
-    for name, reference in content["references"].items():
-        lines.append(f"  {NAMES.get(name, name)}: {reference['rmse_mm']['mean']:.2f} mm")
+    for name, baseline in content["baselines"].items():
+        lines.append(f"  {NAMES.get(name, name)}: {baseline['rmse_mm']['mean']:.2f} mm")
     if summary["goal_missed"]:
         lines.append(
             f"The human did not reach the intended height in {summary['goal_missed']} "

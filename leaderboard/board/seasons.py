@@ -11,7 +11,7 @@ from typing import Any, Final
 import sqlalchemy as sa
 
 from ...agents.errors import InputError
-from ...benchmark.results.baselines import Reference
+from ...benchmark.results.baselines import Baseline
 from ...benchmark.suites.hidden import commitment, new_secret
 from ...benchmark.suites.suite import make_suite
 from ..database.database import Database
@@ -48,7 +48,7 @@ class ImportedSeason:
     info: SeasonInfo
     """With the secret. ``current``: whether submissions go there, too."""
     entries: Sequence[ImportedEntry]
-    team: Reference
+    team: Baseline
     """The human-human team on the hidden episodes."""
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, Literal
 
 from ...agents.errors import InputError
 from ...agents.extras import how_to_install
-from ...benchmark.results.baselines import Reference
+from ...benchmark.results.baselines import Baseline
 from ...benchmark.statistics import Estimate
 from ..database.database import Database
 from ..database.queries import read_entries, read_error_numbers, read_events
@@ -129,7 +129,7 @@ def _row_now(row: BoardRow, happened: tuple[Event, ...]) -> BoardRow:
 
 
 @functools.lru_cache(maxsize=16)
-def human_team(team: Reference) -> HumanTeamScores:
+def human_team(team: Baseline) -> HumanTeamScores:
     """Return what is published of the human-human team on hidden episodes: rounded, like a row."""
     return HumanTeamScores(
         rmse_mm=team.estimate.rounded(PLACES),

@@ -17,10 +17,10 @@ from ...benchmark.episode.scores import SCORING
 from ...benchmark.execution.runner import Run, run_suite
 from ...benchmark.results.baselines import (
     SPECS,
-    Reference,
+    Baseline,
     human_team_run,
-    play_references,
-    shipped_references,
+    play_baselines,
+    shipped_baselines,
 )
 from ...benchmark.statistics import Estimate
 from ...benchmark.suites.suite import Suite, make_suite
@@ -50,7 +50,7 @@ class EntrantResult:
 def evaluate_entrant(
     entrant: Entrant,
     season: Season,
-    team: Reference,
+    team: Baseline,
     bundle: Path,
     *,
     executor: Executor | None = None,
@@ -98,7 +98,7 @@ def evaluate_entrant(
     _check(entrant, playing)
     watch.stage("public run")
     public = _complete(run_suite(entrant.policy, season.suite, **playing))
-    content = results(public, _references(season, executor, watch))
+    content = results(public, _baselines(season, executor, watch))
     write_bundle(bundle, public, content)
     if all(episode.failure is not None for episode in public.episodes):
         reasons = "; ".join(failure_lines(public.episodes)[:3])
@@ -161,13 +161,13 @@ def _check(entrant: Entrant, playing: Playing) -> None:
 def episode_count(season: Season) -> int:
     """Return how many episodes :func:`evaluate` counts, if nothing is refused."""
     size = season.suite.size
-    played = 0 if shipped_references(season.suite) else len(SPECS) * size
+    played = 0 if shipped_baselines(season.suite) else len(SPECS) * size
     return make_suite(SUITE).size + 2 * (size + audited(size)) + played + size
 
 
 def play_team(
     season: Season, *, executor: Executor | None = None, watch: Callbacks | None = None
-) -> Reference:
+) -> Baseline:
     """Return the human-human team on a season's hidden episodes: once a season.
 
     Raises
@@ -178,17 +178,15 @@ def play_team(
     watch = watch or Callbacks()
     watch.stage("human-human team")
     run = human_team_run(season.hidden, executor=executor, progress=watch.progress)
-    return Reference.of(_complete(run))
+    return Baseline.of(_complete(run))
 
 
-def _references(
-    season: Season, executor: Executor | None, watch: Callbacks
-) -> dict[str, Reference]:
-    """Return the references on the public episodes."""
-    shipped = shipped_references(season.suite)
+def _baselines(season: Season, executor: Executor | None, watch: Callbacks) -> dict[str, Baseline]:
+    """Return the baselines on the public episodes."""
+    shipped = shipped_baselines(season.suite)
     if shipped is not None:
         return shipped
-    played = play_references(season.suite, executor=executor, progress=watch.progress)
+    played = play_baselines(season.suite, executor=executor, progress=watch.progress)
     if len(played) < len(SPECS):
         raise KeyboardInterrupt
     return played

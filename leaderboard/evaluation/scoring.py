@@ -8,8 +8,8 @@ from typing import Any, Final
 from ...benchmark.bundle.content import real_time
 from ...benchmark.episode.episode import Episode
 from ...benchmark.execution.runner import Run
-from ...benchmark.results.baselines import Reference
-from ...benchmark.results.summary import cell, summarise
+from ...benchmark.results.baselines import Baseline
+from ...benchmark.results.summary import stratum, summarise
 from ...benchmark.statistics import Estimate, difference_of_means, probability_better
 from ..records.row import HiddenScores, PublicScores
 
@@ -23,7 +23,7 @@ def public_scores(results: Mapping[str, Any]) -> PublicScores:
     Parameters
     ----------
     results
-        The content of its bundle's ``results.json``, the human-human team among the references.
+        The content of its bundle's ``results.json``, the human-human team among the baselines.
     """
     summary = results["summary"]
     return PublicScores(
@@ -40,7 +40,7 @@ def public_scores(results: Mapping[str, Any]) -> PublicScores:
     )
 
 
-def hidden_scores(run: Run, team: Reference) -> HiddenScores:
+def hidden_scores(run: Run, team: Baseline) -> HiddenScores:
     """Return what a row says of the hidden run.
 
     Parameters
@@ -52,7 +52,7 @@ def hidden_scores(run: Run, team: Reference) -> HiddenScores:
     """
     summary = summarise(run.episodes, team.rmse_mm)
     failure_lines = _failures(run)
-    sure = probability_better(_rmse(run), team.rmse_mm, team.cells)
+    sure = probability_better(_rmse(run), team.rmse_mm, team.strata)
     return HiddenScores(
         episodes=summary["episodes"],
         failed=summary["failed"],
@@ -67,8 +67,10 @@ def hidden_scores(run: Run, team: Reference) -> HiddenScores:
 def gap(hidden: Run, public: Run) -> Estimate:
     """Return by how much the mean RMSE of the hidden run is above the public one's [mm]."""
     a, b = _rmse(hidden), _rmse(public)
-    cells_a, cells_b = ([cell(episode) for episode in run.episodes] for run in (hidden, public))
-    return difference_of_means(a, cells_a, b, cells_b).rounded(PLACES)
+    strata_a, strata_b = (
+        [stratum(episode) for episode in run.episodes] for run in (hidden, public)
+    )
+    return difference_of_means(a, strata_a, b, strata_b).rounded(PLACES)
 
 
 def _rmse(run: Run) -> list[float]:

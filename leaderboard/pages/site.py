@@ -122,7 +122,7 @@ def _scenarios(board: Board, info: SeasonInfo, links: SiteLinks) -> Iterator[Pag
         yield links.scenarios(info.name), render_page("missing.html", links, season=info, told=told)
         return
     yield links.scenarios(info.name), render_page("scenarios.html", links, view=view)
-    for behaviour, subject in view.cells:
+    for behaviour, subject in view.strata:
         name = links.scenario(info.name, behaviour, subject)
         one = scenario_view(board, info.name, behaviour, subject)
         yield name, render_page("scenario.html", links, view=one)

@@ -19,7 +19,7 @@ from ...agents.errors import EvaluatorFault
 from ...agents.sandbox.host.levels import choose
 from ...benchmark.bundle import read_bundle
 from ...benchmark.bundle.files import EPISODES, RESULTS
-from ...benchmark.results.baselines import Reference
+from ...benchmark.results.baselines import Baseline
 from ...benchmark.suites.suite import make_suite
 from ..board.board import OWN
 from ..evaluation.entrant import builtin_entrant
@@ -62,7 +62,7 @@ def practice_season(suite: str) -> Season:
 def play_policy(
     name: str,
     season: Season,
-    team: Reference,
+    team: Baseline,
     at: datetime,
     *,
     executor: Executor | None = None,

@@ -17,7 +17,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any, Final, Self
 
-from ...benchmark.results.baselines import Reference
+from ...benchmark.results.baselines import Baseline
 from ...benchmark.suites.suite import make_suite
 from ..board.board import SUITE, Board
 from ..board.seasons import ImportedEntry, ImportedSeason
@@ -40,7 +40,7 @@ class Shipped:
     suite: str
     suite_digest: str
     began_at: datetime
-    team: Reference
+    team: Baseline
     """The human-human team on the hidden episodes."""
     played: tuple[Played, ...]
     """In the order of their names."""
@@ -60,7 +60,7 @@ class Shipped:
             suite=content["suite"],
             suite_digest=content["suite_digest"],
             began_at=datetime.fromisoformat(content["began_at"]),
-            team=Reference.read(content["team"]),
+            team=Baseline.read(content["team"]),
             played=played,
         )
 

@@ -12,7 +12,7 @@ from typing import Final
 
 import sqlalchemy as sa
 
-from ...agents.errors import EvaluatorFault, InputError, told
+from ...agents.errors import EvaluatorFault, InputError, error_text
 from ...benchmark.bundle import read_bundle
 from ...benchmark.execution.runner import placed
 from ..board.board import LOCAL, OWN, Board
@@ -221,8 +221,10 @@ class Worker:
         try:
             self._board.store.add_to_private_log(job.season, job.id, trace)
         except OSError as refused:
-            log.error("job %s: %s; its log cannot be written: %s", job.id, told(error), refused)
-        reason = DETAILS if stage == HIDDEN else told(error)
+            log.error(
+                "job %s: %s; its log cannot be written: %s", job.id, error_text(error), refused
+            )
+        reason = DETAILS if stage == HIDDEN else error_text(error)
         reason = f"in {stage or 'the beginning'}: {reason}"
         self._log(job, f"evaluator fault, not the policy's, {reason}")
         self.work.fault(job, reason)

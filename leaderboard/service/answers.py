@@ -10,7 +10,7 @@ from ..board.standings import RankedRow, Section
 from ..records.job import Job, State
 from ..records.row import BoardRow
 from ..records.season import BoardEntry, Event, Kind, SeasonInfo
-from ..views.lifts import CellScore
+from ..views.lifts import StratumScore
 
 
 class Answer(BaseModel):
@@ -69,7 +69,7 @@ class EventAnswer(Answer):
         return cls.model_validate({**vars(event), "content": _dict(event.content)})
 
 
-class CellAnswer(Answer):
+class StratumAnswer(Answer):
     """Means over the public lifts of one behaviour with one subject."""
 
     behaviour: str
@@ -96,11 +96,11 @@ class StandingAnswer(Answer):
     row: BoardRow
     events: list[EventAnswer]
     """What has happened to it since, oldest first."""
-    cells: list[CellAnswer] | None
+    strata: list[StratumAnswer] | None
     """The public lifts asked for, by behaviour and subject; nothing if none were."""
 
     @classmethod
-    def of(cls, standing: RankedRow, cells: Sequence[CellScore] | None) -> Self:
+    def of(cls, standing: RankedRow, strata: Sequence[StratumScore] | None) -> Self:
         """Return what is told of a row."""
         return cls(
             group=standing.group,
@@ -109,7 +109,9 @@ class StandingAnswer(Answer):
             submitter=standing.submitter,
             row=standing.row,
             events=[EventAnswer.of(event) for event in standing.events],
-            cells=None if cells is None else [CellAnswer.model_validate(cell) for cell in cells],
+            strata=None
+            if strata is None
+            else [StratumAnswer.model_validate(stratum) for stratum in strata],
         )
 
 

@@ -11,7 +11,7 @@ from ...agents.submissions.folder import LIMITS
 from ...agents.submissions.packages import PACKAGES
 from ..board.standings import RankedRow
 from ..views.exports import standings_csv
-from ..views.lifts import CellScore, cell_scores
+from ..views.lifts import StratumScore, stratum_scores
 from .answers import EntryAnswer, RulesAnswer, SeasonAnswer, StandingAnswer
 from .dependencies import (
     BINARY,
@@ -56,16 +56,16 @@ def get_standings(
     rows = _standings(service, season)
     if behaviour is None and subject is None:
         return [StandingAnswer.of(row, None) for row in rows]
-    cells = [_cells(service, row) for row in rows]
-    _check_word("behaviour", behaviour, {cell.behaviour for some in cells for cell in some})
-    _check_word("subject", subject, {cell.subject for some in cells for cell in some})
+    strata = [_strata(service, row) for row in rows]
+    _check_word("behaviour", behaviour, {stratum.behaviour for some in strata for stratum in some})
+    _check_word("subject", subject, {stratum.subject for some in strata for stratum in some})
     chosen = [
         [
-            cell
-            for cell in some
-            if behaviour in (None, cell.behaviour) and subject in (None, cell.subject)
+            stratum
+            for stratum in some
+            if behaviour in (None, stratum.behaviour) and subject in (None, stratum.subject)
         ]
-        for some in cells
+        for some in strata
     ]
     return [StandingAnswer.of(row, some) for row, some in zip(rows, chosen, strict=True)]
 
@@ -142,9 +142,9 @@ def _check_season(service: State, season: str | None) -> None:
         raise problem(404, f"there is no season {season}; there are {', '.join(names)}")
 
 
-def _cells(service: State, standing: RankedRow) -> tuple[CellScore, ...]:
+def _strata(service: State, standing: RankedRow) -> tuple[StratumScore, ...]:
     bundle = service.board.bundle(standing.row.season, standing.row.submission)
-    return () if bundle is None else cell_scores(bundle)
+    return () if bundle is None else stratum_scores(bundle)
 
 
 def _check_word(what: str, value: str | None, known: set[str]) -> None:

@@ -9,7 +9,7 @@
   const rows = [...body.rows].map((tr) => ({
     tr,
     text: tr.dataset.text,
-    cell: Object.fromEntries(
+    stratum: Object.fromEntries(
       sorts.filter((name) => name !== "name").map((name) => [name, tr.querySelector("td." + name)])),
     name: tr.querySelector("th a").textContent,
     dot: tr.querySelector(".dot"),
@@ -17,19 +17,19 @@
     index: Number(tr.dataset.row),
   }));
   // Two people and the bounds, below the policies.
-  const references = [...table.querySelectorAll(".references tr")].map((tr) => ({
+  const baselines = [...table.querySelectorAll(".baselines tr")].map((tr) => ({
     tr,
     bound: tr.dataset.bound,
-    cell: Object.fromEntries(["rmse", "ratio", "sparc", "force"].map((name) => [name, tr.querySelector("td." + name)])),
+    stratum: Object.fromEntries(["rmse", "ratio", "sparc", "force"].map((name) => [name, tr.querySelector("td." + name)])),
     dot: tr.querySelector(".dot"),
     off: tr.querySelector(".off"),
   }));
-  const drawn = [...rows, ...references];
+  const drawn = [...rows, ...baselines];
   for (const row of drawn) {
     row.whole = {};
     for (const name of ["rmse", "ratio", "sparc", "force"]) {
-      const cell = row.cell[name];
-      row.whole[name] = { value: cell.dataset.value, html: [...cell.childNodes] };
+      const stratum = row.stratum[name];
+      row.whole[name] = { value: stratum.dataset.value, html: [...stratum.childNodes] };
     }
     row.at = row.dot.getAttribute("cx");
     row.away = [row.dot, row.off].map((part) => part.classList.contains("away"));
@@ -49,7 +49,7 @@
   const write = (value, places) => (value === null ? "–" : value.toFixed(places).replace("-", "−"));
   const at = (mm) => (100 * Math.min(mm / data.top, 1)).toFixed(2) + "%";
 
-  // Means over the public lifts of the chosen cells; what is missing weighs nothing.
+  // Means over the public lifts of the chosen strata; what is missing weighs nothing.
   function mean(pairs) {
     let sum = 0, weight = 0;
     for (const [value, count] of pairs) if (value !== null) { sum += value * count; weight += count; }
@@ -57,25 +57,25 @@
   }
 
   function scores(row, chosen) {
-    const cells = chosen.map((i) => [data.rows[row.index][i], data.cells[i]]);
-    if (cells.some(([cell]) => !cell)) return { rmse: null, ratio: null, sparc: null, force: null, missing: 0 };
-    const rmse = mean(cells.map(([cell, [, , lifts]]) => [cell[0], lifts]));
-    const team = mean(cells.map(([, [, , lifts, mm]]) => [mm, lifts]));
+    const strata = chosen.map((i) => [data.rows[row.index][i], data.strata[i]]);
+    if (strata.some(([stratum]) => !stratum)) return { rmse: null, ratio: null, sparc: null, force: null, missing: 0 };
+    const rmse = mean(strata.map(([stratum, [, , lifts]]) => [stratum[0], lifts]));
+    const team = mean(strata.map(([, [, , lifts, mm]]) => [mm, lifts]));
     return {
       rmse, team, ratio: team ? rmse / team : null,
-      sparc: mean(cells.map(([cell, [, , lifts]]) => [cell[1], lifts - cell[2]])),
-      missing: cells.reduce((sum, [cell]) => sum + cell[2], 0),
-      force: mean(cells.map(([cell, [, , lifts]]) => [cell[3], lifts])),
+      sparc: mean(strata.map(([stratum, [, , lifts]]) => [stratum[1], lifts - stratum[2]])),
+      missing: strata.reduce((sum, [stratum]) => sum + stratum[2], 0),
+      force: mean(strata.map(([stratum, [, , lifts]]) => [stratum[3], lifts])),
     };
   }
 
-  function show(cell, value, text, small) {
-    cell.dataset.value = value === null ? "" : value;
-    cell.replaceChildren(text);
+  function show(stratum, value, text, small) {
+    stratum.dataset.value = value === null ? "" : value;
+    stratum.replaceChildren(text);
     if (small) {
       const note = document.createElement("small");
       note.textContent = small;
-      cell.append(note);
+      stratum.append(note);
     }
   }
 
@@ -100,7 +100,7 @@
 
   function part() {
     const chosen = [];
-    data.cells.forEach(([b, s], i) => {
+    data.strata.forEach(([b, s], i) => {
       if ((!behaviour.value || b === behaviour.value) && (!subject.value || s === subject.value)) chosen.push(i);
     });
     table.classList.add("part");
@@ -108,20 +108,20 @@
     for (const row of rows) {
       const found = scores(row, chosen);
       team = team === null ? found.team ?? null : team;
-      show(row.cell.rmse, found.rmse, write(found.rmse, 1));
-      show(row.cell.ratio, found.ratio, write(found.ratio, 2));
-      show(row.cell.sparc, found.sparc === null ? null : found.missing * 1000 - found.sparc, write(found.sparc, 2),
+      show(row.stratum.rmse, found.rmse, write(found.rmse, 1));
+      show(row.stratum.ratio, found.ratio, write(found.ratio, 2));
+      show(row.stratum.sparc, found.sparc === null ? null : found.missing * 1000 - found.sparc, write(found.sparc, 2),
         found.sparc !== null && found.missing ? "none in " + found.missing : "");
-      show(row.cell.force, found.force, write(found.force, 2));
+      show(row.stratum.force, found.force, write(found.force, 2));
       draw(row, found.rmse, at(found.rmse || 0));
     }
     let causal = null;
-    for (const row of references) {
+    for (const row of baselines) {
       const rmse = row.bound === undefined ? team :
-        mean(chosen.map((i) => [data.bounds[row.bound][i], data.cells[i][2]]));
-      show(row.cell.rmse, rmse, write(rmse, 1));
-      show(row.cell.ratio, null, write(rmse === null || !team ? null : rmse / team, 2));
-      for (const name of ["sparc", "force"]) show(row.cell[name], null, "–");
+        mean(chosen.map((i) => [data.bounds[row.bound][i], data.strata[i][2]]));
+      show(row.stratum.rmse, rmse, write(rmse, 1));
+      show(row.stratum.ratio, null, write(rmse === null || !team ? null : rmse / team, 2));
+      for (const name of ["sparc", "force"]) show(row.stratum[name], null, "–");
       draw(row, rmse, at(rmse || 0));
       if (row.tr.dataset.causal !== undefined) causal = rmse;
     }
@@ -134,8 +134,8 @@
     table.classList.remove("part");
     for (const row of drawn) {
       for (const [name, { value, html }] of Object.entries(row.whole)) {
-        row.cell[name].dataset.value = value;
-        row.cell[name].replaceChildren(...html);
+        row.stratum[name].dataset.value = value;
+        row.stratum[name].replaceChildren(...html);
       }
       row.dot.setAttribute("cx", row.at);
       [row.dot, row.off].forEach((part, i) => part.classList.toggle("away", row.away[i]));
@@ -145,7 +145,7 @@
 
   function key(row, name) {
     if (name === "name") return row.name.toLowerCase();
-    const value = row.cell[name].dataset.value;
+    const value = row.stratum[name].dataset.value;
     if (value === "" || value === undefined) return Infinity;
     return name === "licence" ? value : Number(value);
   }

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Final
 
 from ...agents.errors import InputError
-from ...benchmark.results.baselines import Reference
+from ...benchmark.results.baselines import Baseline
 from ...benchmark.suites.hidden import SECRET_BYTES
 from .files import read_json, sync, write_json
 
@@ -68,7 +68,7 @@ class SeasonSecrets:
             raise InputError(f"{path} must hold {2 * SECRET_BYTES} hexadecimal digits")
         return secret
 
-    def team(self, play: Callable[[], Reference]) -> Reference:
+    def team(self, play: Callable[[], Baseline]) -> Baseline:
         """Return the human-human team on the hidden episodes; it is played only once."""
         known = self.known_team()
         if known is None:
@@ -76,12 +76,12 @@ class SeasonSecrets:
             self.keep_team(known)
         return known
 
-    def known_team(self) -> Reference | None:
+    def known_team(self) -> Baseline | None:
         """Return what :meth:`team` has kept, or None if it was not played yet."""
         path = self.folder / "team.json"
-        return Reference.read(read_json(path)) if path.exists() else None
+        return Baseline.read(read_json(path)) if path.exists() else None
 
-    def keep_team(self, team: Reference) -> None:
+    def keep_team(self, team: Baseline) -> None:
         """Keep the human-human team that was played elsewhere."""
         self.folder.mkdir(mode=FOLDER, parents=True, exist_ok=True)
         write_json(self.folder / "team.json", team.plain(), mode=OWN)

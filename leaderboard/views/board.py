@@ -10,7 +10,7 @@ from ..board.standings import HumanTeamScores, RankedRow
 from ..records.season import Event, SeasonInfo
 from .axis import Axis, make_axis
 from .bounds import PublicBound, bounds_of
-from .lifts import CellScore, Part, cell_scores, human_team_rmse, mean_rmse
+from .lifts import Part, StratumScore, human_team_rmse, mean_rmse, stratum_scores
 from .picture import Picture, make_picture
 
 WIDE: Final = (920, 440)
@@ -23,8 +23,8 @@ class RankedLine:
     """A line of the table."""
 
     standing: RankedRow
-    cells: tuple[CellScore, ...]
-    """Its public lifts, cell by cell; nothing if its bundle is gone."""
+    strata: tuple[StratumScore, ...]
+    """Its public lifts, stratum by stratum; nothing if its bundle is gone."""
     shared: int
     """How many policies are in its rank group."""
     leads: bool
@@ -32,7 +32,7 @@ class RankedLine:
 
     def mean_mm(self, behaviour: str) -> float | None:
         """Return the mean RMSE [mm] on the public lifts of a behaviour, if its bundle is there."""
-        return mean_rmse(self.cells, Part(behaviour=behaviour, subject=None))
+        return mean_rmse(self.strata, Part(behaviour=behaviour, subject=None))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,39 +66,42 @@ class BoardView:
 
     def team_mm(self, behaviour: str) -> float | None:
         """Return the human-human team's mean RMSE [mm] on the public lifts of a behaviour."""
-        return human_team_rmse(self._cells, Part(behaviour=behaviour, subject=None))
+        return human_team_rmse(self._strata, Part(behaviour=behaviour, subject=None))
 
     @property
     def behaviours(self) -> tuple[str, ...]:
         """The behaviours of the suite, in its order."""
-        return tuple(dict.fromkeys(cell.behaviour for cell in self._cells))
+        return tuple(dict.fromkeys(stratum.behaviour for stratum in self._strata))
 
     @property
     def subjects(self) -> tuple[str, ...]:
         """The subjects of the suite, in its order."""
-        return tuple(dict.fromkeys(cell.subject for cell in self._cells))
+        return tuple(dict.fromkeys(stratum.subject for stratum in self._strata))
 
     @property
     def data(self) -> dict[str, Any]:
-        """What the page's script filters by: each row's public lifts, cell by cell.
+        """What the page's script filters by: each row's public lifts, stratum by stratum.
 
-        ``cells`` has behaviour, subject, episodes and the human-human RMSE [mm]; ``rows`` has for
-        each row of the table, in its order, and each cell: RMSE [mm], SPARC, lifts without
+        ``strata`` has behaviour, subject, episodes and the human-human RMSE [mm]; ``rows`` has for
+        each row of the table, in its order, and each stratum: RMSE [mm], SPARC, lifts without
         smoothness, human force [N]; ``bounds`` has each bound's RMSE [mm].
         """
         return {
             "top": self.axis.top,
-            "cells": [[c.behaviour, c.subject, c.episodes, c.team_rmse_mm] for c in self._cells],
-            "rows": [[_numbers(cell) for cell in row.cells] for row in self.rows],
+            "strata": [[c.behaviour, c.subject, c.episodes, c.team_rmse_mm] for c in self._strata],
+            "rows": [[_numbers(stratum) for stratum in row.strata] for row in self.rows],
             "bounds": [
-                [round(bound.cells[cell.behaviour, cell.subject], 4) for cell in self._cells]
+                [
+                    round(bound.strata[stratum.behaviour, stratum.subject], 4)
+                    for stratum in self._strata
+                ]
                 for bound in self.bounds
             ],
         }
 
     @property
-    def _cells(self) -> tuple[CellScore, ...]:
-        return next((row.cells for row in self.rows if row.cells), ())
+    def _strata(self) -> tuple[StratumScore, ...]:
+        return next((row.strata for row in self.rows if row.strata), ())
 
 
 def board_view(board: Board, season: str | None = None) -> BoardView | None:
@@ -118,7 +121,7 @@ def board_view(board: Board, season: str | None = None) -> BoardView | None:
     rows = tuple(
         RankedLine(
             standing=each,
-            cells=_cells_of(board.bundle(info.name, each.row.submission)),
+            strata=_strata_of(board.bundle(info.name, each.row.submission)),
             shared=sizes[each.group],
             leads=i == 0 or ranked[i - 1].group != each.group,
         )
@@ -155,12 +158,17 @@ def find_season(seasons: Sequence[SeasonInfo], name: str | None) -> SeasonInfo |
     return next((info for info in seasons if name in (None, info.name)), None)
 
 
-def _cells_of(bundle: Path | None) -> tuple[CellScore, ...]:
-    return () if bundle is None else cell_scores(bundle)
+def _strata_of(bundle: Path | None) -> tuple[StratumScore, ...]:
+    return () if bundle is None else stratum_scores(bundle)
 
 
-def _numbers(cell: CellScore) -> list[float | None]:
+def _numbers(stratum: StratumScore) -> list[float | None]:
     def short(value: float | None) -> float | None:
         return None if value is None else round(value, 4)
 
-    return [short(cell.rmse_mm), short(cell.sparc), cell.sparc_missing, short(cell.human_force_n)]
+    return [
+        short(stratum.rmse_mm),
+        short(stratum.sparc),
+        stratum.sparc_missing,
+        short(stratum.human_force_n),
+    ]

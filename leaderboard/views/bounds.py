@@ -9,11 +9,11 @@ import numpy as np
 
 from ...benchmark.results.baselines import (
     HUMAN_HUMAN,
-    Reference,
+    Baseline,
+    shipped_baselines,
     shipped_bounds,
-    shipped_references,
 )
-from ...benchmark.results.summary import Cell
+from ...benchmark.results.summary import Stratum
 from ...benchmark.statistics import Estimate
 from ...benchmark.suites.suite import Suite
 from ..records.season import SeasonInfo
@@ -38,7 +38,7 @@ class PublicBound:
     """RMSE over that of the human-human team, on the same lifts."""
     means: Mapping[str, float | None]
     """Of the other metrics that boards show."""
-    cells: Mapping[Cell, float]
+    strata: Mapping[Stratum, float]
     """Mean RMSE [mm] by behaviour and subject."""
 
     @property
@@ -47,8 +47,8 @@ class PublicBound:
         return self.name == "causal bound"
 
     def mean_mm(self, behaviour: str) -> float:
-        """Return the mean RMSE [mm] on a behaviour; all its cells have as many lifts."""
-        return float(np.mean([mm for (each, _), mm in self.cells.items() if each == behaviour]))
+        """Return the mean RMSE [mm] on a behaviour; all its strata have as many lifts."""
+        return float(np.mean([mm for (each, _), mm in self.strata.items() if each == behaviour]))
 
 
 def bounds_of(info: SeasonInfo) -> tuple[PublicBound, ...]:
@@ -59,19 +59,19 @@ def bounds_of(info: SeasonInfo) -> tuple[PublicBound, ...]:
 
 @functools.lru_cache(maxsize=8)
 def _bounds(suite: Suite) -> tuple[PublicBound, ...]:
-    references, found = shipped_references(suite), shipped_bounds(suite)
-    if references is None or found is None:
+    baselines, found = shipped_baselines(suite), shipped_bounds(suite)
+    if baselines is None or found is None:
         return ()
-    team = references[HUMAN_HUMAN]
+    team = baselines[HUMAN_HUMAN]
     return tuple(_bound(name, found[name], team) for name in TOLD if name in found)
 
 
-def _bound(name: str, reference: Reference, team: Reference) -> PublicBound:
+def _bound(name: str, baseline: Baseline, team: Baseline) -> PublicBound:
     return PublicBound(
         name=name.replace("_", " "),
         told=TOLD[name],
-        rmse_mm=reference.estimate,
-        vs_human=reference.mean / team.mean,
-        means=reference.means,
-        cells=reference.by_cell(),
+        rmse_mm=baseline.estimate,
+        vs_human=baseline.mean / team.mean,
+        means=baseline.means,
+        strata=baseline.by_stratum(),
     )

@@ -18,14 +18,14 @@ from ..replays.chosen import made_replays
 from .axis import Axis, make_axis
 from .board import find_season, ordered_seasons
 from .lifts import (
-    CellScore,
     Part,
     PublicLift,
-    cell_scores,
+    StratumScore,
     human_team_rmse,
     part_estimate,
     parts_of,
     public_lifts,
+    stratum_scores,
 )
 
 MOST: Final = 4
@@ -125,13 +125,13 @@ def compare_view(
         chosen = [digest for digest in dict.fromkeys(digests) if digest in ranked][:MOST]
     bundles = {digest: board.bundle(info.name, digest) for digest in chosen}
     runs = {digest: path for digest, path in bundles.items() if path is not None}
-    cells = next((cell_scores(path) for path in runs.values()), ())
-    parts = _parts(cells)
+    strata = next((stratum_scores(path) for path in runs.values()), ())
+    parts = _parts(strata)
     columns = tuple(
         Column(standing=ranked[digest], rmse_mm=tuple(part_estimate(path, part) for part in parts))
         for digest, path in runs.items()
     )
-    team = tuple(human_team_rmse(cells, part) for part in parts)
+    team = tuple(human_team_rmse(strata, part) for part in parts)
     pairs = _differences(tuple(runs.values()))
     names = itertools.combinations(runs, 2)
     return CompareView(
@@ -174,9 +174,9 @@ def _errors(bundle: Path) -> dict[str, list[int]]:
     }
 
 
-def _parts(cells: Sequence[CellScore]) -> tuple[Part, ...]:
-    """Return all lifts, each behaviour and each subject; cells are for the policies' own pages."""
-    found = parts_of(cells)
+def _parts(strata: Sequence[StratumScore]) -> tuple[Part, ...]:
+    """Return all lifts, each behaviour and each subject; strata are for the policies' own pages."""
+    found = parts_of(strata)
     return tuple(part for part in found if part.behaviour is None or part.subject is None)
 
 
@@ -187,7 +187,7 @@ def _differences(bundles: tuple[Path, ...]) -> tuple[PairedDifference | None, ..
     found: list[PairedDifference | None] = []
     for i, a in enumerate(runs):
         errors = [lift.rmse_mm for lift in a]
-        cells = [(lift.behaviour, lift.subject) for lift in a]
+        strata = [(lift.behaviour, lift.subject) for lift in a]
         behind = [[lift.rmse_mm for lift in b] for b in runs[i + 1 :]]
         comparable = [bool(errors) and len(b) == len(errors) for b in behind]
         ps = iter(
@@ -198,5 +198,5 @@ def _differences(bundles: tuple[Path, ...]) -> tuple[PairedDifference | None, ..
             else ()
         )
         for b, ok in zip(behind, comparable, strict=True):
-            found.append(PairedDifference.of(errors, b, cells, next(ps)) if ok else None)
+            found.append(PairedDifference.of(errors, b, strata, next(ps)) if ok else None)
     return tuple(found)

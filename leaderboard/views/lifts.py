@@ -16,7 +16,7 @@ from ..storage.files import read_json
 
 
 @dataclass(frozen=True, kw_only=True)
-class CellScore:
+class StratumScore:
     """Means over the public lifts of one behaviour with one subject."""
 
     behaviour: str
@@ -46,8 +46,8 @@ class PublicLift:
 
 
 @functools.lru_cache(maxsize=8192)
-def cell_scores(bundle: Path) -> tuple[CellScore, ...]:
-    """Return the means of each cell of a bundle, in the suite's order."""
+def stratum_scores(bundle: Path) -> tuple[StratumScore, ...]:
+    """Return the means of each stratum of a bundle, in the suite's order."""
     return tuple(_cell(group) for group in read_json(bundle / RESULTS)["groups"])
 
 
@@ -74,8 +74,8 @@ def is_whole(bundle: Path | None) -> bool:
     return bundle is not None and all((bundle / name).is_file() for name in FILES)
 
 
-def _cell(group: dict[str, Any]) -> CellScore:
-    return CellScore(
+def _cell(group: dict[str, Any]) -> StratumScore:
+    return StratumScore(
         behaviour=group["behaviour"],
         subject=group["subject"],
         episodes=group["episodes"],
@@ -97,8 +97,8 @@ class Part:
     subject: str | None
     """None: all of them."""
 
-    def has(self, lift: PublicLift | CellScore) -> bool:
-        """Whether a lift, or a cell, belongs to it."""
+    def has(self, lift: PublicLift | StratumScore) -> bool:
+        """Whether a lift, or a stratum, belongs to it."""
         return self.behaviour in (None, lift.behaviour) and self.subject in (None, lift.subject)
 
     @property
@@ -112,14 +112,14 @@ class Part:
         return self.behaviour is None and self.subject is not None
 
 
-def parts_of(cells: Sequence[CellScore]) -> Iterator[Part]:
-    """Yield all lifts, then each behaviour followed by its cells, then each subject."""
+def parts_of(strata: Sequence[StratumScore]) -> Iterator[Part]:
+    """Yield all lifts, then each behaviour followed by its strata, then each subject."""
     yield Part(behaviour=None, subject=None)
-    for behaviour in dict.fromkeys(cell.behaviour for cell in cells):
+    for behaviour in dict.fromkeys(stratum.behaviour for stratum in strata):
         yield Part(behaviour=behaviour, subject=None)
-        mine = [cell.subject for cell in cells if cell.behaviour == behaviour]
+        mine = [stratum.subject for stratum in strata if stratum.behaviour == behaviour]
         yield from (Part(behaviour=behaviour, subject=subject) for subject in mine)
-    for subject in dict.fromkeys(cell.subject for cell in cells):
+    for subject in dict.fromkeys(stratum.subject for stratum in strata):
         yield Part(behaviour=None, subject=subject)
 
 
@@ -131,7 +131,7 @@ def part_estimate(bundle: Path, part: Part) -> Estimate:
     """
     lifts = [lift for lift in public_lifts(bundle) if part.has(lift)]
     if not lifts:
-        return known(mean_rmse(cell_scores(bundle), part) or 0.0)
+        return known(mean_rmse(stratum_scores(bundle), part) or 0.0)
     strata = [(lift.behaviour, lift.subject) for lift in lifts]
     return mean_of([lift.rmse_mm for lift in lifts], strata)
 
@@ -141,17 +141,21 @@ def known(mean: float) -> Estimate:
     return Estimate(mean=mean, ci95=(mean, mean))
 
 
-def mean_rmse(cells: Sequence[CellScore], part: Part) -> float | None:
+def mean_rmse(strata: Sequence[StratumScore], part: Part) -> float | None:
     """Return a policy's mean RMSE [mm] over a part; None if nothing is known of it."""
-    some = [cell for cell in cells if part.has(cell)]
-    lifts = sum(cell.episodes for cell in some)
-    return sum(cell.episodes * cell.rmse_mm for cell in some) / lifts if some else None
+    some = [stratum for stratum in strata if part.has(stratum)]
+    lifts = sum(stratum.episodes for stratum in some)
+    return sum(stratum.episodes * stratum.rmse_mm for stratum in some) / lifts if some else None
 
 
-def human_team_rmse(cells: Sequence[CellScore], part: Part | None = None) -> float | None:
+def human_team_rmse(strata: Sequence[StratumScore], part: Part | None = None) -> float | None:
     """Return the human-human team's mean RMSE [mm] over a part, if it is known in all of it."""
-    some = [cell for cell in cells if part is None or part.has(cell)]
-    told = [(cell.episodes, cell.team_rmse_mm) for cell in some if cell.team_rmse_mm is not None]
+    some = [stratum for stratum in strata if part is None or part.has(stratum)]
+    told = [
+        (stratum.episodes, stratum.team_rmse_mm)
+        for stratum in some
+        if stratum.team_rmse_mm is not None
+    ]
     if not told or len(told) < len(some):
         return None
     return sum(episodes * rmse for episodes, rmse in told) / sum(episodes for episodes, _ in told)

@@ -14,13 +14,13 @@ from .board import find_season, ordered_seasons
 from .lifts import (
     Part,
     PublicLift,
-    cell_scores,
     human_team_rmse,
     is_whole,
     mean_rmse,
     part_estimate,
     parts_of,
     public_lifts,
+    stratum_scores,
 )
 
 BLEND: Final = "blend"
@@ -91,7 +91,7 @@ class PolicyView:
         """Each subject."""
         return tuple(each for each in self.parts if each.part.of_subject)
 
-    def cell(self, behaviour: str | None, subject: str | None) -> PartScore | None:
+    def stratum(self, behaviour: str | None, subject: str | None) -> PartScore | None:
         """Return what it did on a behaviour with a subject, if the suite has that."""
         part = Part(behaviour=behaviour, subject=subject)
         return next((each for each in self.parts if each.part == part), None)
@@ -178,16 +178,16 @@ def _worst(bundle: Path | None) -> tuple[PublicLift, ...]:
 
 def _parts(bundle: Path, other: Path | None) -> tuple[PartScore, ...]:
     """Return the parts of a bundle's lifts, beside another policy's."""
-    cells = cell_scores(bundle)
-    others = () if other is None else cell_scores(other)
+    strata = stratum_scores(bundle)
+    others = () if other is None else stratum_scores(other)
     found = []
-    for part in parts_of(cells):
-        some = [cell for cell in cells if part.has(cell)]
+    for part in parts_of(strata):
+        some = [stratum for stratum in strata if part.has(stratum)]
         found.append(
             PartScore(
                 part=part,
-                episodes=sum(cell.episodes for cell in some),
-                failed=sum(cell.failed for cell in some),
+                episodes=sum(stratum.episodes for stratum in some),
+                failed=sum(stratum.failed for stratum in some),
                 rmse_mm=part_estimate(bundle, part),
                 team_mm=human_team_rmse(some),
                 blend_mm=mean_rmse(others, part),

@@ -15,7 +15,7 @@ from ..board.standings import RankedRow
 from ..records.season import SeasonInfo
 from .axis import Axis, make_axis
 from .board import find_season, ordered_seasons
-from .lifts import CellScore, Part, cell_scores, known, part_estimate
+from .lifts import Part, StratumScore, known, part_estimate, stratum_scores
 from .suites import season_suite
 
 CURVES: Final = 5
@@ -42,7 +42,7 @@ class CellRow:
     """A policy on the lifts of a scenario."""
 
     standing: RankedRow
-    score: CellScore
+    score: StratumScore
     rmse_mm: Estimate
 
 
@@ -63,7 +63,7 @@ class ScenarioView:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CellLine:
+class StratumLine:
     """A scenario among the others."""
 
     behaviour: str
@@ -92,15 +92,15 @@ class ScenariosView:
     subjects: tuple[str, ...]
     told: dict[str, str]
     """What each behaviour is, in a line."""
-    cells: dict[tuple[str, str], CellLine]
+    strata: dict[tuple[str, str], StratumLine]
     """By behaviour and subject, those that the suite has."""
     rows: tuple[HeatRow, ...]
     """The policies of the ranking, best first."""
 
     @property
-    def columns(self) -> tuple[CellLine, ...]:
+    def columns(self) -> tuple[StratumLine, ...]:
         """The scenarios, behaviour by behaviour."""
-        return tuple(sorted(self.cells.values(), key=lambda c: self.behaviours.index(c.behaviour)))
+        return tuple(sorted(self.strata.values(), key=lambda c: self.behaviours.index(c.behaviour)))
 
 
 def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | None:
@@ -113,12 +113,12 @@ def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | N
     if info is None or suite is None:
         return None
     scored = _scored(board, info)
-    cells = {}
+    strata = {}
     for scenario in suite.scenarios:
         key = (scenario.behaviour, scenario.subject.name)
         there = [(score, row) for row, scores in scored if (score := _score(scores, key))]
         best = min(there, key=lambda each: each[0].rmse_mm, default=None)
-        cells[key] = CellLine(
+        strata[key] = StratumLine(
             behaviour=key[0],
             subject=key[1],
             team_mm=None if best is None else best[0].team_rmse_mm,
@@ -127,10 +127,10 @@ def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | N
         )
     return ScenariosView(
         season=info,
-        behaviours=tuple(dict.fromkeys(behaviour for behaviour, _ in cells)),
-        subjects=tuple(dict.fromkeys(subject for _, subject in cells)),
+        behaviours=tuple(dict.fromkeys(behaviour for behaviour, _ in strata)),
+        subjects=tuple(dict.fromkeys(subject for _, subject in strata)),
         told={each.behaviour: _told(each) for each in suite.scenarios},
-        cells=cells,
+        strata=strata,
         rows=tuple(
             HeatRow(
                 standing=each,
@@ -154,7 +154,7 @@ def scenario_view(board: Board, season: str, behaviour: str, subject: str) -> Sc
         return None
     key = (behaviour, subject)
     scored = [
-        (each, score) for each, cells in _scored(board, info) if (score := _score(cells, key))
+        (each, score) for each, strata in _scored(board, info) if (score := _score(strata, key))
     ]
     scored.sort(key=lambda each: each[1].rmse_mm)
     part = Part(behaviour=behaviour, subject=subject)
@@ -175,22 +175,24 @@ def scenario_view(board: Board, season: str, behaviour: str, subject: str) -> Sc
     )
 
 
-def _scored(board: Board, info: SeasonInfo) -> list[tuple[RankedRow, tuple[CellScore, ...]]]:
-    """Return the ranked rows that have a bundle, with their cells."""
+def _scored(board: Board, info: SeasonInfo) -> list[tuple[RankedRow, tuple[StratumScore, ...]]]:
+    """Return the ranked rows that have a bundle, with their strata."""
     found = []
     for each in board.standings(info.name):
         bundle = board.bundle(info.name, each.row.submission)
         if each.ranked and bundle is not None:
-            found.append((each, cell_scores(bundle)))
+            found.append((each, stratum_scores(bundle)))
     return found
 
 
-def _score(cells: Sequence[CellScore], key: tuple[str, str]) -> CellScore | None:
-    return next((cell for cell in cells if (cell.behaviour, cell.subject) == key), None)
+def _score(strata: Sequence[StratumScore], key: tuple[str, str]) -> StratumScore | None:
+    return next(
+        (stratum for stratum in strata if (stratum.behaviour, stratum.subject) == key), None
+    )
 
 
 def _estimate(
-    board: Board, standing: RankedRow, score: CellScore, part: Part, interval: bool
+    board: Board, standing: RankedRow, score: StratumScore, part: Part, interval: bool
 ) -> Estimate:
     bundle = board.bundle(standing.row.season, standing.row.submission)
     return part_estimate(bundle, part) if interval and bundle else known(score.rmse_mm)

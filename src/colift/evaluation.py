@@ -15,7 +15,7 @@ from .agents.spec import AgentSpec, InProcess
 from .benchmark.bundle import results
 from .benchmark.execution.pool import local_pool
 from .benchmark.execution.runner import run_suite
-from .benchmark.results.baselines import SPECS, play_references, shipped_references
+from .benchmark.results.baselines import SPECS, play_baselines, shipped_baselines
 from .benchmark.suites.suite import Suite, make_suite
 from .cli.policies import AUTO, NONE, choose_policy
 from .cli.progress import progress_bar
@@ -126,18 +126,18 @@ def evaluate(
     """
     spec = _spec(policy, isolation, jobs)
     played = make_suite(suite) if isinstance(suite, str) else suite
-    references = shipped_references(played)
-    total = played.size * (1 if references else 1 + len(SPECS))
+    baselines = shipped_baselines(played)
+    total = played.size * (1 if baselines else 1 + len(SPECS))
     bar = progress_bar(spec.name, total) if progress else nullcontext(lambda done: None)
     with bar as advance, local_pool(jobs) as pool:
         run = run_suite(spec, played, executor=pool, progress=advance)
         if not run.complete:
             raise KeyboardInterrupt
-        if references is None:
-            references = play_references(played, executor=pool, progress=advance)
-            if references.keys() != SPECS.keys():
+        if baselines is None:
+            baselines = play_baselines(played, executor=pool, progress=advance)
+            if baselines.keys() != SPECS.keys():
                 raise KeyboardInterrupt
-    return Evaluation(run=run, results=results(run, references))
+    return Evaluation(run=run, results=results(run, baselines))
 
 
 def _spec(policy: object, isolation: str, jobs: int) -> AgentSpec:

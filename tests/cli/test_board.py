@@ -5,7 +5,7 @@ import os
 
 import pytest
 from colift.agents.submissions.new import write_template
-from colift.benchmark.results.baselines import Reference
+from colift.benchmark.results.baselines import Baseline
 from colift.benchmark.suites.suite import SUITES
 from colift.cli.tables.board import board_table
 from colift.leaderboard.board.board import Board
@@ -26,7 +26,7 @@ def filled(board):
         add(board, name, mean)
     board.withdraw("1", digest("cheat"), "Ada", "it read the [bold]clock[/bold]")
     cells = (("pause", "S1"),) * 4
-    team = Reference(
+    team = Baseline(
         cells=cells, rmse_mm=(9.9, 10.5, 11.0, 10.8), means={"sparc": -2.79, "human_force_n": 0.37}
     )
     board.store.vault("1").keep_team(team)

@@ -179,23 +179,23 @@ def test_an_interrupted_run_is_not_begun_anew(colift, slow, interrupted):
     assert "lifts of an interrupted run: go on with it by --resume" in told
 
 
-def test_ctrl_c_in_the_references_keeps_the_run(tmp_path):
+def test_ctrl_c_in_the_baselines_keeps_the_run(tmp_path):
     bundle = tmp_path / "bundle"
-    # So many that the references, thrice as many, take seconds on any machine.
+    # So many that the baselines, thrice as many, take seconds on any machine.
     options = ("copy", "--suite", "quick-v1", "--seeds", "0:8", "--jobs", 1, "--out", bundle)
     process = begin(*options)
     wait_for_episodes(bundle, 32, process)
-    end = processor_time(process.pid) + 0.2  # Out of the run, into the references.
+    end = processor_time(process.pid) + 0.2  # Out of the run, into the baselines.
     while processor_time(process.pid) < end:
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
     _, told = process.communicate(timeout=300)
     assert process.returncode == 1
-    assert told.startswith("interrupted before the references were played")
+    assert told.startswith("interrupted before the baselines were played")
     assert "--resume" in told
     assert json.loads((bundle / "results.json").read_text())["complete"]
     assert run(*options, "--resume") == (0, "")
-    assert set(json.loads((bundle / "results.json").read_text())["references"]) == {
+    assert set(json.loads((bundle / "results.json").read_text())["baselines"]) == {
         "human_human",
         "hold",
         "copy",

@@ -9,7 +9,7 @@ import psycopg
 import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.submissions.new import write_template
-from colift.benchmark.results.baselines import Reference
+from colift.benchmark.results.baselines import Baseline
 from colift.benchmark.suites import suite
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.evaluation.entrant import Entrant
@@ -80,7 +80,7 @@ def season() -> Season:
 
 
 @pytest.fixture(scope="session")
-def team(season: Season) -> Reference:
+def team(season: Season) -> Baseline:
     return play_team(season)
 
 

@@ -20,7 +20,7 @@ import numpy as np
 
 from ...actions import ActionError, checked_action
 from ...agent import Agent, Explaining
-from ...errors import InputError, told
+from ...errors import InputError, error_text
 from ...loading.description import described
 from ...loading.loading import PolicySpec
 from ...loading.parameters import make_with, read_values
@@ -148,7 +148,7 @@ def _load(place: str) -> type[Agent]:
 def _safely_told(error: BaseException) -> str:
     """Return an error in a line; its text is the policy's code, which may fail too."""
     try:
-        return told(error)[:REASON]
+        return error_text(error)[:REASON]
     except BaseException:
         return type(error).__name__[:REASON]
 

@@ -7,7 +7,7 @@ import pytest
 from colift.benchmark.bounds.claims import claims
 from colift.benchmark.comparison.contest import Contest, Entry
 from colift.benchmark.episode.scores import Scores
-from colift.benchmark.results.baselines import Reference
+from colift.benchmark.results.baselines import Baseline
 from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
 
 CELLS = tuple(
@@ -15,8 +15,8 @@ CELLS = tuple(
 )
 
 
-def entry(name, rmse, sparc=-2.0, force=0.1, cells=CELLS):
-    errors = np.broadcast_to(rmse, len(cells))
+def entry(name, rmse, sparc=-2.0, force=0.1, strata=CELLS):
+    errors = np.broadcast_to(rmse, len(strata))
     blank = dict.fromkeys((field.name for field in dataclasses.fields(Scores)), 0.0)
     scores = tuple(
         Scores(**{**blank, "rmse_mm": float(e), "sparc": sparc, "human_force_n": force})
@@ -25,29 +25,29 @@ def entry(name, rmse, sparc=-2.0, force=0.1, cells=CELLS):
     return Entry(
         name=name,
         digest="",
-        cells=cells,
+        strata=strata,
         scores=scores,
-        failures=(None,) * len(cells),
+        failures=(None,) * len(strata),
         step_ms=None,
     )
 
 
-def reference(rmse, cells):
-    return Reference(
-        cells=cells, rmse_mm=(rmse,) * len(cells), means={"sparc": -2.5, "human_force_n": 0.4}
+def baseline(rmse, strata):
+    return Baseline(
+        strata=strata, rmse_mm=(rmse,) * len(strata), means={"sparc": -2.5, "human_force_n": 0.4}
     )
 
 
-def contest(mine, *, bound=4.0, blend=16.0, team=8.0, sparc=-2.0, force=0.1, cells=CELLS):
+def contest(mine, *, bound=4.0, blend=16.0, team=8.0, sparc=-2.0, force=0.1, strata=CELLS):
     return Contest(
         suite=make_suite("quick-v1"),
         entries=(
-            entry("anticipate", mine, sparc, force, cells),
-            entry("blend", blend, -2.3, 0.2, cells),
-            entry("reactive", 20.0, -2.9, 0.3, cells),
+            entry("anticipate", mine, sparc, force, strata),
+            entry("blend", blend, -2.3, 0.2, strata),
+            entry("reactive", 20.0, -2.9, 0.3, strata),
         ),
-        bounds={"causal_bound": reference(bound, cells)},
-        team=reference(team, cells),
+        bounds={"causal_bound": baseline(bound, strata)},
+        team=baseline(team, strata),
     )
 
 
@@ -81,10 +81,10 @@ def test_smoother_and_gentler_are_paired_differences():
 
 
 def test_recorded_lifts_are_set_against_blend_alone():
-    cells = tuple(("recorded", subject) for subject in "AB" for _ in range(25))
+    strata = tuple(("recorded", subject) for subject in "AB" for _ in range(25))
     mine = np.full(50, 4.0)
     mine[:2] = 17.0
-    found = told(claims(contest(mine, cells=cells)))
+    found = told(claims(contest(mine, strata=strata)))
     assert found["RMSE over that of blend, recorded"].value == pytest.approx(mine.mean() / 16)
     wins = found["share of the recorded lifts more level than with blend"]
     assert (wins.value, wins.holds) == (pytest.approx(0.96), False)

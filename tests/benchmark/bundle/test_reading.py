@@ -119,7 +119,7 @@ def test_a_file_is_no_folder(tmp_path):
         ("results.json:scoring", True, "scoring must be a whole number"),
         ("results.json:complete", 1, "complete must be true or false"),
         ("results.json:policy", "copy", "policy.name is missing"),
-        ("results.json:references", [], "references must be an object"),
+        ("results.json:baselines", [], "baselines must be an object"),
         ("results.json:evaluator_faults", -1, "must be from 0"),
         ("results.json:summary", {"step_ms": {"p50": "fast"}}, "step_ms.p50 must be a number"),
         ("manifest.json:format", 2, "has format 2"),

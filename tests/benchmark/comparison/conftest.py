@@ -7,7 +7,7 @@ import pytest
 from colift.benchmark.comparison.comparison import Comparison, compare
 from colift.benchmark.comparison.contest import Contest, Entry
 from colift.benchmark.episode.scores import Scores
-from colift.benchmark.results.baselines import Reference
+from colift.benchmark.results.baselines import Baseline
 from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
 
 CELLS = tuple(
@@ -27,7 +27,7 @@ def entry(name: str, rmse: object, sparc: object, failed: int = 0) -> Entry:
     return Entry(
         name=name,
         digest=f"digest of {name}",
-        cells=CELLS,
+        strata=CELLS,
         scores=tuple(
             Scores(
                 rmse_mm=float(error),
@@ -55,8 +55,8 @@ def noise(seed: int, spread: float = 0.5) -> np.ndarray:
 
 def contest(*entries: Entry) -> Contest:
     """Return a contest against a team whose error is the difficulty of the lift."""
-    team = Reference(
-        cells=CELLS, rmse_mm=tuple(DIFFICULTY), means={"sparc": -2.5, "human_force_n": 0.4}
+    team = Baseline(
+        strata=CELLS, rmse_mm=tuple(DIFFICULTY), means={"sparc": -2.5, "human_force_n": 0.4}
     )
     return Contest(suite=make_suite("quick-v1"), entries=entries, team=team)
 

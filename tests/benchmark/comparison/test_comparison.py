@@ -101,14 +101,14 @@ def test_with_three_lifts_a_behaviour_none_is_the_best_there() -> None:
     def few(made: Entry) -> Entry:
         return dataclasses.replace(
             made,
-            cells=made.cells[::5],
+            strata=made.strata[::5],
             scores=made.scores[::5],
             failures=made.failures[::5],
         )
 
     better, worse = few(entry("better", 5.0, -2.0)), few(entry("worse", 200.0, -2.0))
     full = contest()
-    team = dataclasses.replace(full.team, cells=better.cells, rmse_mm=(10.0,) * 13)
+    team = dataclasses.replace(full.team, strata=better.strata, rmse_mm=(10.0,) * 13)
     made = compare(dataclasses.replace(full, entries=(better, worse), team=team))
     assert [scope.episodes for scope in made.behaviours] == [4, 3, 3, 3]
     for scope in made.behaviours:

@@ -10,7 +10,7 @@ from colift.benchmark.comparison.contest import TEAM, Contest, amount, play_cont
 from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.html import html_page
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import human_team_run, shipped_bounds, shipped_references
+from colift.benchmark.results.baselines import human_team_run, shipped_baselines, shipped_bounds
 from colift.benchmark.suites.suite import Suite, make_suite
 
 
@@ -26,7 +26,7 @@ def played(quick: Suite) -> Contest:
 
 def test_a_policy_has_the_numbers_that_run_gives_it(quick: Suite, played: Contest) -> None:
     run = run_suite(PolicySpec(text="copy"), quick)
-    summary = results(run, shipped_references(quick) or {})["summary"]
+    summary = results(run, shipped_baselines(quick) or {})["summary"]
     standing = next(p for p in comparison_json(compare(played))["policies"] if p["name"] == "copy")
     for name in ("mean", "ci95"):
         assert list_of(standing["rmse_mm"][name]) == list_of(summary["rmse_mm"][name])
@@ -53,7 +53,7 @@ def test_the_bounds_are_there_when_they_are_shipped(quick: Suite, played: Contes
 
 
 def test_the_team_is_the_one_shipped_or_is_played(quick: Suite, played: Contest) -> None:
-    assert played.team == (shipped_references(quick) or {})["human_human"]
+    assert played.team == (shipped_baselines(quick) or {})["human_human"]
     other = dataclasses.replace(quick.with_seeds(7, 8), scenarios=quick.scenarios[:1])
     counted: list[int] = []
     copies = {"a": PolicySpec(text="copy"), "b": PolicySpec(text="copy")}

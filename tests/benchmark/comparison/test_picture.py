@@ -9,7 +9,7 @@ from colift.benchmark.comparison.comparison import Comparison, compare
 from colift.benchmark.comparison.picture import comparison_figure
 from colift.benchmark.comparison.scale import Scale, make_scale, spots
 from colift.benchmark.rendering.style import FAINT, ROBOT
-from colift.benchmark.results.baselines import Reference
+from colift.benchmark.results.baselines import Baseline
 from matplotlib.axes import Axes
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
@@ -99,9 +99,9 @@ def test_policies_alike_are_all_drawn_to_scale_however_bad() -> None:
 
 def test_bounds_do_not_push_policies_off_the_scale() -> None:
     policies = contest(*(entry(f"{mm}", mm + noise(mm), -2.0) for mm in (12, 14, 34)))
-    near = Reference(
-        cells=policies.team.cells,
-        rmse_mm=(0.1,) * len(policies.team.cells),
+    near = Baseline(
+        strata=policies.team.strata,
+        rmse_mm=(0.1,) * len(policies.team.strata),
         means={"sparc": -1.9, "human_force_n": 0.1},
     )
     bounded = dataclasses.replace(policies, bounds={"oracle": near, "causal_bound": near})

@@ -1,4 +1,4 @@
-"""The references (the human-human team, hold, copy), and the bounds shipped with them."""
+"""The baselines (the human-human team, hold, copy), and the bounds shipped with them."""
 
 import dataclasses
 import json
@@ -14,11 +14,11 @@ from colift.benchmark.paper.table_one import HUMAN_TEAM
 from colift.benchmark.results.baselines import (
     HUMAN_HUMAN,
     ToShip,
+    baselines_json,
     human_team_run,
-    play_references,
-    references_json,
+    play_baselines,
+    shipped_baselines,
     shipped_bounds,
-    shipped_references,
 )
 from colift.benchmark.suites.suite import SUITES, make_suite
 
@@ -30,31 +30,31 @@ def quick():
 
 @pytest.fixture(scope="module")
 def played(quick):
-    return play_references(quick)
+    return play_baselines(quick)
 
 
 @pytest.mark.parametrize("name", SUITES)
-def test_every_suite_has_its_references_shipped(name):
+def test_every_suite_has_its_baselines_shipped(name):
     suite = make_suite(name)
-    shipped = shipped_references(suite)
+    shipped = shipped_baselines(suite)
     assert set(shipped) == {"human_human", "hold", "copy"}
     bounds = shipped_bounds(suite)
     assert set(bounds) == {"oracle", "causal_bound"}
-    for reference in (*shipped.values(), *bounds.values()):
-        assert len(reference.rmse_mm) == len(reference.cells) == suite.size
+    for baseline in (*shipped.values(), *bounds.values()):
+        assert len(baseline.rmse_mm) == len(baseline.strata) == suite.size
 
 
 def test_the_shipped_ones_are_what_the_code_gives(quick, played):
-    """If this fails, a number has changed: run ``colift references``."""
-    for name, reference in shipped_references(quick).items():
-        assert reference.rmse_mm == pytest.approx(played[name].rmse_mm, rel=1e-6)
-        assert reference.cells == played[name].cells
-        assert reference.means.keys() == played[name].means.keys()
+    """If this fails, a number has changed: run ``colift baselines``."""
+    for name, baseline in shipped_baselines(quick).items():
+        assert baseline.rmse_mm == pytest.approx(played[name].rmse_mm, rel=1e-6)
+        assert baseline.strata == played[name].strata
+        assert baseline.means.keys() == played[name].means.keys()
         for metric, value in played[name].means.items():
             if value is None:
-                assert reference.means[metric] is None
+                assert baseline.means[metric] is None
             else:
-                assert reference.means[metric] == pytest.approx(value, rel=1e-6)
+                assert baseline.means[metric] == pytest.approx(value, rel=1e-6)
 
 
 def test_the_shipped_bounds_are_what_the_code_gives(quick):
@@ -62,26 +62,26 @@ def test_the_shipped_bounds_are_what_the_code_gives(quick):
     some = dataclasses.replace(quick.with_seeds(0, 1), scenarios=quick.scenarios[1:2])
     for name, played in play_bounds(BOUNDS, some).items():
         shipped = shipped_bounds(quick)[name]
-        at = shipped.cells.index(played.cells[0])
+        at = shipped.strata.index(played.strata[0])
         assert shipped.rmse_mm[at] == pytest.approx(played.rmse_mm[0], rel=1e-6)
 
 
 def test_other_episodes_have_none_shipped(quick):
-    assert shipped_references(quick.with_seeds(100, 103)) is None
-    assert shipped_references(quick.with_timing(0.05, None)) is None
+    assert shipped_baselines(quick.with_seeds(100, 103)) is None
+    assert shipped_baselines(quick.with_timing(0.05, None)) is None
 
 
 def test_the_shipped_file_can_be_read_back(quick, played):
     bounds = {"copy": played["copy"]}
-    content = json.loads(references_json([ToShip(suite=quick, references=played, bounds=bounds)]))
+    content = json.loads(baselines_json([ToShip(suite=quick, baselines=played, bounds=bounds)]))
     assert content[quick.digest]["suite"] == "quick-v1"
     assert list(content[quick.digest]["bounds"]) == ["copy"]
-    assert content[quick.digest]["references"]["copy"]["rmse_mm"] == list(played["copy"].rmse_mm)
+    assert content[quick.digest]["baselines"]["copy"]["rmse_mm"] == list(played["copy"].rmse_mm)
 
 
 def test_the_human_team_has_the_papers_error_on_the_papers_suite():
     """Calibrated on other seeds: 6.5 +- 0.7 mm."""
-    team = shipped_references(make_suite("paper-v1"))[HUMAN_HUMAN]
+    team = shipped_baselines(make_suite("paper-v1"))[HUMAN_HUMAN]
     assert team.mean == pytest.approx(HUMAN_TEAM, abs=0.7)
 
 
@@ -93,10 +93,10 @@ def test_the_team_meets_the_plans_that_the_robot_meets(quick):
 
 
 def test_the_team_beats_copying_wherever_the_human_moves_smoothly(played):
-    team, copy = (played[name].by_cell() for name in (HUMAN_HUMAN, "copy"))
-    for cell in team:
-        if cell[0] != "jerky":
-            assert team[cell] < 0.6 * copy[cell]
+    team, copy = (played[name].by_stratum() for name in (HUMAN_HUMAN, "copy"))
+    for stratum in team:
+        if stratum[0] != "jerky":
+            assert team[stratum] < 0.6 * copy[stratum]
 
 
 def test_vs_human_is_the_ratio_of_the_means_with_a_paired_interval(quick, played):
@@ -109,7 +109,7 @@ def test_vs_human_is_the_ratio_of_the_means_with_a_paired_interval(quick, played
     assert 1 < low < versus["mean"] < high
     group = content["groups"][0]
     assert group["human_human_rmse_mm"]["mean"] == pytest.approx(np.mean(team.rmse_mm[:3]))
-    assert content["references"]["human_human"]["rmse_mm"]["mean"] == pytest.approx(team.mean)
+    assert content["baselines"]["human_human"]["rmse_mm"]["mean"] == pytest.approx(team.mean)
 
 
 def test_a_team_against_itself_is_exactly_one(quick, played):

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from colift.benchmark.results.baselines import shipped_references
+from colift.benchmark.results.baselines import shipped_baselines
 from colift.benchmark.statistics import (
     paired_difference,
     ratio_of_means,
@@ -59,7 +59,7 @@ def shipped(name: str) -> Sample:
 
     They are the population of each cell, of which fifteen lifts are drawn.
     """
-    reference = (shipped_references(make_suite("standard-v1")) or {})[name]
+    reference = (shipped_baselines(make_suite("standard-v1")) or {})[name]
     return np.reshape(reference.rmse_mm, (20, 15))
 
 

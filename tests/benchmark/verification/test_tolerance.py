@@ -8,7 +8,7 @@ from colift.benchmark.bundle import read_bundle, results, write_bundle
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scores import score
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import shipped_references
+from colift.benchmark.results.baselines import shipped_baselines
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.verification import verify
 from colift.benchmark.verification.deviation import HEIGHT
@@ -102,10 +102,10 @@ class TestOtherPlatform:
         mend(bundle)
         assert "summary.rmse_mm.mean says" in refused(bundle, file="results.json")
 
-    def test_shipped_references_leave_no_tolerance_for_the_ratio(self, tmp_path):
+    def test_shipped_baselines_leave_no_tolerance_for_the_ratio(self, tmp_path):
         suite = make_suite("quick-v1")
         run, folder = run_suite(PolicySpec(text="hold"), suite), tmp_path / "hold"
-        write_bundle(folder, run, results(run, shipped_references(suite)))
+        write_bundle(folder, run, results(run, shipped_baselines(suite)))
         edit_arrays(folder, lambda arrays: flip(arrays["robot_end"], 234))
         edit_json(folder, "manifest.json", lambda m: m["platform"].update(libc="musl 9"))
         mend(folder)

@@ -8,7 +8,7 @@ from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import read_bundle, results, write_bundle
 from colift.benchmark.execution.pool import process_pool
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import play_references, shipped_references
+from colift.benchmark.results.baselines import play_baselines, shipped_baselines
 from colift.benchmark.suites.suite import make_suite, recorded_suite
 from colift.benchmark.verification import verify
 
@@ -73,7 +73,7 @@ class TestReferences:
         suite = make_suite("quick-v1")
         run = run_suite(PolicySpec(text="hold"), suite)
         folder = tmp_path / "hold"
-        write_bundle(folder, run, results(run, shipped_references(suite)))
+        write_bundle(folder, run, results(run, shipped_baselines(suite)))
         assert verify(folder).ok
 
         def better(content):
@@ -86,18 +86,18 @@ class TestReferences:
     def test_others_are_played_again(self, tmp_path):
         suite = dataclasses.replace(SUITE, name="one", scenarios=SUITE.scenarios[:1])
         run, folder = run_suite(PolicySpec(text="copy"), suite), tmp_path / "copy"
-        write_bundle(folder, run, results(run, play_references(suite)))
+        write_bundle(folder, run, results(run, play_baselines(suite)))
         assert verify(folder).ok
 
         def worse(content):
-            content["references"]["human_human"]["rmse_mm"]["mean"] *= 2
+            content["baselines"]["human_human"]["rmse_mm"]["mean"] *= 2
 
         edit_json(folder, "results.json", worse)
         mend(folder)
         message = refused(folder, file="results.json")
-        assert message.startswith("references.human_human.rmse_mm.mean says")
+        assert message.startswith("baselines.human_human.rmse_mm.mean says")
 
     def test_unknown_ones_are_refused(self, bundle):
-        edit_json(bundle, "results.json", lambda r: r["references"].update(rival={}))
+        edit_json(bundle, "results.json", lambda r: r["baselines"].update(rival={}))
         mend(bundle)
-        assert refused(bundle, file="results.json") == "there is no reference 'rival'"
+        assert refused(bundle, file="results.json") == "there is no baseline 'rival'"

@@ -7,7 +7,7 @@ from pathlib import Path
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import Reference, shipped_references
+from colift.benchmark.results.baselines import Baseline, shipped_baselines
 from colift.benchmark.suites.hidden import commitment
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.board.seasons import ImportedEntry, ImportedSeason
@@ -63,14 +63,12 @@ def digest(name: str) -> str:
     return (name.encode().hex() * 64)[:64]
 
 
-def _adopted(
-    folder: Path, season: Season, team: Reference, name: str, number: int
-) -> ImportedEntry:
+def _adopted(folder: Path, season: Season, team: Baseline, name: str, number: int) -> ImportedEntry:
     text, description = POLICIES[name]
     policy, bundle = PolicySpec(text=text), folder / str(number)
     public = run_suite(policy, season.suite)
     hidden = run_suite(policy, season.hidden)
-    content = results(public, shipped_references(season.suite))
+    content = results(public, shipped_baselines(season.suite))
     write_bundle(bundle, public, content)
     row = BoardRow(
         season=season.name,

@@ -194,7 +194,7 @@ def test_two_people_and_the_bounds_stand_below_the_policies_and_follow_a_filter(
     team = board.team()
     board.close()
     bounds = shipped_bounds(make_suite("quick-v1"))
-    rows = page.locator(".references tr")
+    rows = page.locator(".baselines tr")
     expect(rows).to_have_count(3)
     expect(rows.nth(0).locator(".rmse b")).to_have_text(f"{team.rmse_mm.mean:.1f}")
     expect(rows.nth(1).locator(".rmse b")).to_have_text(f"{bounds['causal_bound'].mean:.1f}")
@@ -234,7 +234,7 @@ def test_on_a_telephone_a_row_is_two_lines_and_unfolds(page, front):
 
 def test_the_picture_has_the_table_s_line_of_two_people_and_the_bounds(page, front):
     page.goto(front)
-    table = page.locator(".references tr").first.locator(".rmse b").text_content()
+    table = page.locator(".baselines tr").first.locator(".rmse b").text_content()
     told = page.locator("svg.wide path.team title").text_content()
     assert told.startswith(f"two people: RMSE {table} mm")
     expect(page.locator("svg.wide path.bound")).to_have_count(2)

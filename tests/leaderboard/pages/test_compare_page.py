@@ -25,9 +25,9 @@ def test_ticked_policies_are_compared_lift_by_lift(page, front, played):
     expect(pair).to_have_count(1)
     runs = {each.entry.name: public_lifts(each.bundle) for each in played.entries}
     first, second = pair.locator("th").text_content().split(" minus ")
-    cells = [(lift.behaviour, lift.subject) for lift in runs["copy"]]
+    strata = [(lift.behaviour, lift.subject) for lift in runs["copy"]]
     errors = [[lift.rmse_mm for lift in runs[name]] for name in (first, second)]
-    mean = paired_difference(*errors, cells).mean
+    mean = paired_difference(*errors, strata).mean
     shown = pair.locator("td").first.text_content().replace("\N{MINUS SIGN}", "-")
     assert abs(float(shown) - mean) < 0.006
     expect(page.locator("table.compared tbody").first.locator("tr[data-p]:visible")).to_have_count(

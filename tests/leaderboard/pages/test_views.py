@@ -104,13 +104,13 @@ def test_without_single_lifts_there_are_means_and_no_intervals(played, tmp_path)
 
 def test_the_best_of_each_scenario_is_named(shown):
     view = scenarios_view(shown, "2026")
-    assert set(view.cells) == {
+    assert set(view.strata) == {
         ("smooth", "S1"),
         ("pause", "S2"),
         ("jerky", "S3"),
         ("changing_goal", "S5"),
     }
-    assert all(cell.best.row.name != "hold" for cell in view.cells.values())
+    assert all(stratum.best.row.name != "hold" for stratum in view.strata.values())
 
 
 def test_names_in_the_picture_do_not_cover_each_other():
@@ -201,8 +201,8 @@ def test_the_map_of_scenarios_has_every_policy_of_the_ranking(shown):
     ranked = [each.row.name for each in shown.standings("2026") if each.ranked]
     assert [row.standing.row.name for row in view.rows] == ranked
     for row in view.rows:
-        assert set(row.rmse_mm) == set(view.cells)
-    assert [cell.behaviour for cell in view.columns] == list(view.behaviours)
+        assert set(row.rmse_mm) == set(view.strata)
+    assert [stratum.behaviour for stratum in view.columns] == list(view.behaviours)
 
 
 def test_no_name_is_a_formula_of_a_spreadsheet(tmp_path):

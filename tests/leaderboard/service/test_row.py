@@ -70,7 +70,7 @@ def test_the_row_is_verified_and_says_what_was_submitted(client, done, place):
     (standing,) = client.get("/api/v1/standings").json()
     assert standing["row"] == entry["row"]
     assert standing["group"] == 1
-    assert standing["cells"] is None
+    assert standing["strata"] is None
 
 
 def test_what_is_answered_is_what_the_document_describes(client, url, done, place):
@@ -88,14 +88,14 @@ def test_what_is_answered_is_what_the_document_describes(client, url, done, plac
 
 
 def test_the_lifts_of_a_behaviour_or_subject_are_told(client, done):
-    def cells(**asked):
+    def strata(**asked):
         (standing,) = client.get("/api/v1/standings", params=asked).json()
-        return [(cell["behaviour"], cell["subject"]) for cell in standing["cells"]]
+        return [(stratum["behaviour"], stratum["subject"]) for stratum in standing["strata"]]
 
-    subject = cells(behaviour="pause")[0][1]
-    assert {behaviour for behaviour, _ in cells(behaviour="pause")} == {"pause"}
-    assert {who for _, who in cells(subject=subject)} == {subject}
-    assert cells(behaviour="pause", subject=subject) == [("pause", subject)]
+    subject = strata(behaviour="pause")[0][1]
+    assert {behaviour for behaviour, _ in strata(behaviour="pause")} == {"pause"}
+    assert {who for _, who in strata(subject=subject)} == {subject}
+    assert strata(behaviour="pause", subject=subject) == [("pause", subject)]
     answer = client.get("/api/v1/standings", params={"behaviour": "dance"})
     assert answer.status_code == 422
     assert "behaviour dance is not in this season; " in answer.json()["error"]

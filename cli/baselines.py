@@ -1,4 +1,4 @@
-"""``colift references``: play what results are set against."""
+"""``colift baselines``: play what results are set against."""
 
 from pathlib import Path
 from typing import Annotated
@@ -8,7 +8,7 @@ import typer
 from ..benchmark.bounds.causal import BOUNDS
 from ..benchmark.comparison.contest import play_bounds
 from ..benchmark.execution.pool import local_pool
-from ..benchmark.results.baselines import SPECS, Reference, ToShip, play_references, references_json
+from ..benchmark.results.baselines import SPECS, Baseline, ToShip, baselines_json, play_baselines
 from ..benchmark.statistics import stratified_bootstrap
 from ..benchmark.suites.suite import SUITES, make_suite
 from .options import Jobs, check_output, write_output
@@ -16,7 +16,7 @@ from .printing import left, show, table
 from .progress import progress_bar
 
 
-def references(
+def baselines(
     out: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Where to write them, to be shipped.")
     ] = None,
@@ -29,30 +29,30 @@ def references(
     played: list[ToShip] = []
     with (
         local_pool(jobs) as pool,
-        progress_bar("references", total) as progress,
+        progress_bar("baselines", total) as progress,
     ):
         for suite in suites:
-            references = play_references(suite, executor=pool, progress=progress)
+            baselines = play_baselines(suite, executor=pool, progress=progress)
             bounds = play_bounds(BOUNDS, suite, executor=pool, progress=progress)
-            played.append(ToShip(suite=suite, references=references, bounds=bounds))
+            played.append(ToShip(suite=suite, baselines=baselines, bounds=bounds))
     rows = [
-        (each.suite.name, name, behaviour, *_error(reference, behaviour))
+        (each.suite.name, name, behaviour, *_error(baseline, behaviour))
         for each in played
-        for name, reference in {**each.references, **each.bounds}.items()
-        for behaviour in (*dict.fromkeys(key[0] for key in reference.cells), "all")
+        for name, baseline in {**each.baselines, **each.bounds}.items()
+        for behaviour in (*dict.fromkeys(key[0] for key in baseline.strata), "all")
     ]
-    titles = ("suite", left("reference"), left("human"), "RMSE mm", "95 % interval")
+    titles = ("suite", left("baseline"), left("human"), "RMSE mm", "95 % interval")
     show(table("", titles, rows))
-    write_output(out, references_json(played))
+    write_output(out, baselines_json(played))
 
 
-def _error(reference: Reference, behaviour: str) -> tuple[str, str]:
+def _error(baseline: Baseline, behaviour: str) -> tuple[str, str]:
     """Return mean and interval over the episodes of a behaviour, or over all."""
     chosen = [
-        (cell, value)
-        for cell, value in zip(reference.cells, reference.rmse_mm, strict=True)
-        if behaviour in ("all", cell[0])
+        (stratum, value)
+        for stratum, value in zip(baseline.strata, baseline.rmse_mm, strict=True)
+        if behaviour in ("all", stratum[0])
     ]
     values = [value for _, value in chosen]
-    low, high = stratified_bootstrap(values, [cell for cell, _ in chosen])
+    low, high = stratified_bootstrap(values, [stratum for stratum, _ in chosen])
     return f"{sum(values) / len(values):.2f}", f"{low:.2f} to {high:.2f}"
