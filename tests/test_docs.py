@@ -1,5 +1,7 @@
-"""What README and docs show is what the code does."""
+"""The documentation: examples work, links lead somewhere, imports exist."""
 
+import ast
+import importlib
 import math
 import re
 from pathlib import Path
@@ -62,3 +64,44 @@ def test_the_recipe_for_a_trained_net_plays_what_the_net_says(tmp_path):
     ]
     wanted = sum(w * h for w, h in zip(w1[0], hidden, strict=True)) + b1[0]
     assert action == pytest.approx(wanted, rel=1e-9)
+
+
+def pages():
+    """Return the documentation, each page relative to the repository."""
+    names = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md"]
+    return [*names, *sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("docs/*.md"))]
+
+
+def anchors(path):
+    """Return the anchors of a page's headings, as GitHub makes them."""
+    headings = re.findall(r"^#+ (.+)$", path.read_text(), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("page", pages())
+def test_links_lead_to_a_file_and_to_a_heading_in_it(page):
+    links = re.findall(r"\]\((?!https?:)([^)#]*)(?:#([^)]+))?\)", (ROOT / page).read_text())
+    for path, anchor in links:
+        target = (ROOT / page).parent / path if path else ROOT / page
+        assert target.exists(), f"{page} links to {path}"
+        assert not anchor or anchor in anchors(target), f"{page} links to {path}#{anchor}"
+
+
+@pytest.mark.parametrize("page", pages())
+def test_imports_in_the_documentation_exist(page):
+    for source in python_blocks(page):
+        for node in ast.walk(ast.parse(source)):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("colift"):
+                module = importlib.import_module(node.module)
+                assert all(hasattr(module, name.name) for name in node.names), ast.unparse(node)
+
+
+def test_every_page_is_linked_from_the_readme():
+    readme = (ROOT / "README.md").read_text()
+    assert [page for page in pages()[1:] if f"({page})" not in readme] == []
+
+
+def test_a_glossary_entry_stands_once():
+    terms = re.findall(r"^\| \*\*(.+?)\*\*", (ROOT / "docs/glossary.md").read_text(), re.MULTILINE)
+    assert len(terms) >= 35
+    assert len(terms) == len(set(terms))
