@@ -1,12 +1,11 @@
-"""A definition as text without names, places and words: what is left is what it does."""
+"""Definitions as text of their behaviour alone, without names, positions and wording."""
 
 import ast
-import hashlib
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final, Literal
+from typing import Final
 
+from .data_files import DataFiles
 from .modules import (
     NAMING,
     Comprehension,
@@ -16,33 +15,17 @@ from .modules import (
     Module,
     Reference,
     Target,
-    binds,
     bound_names,
     does_nothing,
-    scope_nodes,
 )
+from .scopes import Scope, body_scope, comprehension_scope, local_meaning
 
 Piece = str | Reference
 Resolve = Callable[[Target], Piece]
 """Returns the definition that a target stands for, or a text for what is not our own."""
 
 IGNORED: Final = frozenset({"ctx", "kind", "returns", "type_comment", "type_ignores"})
-"""Fields of syntax trees that do nothing, or are said by another field too."""
-
-DATA: Final = "importlib.resources.files"
-"""What finds data files: ``files(__package__).joinpath("data", "file.json")`` stands for that
-file's content, and so does a package in the place of ``__package__``. Of any other place, and where
-our own code asks for its ``__file__``, all data files below count."""
-
-
-@dataclass
-class _Scope:
-    """The names of a function, a class or a comprehension."""
-
-    kind: Literal["function", "class", "comprehension"]
-    names: dict[str, int]
-    imports: dict[str, Target] = field(default_factory=dict)
-    globals: frozenset[str] = frozenset()
+"""Fields of syntax trees that do nothing, or repeat another field."""
 
 
 def encoded(
@@ -63,7 +46,7 @@ def encoded(
     resolve
         Returns what a global name stands for.
     folder_of
-        Returns where one of our own modules lies, for its data files.
+        Returns the folder of one of our own modules, for its data files.
     """
     encoder = _Encoder(module, resolve, folder_of)
     encoder.text(f"[{definition.place}]")
@@ -78,9 +61,9 @@ class _Encoder:
     ) -> None:
         self._module = module
         self._resolve = resolve
-        self._folder_of = folder_of
+        self._data = DataFiles(module.name, folder_of, self._meaning)
         self._pieces: list[Piece] = []
-        self._scopes: list[_Scope] = []
+        self._scopes: list[Scope] = []
         self._stored: list[str] = []
 
     def text(self, text: str) -> None:
@@ -117,7 +100,7 @@ class _Encoder:
         self._name(node.id, node.ctx)
 
     def _raise(self, node: ast.Raise) -> None:
-        """Encode what kind of exception is raised; with what words is not behaviour."""
+        """Encode the kind of exception alone: its wording is not behaviour."""
         raised = node.exc.func if isinstance(node.exc, ast.Call) else node.exc
         self._several("Raise", [] if raised is None else [raised])
 
@@ -129,17 +112,15 @@ class _Encoder:
             self._generic(node)
 
     def _call(self, node: ast.Call) -> None:
-        content = self._data(node)
-        if content is None:
+        data = self._data.joined_by(node)
+        if data is None:
             self._generic(node)
-            folder = self._folder_of(self._module.name)
-            if folder is not None and self._names(node.func, DATA):
-                self.text(f"(data {_content(_all(folder))})")
-        else:
-            self.text(f"(data {content})")
+            data = self._data.found_by(node)
+        if data is not None:
+            self.text(f"(data {data})")
 
     def _nothing(self, node: ast.AST) -> None:
-        """Encode what only says which scope a name is of, or that there is nothing to do."""
+        """Leave out ``pass``, ``global`` and ``nonlocal``: the scopes have read them."""
 
     def _generic(self, node: ast.AST) -> None:
         self.text(f"({type(node).__name__}")
@@ -181,44 +162,45 @@ class _Encoder:
 
     def _found(self, name: str) -> Piece:
         """Return what a name stands for here."""
-        innermost = len(self._scopes) - 1
-        for depth in range(innermost, -1, -1):
-            scope = self._scopes[depth]
-            if scope.kind == "class" and depth != innermost:
-                continue
-            if name in scope.globals:
-                break
-            if name in scope.imports:
-                return self._resolve(scope.imports[name])
-            if name in scope.names:
-                # Those of a class are attributes.
-                local = name if scope.kind == "class" else scope.names[name]
-                return f"(local {depth} {local})"
-        if name == "__file__" and (folder := self._folder_of(self._module.name)):
-            return f"(data {_content(_all(folder))})"
+        local = local_meaning(self._scopes, name)
+        if isinstance(local, str):
+            return local
+        if local is not None:
+            return self._resolve(local)
+        if name == "__file__" and (data := self._data.all()) is not None:
+            return f"(data {data})"
         return self._resolve(Target(self._module.name, name))
 
     def _attribute(self, node: ast.Attribute) -> None:
-        names: list[str] = []
-        base: ast.expr = node
-        while isinstance(base, ast.Attribute):
-            names.insert(0, base.attr)
-            base = base.value
-        if not isinstance(base, ast.Name):
-            self.node(base)
-        else:
-            found = self._found(base.id)
-            while names and isinstance(found, Reference) and found.name == "*":
-                found = self._resolve(Target(found.module, names.pop(0)))
-            if isinstance(found, str) and found.startswith("<"):
-                # So that ``np.pi`` and ``from numpy import pi`` are one.
-                found = f"<{'.'.join([found[1:-1], *names])}>"
-                names = []
+        base, names = _dotted(node)
+        if isinstance(base, ast.Name):
+            found, names = self._dotted_meaning(base, names)
             self._pieces.append(found)
+        else:
+            self.node(base)
         self.text("".join(f".{name}" for name in names))
 
+    def _meaning(self, node: ast.expr) -> Piece | None:
+        """Return what a plain or dotted name stands for; None of anything else."""
+        base, names = _dotted(node)
+        if not isinstance(base, ast.Name):
+            return None
+        found, left = self._dotted_meaning(base, names)
+        return None if left else found
+
+    def _dotted_meaning(self, base: ast.Name, names: list[str]) -> tuple[Piece, list[str]]:
+        """Return what ``base.name.name`` stands for, and the names that remain attributes of it."""
+        found = self._found(base.id)
+        while names and isinstance(found, Reference) and found.name == "*":
+            found = self._resolve(Target(found.module, names[0]))
+            names = names[1:]
+        if isinstance(found, str) and found.startswith("<"):
+            # Makes ``np.pi`` and ``from numpy import pi`` equal.
+            return f"<{'.'.join([found[1:-1], *names])}>", []
+        return found, names
+
     def _import(self, node: Import) -> None:
-        """Encode an import that is more than one of a name: in a ``try``, or one of several."""
+        """Encode an import of a name that is bound elsewhere too, as in a ``try``."""
         for name, target in self._module.targets(node):
             if self._scopes and name in self._scopes[-1].imports:
                 continue
@@ -251,7 +233,8 @@ class _Encoder:
         ]
         self.text(repr(named))
         body = [node.body] if isinstance(node, ast.Lambda) else node.body
-        self._enter("function", [name for group in named for name in group], body)
+        parameters = [name for group in named for name in group]
+        self._scopes.append(body_scope("function", parameters, body, self._module))
         self._several("body", body)
         self._scopes.pop()
         self.text(")")
@@ -263,26 +246,22 @@ class _Encoder:
         self._several("types", getattr(node, "type_params", []))
         self._several("bases", node.bases)
         self._several("keywords", node.keywords)
-        self._enter("class", [], node.body)
+        self._scopes.append(body_scope("class", [], node.body, self._module))
         self._several("body", _ordered(node.body))
         self._scopes.pop()
         self.text(")")
 
     def _defined(self, name: str) -> None:
-        """Encode the name of a function or class: of one at the top level there is none."""
+        """Encode the name of a function or class that is not at the top level."""
         if self._scopes:
             self._name(name, ast.Store())
 
     def _comprehension(self, node: Comprehension) -> None:
         self.text(f"({type(node).__name__}")
         for i, each in enumerate(node.generators):
-            if i:
-                self.node(each.iter)
-            else:
-                # The first one is evaluated outside.
-                self.node(each.iter)
-                targets = [generator.target for generator in node.generators]
-                self._scopes.append(_Scope("comprehension", _numbered(bound_names(targets))))
+            self.node(each.iter)
+            if i == 0:  # The first iterable alone is evaluated outside.
+                self._scopes.append(comprehension_scope(node.generators))
             self.text(f" {each.is_async}")
             self.node(each.target)
             self._several("ifs", each.ifs)
@@ -291,24 +270,7 @@ class _Encoder:
         self._scopes.pop()
         self.text(")")
 
-    def _enter(
-        self, kind: Literal["function", "class"], names: list[str], body: Sequence[ast.AST]
-    ) -> None:
-        inside = scope_nodes(body)
-        outer = {n for each in inside if isinstance(each, ast.Nonlocal) for n in each.names}
-        of_module = {n for each in inside if isinstance(each, ast.Global) for n in each.names}
-        bound = [*names, *(name for each in inside for name in binds(each))]
-        imports = {
-            name: target
-            for each in inside
-            if isinstance(each, Import)
-            for name, target in self._module.targets(each)
-            if bound.count(name) == 1
-        }
-        left = [name for name in bound if name not in {*outer, *of_module, *imports}]
-        self._scopes.append(_Scope(kind, _numbered(left), imports, frozenset(of_module)))
-
-    # What is read otherwise
+    # Annotations
 
     def _annotated(self, node: ast.AnnAssign) -> None:
         of_class = bool(self._scopes) and self._scopes[-1].kind == "class"
@@ -320,7 +282,7 @@ class _Encoder:
         self._annotation(node.annotation)
 
     def _annotation(self, node: ast.AST) -> None:
-        """Encode the annotation of a field: of our own classes only that it is one of them."""
+        """Encode the annotation of a field; our own classes all count as one."""
         match node:
             case ast.Name() | ast.Attribute():
                 before = len(self._pieces)
@@ -337,41 +299,6 @@ class _Encoder:
                 for each in ast.iter_child_nodes(node):
                     self._annotation(each)
                 self.text(")")
-
-    def _data(self, node: ast.Call) -> str | None:
-        """Return the hash of the data file that a call finds; None if it is no such call."""
-        match node:
-            case ast.Call(
-                func=ast.Attribute(value=ast.Call(func=finder, args=[place]), attr="joinpath"),
-                args=parts,
-            ) if parts and self._names(finder, DATA):
-                folder = self._folder(place)
-            case _:
-                return None
-        if folder is None:
-            return None
-        names = [str(each.value) for each in parts if isinstance(each, ast.Constant)]
-        return _content([folder.joinpath(*names)] if len(names) == len(parts) else _all(folder))
-
-    def _folder(self, place: ast.expr) -> Path | None:
-        """Return where a package of colift lies; None of other places."""
-        match place:
-            case ast.Name(id="__package__"):
-                return self._folder_of(self._module.name)
-            case ast.Constant(value=str(name)):
-                return self._folder_of(name)
-            case ast.Name(id=name):
-                found = self._found(name)
-                return self._folder_of(found.module) if isinstance(found, Reference) else None
-        return None
-
-    def _names(self, node: ast.expr, wanted: str) -> bool:
-        before = len(self._pieces)
-        if isinstance(node, ast.Name | ast.Attribute):
-            self.node(node)
-        found = self._pieces[before:]
-        del self._pieces[before:]
-        return "".join(each for each in found if isinstance(each, str)) == f"<{wanted}>"
 
 
 _SPECIAL: Final[dict[type[ast.AST], Callable[..., None]]] = {
@@ -400,12 +327,17 @@ _SPECIAL: Final[dict[type[ast.AST], Callable[..., None]]] = {
 """The nodes that are not encoded field by field."""
 
 
-def _numbered(names: Iterable[str]) -> dict[str, int]:
-    return {name: i for i, name in enumerate(dict.fromkeys(names))}
+def _dotted(node: ast.expr) -> tuple[ast.expr, list[str]]:
+    """Return the base of an attribute of an attribute ..., and the names after it."""
+    names: list[str] = []
+    while isinstance(node, ast.Attribute):
+        names.insert(0, node.attr)
+        node = node.value
+    return node, names
 
 
 def _ordered(body: Sequence[ast.stmt]) -> list[ast.stmt]:
-    """Return a class's body with its methods last and by name, where order says nothing."""
+    """Return a class's body with its methods last and by name, unless their order matters."""
     methods = [each for each in body if isinstance(each, Function)]
     names = [each.name for each in methods]
     others = [each for each in body if not isinstance(each, Function)]
@@ -413,20 +345,3 @@ def _ordered(body: Sequence[ast.stmt]) -> list[ast.stmt]:
     if len(set(names)) < len(names) or used & set(names):
         return list(body)
     return others + sorted(methods, key=lambda each: each.name)
-
-
-def _content(paths: Iterable[Path]) -> str:
-    """Return the hash of what files hold."""
-    sha = hashlib.sha256()
-    for path in paths:
-        sha.update(hashlib.sha256(path.read_bytes()).digest())
-    return sha.hexdigest()
-
-
-def _all(folder: Path) -> list[Path]:
-    """Return every data file of a package, where the code does not say which one it reads."""
-    return sorted(
-        path
-        for path in folder.rglob("*")
-        if path.is_file() and path.suffix not in (".py", ".pyc", ".typed")
-    )
