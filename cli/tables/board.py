@@ -4,9 +4,10 @@ from collections.abc import Iterator, Sequence
 
 from rich.table import Column, Table
 
-from ...benchmark.episode.scores import BOARD, Metric
+from ...benchmark.episode.scores import Metric
 from ...benchmark.statistics import Estimate
 from ...leaderboard.board.standings import HumanTeamScores, RankedRow
+from ...leaderboard.records.metrics import board_metrics
 from ...leaderboard.records.row import BoardRow
 from ...leaderboard.records.season import SeasonInfo
 from ..printing import Cell, number, styled, table
@@ -43,7 +44,7 @@ def board_table(
 
 def metrics(wide: bool) -> Sequence[Metric]:
     """Return the metrics beside RMSE that have a column: the first alone in a narrow terminal."""
-    return BOARD if wide else BOARD[:1]
+    return board_metrics() if wide else board_metrics()[:1]
 
 
 def _room(titles: Sequence[str], lines: Sequence[Sequence[Cell]], place: int, width: int) -> int:
@@ -70,21 +71,17 @@ def _lines(
 
 
 def _cells(each: RankedRow, wide: bool) -> list[str]:
-    row, hidden, public = each.row, each.row.hidden, each.row.public
+    row, hidden = each.row, each.row.hidden
     cells: list[str] = [
         _rank(each),
         row.name,
         f"{hidden.rmse_mm.mean:.2f}",
         _interval(hidden.rmse_mm),
         f"{hidden.vs_human.mean:.2f}",
-        number(public.sparc, ".2f"),
+        *(metric.text(row.public.metrics[metric.name].mean) for metric in metrics(wide)),
     ]
     if wide:
-        cells += [
-            number(public.human_force_n, ".2f"),
-            _step(row),
-            f"{row.gap_mm.mean:+.2f}",
-        ]
+        cells += [_step(row), f"{row.gap_mm.mean:+.2f}"]
     return [*cells, "yes" if row.verified else "no"]
 
 

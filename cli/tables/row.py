@@ -9,8 +9,9 @@ from rich.table import Table
 from ...benchmark.comparison.words import probability
 from ...benchmark.statistics import Estimate
 from ...leaderboard.board.standings import Section
+from ...leaderboard.records.metrics import board_metrics
 from ...leaderboard.records.row import BoardRow
-from ..printing import number, table
+from ..printing import table
 
 UNRANKED: Final[dict[Section, str]] = {
     "unverified": "No rank: without a sandbox a row is not verified",
@@ -56,11 +57,14 @@ def standing(
 ) -> str:
     """Return the lines that say where the row stands, and what its numbers rest on."""
     public = row.public
-    force = "none" if public.human_force_n is None else f"{public.human_force_n:.2f} N"
+    metrics = (
+        f"{metric.label} {metric.text(public.metrics[metric.name].mean)} {metric.unit}".rstrip()
+        for metric in board_metrics()
+    )
     lines = [
         UNRANKED.get(section) or _rank(row, ranking, section),
         f"Gap {_estimate(row.gap_mm)} mm: hidden minus public RMSE; other people, other plans",
-        f"Smoothness SPARC {number(public.sparc, '.2f')}, human force {force}",
+        ", ".join(metrics),
     ]
     if public.step_ms_p50 is not None and public.step_ms_p99 is not None:
         speed = "real-time capable" if row.real_time else "not real-time capable"

@@ -14,6 +14,7 @@ from ..database.database import Database
 from ..database.queries import read_entries, read_error_numbers, read_events
 from ..database.schema import entries, events
 from ..evaluation.scoring import PLACES
+from ..records.metrics import board_metrics
 from ..records.row import BoardRow
 from ..records.season import OUT, Event
 from .ranks import ranks
@@ -167,8 +168,7 @@ COLUMNS = (
     "public_rmse_mm_low",
     "public_rmse_mm_high",
     "gap_mm",
-    "sparc",
-    "human_force_n",
+    *(metric.name for metric in board_metrics()),
     "step_ms_p50",
     "step_ms_p99",
     "verified",
@@ -197,8 +197,7 @@ def _flat(each: RankedRow) -> tuple[object, ...]:
         public.rmse_mm.mean,
         *public.rmse_mm.ci95,
         row.gap_mm.mean,
-        public.sparc,
-        public.human_force_n,
+        *(public.metrics[metric.name].mean for metric in board_metrics()),
         public.step_ms_p50,
         public.step_ms_p99,
         row.verified,

@@ -11,6 +11,7 @@ from ...benchmark.execution.runner import Run
 from ...benchmark.results.baselines import Baseline
 from ...benchmark.results.summary import stratum, summarise
 from ...benchmark.statistics import Estimate, difference_of_means, probability_better
+from ..records.metrics import read_means
 from ..records.row import HiddenScores, PublicScores
 
 PLACES: Final = 2
@@ -31,9 +32,7 @@ def public_scores(results: Mapping[str, Any]) -> PublicScores:
         failed=summary["failed"],
         rmse_mm=_estimate(summary["rmse_mm"]),
         vs_human=_estimate(summary["vs_human"]),
-        sparc=summary["sparc"]["mean"],
-        sparc_missing=summary["sparc"]["missing"],
-        human_force_n=summary["human_force_n"]["mean"],
+        metrics=read_means(summary),
         step_ms_p50=summary["step_ms"]["p50"],
         step_ms_p99=summary["step_ms"]["p99"],
         real_time=summary["real_time"],

@@ -5,6 +5,7 @@ from typing import Final
 
 from ...benchmark.statistics import Estimate
 from ..board.standings import RankedRow
+from ..records.metrics import sort_key
 
 NONE: Final = "\N{EN DASH}"
 """Stands for a number that is not there."""
@@ -100,6 +101,7 @@ FILTERS: Final = {
         mib,
         badge_text,
         tex,
+        sort_key,
     )
 }
 """The formats by name, for templates."""

@@ -14,6 +14,7 @@ from ...agents.errors import InputError
 from ...agents.extras import how_to_install
 from ...agents.submissions.new import PLACEHOLDER, write_template
 from ...benchmark.rendering.page import environment
+from ..records.metrics import board_metrics
 from ..replays.html import script_json
 from ..storage.archive import pack
 from .formats import FILTERS
@@ -57,6 +58,7 @@ def prose(name: str) -> Markup:
 def _environment() -> Environment:
     made = environment(__package__)
     made.filters.update(FILTERS, data=lambda content: Markup(script_json(content)))
+    made.globals["metrics"] = board_metrics()
     return made
 
 

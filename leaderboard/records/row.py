@@ -5,7 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Final, Self
 
-from ...benchmark.statistics import Estimate
+from ...benchmark.statistics import Estimate, MeanWithMissing
+from .metrics import read_means
 
 UNTRAINED: Final = ("nothing", "none", "no data")
 """What authors write of a policy that was trained on nothing."""
@@ -21,12 +22,8 @@ class PublicScores:
     rmse_mm: Estimate
     vs_human: Estimate
     """RMSE over that of the human-human team: 1 is as good as a human partner, less is better."""
-    sparc: float | None
-    """Mean smoothness; nothing if it never moved along."""
-    sparc_missing: int
-    """Episodes without smoothness; whoever ranks by it ranks by this first."""
-    human_force_n: float | None
-    """Mean of the rms force at the human's hands [N]."""
+    metrics: Mapping[str, MeanWithMissing]
+    """The other metrics of a board by name; see :func:`.board_metrics`."""
     step_ms_p50: float | None
     """Median time of a step of the policy [ms]; nothing if it never made one."""
     step_ms_p99: float | None
@@ -115,7 +112,9 @@ class BoardRow:
                 **content,
                 "authors": tuple(content["authors"]),
                 "gap_mm": _estimate(content["gap_mm"]),
-                "public": PublicScores(**{**public, **_estimates(public)}),
+                "public": PublicScores(
+                    **{**public, **_estimates(public), "metrics": read_means(public["metrics"])}
+                ),
                 "hidden": HiddenScores(**{**hidden, **_estimates(hidden)}),
             }
         )

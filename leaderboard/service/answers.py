@@ -6,6 +6,7 @@ from typing import Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from ...benchmark.statistics import MeanWithMissing
 from ..board.standings import RankedRow, Section
 from ..records.job import Job, State
 from ..records.row import BoardRow
@@ -79,8 +80,8 @@ class StratumAnswer(Answer):
     rmse_mm: float
     team_rmse_mm: float | None
     """The human-human team's."""
-    sparc: float | None
-    human_force_n: float | None
+    metrics: Mapping[str, MeanWithMissing]
+    """The other metrics of the board, by name."""
 
 
 class StandingAnswer(Answer):

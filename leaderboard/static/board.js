@@ -5,6 +5,7 @@
   if (!table) return;
   const data = JSON.parse(document.getElementById("data").textContent);
   const body = table.tBodies[0];
+  const names = data.metrics.map((metric) => metric.name), shown = ["rmse", "ratio", ...names];
   const sorts = [...table.tHead.querySelectorAll("button")].map((button) => button.dataset.sort);
   const rows = [...body.rows].map((tr) => ({
     tr,
@@ -20,14 +21,14 @@
   const baselines = [...table.querySelectorAll(".baselines tr")].map((tr) => ({
     tr,
     bound: tr.dataset.bound,
-    stratum: Object.fromEntries(["rmse", "ratio", "sparc", "force"].map((name) => [name, tr.querySelector("td." + name)])),
+    stratum: Object.fromEntries(shown.map((name) => [name, tr.querySelector("td." + name)])),
     dot: tr.querySelector(".dot"),
     off: tr.querySelector(".off"),
   }));
   const drawn = [...rows, ...baselines];
   for (const row of drawn) {
     row.whole = {};
-    for (const name of ["rmse", "ratio", "sparc", "force"]) {
+    for (const name of shown) {
       const stratum = row.stratum[name];
       row.whole[name] = { value: stratum.dataset.value, html: [...stratum.childNodes] };
     }
@@ -58,15 +59,24 @@
 
   function scores(row, chosen) {
     const strata = chosen.map((i) => [data.rows[row.index][i], data.strata[i]]);
-    if (strata.some(([stratum]) => !stratum)) return { rmse: null, ratio: null, sparc: null, force: null, missing: 0 };
+    if (strata.some(([stratum]) => !stratum))
+      return { rmse: null, ratio: null, metrics: names.map(() => ({ mean: null, missing: 0 })) };
     const rmse = mean(strata.map(([stratum, [, , lifts]]) => [stratum[0], lifts]));
     const team = mean(strata.map(([, [, , lifts, mm]]) => [mm, lifts]));
     return {
       rmse, team, ratio: team ? rmse / team : null,
-      sparc: mean(strata.map(([stratum, [, , lifts]]) => [stratum[1], lifts - stratum[2]])),
-      missing: strata.reduce((sum, [stratum]) => sum + stratum[2], 0),
-      force: mean(strata.map(([stratum, [, , lifts]]) => [stratum[3], lifts])),
+      metrics: names.map((_, i) => ({
+        mean: mean(strata.map(([stratum, [, , lifts]]) => [stratum[i + 1][0], lifts - stratum[i + 1][1]])),
+        missing: strata.reduce((sum, [stratum]) => sum + stratum[i + 1][1], 0),
+      })),
     };
+  }
+
+  // As the table of the whole has it: the best first, and after them what is missing in some lifts.
+  function sortKey(metric, { mean, missing }) {
+    if (mean === null) return null;
+    const place = { less: mean, more: -mean, "near zero": Math.abs(mean) }[metric.better];
+    return place + (metric.missing === "worst" ? 1000 * missing : 0);
   }
 
   function show(stratum, value, text, small) {
@@ -110,9 +120,8 @@
       team = team === null ? found.team ?? null : team;
       show(row.stratum.rmse, found.rmse, write(found.rmse, 1));
       show(row.stratum.ratio, found.ratio, write(found.ratio, 2));
-      show(row.stratum.sparc, found.sparc === null ? null : found.missing * 1000 - found.sparc, write(found.sparc, 2),
-        found.sparc !== null && found.missing ? "none in " + found.missing : "");
-      show(row.stratum.force, found.force, write(found.force, 2));
+      found.metrics.forEach((each, i) => show(row.stratum[names[i]], sortKey(data.metrics[i], each),
+        write(each.mean, data.metrics[i].digits), each.mean !== null && each.missing ? "none in " + each.missing : ""));
       draw(row, found.rmse, at(found.rmse || 0));
     }
     let causal = null;
@@ -121,7 +130,7 @@
         mean(chosen.map((i) => [data.bounds[row.bound][i], data.strata[i][2]]));
       show(row.stratum.rmse, rmse, write(rmse, 1));
       show(row.stratum.ratio, null, write(rmse === null || !team ? null : rmse / team, 2));
-      for (const name of ["sparc", "force"]) show(row.stratum[name], null, "–");
+      for (const name of names) show(row.stratum[name], null, "–");
       draw(row, rmse, at(rmse || 0));
       if (row.tr.dataset.causal !== undefined) causal = rmse;
     }

@@ -7,6 +7,7 @@ from typing import Any, Final
 
 from ..board.board import Board
 from ..board.standings import HumanTeamScores, RankedRow
+from ..records.metrics import board_metrics
 from ..records.season import Event, SeasonInfo
 from .axis import Axis, make_axis
 from .bounds import PublicBound, bounds_of
@@ -83,11 +84,15 @@ class BoardView:
         """What the page's script filters by: each row's public lifts, stratum by stratum.
 
         ``strata`` has behaviour, subject, episodes and the human-human RMSE [mm]; ``rows`` has for
-        each row of the table, in its order, and each stratum: RMSE [mm], SPARC, lifts without
-        smoothness, human force [N]; ``bounds`` has each bound's RMSE [mm].
+        each row of the table, in its order, and each stratum: RMSE [mm], then of each of
+        ``metrics`` the mean and the lifts without a value; ``bounds`` has each bound's RMSE [mm].
         """
         return {
             "top": self.axis.top,
+            "metrics": [
+                {name: getattr(each, name) for name in ("name", "digits", "better", "missing")}
+                for each in board_metrics()
+            ],
             "strata": [[c.behaviour, c.subject, c.episodes, c.team_rmse_mm] for c in self._strata],
             "rows": [[_numbers(stratum) for stratum in row.strata] for row in self.rows],
             "bounds": [
@@ -162,13 +167,7 @@ def _strata_of(bundle: Path | None) -> tuple[StratumScore, ...]:
     return () if bundle is None else stratum_scores(bundle)
 
 
-def _numbers(stratum: StratumScore) -> list[float | None]:
-    def short(value: float | None) -> float | None:
-        return None if value is None else round(value, 4)
-
-    return [
-        short(stratum.rmse_mm),
-        short(stratum.sparc),
-        stratum.sparc_missing,
-        short(stratum.human_force_n),
-    ]
+def _numbers(stratum: StratumScore) -> list[float | list[float | None]]:
+    found = [stratum.metrics[metric.name] for metric in board_metrics()]
+    means = [[None if each.mean is None else round(each.mean, 4), each.missing] for each in found]
+    return [round(stratum.rmse_mm, 4), *means]

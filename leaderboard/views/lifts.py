@@ -5,13 +5,14 @@ A bundle never changes once it is written, so it is read only once.
 
 import csv
 import functools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ...benchmark.bundle.files import EPISODES, FILES, RESULTS
-from ...benchmark.statistics import Estimate, mean_of
+from ...benchmark.statistics import Estimate, MeanWithMissing, mean_of
+from ..records.metrics import read_means
 from ..storage.files import read_json
 
 
@@ -26,11 +27,8 @@ class StratumScore:
     rmse_mm: float
     team_rmse_mm: float | None
     """The human-human team's."""
-    sparc: float | None
-    """Over the lifts that have one."""
-    sparc_missing: int
-    """Lifts without smoothness."""
-    human_force_n: float | None
+    metrics: Mapping[str, MeanWithMissing]
+    """The other metrics of a board by name; see :func:`.board_metrics`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,9 +80,7 @@ def _cell(group: dict[str, Any]) -> StratumScore:
         failed=group["failed"],
         rmse_mm=group["rmse_mm"]["mean"],
         team_rmse_mm=group["human_human_rmse_mm"]["mean"],
-        sparc=group["sparc"]["mean"],
-        sparc_missing=group["sparc"]["missing"],
-        human_force_n=group["human_force_n"]["mean"],
+        metrics=read_means(group),
     )
 
 

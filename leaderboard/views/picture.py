@@ -149,9 +149,9 @@ def _spot(row: BoardRow) -> Spot:
         name=row.name,
         x=row.hidden.rmse_mm.mean,
         x_bar=row.hidden.rmse_mm.ci95,
-        y=row.public.sparc,
+        y=row.public.metrics["sparc"].mean,
         y_bar=None,
-        missing=row.public.sparc_missing > 0,
+        missing=row.public.metrics["sparc"].missing > 0,
         colour="",
     )
 
@@ -173,8 +173,8 @@ def _rmse(row: BoardRow) -> float:
 
 
 def _point(row: BoardRow) -> Point:
-    public = row.public
-    return Point(rmse_mm=_rmse(row), sparc=public.sparc, missing=public.sparc_missing)
+    sparc = row.public.metrics["sparc"]
+    return Point(rmse_mm=_rmse(row), sparc=sparc.mean, missing=sparc.missing)
 
 
 def _dot(

@@ -3,7 +3,7 @@
 import dataclasses
 
 import numpy as np
-from colift.benchmark.statistics import Estimate
+from colift.benchmark.statistics import Estimate, MeanWithMissing
 from colift.leaderboard.records.row import BoardRow, HiddenScores, PublicScores
 from colift.leaderboard.records.season import BoardEntry
 
@@ -20,9 +20,10 @@ def make_row(name="mine", mean=10.0, season="1", sparc=-1.9):
         failed=0,
         rmse_mm=estimate,
         vs_human=ratio,
-        sparc=sparc,
-        sparc_missing=0,
-        human_force_n=0.3,
+        metrics={
+            "sparc": MeanWithMissing(mean=sparc, missing=0),
+            "human_force_n": MeanWithMissing(mean=0.3, missing=0),
+        },
         step_ms_p50=0.2,
         step_ms_p99=0.5,
         real_time=True,

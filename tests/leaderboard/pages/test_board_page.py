@@ -30,7 +30,7 @@ def test_rows_stand_in_the_order_of_the_ranking(page, front, names, folder):
 
 def test_a_click_sorts_by_a_column_and_another_one_the_other_way(page, front):
     page.goto(front)
-    for column in ("ratio", "force", "step", "gap", "rmse"):
+    for column in ("ratio", "human_force_n", "step", "gap", "rmse"):
         button = page.locator(f"button[data-sort={column}]")
         button.click()
         assert numbers(page, column) == sorted(numbers(page, column))
@@ -93,7 +93,7 @@ def test_the_state_is_in_the_address(page, front, names):
     page.goto(front)
     page.locator("#behaviour").select_option("pause")
     page.get_by_label("Search").fill("ada")
-    page.locator("button[data-sort=force]").click()
+    page.locator("button[data-sort=human_force_n]").click()
     shown, address = names(page), page.url
     rmse = page.locator("tbody .rmse").all_text_contents()
     page.goto("about:blank")

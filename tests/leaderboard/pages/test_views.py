@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import pytest
 from colift.benchmark.bundle.files import EPISODES, RESULTS
-from colift.benchmark.statistics import Estimate
+from colift.benchmark.statistics import Estimate, MeanWithMissing
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import HumanTeamScores
 from colift.leaderboard.database.queries import record_entry
@@ -160,9 +160,8 @@ def test_the_names_of_the_front_stand_clear_of_its_line(width, height):
 
 def test_who_never_moves_along_is_in_the_strip_and_not_on_the_front():
     still = make_row("still", 5.0)
-    still = dataclasses.replace(
-        still, public=dataclasses.replace(still.public, sparc=None, sparc_missing=12)
-    )
+    metrics = {**still.public.metrics, "sparc": MeanWithMissing(mean=None, missing=12)}
+    still = dataclasses.replace(still, public=dataclasses.replace(still.public, metrics=metrics))
     picture = make_picture([still, make_row("moving", 10.0)], None, width=600, height=400)
     dots = {dot.name: dot for dot in picture.dots}
     assert dots["still"].y > picture.still[0] > dots["moving"].y
