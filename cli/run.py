@@ -17,7 +17,7 @@ from ..benchmark.bundle import check_target, check_unfinished, results, write_bu
 from ..benchmark.execution.cluster import Cluster
 from ..benchmark.execution.journal import Journal, open_journal
 from ..benchmark.execution.provenance import origin, platform_of
-from ..benchmark.execution.runner import Run, run_suite
+from ..benchmark.execution.runner import InterruptedRunError, Run, run_suite
 from ..benchmark.results.baselines import SPECS, Baseline, play_baselines, shipped_baselines
 from ..benchmark.suites.suite import Suite
 from .completion import policies, suites
@@ -128,16 +128,18 @@ def _evaluate(
     spec: AgentSpec, suite: Suite, workers: Executor | None, journal: Journal | None
 ) -> tuple[Run, Mapping[str, Baseline]]:
     """Run the policy, then the baselines on the same episodes, unless they are shipped."""
+    done: Run | None = None
     ready = shipped_baselines(suite)
     total = suite.size * (1 if ready else 1 + len(SPECS))
     with progress_bar(spec.name, total) as progress:
         play = partial(run_suite, spec, suite, executor=workers, progress=progress)
         try:
             done = play() if journal is None else play(done=journal.done, keep=journal.keep)
-            if not done.complete:
-                return done, {}
             if ready is None:
                 ready = play_baselines(suite, executor=workers, progress=progress)
+        except InterruptedRunError as interrupted:
+            stopped = done or interrupted.run
+            return stopped, (ready or {}) if stopped.complete else {}
         except EvaluatorFault as fault:
             if journal is None:
                 raise

@@ -119,7 +119,7 @@ def play_contest(
         After Ctrl-C: without all episodes there are no pairs.
     """
     entries = [
-        Entry.of(name, _complete(run_suite(spec, suite, executor=executor, progress=progress)))
+        Entry.of(name, run_suite(spec, suite, executor=executor, progress=progress))
         for name, spec in policies.items()
     ]
     bounding = shipped_bounds(suite)
@@ -127,7 +127,7 @@ def play_contest(
         bounding = play_bounds(bounds or {}, suite, executor=executor, progress=progress)
     shipped = shipped_baselines(suite)
     if shipped is None:
-        team = Baseline.of(_complete(human_team_run(suite, executor=executor, progress=progress)))
+        team = Baseline.of(human_team_run(suite, executor=executor, progress=progress))
     else:
         team = shipped[HUMAN_HUMAN]
     return Contest(suite=suite, entries=(*entries, *stored), team=team, bounds=bounding)
@@ -142,15 +142,9 @@ def play_bounds(
 ) -> dict[str, Baseline]:
     """Return how far each of the bounds comes on a suite; arguments as of :func:`play_contest`."""
     return {
-        name: Baseline.of(_complete(play(suite, executor=executor, progress=progress)))
+        name: Baseline.of(play(suite, executor=executor, progress=progress))
         for name, play in bounds.items()
     }
-
-
-def _complete(run: Run) -> Run:
-    if not run.complete:
-        raise KeyboardInterrupt
-    return run
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

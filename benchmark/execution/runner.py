@@ -1,6 +1,5 @@
 """Runs a policy through a suite, alone or on any executor."""
 
-import contextlib
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
@@ -32,6 +31,14 @@ class Run:
     def complete(self) -> bool:
         """Whether every episode of the suite is there."""
         return len(self.episodes) == self.suite.size
+
+
+class InterruptedRunError(KeyboardInterrupt):
+    """Ctrl-C during a run; the finished episodes are in :attr:`run`."""
+
+    def __init__(self, run: Run) -> None:
+        super().__init__(f"interrupted after {len(run.episodes)} of {run.suite.size} lifts")
+        self.run = run
 
 
 def placed(policy: AgentSpec, executor: Executor | None) -> AgentSpec:
@@ -81,7 +88,7 @@ def run_suite(
     Returns
     -------
     Run
-        All episodes; or, after Ctrl-C, those that were finished by then.
+        All episodes.
 
     Raises
     ------
@@ -89,6 +96,8 @@ def run_suite(
         If the policy cannot be loaded.
     EvaluatorFault
         If the machine fails again and again; what was finished went to ``keep``.
+    InterruptedRunError
+        After Ctrl-C, even during the last episode; with the episodes that were finished by then.
     """
     policy = placed(policy, executor)
     policy.check()
@@ -100,12 +109,15 @@ def run_suite(
         wanted = tasks(policy, suite, found)
     else:
         wanted = shuffled_tasks(policy, suite, secret, found)
-    with contextlib.suppress(KeyboardInterrupt):
+    interrupted = False
+    try:
         for place, episode in gather(wanted, executor, faults):
             found[place] = episode
             keep(place, episode)
             progress(1)
-    return Run(
+    except KeyboardInterrupt:
+        interrupted = True
+    run = Run(
         policy=policy.name,
         policy_digest=policy.digest(),
         suite=suite,
@@ -113,3 +125,6 @@ def run_suite(
         isolation=policy.isolation,
         faults=faults.count,
     )
+    if interrupted:
+        raise InterruptedRunError(run)
+    return run

@@ -108,7 +108,7 @@ def gather(
     effort = effort or Effort()
 
     def run(policy: AgentSpec, lifts: Suite) -> Run:
-        return _complete(run_suite(policy, lifts, executor=executor, progress=progress))
+        return run_suite(policy, lifts, executor=executor, progress=progress)
 
     blend = run(BLEND, suite)
     jerky = behaving(suite, "jerky", Jerky(), effort.jerky)
@@ -123,7 +123,7 @@ def gather(
         reactive=run(REACTIVE, suite),
         blend=blend,
         lifts=sampled_lifts(blend),
-        team=_complete(human_team_run(suite, executor=executor, progress=progress)),
+        team=human_team_run(suite, executor=executor, progress=progress),
         pauses=sampled_lifts(run(BLEND, behaving(suite, "pause", PAUSE, effort.pause))),
         rests=sampled_lifts(run(BLEND, behaving(suite, "pause", LONG_PAUSE, effort.rest))),
         jerky_reactive=run(REACTIVE, jerky),
@@ -171,12 +171,6 @@ def behaving(suite: Suite, name: str, human: Behaviour, seeds: int) -> Suite:
         for scenario in suite.scenarios
     )
     return Suite(name=name, scenarios=scenarios, seeds=suite.seeds[:seeds])
-
-
-def _complete(run: Run) -> Run:
-    if not run.complete:
-        raise KeyboardInterrupt
-    return run
 
 
 def _learn(

@@ -97,7 +97,7 @@ def evaluate_entrant(
     watch.stage("check")
     _check(entrant, playing)
     watch.stage("public run")
-    public = _complete(run_suite(entrant.policy, season.suite, **playing))
+    public = run_suite(entrant.policy, season.suite, **playing)
     content = results(public, _baselines(season, executor, watch))
     write_bundle(bundle, public, content)
     if all(episode.failure is not None for episode in public.episodes):
@@ -110,7 +110,7 @@ def evaluate_entrant(
     watch.stage("verification")
     _verify(bundle, executor, watch)
     watch.stage(HIDDEN)
-    hidden = _complete(run_suite(entrant.policy, season.hidden, secret=season.secret, **playing))
+    hidden = run_suite(entrant.policy, season.hidden, secret=season.secret, **playing)
     finding = audit(entrant.fresh, hidden, season.secret, **playing)
     if finding is not None:
         return EntrantResult(
@@ -148,8 +148,8 @@ def _check(entrant: Entrant, playing: Playing) -> None:
 
     def play(policy: AgentSpec, suite: Suite) -> Run:
         if policy is entrant.policy:
-            return _complete(run_suite(policy, suite, **playing))
-        return _complete(run_suite(policy, suite, executor=playing["executor"]))
+            return run_suite(policy, suite, **playing)
+        return run_suite(policy, suite, executor=playing["executor"])
 
     for check in check_policy(entrant.policy, entrant.fresh, play):
         if check.name == MACHINE:
@@ -177,8 +177,7 @@ def play_team(
     """
     watch = watch or Callbacks()
     watch.stage("human-human team")
-    run = human_team_run(season.hidden, executor=executor, progress=watch.progress)
-    return Baseline.of(_complete(run))
+    return Baseline.of(human_team_run(season.hidden, executor=executor, progress=watch.progress))
 
 
 def _baselines(season: Season, executor: Executor | None, watch: Callbacks) -> dict[str, Baseline]:
@@ -186,16 +185,7 @@ def _baselines(season: Season, executor: Executor | None, watch: Callbacks) -> d
     shipped = shipped_baselines(season.suite)
     if shipped is not None:
         return shipped
-    played = play_baselines(season.suite, executor=executor, progress=watch.progress)
-    if len(played) < len(SPECS):
-        raise KeyboardInterrupt
-    return played
-
-
-def _complete(run: Run) -> Run:
-    if not run.complete:
-        raise KeyboardInterrupt
-    return run
+    return play_baselines(season.suite, executor=executor, progress=watch.progress)
 
 
 def _verify(bundle: Path, executor: Executor | None, watch: Callbacks) -> None:

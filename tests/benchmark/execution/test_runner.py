@@ -9,7 +9,7 @@ from concurrent.futures import ProcessPoolExecutor
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.loading.loading import PolicySpec
-from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.execution.runner import InterruptedRunError, run_suite
 from colift.benchmark.suites.suite import make_suite
 
 QUICK = "quick-v1"
@@ -58,17 +58,18 @@ def test_progress_counts_every_episode(alone):
     assert sum(counted) == len(alone.episodes)
 
 
-def test_an_interrupt_keeps_what_is_finished(alone):
+@pytest.mark.parametrize("last", [4, 12])
+def test_an_interrupt_ends_the_run_and_keeps_what_is_finished(alone, last):
     done = []
 
     def interrupt(episodes):
         done.append(episodes)
-        if len(done) == 4:
+        if len(done) == last:
             raise KeyboardInterrupt
 
-    run = run_suite(PolicySpec(text="copy"), make_suite(QUICK), progress=interrupt)
-    assert not run.complete
-    assert digests(run) == digests(alone)[:4]
+    with pytest.raises(InterruptedRunError, match=f"interrupted after {last} of 12") as caught:
+        run_suite(PolicySpec(text="copy"), make_suite(QUICK), progress=interrupt)
+    assert digests(caught.value.run) == digests(alone)[:last]
 
 
 def test_a_policy_from_a_file_runs_in_workers_too(tmp_path):
