@@ -10,8 +10,8 @@ from rich.table import Table
 from rich.text import Text
 from typer.core import TyperGroup
 
+from ..agents.control.learned_task import LearnedTask, task_json
 from ..agents.control.q_learning import ACTIONS, Q_PARAMETERS
-from ..agents.control.task import Task, task_json
 from ..agents.errors import InputError
 from ..benchmark.execution.pool import checked_jobs, local_pool
 from ..benchmark.training.demonstrations import FIRST_SEED, LIFTS, read_demonstrations
@@ -115,7 +115,7 @@ app.command()(anticipate)
 app.command("causal_bound")(learn_causal_bound)
 
 
-def _task(task: Task) -> Table:
+def _task(task: LearnedTask) -> Table:
     """Return the situations that the model tells apart, the most frequent first."""
     impedance = task.impedance
     mixture = task.mixture

@@ -1,8 +1,7 @@
-"""An impedance around a planned motion, which adapts: in practice, and to how well the plan holds.
+"""Adaptive impedance around a planned motion: learned by practice, scaled by the plan's certainty.
 
-The hand is held to its plan by a spring of stiffness K, and drawn towards its partner by the
-table. K is relative to the table's stiffness: with 0 the hand goes wherever the partner does, with
-1 both weigh the same.
+A spring of stiffness K draws the hand to its plan, the table draws it to its partner. K is relative
+to the table's stiffness: with 0 the hand follows the partner, with 1 both weigh the same.
 """
 
 import math
@@ -17,46 +16,46 @@ from ..errors import InputError
 Array = NDArray[np.float64]
 
 STIFFEST: Final = 20.0
-"""Largest stiffness: of a discrepancy the hand then takes up less than a twentieth in a period."""
+"""Largest stiffness: the hand then corrects less than a twentieth of a deviation per period."""
 
 
 def certainty(variance: float, tolerance: float) -> float:
-    """Return how certain a plan is, in (0, 1]: t^2 / (t^2 + s^2).
+    """Return the certainty of a plan, in (0, 1]: t^2 / (t^2 + s^2).
 
     Parameters
     ----------
     variance
-        s^2, variance of what was planned for [m2].
+        s^2, variance of the prediction that is planned for [m2].
     tolerance
-        t, the deviation at which the plan is half certain [m].
+        t, the standard deviation at which the certainty is one half [m].
     """
     return tolerance**2 / (tolerance**2 + variance)
 
 
-def yielding(stiffness: float) -> float:
-    """Return the share of a deviation from the plan that the hand takes up: 1 / (1 + K).
+def compliance(stiffness: float) -> float:
+    """Return the fraction of a deviation from the plan that the hand corrects: 1 / (1 + K).
 
-    This is where the spring to the plan and the table's spring to the partner are in balance.
+    There the spring to the plan and the table's spring to the partner are in balance.
     """
     return 1.0 / (1.0 + stiffness)
 
 
 class Surprise:
-    """How far off predictions are, relative to their own variance: 1 for a model that holds.
+    """Mean normalised squared error of predictions, 1 for a correct model.
 
-    The normalised squared errors nu = e^2 / s^2, forgotten exponentially:
+    The normalised squared errors nu = e^2 / s^2, with exponential forgetting:
 
         lambda' = lambda + (1 - exp(-dt / T)) (min(nu, limit) - lambda)
 
-    For a constant nu within the limit, lambda tends to nu; for a model that holds, to E[nu] = 1
-    (a little less where the limit cuts).
+    For a constant nu within the limit, lambda tends to nu; for a correct model, to E[nu] = 1
+    (slightly less where nu is clipped to the limit).
 
     Parameters
     ----------
     memory
         T [s].
     limit
-        Largest nu that counts: one outlier shall not be remembered long.
+        Largest nu that counts, to bound the effect of an outlier.
     """
 
     def __init__(self, memory: float, limit: float) -> None:
@@ -64,21 +63,21 @@ class Surprise:
         self.value = 1.0
 
     def update(self, error: float, variance: float, elapsed: float) -> float:
-        """Take in an error [m] of a prediction of a variance [m2], ``elapsed`` [s] after the last.
+        """Add an error [m] of a prediction of a variance [m2], ``elapsed`` [s] after the last.
 
         Returns
         -------
         float
             lambda.
         """
-        share = -math.expm1(-elapsed / self._memory)
-        self.value += share * (min(error**2 / variance, self._limit) - self.value)
+        gain = -math.expm1(-elapsed / self._memory)
+        self.value += gain * (min(error**2 / variance, self._limit) - self.value)
         return self.value
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Impedance:
-    """What is learned by practice: how stiffly to hold to the plan, and what to feed forward."""
+class LearnedImpedance:
+    """Stiffness around the plan and feed-forward terms, as learned by practice."""
 
     stiffness: Array
     """(k,) K in each situation, relative to the table's stiffness, in [0, ``STIFFEST``]."""
@@ -105,18 +104,18 @@ class Impedance:
 
 
 class Movement(NamedTuple):
-    """What one action was made of."""
+    """One action and its parts."""
 
     change: float
     """Change of the command [m]."""
     deviation: float
-    """d, how far the command was from the plan before [m]."""
-    share: float
-    """kappa, the share of it that was taken up."""
+    """d, plan minus command before the action [m]."""
+    correction: float
+    """kappa, the fraction of d that was corrected."""
     velocity: float
     """v, planned velocity at the end of the action [m/s]."""
     weights: Array
-    """(k,) how much the stiffness of each situation counted: responsibility times certainty."""
+    """(k,) w, weight of the stiffness of each situation: responsibility times certainty."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -126,7 +125,7 @@ class Gains:
     stiffness: float = 0.2
     """eta_K."""
     effort: float = 0.5
-    """rho: what the robot's own correction costs, relative to a height difference of its size. At 0
+    """rho: cost of the robot's own correction, relative to a height difference of its size. At 0
     the error alone counts, and the hand is restless."""
     lead: float = 0.2
     """eta_T [s2/m2]."""
@@ -135,25 +134,25 @@ class Gains:
 
 
 def adapt(
-    impedance: Impedance, movement: Movement, error: float, tolerance: float, gains: Gains
-) -> Impedance:
-    """Return the impedance after one more experience.
+    impedance: LearnedImpedance, movement: Movement, error: float, tolerance: float, gains: Gains
+) -> LearnedImpedance:
+    """Return the impedance after one more movement of practice.
 
-    The error e is what remained of the height difference, human minus robot, after the movement.
+    The error e is the height difference, human minus robot, that remained after the movement.
 
-        K_i'  = K_i - eta_K w_i (e d - rho kappa d^2) / t^2,  held to [0, STIFFEST]
+        K_i'  = K_i - eta_K w_i (e d - rho kappa d^2) / t^2,  clipped to [0, STIFFEST]
         lead' = lead + eta_T e v,    offset' = offset + eta_z e
 
-    The first descends the cost E[e^2 + rho (kappa d)^2]: a deviation that was taken up too
-    little leaves an error of its own sign, and the hand gets more compliant; one that was taken up
-    too much gets it stiffer. It rests where E[w_i d (e - rho kappa d)] = 0: at the share
-    kappa* / (1 + rho), with kappa* the least-squares share of d in what d was to make up for. As in
+    The first descends the cost E[e^2 + rho (kappa d)^2]: if too little of a deviation was
+    corrected, an error of its sign remains and the hand becomes more compliant; if too much, it
+    becomes stiffer. The fixed point is E[w_i d (e - rho kappa d)] = 0: the fraction
+    kappa* / (1 + rho), with kappa* the least-squares fraction of d that levels the table. As in
     human motor learning, stiffness and feed-forward adapt to the error against the effort (Yang,
-    Ganesh, Haddadin, Parusel, Albu-Schaeffer, Burdet 2011). The others rest where the error has no
-    mean and does not grow with the speed.
+    Ganesh, Haddadin, Parusel, Albu-Schaeffer, Burdet 2011). The other two come to rest where the
+    error has zero mean and is uncorrelated with the velocity.
     """
     d = movement.deviation
-    downhill = d * (error - gains.effort * movement.share * d) / tolerance**2
+    downhill = d * (error - gains.effort * movement.correction * d) / tolerance**2
     stiffness = impedance.stiffness - gains.stiffness * movement.weights * downhill
     return replace(
         impedance,

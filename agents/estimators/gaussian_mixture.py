@@ -1,4 +1,4 @@
-"""Gaussian mixtures and the regression through them."""
+"""Gaussian mixtures and Gaussian mixture regression."""
 
 import math
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ class GaussianMixture:
     """
 
     weights: Array
-    """(k,) w, the share of each component."""
+    """(k,) w, the weight of each component."""
     means: Array
     """(k, d) m, the mean of each component."""
     covariances: Array
@@ -52,35 +52,9 @@ class GaussianMixture:
             if not np.array_equal(covariance, covariance.T) or not _is_definite(covariance):
                 raise InputError(f"covariance {i} is not symmetric and positive definite")
 
-    def log_likelihood(self, x: ArrayLike) -> float:
-        """Return log p(x) for a point of shape (d,)."""
-        return float(np.logaddexp.reduce(self._joint_logs(x)))
-
-    def responsibilities(self, x: ArrayLike) -> Array:
-        """Return the probability of each component given x: w_i N(x; m_i, S_i) / p(x), (k,)."""
-        logs = self._joint_logs(x)
-        shares: Array = np.exp(logs - np.logaddexp.reduce(logs))
-        return shares
-
-    def marginal(self, variables: slice) -> "GaussianMixture":
-        """Return the mixture over some of the variables."""
-        return GaussianMixture(
-            weights=self.weights,
-            means=self.means[:, variables],
-            covariances=self.covariances[:, variables, variables],
-        )
-
-    def _joint_logs(self, x: ArrayLike) -> Array:
-        """Return log w_i + log N(x; m_i, S_i) of each component."""
-        apart = np.asarray(x) - self.means
-        distance = np.linalg.solve(self.covariances, apart[..., np.newaxis])[..., 0]
-        volume = np.linalg.slogdet(2 * np.pi * self.covariances).logabsdet
-        logs: Array = np.log(self.weights) - 0.5 * (volume + (apart * distance).sum(axis=1))
-        return logs
-
 
 class Conditional(NamedTuple):
-    """What a mixture says of the outputs y, given the inputs x."""
+    """Moments of the outputs y of a mixture, given the inputs x."""
 
     mean: Array
     """(m,) E[y | x]."""
@@ -109,7 +83,7 @@ class GaussianMixtureRegression:
     mixture
         The joint density.
     inputs
-        How many of its variables are inputs.
+        Number of its variables that are inputs.
 
     Raises
     ------
@@ -123,10 +97,10 @@ class GaussianMixtureRegression:
             raise InputError(f"inputs must be 1 to {variables - 1}, got {inputs}")
         x, y = slice(inputs), slice(inputs, None)
         joint = mixture.covariances
-        # Inverse and slopes are taken once: a robot asks many times.
+        # Inverse and slopes are computed once: a robot calls many times.
         self._precisions = np.linalg.inv(joint[:, x, x])
         self._slopes = joint[:, y, x] @ self._precisions
-        self._spreads = joint[:, y, y] - self._slopes @ joint[:, x, y]
+        self._covariances = joint[:, y, y] - self._slopes @ joint[:, x, y]
         self._means_x, self._means_y = mixture.means[:, x], mixture.means[:, y]
         volumes = np.linalg.slogdet(2 * np.pi * joint[:, x, x]).logabsdet
         self._log_weights = np.log(mixture.weights) - 0.5 * volumes
@@ -136,14 +110,14 @@ class GaussianMixtureRegression:
         apart = np.asarray(x) - self._means_x
         distances = np.einsum("ki,kij,kj->k", apart, self._precisions, apart)
         logs = self._log_weights - 0.5 * distances
-        shares = np.exp(logs - logs.max())
-        shares /= shares.sum()
+        responsibilities = np.exp(logs - logs.max())
+        responsibilities /= responsibilities.sum()
         means = self._means_y + np.einsum("kij,kj->ki", self._slopes, apart)
-        mean = shares @ means
+        mean = responsibilities @ means
         off = means - mean
-        covariance = np.einsum("k,kij->ij", shares, self._spreads)
-        covariance += np.einsum("k,ki,kj->ij", shares, off, off)
-        return Conditional(mean, covariance, shares)
+        covariance = np.einsum("k,kij->ij", responsibilities, self._covariances)
+        covariance += np.einsum("k,ki,kj->ij", responsibilities, off, off)
+        return Conditional(mean, covariance, responsibilities)
 
 
 def _is_definite(matrix: Array) -> bool:

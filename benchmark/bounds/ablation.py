@@ -8,8 +8,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from ...agents.control.anticipation_controller import AnticipateParameters
-from ...agents.control.senses import Window
+from ...agents.control.anticipation import FeatureWindow
+from ...agents.policies.anticipate import AnticipateParameters
 from ..episode.scenario import CONTROL_PERIOD
 from ..execution.runner import Run, run_suite
 from ..results.summary import stratum
@@ -17,7 +17,7 @@ from ..statistics import Estimate, paired_difference
 from ..suites.suite import BEHAVIOURS, Suite
 from ..training.anticipation import HIDDEN, WAYS, Lesson, learned
 from ..training.experience import Experience, Timing
-from .causal import Foreseer
+from .causal import AnticipationSpec
 
 WHOLE: Final = "whole"
 
@@ -54,7 +54,7 @@ VARIANTS: Final = (
     Variant(name="making up for the sag", parameters={"sag_memory": 1e9}),
     Variant(
         name="foresight beyond the period, as smooth",
-        parameters={"foresight": CONTROL_PERIOD, "smoothness": 0.2},
+        parameters={"horizon": CONTROL_PERIOD, "smoothness": 0.2},
     ),
     Variant(name="the cost of bends", parameters={"smoothness": 0.0}),
 )
@@ -74,7 +74,7 @@ class Ablation:
     """SPARC of the whole minus its own, over the lifts in which both move along."""
 
 
-def variants(first: Lesson, last: Lesson, *, seed: int = 0) -> Iterator[Foreseer]:
+def variants(first: Lesson, last: Lesson, *, seed: int = 0) -> Iterator[AnticipationSpec]:
     """Yield the whole and then each of the :data:`VARIANTS`.
 
     Parameters
@@ -84,7 +84,7 @@ def variants(first: Lesson, last: Lesson, *, seed: int = 0) -> Iterator[Foreseer
     seed
         Seed of the fits.
     """
-    whole = Foreseer(name=WHOLE, model=last.model)
+    whole = AnticipationSpec(name=WHOLE, model=last.model)
     yield whole
     window = last.model.window
     for variant in VARIANTS:
@@ -96,10 +96,10 @@ def variants(first: Lesson, last: Lesson, *, seed: int = 0) -> Iterator[Foreseer
             narrow = dataclasses.replace(window, **variant.window)
             data = narrowed(moving(last.experience, variant.only), narrow)
             model = learned(data, narrow, Timing(), hidden=variant.hidden, provenance={})
-        yield Foreseer(name=variant.name, model=model, parameters=parameters)
+        yield AnticipationSpec(name=variant.name, model=model, parameters=parameters)
 
 
-def narrowed(data: Experience, window: Window) -> Experience:
+def narrowed(data: Experience, window: FeatureWindow) -> Experience:
     """Return experience as it would be with a narrower window: the first of its inputs."""
     return dataclasses.replace(data, inputs=data.inputs[:, : window.size])
 
@@ -115,7 +115,7 @@ def moving(data: Experience, ways: Sequence[str]) -> Experience:
 
 
 def ablate(
-    robots: Iterator[Foreseer],
+    robots: Iterator[AnticipationSpec],
     suite: Suite,
     *,
     executor: Executor | None = None,

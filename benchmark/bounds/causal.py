@@ -10,8 +10,8 @@ from typing import Final
 
 from ...agents.agent import Agent
 from ...agents.control.anticipation import Anticipation, anticipation_json, read_anticipation
-from ...agents.control.anticipation_controller import AnticipateParameters, AnticipationController
 from ...agents.errors import InputError
+from ...agents.policies.anticipate import AnticipateParameters, AnticipationController
 from ...agents.spec import InProcess
 from ..comparison.contest import Bound
 from ..execution.runner import Run, run_suite
@@ -20,7 +20,7 @@ from .oracle import ORACLE, oracle_run
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Foreseer(InProcess):
+class AnticipationSpec(InProcess):
     """The control of :class:`.Anticipate` with a given model, as :class:`.AgentSpec`."""
 
     name: str
@@ -32,8 +32,8 @@ class Foreseer(InProcess):
 
     def digest(self) -> str:
         """Return a hash of model and parameters."""
-        told = f"{anticipation_json(self.model)}{self.parameters}"
-        return hashlib.sha256(told.encode()).hexdigest()[:16]
+        content = f"{anticipation_json(self.model)}{self.parameters}"
+        return hashlib.sha256(content.encode()).hexdigest()[:16]
 
     def make(self) -> Agent:
         """Return a new robot."""
@@ -56,14 +56,14 @@ ONLY_LEVEL: Final = AnticipateParameters(smoothness=0.0)
 
 
 @cache
-def causal_bound() -> Foreseer:
+def causal_bound() -> AnticipationSpec:
     """Return the bound that is shipped, for the paper's latency and control period.
 
     It is an estimate, not a proof: what a larger network than the policy's learns in the same way,
     from other lifts, with nothing given away for smoothness.
     """
     text = files(__package__).joinpath("data", "causal_bound.json")
-    return Foreseer(
+    return AnticipationSpec(
         name=CAUSAL_BOUND, model=read_anticipation(text.read_text()), parameters=ONLY_LEVEL
     )
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...agents.agent import FRAME, Action, Observation, RobotObservation
+from ...agents.control.anticipation import ARM_LAG
 from ...agents.control.preview import preview_gains
-from ...agents.control.senses import ARM_LAG
 from ...agents.loading.loading import source_digest
 from ..episode.episode import Episode, run_episode
 from ..episode.lift import Lift

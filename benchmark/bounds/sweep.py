@@ -16,7 +16,7 @@ from ..suites.suite import Suite
 from ..training.anticipation import ROUNDS, learn_anticipation
 from ..training.experience import Timing
 from . import causal
-from .causal import Foreseer
+from .causal import AnticipationSpec
 from .oracle import ORACLE, oracle_run
 
 LATENCIES: Final = (0.0, 0.05, 0.1, 0.15, 0.2)
@@ -92,8 +92,10 @@ def sweep(
         )
         specs: list[AgentSpec] = [
             *(PolicySpec(text=name) for name in FIXED),
-            Foreseer(name="anticipate", model=policy.model),
-            Foreseer(name=causal.CAUSAL_BOUND, model=bound.model, parameters=causal.ONLY_LEVEL),
+            AnticipationSpec(name="anticipate", model=policy.model),
+            AnticipationSpec(
+                name=causal.CAUSAL_BOUND, model=bound.model, parameters=causal.ONLY_LEVEL
+            ),
         ]
         for spec in specs:
             run = run_suite(spec, timed, executor=executor, progress=progress)

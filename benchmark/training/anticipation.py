@@ -17,12 +17,11 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...agents.control.anticipation import Anticipation
-from ...agents.control.anticipation_controller import AnticipateParameters
-from ...agents.control.senses import Window
+from ...agents.control.anticipation import Anticipation, FeatureWindow
 from ...agents.errors import InputError
 from ...agents.estimators.perceptron import Perceptron
 from ...agents.extras import how_to_install
+from ...agents.policies.anticipate import AnticipateParameters
 from ..suites.suite import BEHAVIOURS
 from .experience import LEADS, ROAMING, Experience, Timing, experience
 
@@ -113,7 +112,7 @@ def gather(
     seeds: range,
     *,
     model: Anticipation | None,
-    window: Window,
+    window: FeatureWindow,
     behaviours: Sequence[str],
     timing: Timing,
     parameters: AnticipateParameters | None = None,
@@ -227,7 +226,7 @@ def learn_anticipation(
 
 def learned(
     data: Experience,
-    window: Window,
+    window: FeatureWindow,
     timing: Timing,
     *,
     hidden: Sequence[int] = HIDDEN,
@@ -250,10 +249,12 @@ def learned(
     )
 
 
-def window_for(timing: Timing) -> Window:
+def window_for(timing: Timing) -> FeatureWindow:
     """Return the window of a robot: as many values as at the paper's timing, or 1.2 s."""
     period = timing.control_period
-    return Window(interval=period, velocities=max(Window.velocities, round(1.2 / period)))
+    return FeatureWindow(
+        interval=period, velocities=max(FeatureWindow.velocities, round(1.2 / period))
+    )
 
 
 def _learner() -> tuple[Any, Any]:

@@ -9,15 +9,14 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from ...agents.agent import FRAME, Agent, RobotObservation
-from ...agents.control.anticipation import Anticipation
-from ...agents.control.anticipation_controller import AnticipateParameters, AnticipationController
-from ...agents.control.modes import modes, stroke_ends
-from ...agents.control.senses import Window
+from ...agents.control.anticipation import Anticipation, FeatureWindow
+from ...agents.policies.anticipate import AnticipateParameters, AnticipationController
 from ...agents.policies.extrapolate import Extrapolate
 from ..episode.lift import MOCAP_NOISE, Lift
 from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..episode.seeding import derive_seed
 from ..suites.catalogue import make_scenario, make_subject
+from .labels import modes, stroke_ends
 from .roaming import Roaming
 
 Array = NDArray[np.float64]
@@ -51,7 +50,7 @@ class Experience:
     """What was seen, and what came of it; in single precision, as there is a lot of it."""
 
     inputs: NDArray[np.float32]
-    """(n, window.size) inputs of :class:`.Senses`."""
+    """(n, window.size) inputs of :class:`.FeatureHistory`."""
     outcomes: NDArray[np.float32]
     """(n, leads + 6) how far the human's end was above its newest seen height at each of the leads
     [m], the mode now (:func:`.modes`), and how far it rose until the stroke's end [m]."""
@@ -98,7 +97,7 @@ def experience(
     seed: int,
     *,
     model: Anticipation | None,
-    window: Window,
+    window: FeatureWindow,
     behaviours: Sequence[str],
     timing: Timing,
     parameters: AnticipateParameters | None = None,
@@ -150,8 +149,8 @@ def experience(
     return Experience.join(parts)
 
 
-def window_inputs(heights: Array, window: Window) -> Array:
-    """Return the inputs of :class:`.Senses` in each of n steps, an interval apart.
+def window_inputs(heights: Array, window: FeatureWindow) -> Array:
+    """Return the inputs of :class:`.FeatureHistory` in each of n steps, an interval apart.
 
     Parameters
     ----------

@@ -13,12 +13,12 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from ...agents.agent import RobotObservation
-from ...agents.control.adaptive_impedance import Gains, Impedance, Movement, adapt
-from ...agents.control.task import Task, velocity_inputs
-from ...agents.control.task_controller import TaskController, TaskModelParameters
+from ...agents.control.adaptive_impedance import Gains, LearnedImpedance, Movement, adapt
+from ...agents.control.learned_task import LearnedTask, velocity_inputs
 from ...agents.errors import InputError
 from ...agents.estimators.gaussian_mixture import GaussianMixture
 from ...agents.extras import how_to_install
+from ...agents.policies.task_model import TaskModelController, TaskModelParameters
 from ..episode.lift import Lift
 from ..episode.scenario import CONTROL_PERIOD, LATENCY
 from ..suites.catalogue import make_scenario
@@ -80,7 +80,7 @@ def require_learner() -> None:
 
 def learn_task(
     demonstrations: Sequence[Demonstration], *, components: int = COMPONENTS, seed: int = 0
-) -> Task:
+) -> LearnedTask:
     """Fit the mixture to demonstrations: step one.
 
     The fit is scikit-learn's expectation maximisation on standardised variables, in one thread, so
@@ -128,12 +128,14 @@ def learn_task(
         covariances=(spreads + spreads.transpose(0, 2, 1)) / 2,
     )
     apart = np.concatenate([each["human_m"] - each["partner_m"] for each in demonstrations])
-    return Task(
+    return LearnedTask(
         mixture=mixture,
         past=PAST,
         interval=interval,
         tolerance=float(np.sqrt(np.mean(apart**2))),
-        impedance=Impedance(stiffness=np.full(components, FIRST_STIFFNESS), lead=0.0, offset=0.0),
+        impedance=LearnedImpedance(
+            stiffness=np.full(components, FIRST_STIFFNESS), lead=0.0, offset=0.0
+        ),
         provenance={
             "demonstrations": _about(demonstrations),
             "fit": {
@@ -149,12 +151,12 @@ def learn_task(
 
 
 def practise(
-    task: Task,
+    task: LearnedTask,
     lifts: int = PRACTICE_LIFTS,
     *,
     gains: Gains | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
-) -> Task:
+) -> LearnedTask:
     """Return the task with the impedance learned by lifting with simulated people: step two.
 
     Each lift is with a new person, in one of the suites' ways, on seeds of their own. The impedance
@@ -169,14 +171,14 @@ def practise(
     if lifts < 1:
         raise InputError(f"practice must be at least 1 lift, got {lifts}")
     gains = gains or Gains()
-    controller = TaskController(task, TaskModelParameters())
-    learned: list[Impedance] = []
+    controller = TaskModelController(task, TaskModelParameters())
+    learned: list[LearnedImpedance] = []
     for seed in range(PRACTICE_SEED, PRACTICE_SEED + lifts):
         _lift_together(controller, task.tolerance, gains, seed)
         learned.append(controller.impedance)
         progress(1)
     late = learned[lifts // 2 :]
-    impedance = Impedance(
+    impedance = LearnedImpedance(
         stiffness=np.mean([each.stiffness for each in late], axis=0),
         lead=float(np.mean([each.lead for each in late])),
         offset=float(np.mean([each.offset for each in late])),
@@ -187,12 +189,14 @@ def practise(
     )
 
 
-def _lift_together(controller: TaskController, tolerance: float, gains: Gains, seed: int) -> None:
+def _lift_together(
+    controller: TaskModelController, tolerance: float, gains: Gains, seed: int
+) -> None:
     """Adapt the controller's impedance in one lift."""
     lift = Lift(make_scenario(BEHAVIOURS[seed % len(BEHAVIOURS)], f"draw-{seed}"))
     lift.reset(seed)
     human = lift.scripted_human()
-    controller.reset()
+    controller.reset(seed)
     movements: list[Movement] = []
     while not lift.done:
         view = lift.partner_observation()

@@ -5,12 +5,12 @@ import pytest
 from colift.agents.control.adaptive_impedance import (
     STIFFEST,
     Gains,
-    Impedance,
+    LearnedImpedance,
     Movement,
     Surprise,
     adapt,
     certainty,
-    yielding,
+    compliance,
 )
 from colift.agents.errors import InputError
 
@@ -18,7 +18,7 @@ TOLERANCE = 0.01
 
 
 def impedance(stiffness=(1.0,), lead=0.0, offset=0.0):
-    return Impedance(stiffness=np.array(stiffness), lead=lead, offset=offset)
+    return LearnedImpedance(stiffness=np.array(stiffness), lead=lead, offset=offset)
 
 
 def practise(truth, noise, gains, *, lead=0.0, sag=0.0, steps=20_000, seed=4):
@@ -33,7 +33,7 @@ def practise(truth, noise, gains, *, lead=0.0, sag=0.0, steps=20_000, seed=4):
     for _ in range(steps):
         d = rng.normal(0.0, 0.004)
         velocity = rng.normal(0.02, 0.1)
-        share = yielding(float(now.stiffness[0]))
+        share = compliance(float(now.stiffness[0]))
         error = truth * d - share * d + rng.normal(0.0, noise)
         error += (lead - now.lead) * velocity + sag - now.offset
         now = adapt(now, Movement(0.0, d, share, velocity, np.ones(1)), error, TOLERANCE, gains)
@@ -52,10 +52,10 @@ def test_half_certain_at_the_tolerance():
 def test_yields_where_the_two_springs_balance():
     """K (x - plan) = 1 (partner - x): the stiffness of the table is the unit."""
     for stiffness in (0.0, 0.5, 1.0, 7.0):
-        x = yielding(stiffness) * 0.03
+        x = compliance(stiffness) * 0.03
         assert stiffness * x == pytest.approx(0.03 - x)
-    assert yielding(0.0) == 1.0
-    assert yielding(STIFFEST) < 0.05
+    assert compliance(0.0) == 1.0
+    assert compliance(STIFFEST) < 0.05
 
 
 @pytest.mark.parametrize("nu", [0.2, 1.0, 9.0])
@@ -92,7 +92,7 @@ def test_one_outlier_counts_no_more_than_the_limit():
 def test_practice_rests_at_the_least_squares_share_less_the_effort(truth, effort):
     gains = Gains(effort=effort)
     stiffness, _, _ = practise(truth, 0.002, gains)
-    assert yielding(stiffness) == pytest.approx(truth / (1 + effort), rel=0.06)
+    assert compliance(stiffness) == pytest.approx(truth / (1 + effort), rel=0.06)
 
 
 def test_stiffness_stops_at_its_limits():

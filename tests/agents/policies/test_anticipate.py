@@ -5,21 +5,22 @@ import numpy as np
 import pytest
 from colift.agents.agent import RobotObservation
 from colift.agents.control.anticipation import (
+    ARM_LAG,
+    MODES,
     Anticipation,
+    FeatureWindow,
     anticipation_json,
     load_anticipation,
     read_anticipation,
 )
-from colift.agents.control.anticipation_controller import (
-    AnticipateParameters,
-    AnticipationController,
-)
-from colift.agents.control.modes import MODES
-from colift.agents.control.senses import ARM_LAG, Window
 from colift.agents.errors import InputError
 from colift.agents.estimators.perceptron import Perceptron
 from colift.agents.loading.loading import PolicySpec
-from colift.agents.policies.anticipate import Anticipate
+from colift.agents.policies.anticipate import (
+    Anticipate,
+    AnticipateParameters,
+    AnticipationController,
+)
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import TEAM_PARTNER
 from colift.benchmark.suites.catalogue import make_scenario
@@ -31,7 +32,7 @@ LATENCY = 0.1
 
 def steady(interval=0.1):
     """Return an anticipation that the last velocity stays: rise = v (latency + lead)."""
-    window = Window(interval=interval, velocities=2)
+    window = FeatureWindow(interval=interval, velocities=2)
     outputs = len(LEADS) + len(MODES) + 1
     weights = np.zeros((window.size, outputs))
     weights[1, : len(LEADS)] = (LATENCY + LEADS) / interval
@@ -200,7 +201,7 @@ def test_it_finds_pauses_and_rests_in_the_trace():
 
 @pytest.mark.parametrize(
     "wrong",
-    [{"smoothness": -1.0}, {"arm_lag": np.inf}, {"foresight": 0.0}, {"sag_memory": np.nan}],
+    [{"smoothness": -1.0}, {"arm_lag": np.inf}, {"horizon": 0.0}, {"sag_memory": np.nan}],
 )
 def test_parameters_out_of_range_are_refused(wrong):
     with pytest.raises(InputError, match=next(iter(wrong))):
@@ -227,11 +228,11 @@ def test_files_that_are_no_model_are_refused(tmp_path):
         load_anticipation(str(tmp_path / "missing.json"))
     content = json.loads(anticipation_json(steady()))
     for name, value, told in (
-        ("leads_s", [0.0, 0.1], "and 8 outputs is needed"),
+        ("leads_s", [0.0, 0.1], "and 8 outputs"),
         ("leads_s", [0.0] * 10, "leads must increase"),
         ("window", {"velocities": 3}, "a perceptron of 4 inputs"),
-        ("window", {"velocities": 2, "sags": 1}, "no anticipation: TypeError"),
-        ("perceptron", {}, "no anticipation: KeyError"),
+        ("window", {"velocities": 2, "sags": 1}, "not an anticipation: TypeError"),
+        ("perceptron", {}, "not an anticipation: KeyError"),
     ):
         path = tmp_path / "wrong.json"
         path.write_text(json.dumps({**content, name: value}))

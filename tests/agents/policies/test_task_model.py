@@ -3,27 +3,26 @@ import dataclasses
 import numpy as np
 import pytest
 from colift.agents.agent import RobotObservation
-from colift.agents.control.adaptive_impedance import Impedance, certainty
-from colift.agents.control.task import Task, load_task, task_json
-from colift.agents.control.task_controller import TaskController, TaskModelParameters
+from colift.agents.control.adaptive_impedance import LearnedImpedance, certainty
+from colift.agents.control.learned_task import LearnedTask, load_task, task_json
 from colift.agents.errors import InputError
 from colift.agents.estimators.gaussian_mixture import GaussianMixture
 from colift.agents.loading.loading import PolicySpec
-from colift.agents.policies.task_model import TaskModel
+from colift.agents.policies.task_model import TaskModel, TaskModelController, TaskModelParameters
 
 
 def persistent(stiffness=0.0, lead=0.0, offset=0.0, spread=1e-4):
     """Return a task in which velocities stay as they are, up to a spread [m/s]."""
     covariance = np.eye(6)
     covariance[1:, 1:] = 1.0 + spread**2 * np.eye(5)
-    return Task(
+    return LearnedTask(
         mixture=GaussianMixture(
             weights=np.ones(1), means=np.zeros((1, 6)), covariances=covariance[np.newaxis]
         ),
         past=2,
         interval=0.1,
         tolerance=0.012,
-        impedance=Impedance(stiffness=np.full(1, stiffness), lead=lead, offset=offset),
+        impedance=LearnedImpedance(stiffness=np.full(1, stiffness), lead=lead, offset=offset),
     )
 
 
@@ -38,15 +37,15 @@ def follow(task, path, *, period=0.1, steps=30, command=0.0, **parameters):
     -------
     The commands at the end of the steps, the movements and the internals.
     """
-    controller = TaskController(task, TaskModelParameters(**parameters))
-    controller.reset()
+    controller = TaskModelController(task, TaskModelParameters(**parameters))
+    controller.reset(0)
     commands, movements, internals = [], [], []
     for k in range(steps):
         time = period * k
         movements.append(controller.step(view(path(time - 0.1), command, time)))
         command += movements[-1].change
         commands.append(command)
-        internals.append(controller.internals)
+        internals.append(controller.internals())
     return np.array(commands), movements, internals
 
 
@@ -95,10 +94,10 @@ def test_every_change_is_made_of_what_is_reported():
         variance = internals["surprise"] * internals["predicted_deviation"] ** 2
         assert sure == pytest.approx(certainty(variance, task.tolerance))
         assert stiffness == pytest.approx(2.0 * sure)
-        assert movement.share == pytest.approx(1 / (1 + stiffness))
+        assert movement.correction == pytest.approx(1 / (1 + stiffness))
         assert internals["role"] == pytest.approx(stiffness / (1 + stiffness))
         assert movement.weights == pytest.approx([sure])
-    plan = [m.change - m.share * m.deviation for m in movements]
+    plan = [m.change - m.correction * m.deviation for m in movements]
     assert plan == pytest.approx([0.1 * i["predicted_velocity"] for i in told], abs=1e-9)
 
 
@@ -147,11 +146,11 @@ def test_between_samples_the_past_is_interpolated():
     """Samples at odd times of a steady motion give the same plan as samples at whole intervals."""
     seen = []
     for times in ((0.0, 0.1, 0.2), (0.0, 0.07, 0.13, 0.2), (0.0, 0.03, 0.2)):
-        controller = TaskController(persistent(), TaskModelParameters())
-        controller.reset()
+        controller = TaskModelController(persistent(), TaskModelParameters())
+        controller.reset(0)
         for time in times:
             movement = controller.step(view(0.3 * time, time=time))
-        seen.append(controller.internals["predicted_velocity"])
+        seen.append(controller.internals()["predicted_velocity"])
         assert movement.velocity == seen[-1]
     assert seen == pytest.approx([0.3] * 3, abs=1e-4)
 
@@ -175,19 +174,19 @@ def test_the_policy_is_the_controller_of_its_model(tmp_path):
         text=f"colift.agents.policies.task_model:TaskModel,model={path},memory=0.3"
     ).make()
     policy.reset(0)
-    controller = TaskController(persistent(stiffness=1.0), TaskModelParameters(memory=0.3))
-    controller.reset()
+    controller = TaskModelController(persistent(stiffness=1.0), TaskModelParameters(memory=0.3))
+    controller.reset(0)
     for k in range(15):
         seen = view(0.01 * np.sin(k), 0.0, 0.1 * k)
         assert policy.act(seen).tolist() == [controller.step(seen).change]
-        assert policy.internals() == controller.internals
+        assert policy.internals() == controller.internals()
 
 
 def test_practice_replaces_the_impedance_of_the_controller_alone():
     task = load_task()
-    controller = TaskController(task, TaskModelParameters())
+    controller = TaskModelController(task, TaskModelParameters())
     controller.impedance = dataclasses.replace(task.impedance, offset=0.05)
-    assert TaskController(task, TaskModelParameters()).impedance is task.impedance
+    assert TaskModelController(task, TaskModelParameters()).impedance is task.impedance
 
 
 @pytest.mark.parametrize(

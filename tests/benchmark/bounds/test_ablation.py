@@ -2,11 +2,10 @@ import dataclasses
 
 import numpy as np
 import pytest
-from colift.agents.control.anticipation import load_anticipation
-from colift.agents.control.anticipation_controller import AnticipateParameters
-from colift.agents.control.senses import Window
+from colift.agents.control.anticipation import FeatureWindow, load_anticipation
+from colift.agents.policies.anticipate import AnticipateParameters
 from colift.benchmark.bounds.ablation import VARIANTS, ablate, moving, narrowed, variants
-from colift.benchmark.bounds.causal import Foreseer
+from colift.benchmark.bounds.causal import AnticipationSpec
 from colift.benchmark.bounds.held_out import held_out_suite
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import BEHAVIOURS, Suite
@@ -17,7 +16,7 @@ from colift.benchmark.training.experience import Experience, window_inputs
 def test_narrower_experience_is_what_a_narrower_window_sees():
     rng = np.random.default_rng(0)
     human = rng.normal(0.0, 0.1, 40)
-    wide, narrow = Window(), Window(velocities=4)
+    wide, narrow = FeatureWindow(), FeatureWindow(velocities=4)
     data = Experience(
         inputs=window_inputs(human, wide),
         outcomes=np.zeros((40, 2), np.float32),
@@ -34,7 +33,7 @@ def test_each_variant_lacks_one_part():
         lacks.append(variant.only != WAYS)
         assert sum(lacks) + (variant.hidden == ()) == 1, variant
         AnticipateParameters(**variant.parameters)
-        dataclasses.replace(Window(), **variant.window)
+        dataclasses.replace(FeatureWindow(), **variant.window)
     assert len({variant.name for variant in VARIANTS}) == len(VARIANTS)
 
 
@@ -60,10 +59,12 @@ def test_what_a_part_is_worth_is_a_paired_difference():
     )
     model = load_anticipation()
     robots = (
-        Foreseer(name="whole", model=model),
-        Foreseer(name="late", model=model, parameters=AnticipateParameters(arm_lag=0.0)),
-        Foreseer(name="rough", model=model, parameters=AnticipateParameters(smoothness=0.0)),
-        Foreseer(name="same", model=model),
+        AnticipationSpec(name="whole", model=model),
+        AnticipationSpec(name="late", model=model, parameters=AnticipateParameters(arm_lag=0.0)),
+        AnticipationSpec(
+            name="rough", model=model, parameters=AnticipateParameters(smoothness=0.0)
+        ),
+        AnticipationSpec(name="same", model=model),
     )
     whole, late, rough, same = ablate(iter(robots), suite)
     assert whole.worse_mm is None

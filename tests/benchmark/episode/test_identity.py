@@ -268,7 +268,7 @@ def test_a_policy_s_digest_is_its_own():
     cases = {
         policies.copy.__name__: {"copy"},
         estimators.residuals.__name__: None,
-        control.task.__name__: {"task_model"},
+        control.learned_task.__name__: {"task_model"},
     }
     for module, wanted in cases.items():
         tree = ast.parse(source(module))

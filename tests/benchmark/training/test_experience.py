@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from colift.agents.control.modes import MODES
-from colift.agents.control.senses import Senses, Window
+from colift.agents.control.anticipation import MODES, FeatureHistory, FeatureWindow
 from colift.agents.errors import InputError
 from colift.benchmark.suites.suite import BEHAVIOURS
 from colift.benchmark.training import experience as anticipation_experience
@@ -17,7 +16,7 @@ from colift.benchmark.training.experience import (
     window_inputs,
 )
 
-WINDOW = Window(velocities=6)
+WINDOW = FeatureWindow(velocities=6)
 
 
 def lifted(seed, *, behaviours=BEHAVIOURS, timing=None, window=WINDOW):
@@ -29,10 +28,10 @@ def lifted(seed, *, behaviours=BEHAVIOURS, timing=None, window=WINDOW):
 def test_inputs_are_those_of_a_robots_senses():
     rng = np.random.default_rng(0)
     human = rng.normal(0.0, 0.1, 30)
-    senses, seen = Senses(WINDOW), []
+    history, seen = FeatureHistory(WINDOW), []
     for time, height in zip(0.1 * np.arange(30), human, strict=True):
-        senses.see(np.array([height, 0.0, 0.0, 0.0, time]))
-        seen.append(senses.inputs())
+        history.add(np.array([height, 0.0, 0.0, 0.0, time]))
+        seen.append(history.features())
     assert window_inputs(human, WINDOW) == pytest.approx(np.array(seen), abs=1e-12)
 
 
@@ -76,7 +75,7 @@ def test_the_same_seed_gives_the_same_bits_and_another_another_lift():
 
 @pytest.mark.parametrize("timing", [Timing(latency=0.0), Timing(control_period=0.02, latency=0.2)])
 def test_other_timings_are_looked_at_alike(timing):
-    window = Window(interval=timing.control_period, velocities=6)
+    window = FeatureWindow(interval=timing.control_period, velocities=6)
     found = lifted(100_003, timing=timing, window=window)
     height = found.inputs[:, 0] + found.outcomes[:, 0]
     assert found.inputs.shape[1] == window.size

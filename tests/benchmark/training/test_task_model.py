@@ -5,8 +5,8 @@ import sys
 
 import numpy as np
 import pytest
-from colift.agents.control.adaptive_impedance import Gains, Impedance
-from colift.agents.control.task import load_task, task_json
+from colift.agents.control.adaptive_impedance import Gains, LearnedImpedance
+from colift.agents.control.learned_task import load_task, task_json
 from colift.agents.errors import InputError
 from colift.benchmark.paper.calibration import SEEDS
 from colift.benchmark.suites.suite import SUITES, make_suite
@@ -112,7 +112,7 @@ def test_practice_learns_the_arm_and_keeps_the_model():
     """From nothing fed forward it finds the arm's lag and sag again, and the stiffness."""
     task = load_task()
     size = len(task.impedance.stiffness)
-    ignorant = Impedance(stiffness=np.ones(size), lead=0.0, offset=0.0)
+    ignorant = LearnedImpedance(stiffness=np.ones(size), lead=0.0, offset=0.0)
     told = []
     found = practise(dataclasses.replace(task, impedance=ignorant), 24, progress=told.append)
     assert found.mixture is task.mixture

@@ -1,11 +1,9 @@
-"""A learned task: how people lift together, and how stiffly to go along with it."""
+"""The learned task: a mixture of how people lift together, and an impedance for each situation."""
 
-import json
 import math
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from importlib.resources import files
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,13 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError
 from ..estimators.gaussian_mixture import Conditional, GaussianMixture, GaussianMixtureRegression
-from .adaptive_impedance import Impedance
+from .adaptive_impedance import LearnedImpedance
+from .learned import learned_json, load_learned, read_learned
 
 Array = NDArray[np.float64]
 
 
-class Outlook(NamedTuple):
-    """What a task model expects of a person's motion from a seen height on."""
+class TaskForecast(NamedTuple):
+    """Expected motion of a person from a seen height on."""
 
     height: float
     """The seen height [m]."""
@@ -46,11 +45,11 @@ class Outlook(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Task:
-    """A task model, and the impedance that was learned with it.
+class LearnedTask:
+    """A mixture model of joint lifting with its impedance.
 
     The mixture is over a height z of the leading end [m] and the mean velocities [m/s] in the
-    intervals around it: first the last ones, newest first, then the coming ones, in their order.
+    intervals around it: first the past ones, newest first, then the coming ones, in their order.
 
     Raises
     ------
@@ -61,21 +60,23 @@ class Task:
     mixture: GaussianMixture
     """Joint density of height, past and coming velocities."""
     past: int
-    """How many of the velocities are past."""
+    """Number of past velocities."""
     interval: float
     """Length of an interval [s]."""
     tolerance: float
-    """How far apart the two ends were in the demonstrations, rms [m]."""
-    impedance: Impedance
-    """One situation for each component of the mixture."""
+    """Height difference of the two ends in the demonstrations, rms [m]."""
+    impedance: LearnedImpedance
+    """One stiffness for each component of the mixture."""
     provenance: dict[str, Any] = field(default_factory=dict)
-    """What it was learned from, and how."""
+    """Training data and method."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
         most = self.mixture.means.shape[1] - 2
         if not 1 <= self.past <= most:
-            raise InputError(f"past must be 1 to {most}, so that some are coming, got {self.past}")
+            raise InputError(
+                f"past must be 1 to {most}, to leave a coming velocity, got {self.past}"
+            )
         for name in ("interval", "tolerance"):
             if not 0 < getattr(self, name) < math.inf:
                 raise InputError(f"{name} must be a positive number, got {getattr(self, name)}")
@@ -90,8 +91,8 @@ class Task:
         """Coming velocities, given height and past ones."""
         return GaussianMixtureRegression(self.mixture, 1 + self.past)
 
-    def outlook(self, heights: ArrayLike) -> Outlook:
-        """Return what is expected after the last of some seen heights.
+    def forecast(self, heights: ArrayLike) -> TaskForecast:
+        """Return the expected motion after the last of some seen heights.
 
         Parameters
         ----------
@@ -99,11 +100,11 @@ class Task:
             (past + 1,) heights [m], an interval apart, oldest first.
         """
         inputs = velocity_inputs(heights, self.interval)
-        return Outlook(float(inputs[0]), self.regression(inputs), self.interval)
+        return TaskForecast(float(inputs[0]), self.regression(inputs), self.interval)
 
 
 def velocity_inputs(heights: ArrayLike, interval: float) -> Array:
-    """Return the inputs of a task model: the last height, and the velocities, newest first.
+    """Return the inputs of a learned task: the last height, and the velocities, newest first.
 
     Parameters
     ----------
@@ -120,72 +121,63 @@ def velocity_inputs(heights: ArrayLike, interval: float) -> Array:
     return np.concatenate((heights[..., -1:], velocities), axis=-1)
 
 
-def task_json(task: Task) -> str:
-    """Return the content of a file for :func:`read_task`, one part a line."""
+def task_json(task: LearnedTask) -> str:
+    """Return the content of a file for :func:`read_task`."""
     mixture, impedance = task.mixture, task.impedance
-    content = {
-        "mixture": {
-            "weights": mixture.weights.tolist(),
-            "means": mixture.means.tolist(),
-            "covariances": mixture.covariances.tolist(),
-        },
-        "past": task.past,
-        "interval_s": task.interval,
-        "tolerance_m": task.tolerance,
-        "impedance": {
-            "stiffness": impedance.stiffness.tolist(),
-            "lead_s": impedance.lead,
-            "offset_m": impedance.offset,
-        },
-        "provenance": task.provenance,
-    }
-    lines = (f"{json.dumps(name)}: {json.dumps(value)}" for name, value in content.items())
-    return "{\n" + ",\n".join(lines) + "\n}\n"
+    return learned_json(
+        {
+            "mixture": {
+                "weights": mixture.weights.tolist(),
+                "means": mixture.means.tolist(),
+                "covariances": mixture.covariances.tolist(),
+            },
+            "past": task.past,
+            "interval_s": task.interval,
+            "tolerance_m": task.tolerance,
+            "impedance": {
+                "stiffness": impedance.stiffness.tolist(),
+                "lead_s": impedance.lead,
+                "offset_m": impedance.offset,
+            },
+            "provenance": task.provenance,
+        }
+    )
 
 
-def read_task(text: str) -> Task:
+def read_task(text: str) -> LearnedTask:
     """Return the task of :func:`task_json`.
 
     Raises
     ------
     InputError
-        If the text is no such content.
+        As :func:`.read_learned`.
     """
-    try:
-        content = json.loads(text)
-        mixture, impedance = content["mixture"], content["impedance"]
-        return Task(
-            mixture=GaussianMixture(**{name: np.array(mixture[name]) for name in mixture}),
-            past=content["past"],
-            interval=content["interval_s"],
-            tolerance=content["tolerance_m"],
-            impedance=Impedance(
-                stiffness=np.array(impedance["stiffness"]),
-                lead=impedance["lead_s"],
-                offset=impedance["offset_m"],
-            ),
-            provenance=content["provenance"],
-        )
-    except InputError:
-        raise
-    except (ValueError, KeyError, TypeError) as error:
-        raise InputError(f"no task model: {type(error).__name__}: {error}") from error
+    return read_learned(text, _from_parts, "a task model")
 
 
 @cache
-def load_task(path: str | None = None) -> Task:
-    """Return the task model of a file; of none, the one that is shipped.
+def load_task(path: str | None = None) -> LearnedTask:
+    """Return the task of a file; without a path, the shipped one.
 
     Raises
     ------
     InputError
-        If the file cannot be read, or is no task model.
+        As :func:`.load_learned`.
     """
-    if path is None:
-        return read_task(files(__package__).joinpath("data", "task_model.json").read_text())
-    try:
-        return read_task(Path(path).read_text())
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: cannot be read: {error}") from None
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
+    return load_learned(path, files(__package__).joinpath("data", "task_model.json"), read_task)
+
+
+def _from_parts(parts: Any) -> LearnedTask:
+    mixture, impedance = parts["mixture"], parts["impedance"]
+    return LearnedTask(
+        mixture=GaussianMixture(**{name: np.array(mixture[name]) for name in mixture}),
+        past=parts["past"],
+        interval=parts["interval_s"],
+        tolerance=parts["tolerance_m"],
+        impedance=LearnedImpedance(
+            stiffness=np.array(impedance["stiffness"]),
+            lead=impedance["lead_s"],
+            offset=impedance["offset_m"],
+        ),
+        provenance=parts["provenance"],
+    )

@@ -3,10 +3,10 @@ import json
 
 import numpy as np
 import pytest
-from colift.agents.control.adaptive_impedance import Impedance
-from colift.agents.control.task import (
-    Outlook,
-    Task,
+from colift.agents.control.adaptive_impedance import LearnedImpedance
+from colift.agents.control.learned_task import (
+    LearnedTask,
+    TaskForecast,
     load_task,
     read_task,
     task_json,
@@ -20,7 +20,7 @@ VELOCITIES = Conditional(
     covariance=np.array([[4.0, 2.0, 1.0], [2.0, 5.0, 3.0], [1.0, 3.0, 6.0]]) * 1e-4,
     responsibilities=np.ones(1),
 )
-OUTLOOK = Outlook(0.05, VELOCITIES, 0.1)
+FORECAST = TaskForecast(0.05, VELOCITIES, 0.1)
 
 
 def persistent(interval=0.1, past=2, spread=1e-3):
@@ -29,14 +29,14 @@ def persistent(interval=0.1, past=2, spread=1e-3):
     covariance = np.eye(size)
     covariance[1:, 1:] = 0.04
     covariance[1:, 1:] += spread**2 * np.eye(size - 1)
-    return Task(
+    return LearnedTask(
         mixture=GaussianMixture(
             weights=np.ones(1), means=np.zeros((1, size)), covariances=covariance[np.newaxis]
         ),
         past=past,
         interval=interval,
         tolerance=0.01,
-        impedance=Impedance(stiffness=np.ones(1), lead=0.0, offset=0.0),
+        impedance=LearnedImpedance(stiffness=np.ones(1), lead=0.0, offset=0.0),
     )
 
 
@@ -47,14 +47,14 @@ def test_inputs_are_the_height_and_the_velocities_newest_first():
 
 
 def test_heights_ahead_are_the_integral_of_the_velocities():
-    assert OUTLOOK.ahead(0.0) == (0.05, 0.0)
-    assert OUTLOOK.ahead(0.1)[0] == pytest.approx(0.06)
-    assert OUTLOOK.ahead(0.15)[0] == pytest.approx(0.07)
-    assert OUTLOOK.ahead(0.3)[0] == pytest.approx(0.07)
-    assert OUTLOOK.ahead(0.5)[0] == pytest.approx(0.05), "the last velocity goes on"
+    assert FORECAST.ahead(0.0) == (0.05, 0.0)
+    assert FORECAST.ahead(0.1)[0] == pytest.approx(0.06)
+    assert FORECAST.ahead(0.15)[0] == pytest.approx(0.07)
+    assert FORECAST.ahead(0.3)[0] == pytest.approx(0.07)
+    assert FORECAST.ahead(0.5)[0] == pytest.approx(0.05), "the last velocity goes on"
     for time in (0.03, 0.17, 0.26, 0.4):
-        slope = (OUTLOOK.ahead(time + 1e-6)[0] - OUTLOOK.ahead(time - 1e-6)[0]) / 2e-6
-        assert OUTLOOK.velocity(time) == pytest.approx(slope)
+        slope = (FORECAST.ahead(time + 1e-6)[0] - FORECAST.ahead(time - 1e-6)[0]) / 2e-6
+        assert FORECAST.velocity(time) == pytest.approx(slope)
 
 
 def test_the_variance_ahead_is_that_of_the_integral():
@@ -62,14 +62,14 @@ def test_the_variance_ahead_is_that_of_the_integral():
     rng = np.random.default_rng(1)
     drawn = rng.multivariate_normal(VELOCITIES.mean, VELOCITIES.covariance, 200_000)
     for time, spent in ((0.1, (0.1, 0, 0)), (0.15, (0.1, 0.05, 0)), (0.4, (0.1, 0.1, 0.2))):
-        assert OUTLOOK.ahead(time)[1] == pytest.approx((drawn @ spent).var(), rel=0.02)
+        assert FORECAST.ahead(time)[1] == pytest.approx((drawn @ spent).var(), rel=0.02)
 
 
 def test_a_persistent_task_goes_on_as_seen():
-    outlook = persistent().outlook([0.02, 0.03, 0.04])
-    assert outlook.height == 0.04
-    assert outlook.velocities.mean == pytest.approx([0.1, 0.1], abs=1e-4)
-    assert outlook.ahead(0.2)[0] == pytest.approx(0.06, abs=1e-4)
+    forecast = persistent().forecast([0.02, 0.03, 0.04])
+    assert forecast.height == 0.04
+    assert forecast.velocities.mean == pytest.approx([0.1, 0.1], abs=1e-4)
+    assert forecast.ahead(0.2)[0] == pytest.approx(0.06, abs=1e-4)
 
 
 def test_what_is_written_is_read_back_to_the_bit():
@@ -95,9 +95,9 @@ def test_the_shipped_task_says_where_it_comes_from():
 def test_the_shipped_task_knows_rest_and_motion():
     """At rest nothing is expected; a lift under way goes on, a fast one not for ever."""
     task = load_task()
-    still = task.outlook(np.zeros(task.past + 1))
+    still = task.forecast(np.zeros(task.past + 1))
     assert still.ahead(0.2)[0] == pytest.approx(0.0, abs=0.003)
-    rising = task.outlook(0.12 + 0.012 * np.arange(-task.past, 1))
+    rising = task.forecast(0.12 + 0.012 * np.arange(-task.past, 1))
     assert 0.12 + 0.014 < rising.ahead(0.2)[0] < 0.12 + 0.028
     assert rising.ahead(0.2)[1] > rising.ahead(0.1)[1] > 0.0
 
@@ -105,12 +105,12 @@ def test_the_shipped_task_knows_rest_and_motion():
 @pytest.mark.parametrize(
     ("change", "told"),
     [
-        ({"past": 0}, "past must be 1 to 3, so that some are coming, got 0"),
-        ({"past": 4}, "past must be 1 to 3, so that some are coming, got 4"),
+        ({"past": 0}, "past must be 1 to 3, to leave a coming velocity, got 0"),
+        ({"past": 4}, "past must be 1 to 3, to leave a coming velocity, got 4"),
         ({"interval": 0.0}, "interval must be a positive number, got 0.0"),
         ({"tolerance": np.nan}, "tolerance must be a positive number"),
         (
-            {"impedance": Impedance(stiffness=np.ones(2), lead=0.0, offset=0.0)},
+            {"impedance": LearnedImpedance(stiffness=np.ones(2), lead=0.0, offset=0.0)},
             "mixture of 1 components needs as many stiffnesses, got 2",
         ),
     ],
@@ -123,10 +123,10 @@ def test_parts_that_do_not_fit_are_refused(change, told):
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("", "no task model: JSONDecodeError"),
-        ("[]", "no task model: TypeError"),
-        ("{}", "no task model: KeyError: 'mixture'"),
-        (task_json(persistent()).replace('"weights"', '"shares"'), "no task model: TypeError"),
+        ("", "not a task model: JSONDecodeError"),
+        ("[]", "not a task model: TypeError"),
+        ("{}", "not a task model: KeyError: 'mixture'"),
+        (task_json(persistent()).replace('"weights"', '"shares"'), "not a task model: TypeError"),
         (task_json(persistent()).replace('"weights": [1.0]', '"weights": [0.5]'), "weights must"),
     ],
 )

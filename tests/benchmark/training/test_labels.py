@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 from colift.agents.agent import FRAME
-from colift.agents.control.modes import AHEAD, MODES, modes, stroke_ends, velocities
+from colift.agents.control.anticipation import MODES
+from colift.benchmark.training.labels import AHEAD, modes, stroke_ends, velocities
 
 SPEED = 0.1
 
