@@ -24,6 +24,7 @@ from .options import Jobs
 from .policies import AUTO, NONE, auto_level, usable_level
 from .printing import argument
 from .progress import progress_bar
+from .remedies import explained
 
 PRINTED_LINES: Final = 20
 """Lines of a policy's output that are shown with a failure."""
@@ -77,7 +78,7 @@ def all_checks(folder: Path, level: str | None, trusted: bool, jobs: int | None)
     try:
         submission = open_submission(folder)
     except InputError as error:
-        yield Check(name="files", ok=False, told=str(error))
+        yield Check(name="files", ok=False, told=explained(error))
         return
     yield from _files(submission)
     policy: AgentSpec

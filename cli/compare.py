@@ -32,7 +32,7 @@ from ..benchmark.execution.pool import local_pool
 from ..benchmark.suites.suite import Suite
 from .completion import policies as named
 from .completion import suites
-from .options import STANDARD, Jobs, chosen_suite
+from .options import STANDARD, Jobs, check_folder, chosen_suite
 from .policies import choose_policy
 from .printing import show
 from .progress import progress_bar
@@ -93,9 +93,9 @@ def compare_policies(
         spec.check()
     if out is not None:
         # The files need matplotlib, which is slow to load.
-        from ..benchmark.comparison.files import check_target, write_comparison
+        from ..benchmark.comparison.files import write_comparison
 
-        check_target(out)
+        check_folder("--out", out)
     limits = BOUNDS if bounds else {}
     comparison = _compare(specs, [each.entry for each in stored], episodes, limits, jobs)
     if out is not None:

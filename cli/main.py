@@ -8,6 +8,7 @@ import typer
 
 from ..agents.errors import EvaluatorFault, InputError
 from .commands import Commands
+from .remedies import explained
 
 app = typer.Typer(
     name="colift",
@@ -66,7 +67,7 @@ def main() -> None:
     try:
         app(prog_name="colift")
     except InputError as error:
-        _end(str(error), 2)
+        _end(explained(error), 2)
     except EvaluatorFault as fault:
         _end(str(fault), 1)
     except BrokenPipeError:

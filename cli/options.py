@@ -12,6 +12,7 @@ from ..agents.errors import InputError
 from ..benchmark.execution.connecting import dask_pool
 from ..benchmark.execution.pool import JOBS, local_pool
 from ..benchmark.suites.suite import Suite, make_suite, recorded_suite
+from .remedies import opened
 
 STANDARD: Final = "standard-v1"
 """The suite that is meant when none is named."""
@@ -82,7 +83,7 @@ def executor(jobs: int | None, dask: str | None) -> AbstractContextManager[Execu
         return local_pool(jobs)
     if jobs is not None:
         raise InputError("--jobs and --dask exclude each other: a cluster has its own workers")
-    return dask_pool(dask)
+    return opened(dask_pool(dask), "--dask")
 
 
 def write_output(path: Path | None, content: str) -> None:
@@ -90,6 +91,22 @@ def write_output(path: Path | None, content: str) -> None:
     if path is not None:
         path.write_text(content)
         print(f"written: {path}")
+
+
+def check_folder(option: str, folder: Path) -> None:
+    """Make the folder that an option names, or refuse it, before any work is done.
+
+    Raises
+    ------
+    InputError
+        If it is a file, or cannot be made or written to.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{option}: {folder} cannot be a folder: {error.strerror}") from error
+    if not os.access(folder, os.W_OK):
+        raise InputError(f"{option}: {folder} is not writable")
 
 
 def check_output(path: Path | None) -> None:

@@ -9,7 +9,7 @@ import typer
 from rich.console import RenderableType
 
 from ..benchmark.execution.pool import local_pool
-from .options import Jobs, seed_range
+from .options import Jobs, check_folder, seed_range
 from .printing import left, show, table
 from .progress import progress_bar
 
@@ -37,12 +37,12 @@ def paper(
     """Reproduce the paper: Table I, figures 4 to 9 and its claims, side by side with ours."""
     # The report needs matplotlib, which is slow to load: not for the other commands.
     from ..benchmark.paper.evidence import Effort, amount, gather
-    from ..benchmark.paper.report import check_target, claims_json, make_report, write_report
+    from ..benchmark.paper.report import claims_json, make_report, write_report
     from ..benchmark.suites.suite import make_suite
 
     suite = make_suite("paper-v1").with_seeds(*seed_range(seeds))
     effort = Effort(learning_trials=trials)
-    check_target(out)
+    check_folder("--out", out)
     try:
         with (
             local_pool(jobs) as pool,

@@ -71,7 +71,7 @@ def render_episode(
 
 # Drawing needs matplotlib, which is slow to load: not for the other commands.
 def _check(out: Path) -> None:
-    from ..benchmark.rendering.writing import SUFFIXES, check_target
+    from ..benchmark.rendering.writing import SUFFIXES, check_film
 
     if out.suffix not in (*SUFFIXES, HTML):
         known = ", ".join((*SUFFIXES, HTML))
@@ -79,7 +79,7 @@ def _check(out: Path) -> None:
     if out.suffix == HTML:
         check_output(out)
     else:
-        check_target(out)
+        check_film(out)
 
 
 def _film(out: Path, episode: Episode, played: Scenario, name: str) -> None:

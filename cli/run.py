@@ -13,7 +13,7 @@ import typer
 
 from ..agents.errors import EvaluatorFault, InputError
 from ..agents.spec import AgentSpec
-from ..benchmark.bundle import check_target, check_unfinished, results, write_bundle
+from ..benchmark.bundle import check_bundle_folder, check_unfinished, results, write_bundle
 from ..benchmark.execution.cluster import Cluster
 from ..benchmark.execution.journal import Journal, open_journal
 from ..benchmark.execution.provenance import origin, platform_of
@@ -25,6 +25,7 @@ from .options import STANDARD, Jobs, chosen_suite, executor
 from .policies import AUTO, HELP, choose_policy
 from .printing import argument, show
 from .progress import progress_bar
+from .remedies import naming, opened
 from .tables.results import results_table, standing
 
 GO_ON: Final = "what is finished is kept: go on by the same command with --resume"
@@ -81,9 +82,11 @@ def run(
     if resume and out is None:
         raise InputError("--resume needs the --out of the run that was interrupted")
     if out is not None:
-        check_target(out)
+        with naming("--out"):
+            check_bundle_folder(out)
         if not (force or resume):
-            check_unfinished(out)
+            with naming("--out", hint="--force replaces it"):
+                check_unfinished(out)
     spec = choose_policy(policy, isolation)
     spec.check()
     with executor(jobs, dask) as workers:
@@ -121,7 +124,10 @@ def _journal(
     out: Path | None, resume: bool, identity: Mapping[str, str]
 ) -> AbstractContextManager[Journal | None]:
     """Return where finished episodes are kept, if there is to be a bundle."""
-    return nullcontext() if out is None else open_journal(out, identity, resume=resume)
+    if out is None:
+        return nullcontext()
+    journal = open_journal(out, identity, resume=resume)
+    return opened(journal, "--resume" if resume else "--out")
 
 
 def _evaluate(

@@ -9,13 +9,14 @@ from typing import Annotated, Final
 import typer
 
 from ..agents.errors import EvaluatorFault
-from ..benchmark.bundle import check_target, check_unfinished, one_line, write_bundle
+from ..benchmark.bundle import check_bundle_folder, check_unfinished, one_line, write_bundle
 from ..benchmark.execution.pool import checked_jobs, process_pool
 from ..benchmark.execution.runner import Run
 from ..benchmark.results.headline import headline
 from ..benchmark.verification import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Verdict, verify
 from .options import Jobs
 from .progress import progress_bar
+from .remedies import naming
 
 MOST_LINES: Final = 20
 """In how many ways a bundle's platform is said to be another."""
@@ -50,9 +51,11 @@ def verify_bundle(
     """
     count = checked_jobs(jobs)
     if rescore is not None:
-        check_target(rescore)
+        with naming("--rescore"):
+            check_bundle_folder(rescore)
         if not force:
-            check_unfinished(rescore)
+            with naming("--rescore", hint="--force replaces it"):
+                check_unfinished(rescore)
     try:
         with (
             process_pool(count) as pool,

@@ -47,7 +47,9 @@ def write_from(folder: Path, text: str) -> None:
     place, _, parameters = PolicySpec(text=text).parts
     file, colon, name = place.rpartition(":")
     if not (colon and file.endswith(".py")):
-        raise InputError(f"--from must be file.py:Class, with parameters if any, got {text!r}")
+        raise InputError(
+            f"a policy to copy must be file.py:Class, with parameters if any, got {text!r}"
+        )
     path = Path(file)
     found = classes(path)
     if name not in found:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ..errors import InputError
+from ..errors import InputError, Remedy
 from ..loading.parameters import merged
 from ..sandbox.host.levels import strongest
 from ..sandbox.host.policy import SandboxedPolicy
@@ -82,7 +82,7 @@ def open_submission(folder: Path) -> Submission:
         As :func:`read_submission`, or if the copy cannot be written.
     """
     if folder.is_file():
-        raise InputError(_a_file(folder))
+        raise _a_file(folder)
     if folder.is_dir() and not os.path.lexists(folder / MANIFEST):
         raise _without_manifest(str(folder))  # Before a large folder of something else is read.
     place, contents = snapshot(folder)
@@ -99,27 +99,26 @@ def read_submission(folder: Path) -> Submission:
         file, the key and what would be right.
     """
     if folder.is_file():
-        raise InputError(_a_file(folder))
+        raise _a_file(folder)
     contents = read_folder(folder)
     return _submission(folder.absolute(), contents, str(folder))
 
 
-def _a_file(path: Path) -> str:
-    """Return how a file becomes a submission."""
-    told = f"{path} is a file; a submission is a folder"
+def _a_file(path: Path) -> InputError:
+    message = f"{path} is a file; a submission is a folder"
     if path.suffix != ".py":
-        return told
+        return InputError(message)
     try:
         name = next(reversed(classes(path)), "Class")
     except InputError:
         name = "Class"
-    return f"{told}, which 'colift new DIR --from {path}:{name}' makes of it"
+    return InputError(message, remedy=Remedy.SUBMISSION_FROM_FILE, target=f"{path}:{name}")
 
 
 def _without_manifest(shown: str) -> InputError:
     return InputError(
-        f"{shown} has no {MANIFEST}; a submission is a folder with {MANIFEST} and policy.py, "
-        "and 'colift new DIR' writes one"
+        f"{shown} has no {MANIFEST}; a submission is a folder with {MANIFEST} and policy.py",
+        remedy=Remedy.NEW_SUBMISSION,
     )
 
 

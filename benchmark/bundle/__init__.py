@@ -15,7 +15,7 @@ file               content
 from ..execution.provenance import fingerprint
 from .content import results
 from .differences import Difference, differences
-from .files import FILES, check_target, check_unfinished, read_files
+from .files import FILES, check_bundle_folder, check_unfinished, read_files
 from .reading import Bundle, parse, read_bundle
 from .recipe import Recipe
 from .table import one_line
@@ -26,7 +26,7 @@ __all__ = [
     "Bundle",
     "Difference",
     "Recipe",
-    "check_target",
+    "check_bundle_folder",
     "check_unfinished",
     "differences",
     "fingerprint",

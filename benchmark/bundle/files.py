@@ -32,7 +32,7 @@ LARGEST: Final[Mapping[str, int]] = {
 """All files that a bundle can have, and the bytes beyond which they are not read."""
 
 
-def check_target(folder: Path) -> None:
+def check_bundle_folder(folder: Path) -> None:
     """Refuse a folder that a bundle cannot be written to, before any work is done.
 
     Raises
@@ -42,10 +42,10 @@ def check_target(folder: Path) -> None:
     """
     if folder.exists():
         if not folder.is_dir():
-            raise InputError(f"--out must be a folder, {folder} is a file")
+            raise InputError(f"{folder} is a file, must be a folder")
         others = sorted({path.name for path in folder.iterdir()} - set(LARGEST))
         if others:
-            raise InputError(f"--out {folder} holds other things ({others[0]}); name a new folder")
+            raise InputError(f"{folder} holds other things ({others[0]}); name a new folder")
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=folder.parent):
@@ -70,9 +70,7 @@ def check_unfinished(folder: Path) -> None:
         content = {}
     if isinstance(content, dict) and content.get("complete") is False:
         return
-    raise InputError(
-        f"{folder} holds a finished result bundle: name a new folder, or replace it by --force"
-    )
+    raise InputError(f"{folder} holds a finished result bundle; name a new folder")
 
 
 def write_files(folder: Path, files: Mapping[str, bytes]) -> None:
@@ -81,9 +79,9 @@ def write_files(folder: Path, files: Mapping[str, bytes]) -> None:
     Raises
     ------
     InputError
-        As :func:`check_target`.
+        As :func:`check_bundle_folder`.
     """
-    check_target(folder)
+    check_bundle_folder(folder)
     with tempfile.TemporaryDirectory(dir=folder.parent) as temporary:
         made = Path(temporary) / "bundle"
         made.mkdir()

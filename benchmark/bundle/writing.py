@@ -51,7 +51,7 @@ def write_bundle(
     Raises
     ------
     InputError
-        As :func:`.check_target`.
+        As :func:`.check_bundle_folder`.
     """
     recipe = Recipe.of(run.suite)
     traces = [episode.trace for episode in run.episodes]

@@ -9,7 +9,7 @@ from typing import Final, Protocol
 
 import numpy as np
 
-from ...agents.errors import InputError
+from ...agents.errors import InputError, Remedy
 from ...agents.spec import AgentSpec
 from ..bundle import FILES, read_bundle
 from ..episode.scores import SCORING, Scores
@@ -182,7 +182,9 @@ def read_stored(folder: Path) -> Stored:
     if content["scoring"] != SCORING:
         raise InputError(
             f"{folder} has scores of version {content['scoring']}, this colift computes version "
-            f"{SCORING}: colift verify {folder} --rescore DIR writes a bundle with them"
+            f"{SCORING}",
+            remedy=Remedy.RESCORE,
+            target=str(folder),
         )
     if content["suite_digest"] != run.suite.digest:
         raise InputError(

@@ -4,13 +4,11 @@ import csv
 import dataclasses
 import io
 import json
-import os
 from collections.abc import Iterator
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from ...agents.errors import InputError
 from .comparison import Comparison
 from .contest import TEAM
 from .html import html_page
@@ -120,22 +118,6 @@ def _row(scope: Scope, standing: Standing) -> Iterator[tuple[str, object]]:
     yield "clipped", standing.clipped
 
 
-def check_target(folder: Path) -> None:
-    """Make the folder if need be, or refuse it, before any work is done.
-
-    Raises
-    ------
-    InputError
-        If it is a file, or cannot be made or written to.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"--out {folder} cannot be a folder: {error.strerror}") from error
-    if not os.access(folder, os.W_OK):
-        raise InputError(f"cannot write to --out {folder}: it is not writable")
-
-
 def write_comparison(folder: Path, comparison: Comparison) -> None:
     """Write ``compare.json``, ``compare.csv``, ``compare.png`` and ``compare.html`` into a folder.
 
@@ -143,10 +125,10 @@ def write_comparison(folder: Path, comparison: Comparison) -> None:
 
     Raises
     ------
-    InputError
-        As :func:`check_target`.
+    OSError
+        If it cannot be written to.
     """
-    check_target(folder)
+    folder.mkdir(parents=True, exist_ok=True)
     figure = comparison_figure(comparison, title=picture_title(comparison))
     content = json.dumps(comparison_json(comparison), indent=2, allow_nan=False) + "\n"
     (folder / "compare.png").write_bytes(png(figure))

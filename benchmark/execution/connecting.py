@@ -37,7 +37,7 @@ def dask_pool(address: str) -> Iterator[Cluster]:
     try:
         from distributed import Client
     except ImportError:
-        raise InputError(f"--dask needs Dask: {how_to_install('cluster')}") from None
+        raise InputError(f"Dask is not installed: {how_to_install('cluster')}") from None
     _reach(address)
     with (
         _quiet(logging.getLogger(LOGGER)),
@@ -47,7 +47,7 @@ def dask_pool(address: str) -> Iterator[Cluster]:
             client.wait_for_workers(1, timeout=CONNECT_SECONDS)
         except TimeoutError:
             raise InputError(
-                f"--dask {address}: the scheduler has no worker; start some: "
+                f"the Dask scheduler {address} has no worker; start some: "
                 f"dask worker {address} --nworkers auto --nthreads 1"
             ) from None
         with Cluster(client, address, _agreed(client, address)) as cluster:
@@ -60,11 +60,11 @@ def _reach(address: str) -> None:
         kind = asyncio.run(asyncio.wait_for(_kind(address), CONNECT_SECONDS))
     except Exception as error:
         raise InputError(
-            f"--dask {address}: no Dask scheduler answers ({error_text(error)}); "
-            "it should be such as tcp://host:8786"
+            f"no Dask scheduler answers at {address!r} ({error_text(error)}); "
+            "the address should be such as tcp://host:8786"
         ) from error
     if kind != "Scheduler":
-        raise InputError(f"--dask {address}: this is a Dask {kind}; name the scheduler")
+        raise InputError(f"{address} is the address of a Dask {kind}; name the scheduler")
 
 
 async def _kind(address: str) -> str:
@@ -97,12 +97,10 @@ def _agreed(client: Any, address: str) -> dict[str, str]:
         if isinstance(said, OSError):
             continue  # It has just died; the next one is looked at when it works.
         if isinstance(said, BaseException):
-            raise InputError(
-                f"--dask {address}: worker {worker} cannot run colift: {error_text(said)}"
-            )
+            raise InputError(f"Dask worker {worker} cannot run colift: {error_text(said)}")
         compare(said, {COLIFT: origin()[COLIFT]}, f"on worker {worker}", "here")
         agreed = agreed or said
         compare(said, agreed, f"on worker {worker}", "on another worker")
     if agreed is None:
-        raise InputError(f"--dask {address}: every worker has just died")
+        raise InputError(f"every worker of the Dask scheduler {address} has just died")
     return agreed

@@ -19,7 +19,7 @@ import msgpack
 import numpy as np
 from numpy.typing import NDArray
 
-from ...agents.errors import InputError
+from ...agents.errors import InputError, Remedy
 from ..episode.episode import Episode
 from ..episode.scores import Scores
 from ..episode.trace import Trace
@@ -81,7 +81,7 @@ def open_journal(bundle: Path, run: Mapping[str, str], *, resume: bool) -> Itera
     """
     path = journal_path(bundle)
     if resume and not path.exists():
-        raise InputError(f"--resume: there is no interrupted run of {bundle} (no file {path})")
+        raise InputError(f"there is no interrupted run of {bundle} (no file {path})")
     try:
         handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC, 0o644)
     except OSError as error:
@@ -106,15 +106,16 @@ def _begin(path: Path, handle: int, run: Mapping[str, str], resume: bool) -> dic
     data = path.read_bytes()
     found = list(records(data))
     if data and not (found and isinstance(found[0][0], dict) and "format" in found[0][0]):
-        raise InputError(f"{path} is not a journal of colift's; delete it or name another --out")
+        raise InputError(f"{path} is not a journal of colift's; delete it or name another folder")
     if resume and found:
         _compare(path, found[0][0], run)
         os.truncate(handle, found[-1][1])
         return {place: unpacked(episode) for (place, episode), _ in found[1:]}
     if found[1:]:
         raise InputError(
-            f"{path} holds {len(found) - 1} lifts of an interrupted run: go on with it by "
-            "--resume, name another --out, or delete it"
+            f"{path} holds {len(found) - 1} lifts of an interrupted run; resume it, name another "
+            "folder, or delete that file",
+            remedy=Remedy.RESUME,
         )
     try:
         os.truncate(handle, 0)
@@ -130,8 +131,8 @@ def _compare(path: Path, then: Mapping[str, Any], now: Mapping[str, str]) -> Non
         before, here = then.get(name, "none"), now.get(name, "none")
         if before != here:
             raise InputError(
-                f"--resume: the interrupted run had {name} {before!r}, this one has {here!r}; "
-                f"run it as it was, name another --out, or delete {path}"
+                f"the interrupted run had {name} {before!r}, this one has {here!r}; "
+                f"run it as it was, name another folder, or delete {path}"
             )
 
 

@@ -50,9 +50,9 @@ def checked_jobs(jobs: int | None) -> int:
         If it is not positive, or too large.
     """
     if jobs is not None and jobs < 1:
-        raise InputError(f"--jobs must be at least 1, got {jobs}")
+        raise InputError(f"jobs must be at least 1, got {jobs}")
     if jobs is not None and jobs > MOST_JOBS:
-        raise InputError(f"--jobs must be at most {MOST_JOBS}, got {jobs}")
+        raise InputError(f"jobs must be at most {MOST_JOBS}, got {jobs}")
     return default_jobs() if jobs is None else jobs
 
 

@@ -12,7 +12,6 @@ from typing import Any, Final
 
 import numpy as np
 
-from ...agents.errors import InputError
 from ..episode.episode import Episode
 from .evidence import Evidence
 from .exhibits import Claim, Picture
@@ -58,20 +57,6 @@ def make_report(evidence: Evidence) -> Report:
 def claims_json(report: Report) -> list[dict[str, Any]]:
     """Return the claims as ``claims.json`` holds them."""
     return [dataclasses.asdict(claim) for claim in report.claims]
-
-
-def check_target(folder: Path) -> None:
-    """Refuse a folder that the report cannot be written to, before any work is done.
-
-    Raises
-    ------
-    InputError
-        If it is a file, or cannot be made.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"--out {folder} cannot be a folder: {error}") from error
 
 
 def write_report(report: Report, folder: Path) -> None:

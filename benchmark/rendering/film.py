@@ -16,7 +16,7 @@ from .caption import PARTNERS, readout, title
 from .curves import Curves
 from .scene import Picture, Scene
 from .style import PAPER
-from .writing import check_target, write
+from .writing import check_film, write
 
 FPS: Final = 12.5
 """Pictures a second: 80 ms each, which a GIF can say exactly."""
@@ -142,7 +142,7 @@ def film_episode(
     InputError
         If the file cannot be written, or there is nothing to show.
     """
-    check_target(path)
+    check_film(path)
     shown_frames(episode, fps)
     if path.suffix == ".png":
         pictures = iter((still(episode, scenario, policy),))

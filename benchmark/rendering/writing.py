@@ -20,7 +20,7 @@ SAMPLES: Final = 5
 """Pictures of a film that its colours are chosen from."""
 
 
-def check_target(path: Path) -> None:
+def check_film(path: Path) -> None:
     """Refuse a file that cannot be written, before any work is done.
 
     Raises
@@ -58,11 +58,11 @@ def write(path: Path, pictures: Iterable[Picture], fps: float) -> None:
     Raises
     ------
     InputError
-        As :func:`check_target`, or if writing fails.
+        As :func:`check_film`, or if writing fails.
     ValueError
         If there is no picture, or more than one for a ``.png``.
     """
-    check_target(path)
+    check_film(path)
     partial = _partial(path)
     try:
         _writer(path)(partial, pictures, fps)

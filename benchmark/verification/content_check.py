@@ -76,7 +76,7 @@ def episode_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
     if missing:
         message = (
             f"missing, one of {len(missing)} of {suite.size} episodes: part of a suite has no "
-            "score; finish the run with colift run --resume"
+            "score; resume the run to finish it"
         )
         yield Finding(file=TRACES, episode=names[missing[0]], message=message)
 

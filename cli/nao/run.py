@@ -19,7 +19,7 @@ from ...agents.hardware.session import Session
 from ...agents.hardware.stops import StopTrialError
 from ...agents.hardware.trial_end import AfterDuration, AfterLift
 from ...agents.spec import AgentSpec
-from ...benchmark.bundle import check_target, results, write_bundle
+from ...benchmark.bundle import check_bundle_folder, results, write_bundle
 from ...benchmark.episode.episode import policy_seed
 from ...benchmark.execution.runner import Run
 from ...benchmark.hardware.timing import timing_report
@@ -27,6 +27,7 @@ from ...benchmark.hardware.trial import episode, hardware_run, hardware_suite
 from ...benchmark.suites.suite import Suite
 from ..policies import AUTO, HELP, choose_policy
 from ..printing import show
+from ..remedies import naming
 from ..tables.results import results_table, standing, timing_table
 from .connections import WORLD, Place, layout_of, open_place
 
@@ -97,7 +98,8 @@ def run_on_robot(
     name += " (dry run)" if dry_run else ""
     suite = hardware_suite(name, person, trials, period=control_period, latency=latency)
     if out is not None:
-        check_target(out)
+        with naming("--out"):
+            check_bundle_folder(out)
     if record is not None:
         record.mkdir(parents=True, exist_ok=True)
     button = StopButton()

@@ -100,7 +100,7 @@ def test_a_worker_does_what_waits_and_ends(colift, tmp_path, monkeypatch):
     [
         (("board", "--board", "board", "--season", "9"), "no season '9'; it has 1"),
         (("token", "revoke", "ada", "--board", "board"), "'ada' has no token"),
-        (("worker", "--board", "board", "--jobs", "0"), "--jobs must be at least 1"),
+        (("worker", "--board", "board", "--jobs", "0"), "jobs must be at least 1"),
         (
             ("worker", "--board", "board", "--jobs", "1", "--dask", "tcp://x:1"),
             "exclude each other",

@@ -281,7 +281,7 @@ def test_run_refuses_a_folder_that_is_no_submission(colift, mine):
 def test_wrong_usage_is_one_clear_line(colift, mine):
     for arguments, told in (
         (["check", "mine", "--isolation", "jail"], "unknown isolation 'jail'; known: auto, bubble"),
-        (["check", "mine", "--jobs", "0"], "--jobs must be at least 1"),
+        (["check", "mine", "--jobs", "0"], "jobs must be at least 1"),
     ):
         done = colift(*arguments)
         assert done.returncode == 2

@@ -95,7 +95,7 @@ def test_list_names_everything(colift):
         (["run", "copy", "--seeds", "5:5"], "5:5"),
         (["run", "copy", "--seeds", "5"], "A:B"),
         (["run", "copy", "--seeds=-1:3"], "A:B"),
-        (["run", "copy", "--jobs", "0"], "--jobs must be at least 1"),
+        (["run", "copy", "--jobs", "0"], "jobs must be at least 1"),
         (["run", "copy", "--jobs", "two"], "--jobs"),
         (["run", "copy", "--latency", "0.123"], "multiple of 0.01"),
         (["run", "copy", "--latency", "nan"], "latency"),
@@ -321,7 +321,7 @@ def test_an_option_that_is_spelt_wrong_is_guessed(colift):
     [
         (["run", "blend", "--seeds", "0:99999999999999999999"], "at most 12 digits"),
         (["run", "blend", "--seeds", "0:999999999"], "100000 seeds at most"),
-        (["run", "blend", "--jobs", "100000000"], "--jobs must be at most 1024"),
+        (["run", "blend", "--jobs", "100000000"], "jobs must be at most 1024"),
         (["run", "mine,"], "parameters are name=value with commas between, got ''"),
         (["run", "x" * 5000], "..."),
         (["render", "blend", "--out", "x.png", "--seed", "-3"], "--seed must not be negative"),

@@ -89,8 +89,8 @@ def test_a_folders_parameters_change_its_name_and_digest(colift, pd):
         ("pd.py:Pd", "pd.py has no class 'Pd'; did you mean PD? it has Helper, PD"),
         ("pd.py:PD,lead", "parameters are name=value with commas between, got 'lead'"),
         ("nowhere.py:PD", "cannot read nowhere.py: No such file or directory"),
-        ("pd.py", "--from must be file.py:Class, with parameters if any, got 'pd.py'"),
-        ("blend", "--from must be file.py:Class, with parameters if any, got 'blend'"),
+        ("pd.py", "a policy to copy must be file.py:Class, with parameters if any, got 'pd.py'"),
+        ("blend", "a policy to copy must be file.py:Class, with parameters if any, got 'blend'"),
         ("bad.py:PD", "bad.py is not Python: "),
     ],
 )
@@ -106,7 +106,7 @@ def test_what_cannot_be_taken_is_one_line_and_nothing_is_written(colift, pd, tmp
 def test_check_says_how_a_file_becomes_a_folder(colift, pd):
     done = colift("check", "pd.py", COLUMNS="200")
     assert done.returncode == 1
-    assert "which 'colift new DIR --from pd.py:PD' makes of it" in done.stdout
+    assert "'colift new DIR --from pd.py:PD' makes one of it" in done.stdout
 
 
 def test_a_folder_is_listed_and_drawn_as_a_name_is(colift, pd, tmp_path):

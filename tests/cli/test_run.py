@@ -176,7 +176,8 @@ def test_another_version_does_not_go_on(slow, interrupted, another_colift):
 def test_an_interrupted_run_is_not_begun_anew(colift, slow, interrupted):
     code, _, told = colift("run", slow, "--suite", "quick-v1", "--out", interrupted)
     assert code == 2
-    assert "lifts of an interrupted run: go on with it by --resume" in told
+    assert "lifts of an interrupted run; resume it, name another folder" in told
+    assert told.endswith("(--resume goes on with it)\n")
 
 
 def test_ctrl_c_in_the_baselines_keeps_the_run(tmp_path):
@@ -264,21 +265,25 @@ def test_what_is_wrong_is_said_in_a_line(colift, options, words):
 
 def test_a_missing_dask_names_the_extra():
     code, told = run("copy", "--dask", "tcp://127.0.0.1:1", start=("-c", WITHOUT_DASK))
-    assert (code, told) == (2, f"error: --dask needs Dask: {how_to_install('cluster')}\n")
+    assert (code, told) == (
+        2,
+        f"error: --dask: Dask is not installed: {how_to_install('cluster')}\n",
+    )
 
 
 def test_a_finished_bundle_is_replaced_only_when_that_is_asked_for(colift, tmp_path):
     command = ("run", "hold", "--suite", "quick-v1", "--seeds", "0:1", "--jobs", 1, "--out", "kept")
     assert colift(*command).returncode == 0
     before = (tmp_path / "kept" / "results.json").read_bytes()
-    for again in (command, ("verify", "kept", "--rescore", "kept")):
-        done = colift(*again)
-        assert done == (
-            2,
-            "",
-            "error: kept holds a finished result bundle: name a new folder, or replace it by "
-            "--force\n",
+    for again, option in (
+        (command, "--out"),
+        (("verify", "kept", "--rescore", "kept"), "--rescore"),
+    ):
+        error = (
+            f"error: {option}: kept holds a finished result bundle; name a new folder; "
+            "--force replaces it\n"
         )
+        assert colift(*again) == (2, "", error)
     assert (tmp_path / "kept" / "results.json").read_bytes() == before
     other = ("copy" if word == "hold" else word for word in command)
     assert colift(*other, "--force").returncode == 0

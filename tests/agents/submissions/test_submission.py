@@ -163,8 +163,7 @@ class TestWrong:
     def test_no_folder(self, read, mine):
         assert self.refused(read, mine / "nowhere") == f"{mine}/nowhere: no such folder"
         assert self.refused(read, mine / "policy.py") == (
-            f"{mine}/policy.py is a file; a submission is a folder, which "
-            f"'colift new DIR --from {mine}/policy.py:Policy' makes of it"
+            f"{mine}/policy.py is a file; a submission is a folder"
         )
         assert self.refused(read, mine / "policy.toml") == (
             f"{mine}/policy.toml is a file; a submission is a folder"
@@ -173,8 +172,7 @@ class TestWrong:
     def test_no_manifest(self, read, mine):
         (mine / "policy.toml").unlink()
         assert self.refused(read, mine) == (
-            f"{mine} has no policy.toml; a submission is a folder with policy.toml and policy.py, "
-            "and 'colift new DIR' writes one"
+            f"{mine} has no policy.toml; a submission is a folder with policy.toml and policy.py"
         )
 
     def test_a_manifest_that_is_a_folder(self, read, mine):

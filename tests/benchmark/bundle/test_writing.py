@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.loading.loading import PolicySpec
-from colift.benchmark.bundle import FILES, check_target, read_bundle, results, write_bundle
+from colift.benchmark.bundle import FILES, check_bundle_folder, read_bundle, results, write_bundle
 from colift.benchmark.bundle.content import real_time
 from colift.benchmark.episode.scores import SCORING
 from colift.benchmark.execution.provenance import fingerprint
@@ -88,9 +88,9 @@ def test_an_older_bundle_is_replaced_and_other_things_are_left_alone(run, bundle
 def test_a_file_in_the_way_is_refused(tmp_path):
     (tmp_path / "there").write_text("")
     with pytest.raises(InputError, match="is a file"):
-        check_target(tmp_path / "there")
+        check_bundle_folder(tmp_path / "there")
     with pytest.raises(InputError, match="cannot write"):
-        check_target(tmp_path / "there" / "below")
+        check_bundle_folder(tmp_path / "there" / "below")
 
 
 def test_a_policy_without_smoothness_has_none_in_the_bundle(tmp_path):

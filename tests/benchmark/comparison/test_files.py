@@ -9,10 +9,8 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
-from colift.agents.errors import InputError
 from colift.benchmark.comparison.comparison import Comparison, compare
 from colift.benchmark.comparison.files import (
-    check_target,
     comparison_csv,
     comparison_json,
     write_comparison,
@@ -150,11 +148,3 @@ def test_the_words_say_where_it_is_better_than_people(comparison: Comparison) ->
     follower = [e for e in comparison.contest.entries if e.name in ("follower", "still")]
     two = compare(dataclasses.replace(comparison.contest, entries=tuple(follower)))
     assert verdict(two).endswith(" On jerky it is more level than two people.")
-
-
-def test_a_file_in_the_way_is_refused(tmp_path: Path) -> None:
-    (tmp_path / "taken").write_text("mine")
-    with pytest.raises(InputError, match="taken cannot be a folder"):
-        check_target(tmp_path / "taken")
-    with pytest.raises(InputError, match="cannot be a folder"):
-        check_target(tmp_path / "taken" / "below")

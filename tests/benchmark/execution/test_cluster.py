@@ -209,7 +209,10 @@ def test_idle_threads_are_counted_and_the_address_of_a_worker_is_refused(bare_ad
     with worker(bare_address, "--nthreads", "3"), dask_pool(bare_address) as connected:
         assert connected.idle_threads == 2
         (address,) = connected._workers
-        with pytest.raises(InputError, match="this is a Dask Worker; name the"), dask_pool(address):
+        with (
+            pytest.raises(InputError, match="the address of a Dask Worker; name the"),
+            dask_pool(address),
+        ):
             pass
 
 
@@ -217,7 +220,7 @@ def test_idle_threads_are_counted_and_the_address_of_a_worker_is_refused(bare_ad
     "address", ["nonsense", "tcp://localhost", "http://127.0.0.1:80", "tls://127.0.0.1:1", ""]
 )
 def test_what_is_no_address_is_refused(address):
-    told = f"--dask {address}: no Dask scheduler answers .* should be such as tcp://host:8786"
+    told = f"no Dask scheduler answers at {address!r} .* should be such as tcp://host:8786"
     with pytest.raises(InputError, match=told), dask_pool(address):
         pass
 
@@ -236,4 +239,4 @@ def test_an_address_without_a_scheduler_is_refused(listening, monkeypatch):
 
 def test_a_missing_dask_names_the_extra():
     done = subprocess.run([sys.executable, "-c", WITHOUT_DASK], capture_output=True, text=True)
-    assert done.stdout == f"--dask needs Dask: {how_to_install('cluster')}\n"
+    assert done.stdout == f"Dask is not installed: {how_to_install('cluster')}\n"

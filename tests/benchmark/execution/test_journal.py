@@ -126,7 +126,7 @@ def test_what_only_one_run_has_is_a_difference(interrupted):
 
 def test_an_interrupted_run_is_not_overwritten(interrupted):
     with (
-        pytest.raises(InputError, match=r"holds 2 lifts of an interrupted run.*--resume"),
+        pytest.raises(InputError, match="holds 2 lifts of an interrupted run; resume it"),
         open_journal(interrupted, RUN, resume=False),
     ):
         pass

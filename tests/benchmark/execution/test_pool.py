@@ -158,5 +158,5 @@ def test_one_job_needs_no_pool_and_none_is_refused():
     with local_pool(1) as none:
         assert none is None
     for jobs in (0, -3):
-        with pytest.raises(InputError, match=f"--jobs must be at least 1, got {jobs}"):
+        with pytest.raises(InputError, match=f"jobs must be at least 1, got {jobs}"):
             local_pool(jobs).__enter__()

@@ -6,8 +6,7 @@ import re
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
-from colift.benchmark.paper.report import check_target, make_report, write_report
+from colift.benchmark.paper.report import make_report, write_report
 from colift.benchmark.paper.table_one import WITH_PREDICTION, WITHOUT_PREDICTION
 
 FIGURES = (
@@ -135,9 +134,3 @@ def test_the_same_evidence_gives_the_same_files(made, tmp_path):
     write_report(make_report(made.evidence), tmp_path)
     for path in tmp_path.iterdir():
         assert path.read_bytes() == (made.folder / path.name).read_bytes()
-
-
-def test_a_file_is_no_folder_to_write_to(tmp_path):
-    (tmp_path / "taken").write_text("")
-    with pytest.raises(InputError, match="taken"):
-        check_target(tmp_path / "taken")

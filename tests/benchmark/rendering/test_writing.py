@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.benchmark.rendering.scene import Picture
-from colift.benchmark.rendering.writing import check_target, write
+from colift.benchmark.rendering.writing import check_film, write
 from PIL import Image, ImageSequence
 
 
@@ -55,7 +55,7 @@ def test_mp4_without_the_extra_says_what_to_install(
 ) -> None:
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     with pytest.raises(InputError, match=r"mp4 needs imageio-ffmpeg: "):
-        check_target(tmp_path / "a.mp4")
+        check_film(tmp_path / "a.mp4")
 
 
 def test_png_is_the_picture(tmp_path: Path) -> None:
@@ -80,25 +80,25 @@ def test_unknown_suffix_lists_the_known(tmp_path: Path, name: str) -> None:
 
 def test_missing_folder_is_named(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=f"there is no folder {tmp_path / 'absent'}"):
-        check_target(tmp_path / "absent" / "a.gif")
+        check_film(tmp_path / "absent" / "a.gif")
 
 
 def test_file_in_place_of_the_folder_is_named(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(InputError, match=f"there is no folder {tmp_path / 'file'}"):
-        check_target(tmp_path / "file" / "a.gif")
+        check_film(tmp_path / "file" / "a.gif")
 
 
 def test_folder_that_takes_no_files_is_named() -> None:
     # Not even the superuser can put a file there.
     with pytest.raises(InputError, match="cannot write to /proc"):
-        check_target(Path("/proc/a.gif"))
+        check_film(Path("/proc/a.gif"))
 
 
 def test_folder_in_place_of_the_file_is_refused(tmp_path: Path) -> None:
     (tmp_path / "a.gif").mkdir()
     with pytest.raises(InputError, match="it is a folder"):
-        check_target(tmp_path / "a.gif")
+        check_film(tmp_path / "a.gif")
 
 
 @pytest.mark.parametrize("suffix", [".gif", ".mp4"])

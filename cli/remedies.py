@@ -1,0 +1,43 @@
+"""Errors in the words of the command line: options, and the commands that remedy them."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from typing import Final, TypeVar
+
+from ..agents.errors import InputError, Remedy
+
+T = TypeVar("T")
+
+REMEDIES: Final[Mapping[Remedy, str]] = {
+    Remedy.RESUME: "--resume goes on with it",
+    Remedy.RESCORE: "'colift verify {target} --rescore DIR' writes a bundle with present scores",
+    Remedy.NEW_SUBMISSION: "'colift new DIR' writes one",
+    Remedy.SUBMISSION_FROM_FILE: "'colift new DIR --from {target}' makes one of it",
+}
+"""The option or command for each remedy."""
+
+
+def explained(error: InputError) -> str:
+    """Return an error with the option or the command that remedies it, if there is one."""
+    if error.remedy is None:
+        return str(error)
+    return f"{error} ({REMEDIES[error.remedy].format(target=error.target)})"
+
+
+@contextmanager
+def naming(option: str, hint: str = "") -> Iterator[None]:
+    """Put an option before the message of an InputError, and a hint behind it, if there is one."""
+    try:
+        yield
+    except InputError as error:
+        parts = (f"{option}: {explained(error)}", hint)
+        raise InputError("; ".join(filter(None, parts))) from error
+
+
+@contextmanager
+def opened(context: AbstractContextManager[T], option: str) -> Iterator[T]:
+    """Enter a context; an InputError while entering it names the option, one in the body not."""
+    with ExitStack() as stack:
+        with naming(option):
+            value = stack.enter_context(context)
+        yield value
