@@ -105,3 +105,13 @@ def test_a_glossary_entry_stands_once():
     terms = re.findall(r"^\| \*\*(.+?)\*\*", (ROOT / "docs/glossary.md").read_text(), re.MULTILINE)
     assert len(terms) >= 35
     assert len(terms) == len(set(terms))
+
+
+@pytest.mark.parametrize("page", pages())
+def test_paths_in_the_documentation_exist(page):
+    found = re.findall(
+        r"`((?:agents|benchmark|cli|leaderboard|robots|tests|examples|docs)/[\w/.-]+)`",
+        (ROOT / page).read_text(),
+    )
+    missing = [path for path in found if not (ROOT / path).exists()]
+    assert [path for path in missing if path != "leaderboard/data"] == []
