@@ -33,7 +33,9 @@ class Season:
 
 @dataclass(frozen=True, kw_only=True)
 class SeasonInfo:
-    """What is published of a season."""
+    """What is published of a season: one suite, one secret, one table."""
+
+    __pydantic_config__ = {"use_attribute_docstrings": True}  # noqa: RUF012  The API's descriptions.
 
     name: str
     suite: str

@@ -10,9 +10,10 @@ from starlette.concurrency import run_in_threadpool
 from ...agents.submissions.folder import LIMITS
 from ...agents.submissions.packages import PACKAGES
 from ..board.standings import RankedRow
+from ..records.season import SeasonInfo
 from ..views.exports import standings_csv
 from ..views.lifts import StratumScore, stratum_scores
-from .answers import EntryAnswer, RulesAnswer, SeasonAnswer, StandingAnswer
+from .answers import EntryAnswer, RulesAnswer, StandingAnswer
 from .dependencies import (
     BINARY,
     MISSING,
@@ -37,9 +38,9 @@ SENDING_S: Final = 600.0
 
 
 @router.get("/seasons")
-def seasons(service: Service) -> list[SeasonAnswer]:
+def seasons(service: Service) -> list[SeasonInfo]:
     """Return all seasons of the board."""
-    return [SeasonAnswer.of(season) for season in service.board.seasons()]
+    return list(service.board.seasons())
 
 
 @router.get("/standings", responses=MISSING)
@@ -55,7 +56,7 @@ def get_standings(
     """
     rows = _standings(service, season)
     if behaviour is None and subject is None:
-        return [StandingAnswer.of(row, None) for row in rows]
+        return [StandingAnswer.of_row(row, None) for row in rows]
     strata = [_strata(service, row) for row in rows]
     _check_word("behaviour", behaviour, {stratum.behaviour for some in strata for stratum in some})
     _check_word("subject", subject, {stratum.subject for some in strata for stratum in some})
@@ -67,7 +68,7 @@ def get_standings(
         ]
         for some in strata
     ]
-    return [StandingAnswer.of(row, some) for row, some in zip(rows, chosen, strict=True)]
+    return [StandingAnswer.of_row(row, some) for row, some in zip(rows, chosen, strict=True)]
 
 
 @router.get(
@@ -90,7 +91,7 @@ def entry(service: Service, request: Request, season: SeasonName, digest: Digest
     bundle = None
     if service.board.bundle(season, digest) is not None:
         bundle = f"{api_root(request)}/entries/{season}/{digest}/bundle.zip"
-    return EntryAnswer.of(found, service.board.events(season, digest), bundle)
+    return EntryAnswer.of(found, events=service.board.events(season, digest), bundle=bundle)
 
 
 @router.get(

@@ -94,7 +94,7 @@ async def submissions(
     """Return the last submissions of who the token belongs to, the newest first."""
     submitter = await _submitter(service, credentials)
     found = await run_in_threadpool(service.queue.jobs, limit=MINE, submitter=submitter)
-    return [SubmissionAnswer.of(each, api_root(request)) for each in found]
+    return [SubmissionAnswer.of_job(each, api_root(request)) for each in found]
 
 
 @router.get("/jobs/{job}", responses=MISSING)
