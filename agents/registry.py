@@ -1,7 +1,8 @@
-"""Finding agents by name.
+"""Policies, human behaviours, suites and tasks by name.
 
-Every agent, ours or a third party's, is found the same way: by an entry point of the group
-``colift.policies`` or ``colift.humans``, ``name = "module:Class"``. Ours are in pyproject.toml.
+All of them, ours and those of other packages, are entry points: ``name = "module:Class"`` in the
+group ``colift.policies``, ``colift.humans`` or ``colift.tasks``, or ``name = "module:function"`` in
+``colift.suites``. Ours are in pyproject.toml.
 """
 
 import functools
@@ -13,8 +14,10 @@ from .near_names import did_you_mean
 
 POLICIES: Final = "colift.policies"
 HUMANS: Final = "colift.humans"
+SUITES: Final = "colift.suites"
+TASKS: Final = "colift.tasks"
 
-_KIND: Final = {POLICIES: "policy", HUMANS: "human behaviour"}
+_KIND: Final = {POLICIES: "policy", HUMANS: "human behaviour", SUITES: "suite", TASKS: "task"}
 
 
 @functools.cache
@@ -37,13 +40,13 @@ def entries(group: str) -> dict[str, EntryPoint]:
 
 
 def own_entries(group: str) -> dict[str, EntryPoint]:
-    """Return the entry points of a group whose classes are in colift itself."""
-    known = entries(group)
-    return {name: known[name] for name in known if known[name].module.startswith(f"{__package__}.")}
+    """Return the entry points of a group that are in colift itself."""
+    own = f"{__package__.partition('.')[0]}."
+    return {name: entry for name, entry in entries(group).items() if entry.module.startswith(own)}
 
 
 def lookup(group: str, name: str) -> Any:
-    """Return the class that is registered under ``name``.
+    """Return the class, or the function, that is registered under ``name``.
 
     Raises
     ------
@@ -61,6 +64,6 @@ def lookup(group: str, name: str) -> Any:
         raise InputError(f"{_KIND[group]} {name!r} ({known[name].value}) fails: {told}") from error
 
 
-def summary(agent: type) -> str:
-    """Return the first line of an agent's docstring, as shown in lists."""
-    return (agent.__doc__ or "").strip().partition("\n")[0]
+def summary(registered: object) -> str:
+    """Return the first line of the docstring of something registered, as shown in lists."""
+    return (registered.__doc__ or "").strip().partition("\n")[0]

@@ -5,12 +5,13 @@ from typing import Annotated
 
 import typer
 
+from ..agents.registry import SUITES, own_entries
 from ..benchmark.bounds.causal import BOUNDS
 from ..benchmark.comparison.contest import play_bounds
 from ..benchmark.execution.pool import local_pool
 from ..benchmark.results.baselines import SPECS, Baseline, ToShip, baselines_json, play_baselines
 from ..benchmark.statistics import stratified_bootstrap
-from ..benchmark.suites.suite import SUITES, make_suite
+from ..benchmark.suites.suite import make_suite
 from .options import Jobs, check_output, write_output
 from .printing import left, show, table
 from .progress import progress_bar
@@ -24,7 +25,7 @@ def baselines(
 ) -> None:
     """Play two people, hold, copy and the bounds on every suite; print the errors by behaviour."""
     check_output(out)
-    suites = [make_suite(name) for name in SUITES]
+    suites = [make_suite(name) for name in own_entries(SUITES)]
     total = (len(SPECS) + len(BOUNDS)) * sum(suite.size for suite in suites)
     played: list[ToShip] = []
     with (

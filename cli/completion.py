@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..agents.humans import SUBJECTS
-from ..agents.registry import HUMANS, POLICIES, entries
+from ..agents.registry import HUMANS, POLICIES, SUITES, entries
 from ..agents.submissions.manifest import MANIFEST
 
 
@@ -29,9 +29,7 @@ def policies(incomplete: str) -> Iterator[str]:
 
 def suites(incomplete: str) -> Iterator[str]:
     """Yield the suites whose names begin so."""
-    from ..benchmark.suites.suite import SUITES  # Loads the simulator.
-
-    yield from (name for name in SUITES if name.startswith(incomplete))
+    yield from (name for name in entries(SUITES) if name.startswith(incomplete))
 
 
 def behaviours(incomplete: str) -> Iterator[str]:

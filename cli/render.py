@@ -65,7 +65,7 @@ def render_episode(
     else:
         _film(out, episode, played, spec.name)
     print(f"{out}: {episode.behaviour}/{episode.subject} seed {seed}, ", end="")
-    print(f"RMSE {episode.scores.rmse_mm:.1f} mm", end="")
+    print(f"RMSE {episode.scores['rmse_mm']:.1f} mm", end="")
     print(f"; ended early: {episode.failure}" if episode.failure else "")
 
 

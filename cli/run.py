@@ -14,6 +14,7 @@ import typer
 from ..agents.errors import EvaluatorFault, InputError
 from ..agents.spec import AgentSpec
 from ..benchmark.bundle import check_bundle_folder, check_unfinished, results, write_bundle
+from ..benchmark.episode.metric import Metrics
 from ..benchmark.execution.cluster import Cluster
 from ..benchmark.execution.journal import Journal, open_journal
 from ..benchmark.execution.provenance import origin, platform_of
@@ -103,7 +104,7 @@ def run(
             if journal is not None and finished:
                 journal.remove()
     if content is not None:
-        _print_results(content, out, as_json=as_json)
+        _print_results(content, episodes.metrics, out, as_json=as_json)
     if _complain(done, finished=finished, hint="" if out is None else GO_ON):
         raise typer.Exit(1)
 
@@ -153,12 +154,14 @@ def _evaluate(
     return done, ready
 
 
-def _print_results(content: dict[str, Any], out: Path | None, *, as_json: bool) -> None:
+def _print_results(
+    content: dict[str, Any], metrics: Metrics, out: Path | None, *, as_json: bool
+) -> None:
     """Print the results, as tables and where the policy stands, or as JSON alone."""
     if as_json:
         print(json.dumps(content, indent=2, allow_nan=False))
         return
-    show(results_table(content), standing(content))
+    show(results_table(content, metrics), standing(content))
     if out is not None:
         print(f"Result bundle: {out}")
         if content["complete"]:

@@ -19,6 +19,6 @@ print("| reading | RMSE mm | SPARC | mean confidence |\n|---|---|---|---|")
 for name, parameters in READINGS.items():
     found = colift.evaluate(Blend(parameters=parameters), suite="paper-v1")
     episodes = found.run.episodes
-    sparc = np.nanmean([episode.scores.sparc for episode in episodes])
+    sparc = np.nanmean([episode.scores["sparc"] for episode in episodes])
     confidence = np.concatenate([e.trace.internals["confidence"] for e in episodes]).mean()
     print(f"| {name} | {found.rmse_mm:.2f} | {sparc:.2f} | {confidence:.2f} |")

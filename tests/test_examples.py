@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from colift.benchmark.suites import suite
+from colift.agents.registry import SUITES, entries
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -21,7 +21,8 @@ def test_plot_plans_draws_a_picture(tmp_path, monkeypatch):
 
 
 def test_readings_prints_a_row_for_each_reading(monkeypatch, capsys):
-    monkeypatch.setitem(suite.SUITES, "paper-v1", suite.SUITES["quick-v1"])
+    known = entries(SUITES)
+    monkeypatch.setitem(known, "paper-v1", known["quick-v1"])
     runpy.run_path(str(EXAMPLES / "readings.py"))
     heading, _, *rows = capsys.readouterr().out.splitlines()
     assert heading.startswith("| reading | RMSE mm |")

@@ -150,4 +150,4 @@ def _against(name: str, run: Run, whole: Run) -> Ablation:
 
 
 def _values(run: Run, metric: str) -> np.ndarray[Any, np.dtype[np.float64]]:
-    return np.array([getattr(episode.scores, metric) for episode in run.episodes])
+    return np.array([episode.scores[metric] for episode in run.episodes])

@@ -71,7 +71,7 @@ def foreknow(lift: Lift, seed: int) -> Episode:
     best: Episode | None = None
     for _ in range(REHEARSALS):
         episode = run_episode(lift, Foreknowing(path, lift.frames_per_step), seed)
-        if best is None or episode.scores.rmse_mm < best.scores.rmse_mm:
+        if best is None or episode.scores["rmse_mm"] < best.scores["rmse_mm"]:
             best = episode
         trace = episode.trace
         left = trace.human_end - trace.robot_end

@@ -111,7 +111,7 @@ def team_rmse(
 ) -> float:
     """Return the mean RMSE of the human-human team [mm]: it has no such timing."""
     run = human_team_run(suite, executor=executor, progress=progress)
-    return float(np.mean([episode.scores.rmse_mm for episode in run.episodes]))
+    return float(np.mean([episode.scores["rmse_mm"] for episode in run.episodes]))
 
 
 def _mean(name: str, run: Run, timing: Timing) -> Swept:
@@ -119,6 +119,6 @@ def _mean(name: str, run: Run, timing: Timing) -> Swept:
         policy=name,
         latency=timing.latency,
         control_period=timing.control_period,
-        rmse_mm=float(np.mean([episode.scores.rmse_mm for episode in run.episodes])),
-        sparc=float(np.nanmean([episode.scores.sparc for episode in run.episodes])),
+        rmse_mm=float(np.mean([episode.scores["rmse_mm"] for episode in run.episodes])),
+        sparc=float(np.nanmean([episode.scores["sparc"] for episode in run.episodes])),
     )

@@ -5,7 +5,7 @@ from importlib.metadata import version
 from typing import Any
 
 from ...agents.hardware.decisions import POLICY_SHARE
-from ..episode.scores import SCORING
+from ..episode.metric import SCORING
 from ..execution.runner import Run
 from ..results.baselines import HUMAN_HUMAN, Baseline
 from ..results.summary import group, summarise
@@ -26,7 +26,7 @@ def results(run: Run, baselines: Mapping[str, Baseline]) -> dict[str, Any]:
         Other agents on the same episodes, by name; see :mod:`colift.benchmark.results.baselines`.
     """
     team = baselines.get(HUMAN_HUMAN)
-    summary = summarise(run.episodes, team.rmse_mm if team else None)
+    summary = summarise(run.episodes, run.suite.metrics, team.rmse_mm if team else None)
     summary["real_time"] = real_time(summary["step_ms"]["p99"], run.suite)
     return {
         "colift": version("colift"),
@@ -38,7 +38,7 @@ def results(run: Run, baselines: Mapping[str, Baseline]) -> dict[str, Any]:
         "isolation": one_line(run.isolation),
         "evaluator_faults": run.faults,
         "summary": summary,
-        "groups": group(run.episodes, team.by_stratum() if team else None),
+        "groups": group(run.episodes, run.suite.metrics, team.by_stratum() if team else None),
         "baselines": {name: _baseline(value) for name, value in baselines.items()},
     }
 

@@ -130,7 +130,7 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
     if places[-1] >= lifts:
         raise InputError(f"{TRACES}: the suite has no place {places[-1]}")
     logs = _logs(files[LOGS], len(traces)) if LOGS in files else [""] * len(traces)
-    episodes = parse_table(files[EPISODES], traces, logs)
+    episodes = parse_table(files[EPISODES], traces, logs, recipe.metrics())
     kept = kept_logs(episodes)
     if LOGS in files and (not kept or files[LOGS] != dump_json(kept)):
         raise InputError(f"{LOGS}: not the end of what was printed in lifts that failed, in order")

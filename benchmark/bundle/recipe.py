@@ -5,15 +5,16 @@ import io
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final, Self, cast
+from typing import Any, Final, Self
 
 from ...agents.errors import InputError
 from ...agents.humans import Recorded, load_recordings
 from ...agents.humans.recordings import COLUMNS
+from ..episode.level import LEVEL
+from ..episode.metric import Metrics
 from ..episode.scenario import Scenario
-from ..suites.catalogue import RECORDED, make_scenario, make_subject
+from ..suites.catalogue import RECORDED, make_scenario, make_subject, make_task
 from ..suites.suite import LONGEST_SUITE_NAME, Suite, plain_name
-from ..world import Partner
 from .files import MANIFEST, RECORDINGS
 from .json_text import checked, pick
 
@@ -38,6 +39,7 @@ class Recipe:
     partner: str
     control_period: float
     latency: float
+    task: str = LEVEL.name
     recordings: bytes | None = None
     """The recordings as a CSV file, if people's recorded lifts are played."""
 
@@ -46,7 +48,7 @@ class Recipe:
         """Return the recipe of a suite; None if it cannot be made from names.
 
         That is so of behaviours and subjects that are not registered, or whose parameters were
-        changed, and of scenarios that differ in partner, control period or latency.
+        changed, and of scenarios that differ in partner, control period, latency or task.
         """
         first = suite.scenarios[0]
         recipe = cls(
@@ -56,6 +58,7 @@ class Recipe:
             partner=first.partner,
             control_period=float(first.control_period),
             latency=float(first.latency),
+            task=first.task.name,
             recordings=_recordings(suite.scenarios),
         )
         try:
@@ -79,10 +82,19 @@ class Recipe:
             raise InputError(f"{MANIFEST}: {error}") from None
         return Suite(name=self.name, scenarios=scenarios, seeds=self.seeds)
 
+    def metrics(self) -> Metrics:
+        """Return the metrics of the task.
+
+        Raises
+        ------
+        InputError
+            If there is no task of that name.
+        """
+        return make_task(self.task).metrics
+
     def _scenario(
         self, behaviour: str, subject: str, trial: str, recorded: dict[str, Recorded]
     ) -> Scenario:
-        partner = cast(Partner, self.partner)  # Scenario checks it.
         if behaviour == RECORDED:
             if trial not in recorded:
                 raise InputError(f"{RECORDINGS} has no trial {trial!r:.80}")
@@ -91,14 +103,17 @@ class Recipe:
                 human=recorded[trial],
                 trial=trial,
                 subject=make_subject(subject),
-                partner=partner,
+                partner=self.partner,
                 control_period=self.control_period,
                 latency=self.latency,
+                task=make_task(self.task),
             )
         # A name with a colon would be that of a file.
         if trial or ":" in behaviour:
             raise InputError(f"there is no behaviour {behaviour!r:.80} with trial {trial!r:.80}")
-        return make_scenario(behaviour, subject, partner, self.control_period, self.latency)
+        return make_scenario(
+            behaviour, subject, self.partner, self.control_period, self.latency, self.task
+        )
 
     def plain(self) -> dict[str, Any]:
         """Return what JSON can hold of it: all but the recordings."""
@@ -107,6 +122,7 @@ class Recipe:
             "partner": self.partner,
             "control_period": self.control_period,
             "latency": self.latency,
+            "task": self.task,
             "seeds": list(self.seeds),
             "scenarios": ["/".join(filter(None, names)) for names in self.scenarios],
         }
@@ -147,6 +163,7 @@ class Recipe:
             partner=pick(content, "partner", str, MANIFEST),
             control_period=pick(content, "control_period", float, MANIFEST),
             latency=pick(content, "latency", float, MANIFEST),
+            task=pick(content, "task", str, MANIFEST),
             recordings=recordings,
         )
         if recipe.plain() != content:

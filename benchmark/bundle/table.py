@@ -8,12 +8,9 @@ from typing import Final
 
 from ...agents.errors import InputError
 from ..episode.episode import Episode
-from ..episode.scores import METRICS, Scores
+from ..episode.metric import Metrics, reached
 from ..episode.trace import Trace
 from .files import EPISODES, TRACES
-
-FIELDS: Final = ("behaviour", "subject", "trial", "seed", *METRICS, "reached", "failure")
-"""The columns."""
 
 LONGEST_REASON: Final = 1000
 """Characters of a failure's reason that are kept."""
@@ -25,13 +22,33 @@ def one_line(text: str) -> str:
     return "".join(shown)[:LONGEST_REASON]
 
 
-def dump_table(episodes: Sequence[Episode]) -> bytes:
-    """Return one row an episode; an empty field where there is no value."""
+def columns(metrics: Metrics) -> tuple[str, ...]:
+    """Return the names of the columns."""
+    return ("behaviour", "subject", "trial", "seed", *metrics, "reached", "failure")
+
+
+def table_row(episode: Episode, metrics: Metrics) -> dict[str, object]:
+    """Return an episode as one row of the table, by column."""
+    values = (
+        episode.behaviour,
+        episode.subject,
+        episode.trial,
+        episode.seed,
+        *(episode.scores[name] for name in metrics),
+        reached(episode.scores, metrics),
+        episode.failure or "",
+    )
+    return dict(zip(columns(metrics), values, strict=True))
+
+
+def dump_table(episodes: Sequence[Episode], metrics: Metrics) -> bytes:
+    """Return one row per episode; a field without a value is empty."""
     text = io.StringIO()
-    writer = csv.DictWriter(text, fieldnames=FIELDS, lineterminator="\n")
+    writer = csv.DictWriter(text, fieldnames=columns(metrics), lineterminator="\n")
     writer.writeheader()
     for episode in episodes:
-        writer.writerow({name: _field(value) for name, value in episode.row().items()})
+        row = table_row(episode, metrics)
+        writer.writerow({name: _field(value) for name, value in row.items()})
     return text.getvalue().encode()
 
 
@@ -41,7 +58,9 @@ def _field(value: object) -> object:
     return one_line(value) if isinstance(value, str) else value
 
 
-def parse_table(data: bytes, traces: Sequence[Trace], logs: Sequence[str]) -> tuple[Episode, ...]:
+def parse_table(
+    data: bytes, traces: Sequence[Trace], logs: Sequence[str], metrics: Metrics
+) -> tuple[Episode, ...]:
     """Return the episodes of a table.
 
     Parameters
@@ -50,6 +69,8 @@ def parse_table(data: bytes, traces: Sequence[Trace], logs: Sequence[str]) -> tu
         The file.
     traces, logs
         What goes with each row.
+    metrics
+        The metrics of the task.
 
     Raises
     ------
@@ -60,15 +81,15 @@ def parse_table(data: bytes, traces: Sequence[Trace], logs: Sequence[str]) -> tu
         rows = list(csv.reader(io.StringIO(data.decode(), newline=""), strict=True))
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{EPISODES}: not a CSV file in UTF-8: {error}") from None
-    if not rows or tuple(rows[0]) != FIELDS:
-        raise InputError(f"{EPISODES}: the first line must be {','.join(FIELDS)}")
+    if not rows or tuple(rows[0]) != columns(metrics):
+        raise InputError(f"{EPISODES}: the first line must be {','.join(columns(metrics))}")
     if len(rows) - 1 != len(traces):
         raise InputError(f"{EPISODES}: {len(rows) - 1} episodes, but {TRACES} has {len(traces)}")
     episodes = tuple(
-        _episode(row, trace, log, f"{EPISODES}, row {number}")
+        _episode(row, trace, log, metrics, f"{EPISODES}, row {number}")
         for number, (row, trace, log) in enumerate(zip(rows[1:], traces, logs, strict=True), 1)
     )
-    written = dump_table(episodes)
+    written = dump_table(episodes, metrics)
     if written != data:
         lines = zip(written.split(b"\n"), data.split(b"\n"), strict=False)
         line = next((i for i, (a, b) in enumerate(lines, 1) if a != b), len(rows) + 1)
@@ -76,12 +97,13 @@ def parse_table(data: bytes, traces: Sequence[Trace], logs: Sequence[str]) -> tu
     return episodes
 
 
-def _episode(row: list[str], trace: Trace, log: str, where: str) -> Episode:
-    if len(row) != len(FIELDS):
-        raise InputError(f"{where}: {len(row)} fields, must be {len(FIELDS)}")
-    values = dict(zip(FIELDS, row, strict=True))
-    scores = {name: _number(values[name], f"{where}: {name}") for name in METRICS}
-    for metric in METRICS.values():
+def _episode(row: list[str], trace: Trace, log: str, metrics: Metrics, where: str) -> Episode:
+    names = columns(metrics)
+    if len(row) != len(names):
+        raise InputError(f"{where}: {len(row)} fields, must be {len(names)}")
+    values = dict(zip(names, row, strict=True))
+    scores = {name: _number(values[name], f"{where}: {name}") for name in metrics}
+    for metric in metrics.values():
         if metric.missing == "never" and math.isnan(scores[metric.name]):
             raise InputError(f"{where}: {metric.name} is missing")
     return Episode(
@@ -89,7 +111,7 @@ def _episode(row: list[str], trace: Trace, log: str, where: str) -> Episode:
         subject=values["subject"],
         trial=values["trial"],
         seed=_seed(values["seed"], f"{where}: seed"),
-        scores=Scores(**scores),
+        scores=scores,
         failure=values["failure"] or None,
         trace=trace,
         step_times=(),

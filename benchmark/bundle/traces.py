@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ...agents.errors import InputError
 from ..episode.recorder import HASH_BYTES
-from ..episode.trace import Trace
+from ..episode.trace import ADDED, BY_STEP, Trace
 from .arrays import Arrays
 from .files import TRACES
 
@@ -28,17 +28,15 @@ LARGEST_LIFT: Final = 2**24
 """Bytes that a lift's arrays may take: 120 s with a decision every frame and as many internals as
 there may be take 11 MB."""
 
-BY_STEP: Final = ("action", "human_action")
-"""Series with a row a step; the others have a number a frame."""
-
 
 def dump_traces(traces: Sequence[Trace], places: Sequence[int]) -> Arrays:
     """Return the traces as arrays.
 
-    ``places``, ``frames`` and ``steps`` (k,) say of each of the k episodes where in the suite it
-    is, counted from 0, and how many frames and steps it has. Then come the series of
-    :class:`.Trace`, ``state``, and as ``internals/NAME`` what the policy said of itself, NaN where
-    it said nothing; names with other characters than letters, digits and ``_.-`` are left out.
+    ``places``, ``frames`` and ``steps`` (k,) are each episode's place in the suite, counted from 0,
+    and its numbers of frames and steps. Then follow the series of :class:`.Trace`; ``task/NAME``,
+    the series that the task adds; ``state``; and ``internals/NAME``, the policy's own explanation,
+    NaN where there is none. Names with characters other than letters, digits and ``_.-`` are left
+    out.
     """
     arrays: dict[str, NDArray[Any]] = {
         "places": np.array(places, dtype="<i8"),
@@ -48,6 +46,9 @@ def dump_traces(traces: Sequence[Trace], places: Sequence[int]) -> Arrays:
     for name in Trace.series():
         parts = [getattr(trace, name) for trace in traces]
         arrays[name] = np.concatenate(parts).astype("<f8")
+    for name in traces[0].added:
+        parts = [trace.added[name] for trace in traces]
+        arrays[ADDED + name] = np.concatenate(parts).astype("<f8")
     arrays["state"] = np.concatenate([trace.state for trace in traces])
     said = sorted({name for trace in traces for name in trace.internals})
     for name in [name for name in said if _PLAIN_NAME.fullmatch(name)][:MOST_INTERNALS]:
@@ -79,6 +80,11 @@ def parse_traces(arrays: Arrays) -> tuple[tuple[Trace, ...], tuple[int, ...]]:
         name: _series(arrays, name, sum(steps) if name in BY_STEP else sum(frames))
         for name in Trace.series()
     }
+    added = {
+        name.removeprefix(ADDED): _series(arrays, name, sum(frames))
+        for name in sorted(arrays)
+        if name.startswith(ADDED)
+    }
     per_step = series["human_action"].shape[1]
     for episode, (n, m) in enumerate(zip(frames, steps, strict=True)):
         if n != m * per_step:
@@ -97,7 +103,8 @@ def parse_traces(arrays: Arrays) -> tuple[tuple[Trace, ...], tuple[int, ...]]:
         last_frame, last_step = frame.stop, step.stop
         cut = {name: all_[step if name in BY_STEP else frame] for name, all_ in series.items()}
         said = {name.removeprefix(INTERNALS): all_[step] for name, all_ in internals.items()}
-        traces.append(Trace(**cut, state=state[step], internals=said))
+        own = {name: all_[frame] for name, all_ in added.items()}
+        traces.append(Trace(**cut, state=state[step], added=own, internals=said))
     return tuple(traces), places
 
 

@@ -57,7 +57,7 @@ def write_bundle(
     traces = [episode.trace for episode in run.episodes]
     files = {
         RESULTS: dump_json(content),
-        EPISODES: dump_table(run.episodes),
+        EPISODES: dump_table(run.episodes, run.suite.metrics),
         TRACES: dump_arrays(dump_traces(traces, places(run))),
     }
     if recipe is not None and recipe.recordings is not None:

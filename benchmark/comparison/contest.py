@@ -12,7 +12,7 @@ import numpy as np
 from ...agents.errors import InputError, Remedy
 from ...agents.spec import AgentSpec
 from ..bundle import FILES, read_bundle
-from ..episode.scores import SCORING, Scores
+from ..episode.metric import SCORING, Metric, Scores, on_boards
 from ..execution.runner import Run, run_suite
 from ..results.baselines import (
     HUMAN_HUMAN,
@@ -76,6 +76,11 @@ class Contest:
     """The human-human team."""
     bounds: Mapping[str, Baseline] = field(default_factory=dict)
     """What no policy is expected to beat."""
+
+    @property
+    def metrics(self) -> tuple[Metric, ...]:
+        """The metrics that are compared beside RMSE."""
+        return on_boards(self.suite.metrics)
 
     @property
     def baselines(self) -> dict[str, Baseline]:

@@ -6,7 +6,7 @@ from typing import Final
 
 from markupsafe import Markup, escape
 
-from ..episode.scores import BOARD, Metric
+from ..episode.metric import Metric
 from ..rendering.page import Cell, Row, render
 from ..rendering.style import FAINT, HUMAN, INK, LINE, PAPER, ROBOT, SKY
 from ..statistics import Estimate
@@ -28,14 +28,6 @@ COLOURS: Final = {
 }
 """The page's name for each colour of a picture: it is another in the dark."""
 
-RANKS: Final = (
-    "policy",
-    "rank",
-    "RMSE mm",
-    "vs_human",
-    *(each.heading for each in BOARD),
-    "step ms",
-)
 SIZES: Final = (("wide", 8.4, 5.6), ("narrow", 4.0, 5.2))
 """The picture on wide and on narrow pages: width and height [inches]."""
 
@@ -53,7 +45,14 @@ def html_page(comparison: Comparison) -> str:
         verdict=words.verdict(comparison),
         odd=(*words.failures(comparison), *words.oddities(comparison)),
         pictures=[_picture(comparison, *size) for size in SIZES],
-        ranks_header=RANKS,
+        ranks_header=(
+            "policy",
+            "rank",
+            "RMSE mm",
+            "vs_human",
+            *(each.heading for each in comparison.contest.metrics),
+            "step ms",
+        ),
         ranks=_ranks(comparison),
         against_header=AGAINST,
         against=_against(comparison),
@@ -81,7 +80,7 @@ def _picture(comparison: Comparison, kind: str, width: float, height: float) -> 
 
 def _ranks(comparison: Comparison) -> list[Row]:
     entries = {entry.name: entry for entry in comparison.contest.entries}
-    rows = [_rank_row(comparison.overall, s, entries[s.name]) for s in comparison.overall.standings]
+    rows = [_rank_row(comparison, s, entries[s.name]) for s in comparison.overall.standings]
     rows += [_baseline_row(comparison, name) for name in comparison.contest.baselines]
     return rows
 
@@ -93,13 +92,14 @@ def _baseline_row(comparison: Comparison, name: str) -> Row:
         Cell(""),
         _estimate(rmse, ".2f"),
         Cell(f"{rmse.mean / overall.team_rmse_mm.mean:.2g}"),
-        *(Cell(metric.text(baseline.means[metric.name])) for metric in BOARD),
+        *(Cell(metric.text(baseline.means[metric.name])) for metric in comparison.contest.metrics),
         Cell(""),
     ]
     return Row(name, cells, kind="baseline")
 
 
-def _rank_row(overall: Scope, standing: Standing, entry: Entry) -> Row:
+def _rank_row(comparison: Comparison, standing: Standing, entry: Entry) -> Row:
+    overall, metrics = comparison.overall, comparison.contest.metrics
     steps = entry.step_ms
     return Row(
         standing.name,
@@ -107,7 +107,7 @@ def _rank_row(overall: Scope, standing: Standing, entry: Entry) -> Row:
             Cell(str(standing.rank) if overall.decisive else "", best=overall.best(standing)),
             _estimate(standing.rmse_mm, ".2f"),
             _estimate(standing.vs_human, ".2f"),
-            *(_metric(metric, standing.metrics[metric.name]) for metric in BOARD),
+            *(_metric(metric, standing.metrics[metric.name]) for metric in metrics),
             Cell("none") if steps is None else Cell(f"{steps[0]:.3f}", f"{steps[1]:.3f}"),
         ],
     )

@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from ..episode.scores import BOARD
+from ..episode.metric import Metric
 from ..results.summary import Stratum
 from ..statistics import (
     Estimate,
@@ -129,7 +129,7 @@ def scope(contest: Contest, kind: Kind, name: str, members: Sequence[int]) -> Sc
             for name, baseline in contest.baselines.items()
         },
         standings=tuple(
-            _standing(entries[name], chosen, strata, team, ranks[name], difference)
+            _standing(entries[name], contest.metrics, chosen, strata, team, ranks[name], difference)
             for name, difference in zip(order, differences, strict=True)
         ),
         decisive=decisive(len(errors), len(members)),
@@ -153,6 +153,7 @@ def _to_best(
 
 def _standing(
     entry: Entry,
+    metrics: Sequence[Metric],
     chosen: FloatArray,
     strata: Sequence[Stratum],
     team: FloatArray,
@@ -169,7 +170,7 @@ def _standing(
         better_than_human=probability_better(rmse, team, strata),
         metrics={
             metric.name: _metric_mean(_values(entry, metric.name)[chosen], strata)
-            for metric in BOARD
+            for metric in metrics
         },
         clipped=mean_with_missing(_values(entry, "clipped")[chosen]).mean,
         to_best=to_best,

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from ...agents.actions import HAND_SPEED
-from ..episode.scores import MOSTLY_CLIPPED
+from ..episode.level_metrics import MOSTLY_CLIPPED
 from .comparison import Comparison
 from .contest import TEAM
 from .standing import Scope

@@ -14,18 +14,15 @@ from ..episode.lift import Lift
 from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..rendering.scene import Scene, check_render_mode
 from ..suites.catalogue import make_scenario
-from ..world import Partner
 from .settings import (
+    HUMAN,
+    ROBOT,
+    action_space,
     check_names,
     check_options,
     check_times,
-    human_action_space,
-    human_observation_space,
-    robot_action_space,
-    robot_observation_space,
+    observation_space,
 )
-
-HUMAN, ROBOT = "human", "robot"
 
 
 class ParallelLift(ParallelEnv[str, Observation, Action]):
@@ -89,15 +86,9 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         self.lift = Lift(scenario)
         self.possible_agents = [HUMAN, ROBOT]
         self.agents: list[str] = []
-        frames = scenario.frames_per_step
-        self.observation_spaces = {HUMAN: human_observation_space(frames)}
-        self.action_spaces = {HUMAN: human_action_space(frames)}
-        if scenario.partner == "human":
-            self.observation_spaces[ROBOT] = human_observation_space(frames)
-            self.action_spaces[ROBOT] = human_action_space(frames)
-        else:
-            self.observation_spaces[ROBOT] = robot_observation_space()
-            self.action_spaces[ROBOT] = robot_action_space(scenario.control_period)
+        agents = self.possible_agents
+        self.observation_spaces = {agent: observation_space(self.lift, agent) for agent in agents}
+        self.action_spaces = {agent: action_space(self.lift, agent) for agent in agents}
         self._rng = np.random.default_rng()
         self._scene: Scene | None = None
 
@@ -162,14 +153,13 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
             raise ValueError(f"actions must name every agent, missing: {', '.join(missing)}")
         lift = self.lift
         lift.step(actions[HUMAN], actions[ROBOT])
-        level = abs(lift.world.human_end[-1] - lift.world.robot_end[-1])
-        miss = abs(lift.world.human_end[-1] - lift.target[lift.frame - 1])
+        rewards = lift.task.rewards(lift)
         dropped, truncated = lift.dropped is not None, lift.truncated
         agents = self.agents
         info = {"dropped": lift.dropped} if dropped else {}
         result = (
             self._observations(),
-            {HUMAN: -float(miss) - level, ROBOT: -level},
+            dict(zip((HUMAN, ROBOT), rewards, strict=True)),
             dict.fromkeys(agents, dropped),
             dict.fromkeys(agents, truncated),
             {agent: dict(info) for agent in agents},
@@ -215,7 +205,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
 def parallel_env(
     scenario: str = "smooth",
     subject: str = "S1",
-    partner: Partner = "nao",
+    partner: str = "nao",
     control_period: float = CONTROL_PERIOD,
     latency: float = LATENCY,
     render_mode: str | None = None,

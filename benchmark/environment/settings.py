@@ -1,4 +1,4 @@
-"""Spaces and settings that the views of the environment share."""
+"""Agents, spaces and settings that the views of the environment share."""
 
 from collections.abc import Mapping
 from typing import Any, Final
@@ -6,54 +6,33 @@ from typing import Any, Final
 import numpy as np
 from gymnasium.spaces import Box
 
-from ...agents.actions import action_limit
-from ...agents.agent import FRAME, HumanObservation, RobotObservation
 from ...agents.errors import InputError
-from ..episode.lift import REFERENCE_RANGE
-from ..episode.scenario import LONGEST_PERIOD
+from ..episode.lift import Lift
+from ..episode.seat import REFERENCE_RANGE
+
+HUMAN, ROBOT = "human", "robot"
+"""The two agents."""
 
 SETTINGS: Final = ("scenario", "subject", "partner", "control_period", "latency", "render_mode")
 """What an environment is made with, and keeps."""
 
-HEIGHT_BOUND: Final = 2.0
-"""Bound of every height in an observation [m]; a lift stays far inside it."""
 
-VELOCITY_BOUND: Final = 50.0
-FORCE_BOUND: Final = 1e4
-
-LONGEST_EPISODE: Final = 120.0
-"""Bound of the time in an observation [s]."""
-
-
-def robot_action_space(control_period: float) -> Box:
-    """Return the robot's actions: the change of its hand command in one period [m]."""
-    limit = action_limit(control_period)
-    return Box(-limit, limit, (1,), np.float64)
+def action_space(lift: Lift, agent: str) -> Box:
+    """Return an agent's actions: one number of the range of its seat for each that is due [m]."""
+    if agent == HUMAN:
+        return Box(*REFERENCE_RANGE, (lift.frames_per_step,), np.float64)
+    return Box(
+        *lift.seat.action_range(lift.scenario.control_period), (lift.partner_size,), np.float64
+    )
 
 
-def human_action_space(frames: int) -> Box:
-    """Return a human's actions: a hand reference for each of the step's frames [m]."""
-    return Box(*REFERENCE_RANGE, (frames,), np.float64)
-
-
-def robot_observation_space() -> Box:
-    """Return the robot's observations, laid out as :class:`.RobotObservation`."""
-    bound = np.full(len(RobotObservation), HEIGHT_BOUND)
-    low = -bound
-    bound[RobotObservation.TIME] = LONGEST_EPISODE + LONGEST_PERIOD
-    low[RobotObservation.TIME] = 0.0
-    return Box(low, bound, dtype=np.float64)
-
-
-def human_observation_space(frames: int) -> Box:
-    """Return a human's observations, laid out as :class:`.HumanObservation`."""
-    bound = np.full(HumanObservation.size(frames), HEIGHT_BOUND)
-    bound[HumanObservation.OWN_VELOCITY] = VELOCITY_BOUND
-    bound[HumanObservation.HAND_FORCE] = FORCE_BOUND
-    low = -bound
-    bound[HumanObservation.TIME] = LONGEST_EPISODE + FRAME
-    low[HumanObservation.TIME] = 0.0
-    return Box(low, bound, dtype=np.float64)
+def observation_space(lift: Lift, agent: str) -> Box:
+    """Return an agent's observations, within the bounds that the task states."""
+    if agent == ROBOT and lift.seat.is_robot:
+        low, high = lift.task.robot_bounds()
+    else:
+        low, high = lift.task.human_bounds(lift.frames_per_step)
+    return Box(low, high, dtype=np.float64)
 
 
 def check_names(**names: object) -> None:

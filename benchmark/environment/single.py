@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from ...agents.agent import Action, Agent, Observation
 from ...agents.errors import InputError
-from .parallel import HUMAN, ROBOT, parallel_env
-from .settings import SETTINGS, check_options
+from .parallel import parallel_env
+from .settings import HUMAN, ROBOT, SETTINGS, check_options
 
 _KNOWN: Final = ", ".join(name for name in SETTINGS if name != "partner")
 

@@ -1,15 +1,15 @@
 """One episode: an agent at the robot's end, a scripted human at the other, and what came of it."""
 
 import time
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Final
 
 from ...agents.actions import ActionError, checked_action
 from ...agents.agent import Agent, Explaining, Printing
 from ...agents.errors import EvaluatorFault, error_text
 from .lift import Lift
+from .metric import Scores
 from .recorder import Recorder
-from .scores import Scores, score
 from .seeding import derive_seed
 from .trace import Trace
 
@@ -40,18 +40,6 @@ class Episode:
     that failed. Not kept in files."""
     log: str = ""
     """The end of what the policy printed, if it was kept apart."""
-
-    def row(self) -> dict[str, object]:
-        """Return the episode as one row of a table."""
-        return {
-            "behaviour": self.behaviour,
-            "subject": self.subject,
-            "trial": self.trial,
-            "seed": self.seed,
-            **asdict(self.scores),
-            "reached": self.scores.reached,
-            "failure": self.failure or "",
-        }
 
 
 def policy_seed() -> int:
@@ -119,7 +107,7 @@ def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
         subject=scenario.subject.name,
         trial=scenario.trial,
         seed=seed,
-        scores=score(lift, trace, failed=failure is not None),
+        scores=lift.task.score(lift, trace, failed=failure is not None),
         failure=failure,
         trace=trace,
         step_times=tuple(times),

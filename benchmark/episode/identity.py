@@ -24,8 +24,8 @@ from ...agents.humans import (
 )
 from ...agents.identity import Root, code_hash
 from ...robots.nao.kinematics import STROKE
-from ..world import PHYSICS, SERVO, human_body, table
-from . import lift, metrics, scores, smoothness
+from ..world import HISTORY_FRAMES, PHYSICS, SERVO, human_body, table
+from . import level, level_metrics, lift, metrics, seat, smoothness
 from .episode import run_episode
 from .lift import Lift
 from .recorder import Recorder
@@ -39,8 +39,12 @@ PLANS: Final[tuple[Root, ...]] = (Smooth, Pause, Jerky, ChangingGoal, Recorded)
 PLAYS_AND_SCORES: Final[tuple[Root, ...]] = (*SIMULATES, RobotObservation, run_episode)
 """What makes an episode's scores of a human's plan and a policy."""
 
-STATED: Final[tuple[Root, ...]] = ((calibration, "CALIBRATION"),)
-"""What the code uses and the numbers state: subjects are in the scenarios."""
+STATED: Final[tuple[Root, ...]] = (
+    (calibration, "CALIBRATION"),
+    (level_metrics, "LEVEL_METRICS"),
+)
+"""What the code uses and the digest states elsewhere, or not at all: subjects are in the scenarios;
+how metrics are shown changes no score."""
 
 
 def numbers() -> Mapping[str, Any]:
@@ -53,9 +57,9 @@ def numbers() -> Mapping[str, Any]:
             "sensors": {"noise_m": lift.MOCAP_NOISE},
             "hand": {"speed_m_s": HAND_SPEED, "stroke_m": STROKE},
             "drop": {
-                "tilt_rad": lift.DROP_TILT,
-                "force_n": lift.GRIP_FORCE,
-                "gap_m": lift.GRIP_GAP,
+                "tilt_rad": level.DROP_TILT,
+                "force_n": level.GRIP_FORCE,
+                "gap_m": level.GRIP_GAP,
             },
             "table": {
                 "length_m": table.TABLE_LENGTH,
@@ -65,10 +69,10 @@ def numbers() -> Mapping[str, Any]:
                 "gravity_m_s2": table.GRAVITY,
             },
             "human": {
-                "reference_m": lift.REFERENCE_RANGE,
+                "reference_m": seat.REFERENCE_RANGE,
                 "reflex_m": human_body.REFLEX_LIMIT,
                 "muscle_s": human_body.MUSCLE_TIME,
-                "history_frames": human_body.HISTORY_FRAMES,
+                "history_frames": HISTORY_FRAMES,
             },
             "second_human": {"subject": PARTNER_SUBJECT, "lag_s": CALIBRATION.partner_lag},
             "metrics": {
@@ -77,7 +81,7 @@ def numbers() -> Mapping[str, Any]:
                 "least_motion_m": metrics.MIN_MOTION,
                 "least_share": metrics.MIN_SHARE,
                 "lag_s": (metrics.MIN_LAG, metrics.MAX_LAG),
-                "reached_m": scores.REACHED,
+                "reached_m": level_metrics.REACHED,
                 "least_speed_m_s": smoothness.MIN_PEAK_SPEED,
                 "least_samples": smoothness.MIN_SAMPLES,
             },

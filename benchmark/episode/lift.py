@@ -1,36 +1,25 @@
-"""One lift: the task on top of the world, without any library's dress."""
+"""The lift: sensors, actions and time on top of a world, independent of PettingZoo."""
 
-import math
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...agents.actions import HAND_SPEED, checked_action
+from ...agents.actions import action_limit, checked_action
 from ...agents.agent import FRAME, HISTORY, HumanObservation, Observation
 from ...agents.humans import PARTNER_SUBJECT, Plan, ScriptedHuman, Subject
-from ...robots.nao.kinematics import STROKE
-from ..world import PHYSICS, BodyParameters, Physics, World
-from ..world.human_body import HISTORY_FRAMES
-from ..world.table import TABLE_LENGTH
+from ..world import HISTORY_FRAMES, BodyParameters, BulletWorld, FarEnd, World
 from .scenario import Scenario
+from .seat import body_parameters, within_range
 from .seeding import derive_seed
 
 MOCAP_NOISE: Final = 0.00023
 """Standard deviation of a motion-capture height [m]; the system of the paper is precise within
 0.7 mm (section II.A), read as three standard deviations."""
 
-DROP_TILT: Final = math.radians(40)
-"""A table inclined by more than this [rad] slides out of the hands."""
-
-GRIP_FORCE: Final = 20.0
-"""Mean force over a control period [N] above which the partner's two hands lose the table."""
-
-GRIP_GAP: Final = 0.03
-"""Distance between the NAO's hands and the table's end [m] at which the hold is lost."""
-
-REFERENCE_RANGE: Final = (-0.2, 0.5)
-"""Heights a human's hand reference is held to [m]."""
+MakeWorld = Callable[[BodyParameters, FarEnd], World]
+"""Returns a world of a person and a holder of the far end."""
 
 
 class Lift:
@@ -44,22 +33,20 @@ class Lift:
     ----------
     scenario
         Who lifts how.
-    physics
-        Time step and solver of the world.
+    world
+        Makes the world of the human's body and the far end.
     """
 
-    def __init__(self, scenario: Scenario, *, physics: Physics = PHYSICS) -> None:
+    def __init__(self, scenario: Scenario, *, world: MakeWorld = BulletWorld) -> None:
         self.scenario = scenario
+        self.task = scenario.task
+        self.seat = seat = scenario.seat
         self.frames_per_step = scenario.frames_per_step
-        # How many numbers an action at the robot's end has.
-        self.partner_size = 1 if scenario.partner == "nao" else self.frames_per_step
-        self.step_limit = HAND_SPEED * scenario.control_period
-        self._latency = scenario.latency_frames
-        subject = scenario.subject
-        self._human_delays = _delays(subject)
+        self.partner_size = seat.action_size(self.frames_per_step)
+        self.step_limit = action_limit(scenario.control_period)
+        self._human_delays = _delays(scenario.subject)
         self._partner_delays = _delays(PARTNER_SUBJECT)
-        second = body_parameters(PARTNER_SUBJECT) if scenario.partner == "human" else None
-        self.world = World(scenario.partner, body_parameters(subject), second, physics=physics)
+        self.world: World = world(body_parameters(scenario.subject), seat.body)
 
     def reset(self, seed: int) -> None:
         """Begin the episode ``seed``: draw the human's plan and the sensors' noise."""
@@ -108,7 +95,7 @@ class Lift:
         human
             Hand reference for each frame [m], shape ``(frames_per_step,)``.
         partner
-            The robot's change of its hand command [m], shape ``(1,)``, held to the hand's speed
+            The robot's change of its hand command [m], shape ``(1,)``, clipped to the hand's speed
             and stroke; or the second human's hand references, as ``human``.
 
         Raises
@@ -123,54 +110,23 @@ class Lift:
 
     def carry_out(self, human: list[float], partner: list[float]) -> None:
         """Advance by one control period, by two actions that :func:`.checked_action` returned."""
-        size, world = self.frames_per_step, self.world
-        reference = _within_range(human)
-        if self.scenario.partner == "nao":
-            commands = self._ramp(partner[0])
-        else:
-            commands = _within_range(partner)
-        world.advance(reference, commands)
+        commands = self.seat.commands(self, partner)
+        self.world.advance(within_range(human), commands)
         self.command = commands[-1]
-        self.frame += size
-        tilt = world.human_end[-1] - world.robot_end[-1]
-        if abs(tilt) > TABLE_LENGTH * math.sin(DROP_TILT):
-            self.dropped = f"the table is inclined by more than {math.degrees(DROP_TILT):.0f} deg"
-        elif abs(sum(world.robot_force[-size:])) > GRIP_FORCE * size:
-            self.dropped = f"more than {GRIP_FORCE:.0f} N pull at the partner's hands"
-        elif abs(world.hand_height - world.robot_end[-1]) > GRIP_GAP:
-            self.dropped = "the table's end is out of the partner's reach"
-
-    def _ramp(self, change: float) -> list[float]:
-        """Return the hand command at the end of each frame of the step [m]."""
-        limit, (low, high) = self.step_limit, STROKE
-        start = self.command
-        change = min(max(change, -limit), limit)
-        change = min(max(start + change, low), high) - start
-        size = self.frames_per_step
-        return [start + change * (i + 1) / size for i in range(size)]
+        self.frame += self.frames_per_step
+        self.dropped = self.task.failure(self)
 
     def partner_observation(self) -> Observation:
-        """Return what the holder of the robot's end sees now.
+        """Return what the holder of the robot's end perceives now."""
+        return self.seat.observation(self)
 
-        A robot: laid out as :class:`.RobotObservation`. A second human: as the first, but without
-        a plan of its own; its target is to be level, the height at which it sees the other end.
-        """
-        if self.scenario.partner == "nao":
-            return self._robot_view()
-        world = self.world
-        delays = self._partner_delays
-        target = np.full(self.frames_per_step, world.human_end[-1 - delays[0]])
-        return self._human_view(
-            world.robot_end,
-            world.robot_velocity,
-            world.human_end,
-            world.robot_force,
-            target,
-            delays,
-        )
+    def human_observation(self) -> Observation:
+        """Return what the human perceives now."""
+        return self.task.human_observation(self)
 
-    def _robot_view(self) -> Observation:
-        world, age = self.world, self._latency
+    def robot_view(self) -> Observation:
+        """Return the robot's senses now, laid out as :class:`.RobotObservation`."""
+        world, age = self.world, self.scenario.latency_frames
         sample = -1 - age
         noise = self.frame + HISTORY_FRAMES - 1 - age
         return np.array(
@@ -183,19 +139,38 @@ class Lift:
             )
         )
 
-    def human_observation(self) -> Observation:
-        """Return what the human sees and feels now, laid out as :class:`.HumanObservation`."""
-        world, frame = self.world, self.frame
-        return self._human_view(
+    def human_view(self, target: Observation) -> Observation:
+        """Return the human's senses now, laid out as :class:`.HumanObservation`.
+
+        ``target`` is the private target: the intended height in each frame of the step [m].
+        """
+        world = self.world
+        return self._senses(
             world.human_end,
             world.human_velocity,
             world.robot_end,
             world.human_force,
-            self.target[frame : frame + self.frames_per_step],
+            target,
             self._human_delays,
         )
 
-    def _human_view(
+    def partner_view(self, target: Observation) -> Observation:
+        """Return the senses of a second human at the robot's end, as :meth:`human_view`."""
+        world = self.world
+        return self._senses(
+            world.robot_end,
+            world.robot_velocity,
+            world.human_end,
+            world.robot_force,
+            target,
+            self._partner_delays,
+        )
+
+    def seen_by_partner(self) -> float:
+        """Return the height of the human's end [m] that a second human sees now."""
+        return self.world.human_end[-1 - self._partner_delays[0]]
+
+    def _senses(
         self,
         own: list[float],
         velocity: list[float],
@@ -210,7 +185,7 @@ class Lift:
         view[HumanObservation.OWN_VELOCITY] = velocity[-HISTORY:]
         view[HumanObservation.OTHER_END] = other[seen - HISTORY : seen]
         view[HumanObservation.HAND_FORCE] = force[felt - HISTORY : felt]
-        # Past a truncated horizon there is nothing more to intend than to stay.
+        # Beyond a truncated horizon there is nothing more to intend than to stay.
         view[HumanObservation.TARGET] = target if len(target) else self.target[-1]
         view[HumanObservation.TIME] = self.frame * FRAME
         return view
@@ -220,27 +195,6 @@ class Lift:
         self.world.close()
 
 
-def _within_range(references: list[float]) -> list[float]:
-    """Return a human's references held to the range of heights."""
-    low, high = REFERENCE_RANGE
-    if min(references) < low or max(references) > high:
-        return [min(max(value, low), high) for value in references]
-    return references
-
-
 def _delays(person: Subject) -> tuple[int, int]:
     """Return a person's visual and haptic delay in frames."""
     return round(person.visual_delay / FRAME), round(person.haptic_delay / FRAME)
-
-
-def body_parameters(person: Subject) -> BodyParameters:
-    """Return what the world needs to know of a person."""
-    return BodyParameters(
-        stiffness=person.stiffness,
-        damping=person.damping,
-        mass=person.mass,
-        pull=person.pull,
-        felt_share=person.felt_share,
-        visual_delay=person.visual_delay,
-        haptic_delay=person.haptic_delay,
-    )

@@ -98,7 +98,7 @@ def abs_error_mm(
     return float(np.abs(error).sum()) + missing * FAILED_FRAME_MM
 
 
-def max_tilt_deg(human_end: ArrayLike, robot_end: ArrayLike, *, length: float) -> float:
+def max_tilt_deg(human_end: ArrayLike, robot_end: ArrayLike, length: float) -> float:
     r"""Return the largest incline of the table, :math:`\max_t \arcsin(|Z_{1t} - Z_{2t}| / L)`.
 
     Parameters

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from ..world import since_reset
 from .lift import Lift
 from .trace import Trace
 
@@ -57,17 +58,18 @@ class Recorder:
         lift, world, steps = self._lift, self._lift.world, self.steps
         names = self._internals[0] if self._internals else {}
         return Trace(
-            human_end=world.since_reset(world.human_end),
-            robot_end=world.since_reset(world.robot_end),
-            human_velocity=world.since_reset(world.human_velocity),
-            human_force=world.since_reset(world.human_force),
-            robot_force=world.since_reset(world.robot_force),
+            human_end=since_reset(world.human_end),
+            robot_end=since_reset(world.robot_end),
+            human_velocity=since_reset(world.human_velocity),
+            human_force=since_reset(world.human_force),
+            robot_force=since_reset(world.robot_force),
             target=lift.target[: lift.frame],
             action=np.array(self._partner, dtype=np.float64).reshape(steps, lift.partner_size),
             human_action=np.array(self._human, dtype=np.float64).reshape(
                 steps, lift.frames_per_step
             ),
             state=np.frombuffer(b"".join(self._hashes), np.uint8).reshape(steps, HASH_BYTES),
+            added=lift.task.series(lift),
             internals={
                 name: np.array([step.get(name, math.nan) for step in self._internals])
                 for name in names

@@ -9,8 +9,8 @@ from ...agents.actions import ActionError
 from ...agents.errors import InputError
 from .episode import START
 from .lift import Lift
+from .metric import Scores
 from .recorder import Recorder
-from .scores import Scores, score
 from .trace import Trace
 
 
@@ -106,7 +106,7 @@ def replay(
     return Replay(
         trace=trace,
         failure=failure,
-        scores=score(lift, trace, failed=failure is not None),
+        scores=lift.task.score(lift, trace, failed=failure is not None),
         scripted=scripted,
     )
 

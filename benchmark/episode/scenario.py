@@ -1,4 +1,4 @@
-"""A scenario: who lifts how, and what the robot has to make do with."""
+"""A scenario: who lifts how, with whom, at which task, under which timing."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -6,7 +6,9 @@ from typing import Final
 from ...agents.agent import FRAME
 from ...agents.errors import InputError
 from ...agents.humans import Behaviour, Subject
-from ..world import Partner
+from .level import LEVEL
+from .seat import SEATS, Seat
+from .task import Task
 
 CONTROL_PERIOD: Final = 0.1
 """Default control period [s]: the time of one arm movement in the paper (section II.A)."""
@@ -37,19 +39,27 @@ class Scenario:
     """Name of the recording that is moved by, empty for a drawn plan."""
     subject: Subject
     """Who the human is."""
-    partner: Partner = "nao"
-    """Who holds the other end."""
+    partner: str = "nao"
+    """Who holds the other end: a name of :data:`.SEATS`."""
     control_period: float = CONTROL_PERIOD
     """Time between two of the robot's decisions [s]."""
     latency: float = LATENCY
     """Age of the motion-capture sample when the robot decides [s]."""
+    task: Task = LEVEL
+    """What is to be done with the table."""
 
     def __post_init__(self) -> None:
         """Check the times."""
-        if self.partner not in ("nao", "human"):
-            raise InputError(f"partner must be 'nao' or 'human', got {self.partner!r}")
+        if self.partner not in SEATS:
+            known = " or ".join(map(repr, SEATS))
+            raise InputError(f"partner must be {known}, got {self.partner!r}")
         _check_time("control_period", self.control_period, FRAME, LONGEST_PERIOD)
         _check_time("latency", self.latency, 0.0, LONGEST_LATENCY)
+
+    @property
+    def seat(self) -> Seat:
+        """Who holds the other end."""
+        return SEATS[self.partner]
 
     @property
     def frames_per_step(self) -> int:

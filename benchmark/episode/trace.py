@@ -4,12 +4,18 @@ import dataclasses
 import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
-from typing import Any, Self
+from typing import Any, Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 Series = NDArray[np.float64]
+
+ADDED: Final = "task/"
+"""What the names of a task's own series begin with, in files and messages."""
+
+BY_STEP: Final = ("action", "human_action")
+"""The series with a row per step; the others have a number per frame."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -37,6 +43,8 @@ class Trace:
     """(m, k) the actions of the human's end as given: hand references [m]."""
     state: NDArray[np.uint8]
     """(m, 16) a hash of all actions and states up to each step; see :mod:`.recorder`."""
+    added: Mapping[str, Series] = field(default_factory=dict)
+    """(n,) each: the series that the task adds; see :meth:`.Task.series`."""
     internals: Mapping[str, Series] = field(default_factory=dict)
     """(m,) each: what the policy says its actions were based on, where it says so; see
     :class:`colift.agents.agent.Explaining`."""
@@ -44,23 +52,32 @@ class Trace:
     @staticmethod
     def series() -> tuple[str, ...]:
         """Return the names of the fields that are measured series, in order."""
-        return tuple(each.name for each in fields(Trace) if each.name not in ("state", "internals"))
+        others = ("state", "added", "internals")
+        return tuple(each.name for each in fields(Trace) if each.name not in others)
+
+    def by_frame(self) -> dict[str, Series]:
+        """Return the series with one number per frame by name, with those that the task adds."""
+        own = {name: getattr(self, name) for name in self.series() if name not in BY_STEP}
+        return {**own, **{f"{ADDED}{name}": series for name, series in self.added.items()}}
 
     def until(self, step: int) -> Self:
         """Return the trace of what happened before a step."""
         frame = step * self.human_action.shape[1]
-        by_step = ("action", "human_action", "state")
         cut: dict[str, Any] = {
-            name: getattr(self, name)[: step if name in by_step else frame]
-            for name in (*self.series(), "state")
+            name: getattr(self, name)[: step if name in BY_STEP else frame]
+            for name in self.series()
         }
+        added = {name: series[:frame] for name, series in self.added.items()}
         internals = {name: series[:step] for name, series in self.internals.items()}
-        return dataclasses.replace(self, **cut, internals=internals)
+        return dataclasses.replace(
+            self, **cut, state=self.state[:step], added=added, internals=internals
+        )
 
     def digest(self) -> str:
         """Return the SHA-256 of all numbers: equal if and only if every bit is."""
         sha = hashlib.sha256()
         arrays = {name: getattr(self, name) for name in self.series()}
+        arrays |= {f"{ADDED}{name}": self.added[name] for name in sorted(self.added)}
         arrays |= {f"internals/{name}": self.internals[name] for name in sorted(self.internals)}
         for name, array in arrays.items():
             values = np.ascontiguousarray(array, dtype="<f8")

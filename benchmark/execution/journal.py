@@ -11,7 +11,7 @@ import struct
 import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict, fields
+from dataclasses import fields
 from pathlib import Path
 from typing import Any, Final
 
@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 
 from ...agents.errors import InputError, Remedy
 from ..episode.episode import Episode
-from ..episode.scores import Scores
 from ..episode.trace import Trace
 
 FORMAT: Final = "journal 1"
@@ -146,9 +145,10 @@ def packed(episode: Episode) -> dict[str, Any]:
     return {
         **{each.name: getattr(episode, each.name) for each in fields(Episode)},
         "seed": str(episode.seed),  # A hidden seed has more bits than a number here may have.
-        "scores": asdict(episode.scores),
+        "scores": dict(episode.scores),
         "trace": {
             **{name: _packed(getattr(trace, name)) for name in (*Trace.series(), "state")},
+            "added": {name: _packed(values) for name, values in trace.added.items()},
             "internals": {name: _packed(values) for name, values in trace.internals.items()},
         },
     }
@@ -157,14 +157,16 @@ def packed(episode: Episode) -> dict[str, Any]:
 def unpacked(content: dict[str, Any]) -> Episode:
     """Return the episode that :func:`packed` was given."""
     arrays = dict(content["trace"])
-    internals = {name: _unpacked(values) for name, values in arrays.pop("internals").items()}
+    added, internals = (
+        {name: _unpacked(values) for name, values in arrays.pop(kind).items()}
+        for kind in ("added", "internals")
+    )
     trace = {name: _unpacked(values) for name, values in arrays.items()}
     return Episode(
         **{
             **content,
             "seed": int(content["seed"]),
-            "scores": Scores(**content["scores"]),
-            "trace": Trace(**trace, internals=internals),
+            "trace": Trace(**trace, added=added, internals=internals),
             "step_times": tuple(content["step_times"]),
         }
     )

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...agents.agent import FRAME
-from ..episode.lift import Lift, body_parameters
+from ..episode.lift import Lift
 from ..episode.scenario import Scenario
-from ..world import SERVO, Servo
-from .joint_arms import JointArms, JointWorld
+from ..world import SERVO, BodyParameters, FarEnd, Servo
+from .joint_arms import JointArms, JointFarEnd, JointWorld
 
 
 class EmulatedLift(Lift):
@@ -27,10 +27,11 @@ class EmulatedLift(Lift):
     """
 
     def __init__(self, scenario: Scenario, *, servo: Servo = SERVO) -> None:
-        super().__init__(dataclasses.replace(scenario, control_period=FRAME))
-        body = body_parameters(scenario.subject)
-        self.world.close()
-        self.world = self._world = JointWorld("nao", body, servo=servo)
+        def world(human: BodyParameters, far_end: FarEnd) -> JointWorld:
+            self._world = JointWorld(human, JointFarEnd(servo))
+            return self._world
+
+        super().__init__(dataclasses.replace(scenario, control_period=FRAME), world=world)
         self.lifting = False
         self._rest()
 

@@ -1,13 +1,14 @@
 """The NAO's arms in the world, moved joint by joint as ALMotion moves them."""
 
 from collections.abc import Sequence
-from typing import ClassVar, Final
+from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...robots.nao.kinematics import ARM_JOINTS, MIRROR, arm_path, gravity_torque, vertical_lever
-from ..world import World
+from ..world import BulletWorld, NaoFarEnd
 from ..world.bullet import pybullet
 from ..world.nao_arms import NaoArms
 from ..world.physics import Physics
@@ -87,10 +88,17 @@ class JointArms(NaoArms):
         return [state[0] for state in states]
 
 
-class JointWorld(World):
-    """A world whose NAO is moved joint by joint, and that nobody puts back between two lifts."""
+@dataclass(frozen=True)
+class JointFarEnd(NaoFarEnd):
+    """A NAO whose arms are moved joint by joint."""
 
-    arms: ClassVar[type[NaoArms]] = JointArms
+    def hold(self, client: int, table: int, physics: Physics) -> JointArms:
+        """Grip the table with both hands."""
+        return JointArms(client, table, physics, self.servo)
+
+
+class JointWorld(BulletWorld):
+    """A world that is never restored between two lifts."""
 
     def reset(self) -> None:
         """Put everything to rest, once: what is real stays where it is."""
@@ -110,5 +118,5 @@ class JointWorld(World):
     @property
     def joint_arms(self) -> JointArms:
         """The NAO's arms."""
-        assert isinstance(self._far, JointArms)
-        return self._far
+        assert isinstance(self.holder, JointArms)
+        return self.holder

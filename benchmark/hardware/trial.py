@@ -23,9 +23,9 @@ from ...agents.hardware.record import Record
 from ...agents.humans import SUBJECTS, Plan, Subject
 from ..episode import metrics
 from ..episode.episode import Episode
+from ..episode.metric import Scores
 from ..episode.recorder import HASH_BYTES
 from ..episode.scenario import Scenario
-from ..episode.scores import Scores
 from ..episode.smoothness import ldlj, sparc
 from ..episode.trace import Trace
 from ..execution.runner import Run
@@ -169,14 +169,15 @@ def _scores(trace: Trace, *, failed: bool) -> Scores:
     smoothness = functools.partial(metrics.stroke_smoothness, calm_robot, calm_human, strokes)
     empty = len(human) == 0
     horizon = max(len(human), round(SHORTEST / FRAME)) if failed or empty else None
-    return Scores(
-        rmse_mm=metrics.rmse_mm(human, robot, horizon=horizon),
-        abs_error_mm=metrics.abs_error_mm(human, robot, horizon=horizon),
-        max_tilt_deg=math.nan if empty else metrics.max_tilt_deg(human, robot, length=TABLE_LENGTH),
-        sparc=math.nan if not strokes else smoothness(metric=sparc),
-        ldlj=math.nan if not strokes else smoothness(metric=ldlj),
-        human_force_n=math.nan,
-        human_work_j=math.nan,
-        robot_lag_ms=math.nan if failed else metrics.robot_lag_ms(calm_human, calm_robot),
-        short_of_goal_mm=math.nan,
-    )
+    return {
+        "rmse_mm": metrics.rmse_mm(human, robot, horizon=horizon),
+        "abs_error_mm": metrics.abs_error_mm(human, robot, horizon=horizon),
+        "max_tilt_deg": math.nan if empty else metrics.max_tilt_deg(human, robot, TABLE_LENGTH),
+        "sparc": math.nan if not strokes else smoothness(metric=sparc),
+        "ldlj": math.nan if not strokes else smoothness(metric=ldlj),
+        "human_force_n": math.nan,
+        "human_work_j": math.nan,
+        "robot_lag_ms": math.nan if failed else metrics.robot_lag_ms(calm_human, calm_robot),
+        "short_of_goal_mm": math.nan,
+        "clipped": math.nan,
+    }

@@ -136,7 +136,7 @@ def _measure(
     def means(spec: AgentSpec, played: Suite) -> dict[str, float]:
         run = run_suite(spec, played, executor=executor, progress=progress)
         return {
-            name: float(np.mean([e.scores.rmse_mm for e in run.episodes if e.subject == name]))
+            name: float(np.mean([e.scores["rmse_mm"] for e in run.episodes if e.subject == name]))
             for name in TABLE_1
         }
 

@@ -121,7 +121,7 @@ def all_pictures(evidence: Evidence, table: TableOne) -> list[Picture]:
 
 def median_lift(episodes: Sequence[Episode]) -> int:
     """Return the index of the episode with the (lower) median error."""
-    order = np.argsort([episode.scores.rmse_mm for episode in episodes], kind="stable")
+    order = np.argsort([episode.scores["rmse_mm"] for episode in episodes], kind="stable")
     return int(order[(len(order) - 1) // 2])
 
 

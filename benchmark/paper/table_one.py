@@ -122,7 +122,7 @@ def table_one(reactive: Run, blend: Run, team: Run) -> TableOne:
 
 def errors(episodes: Sequence[Episode]) -> NDArray[np.float64]:
     """Return the RMSE of each episode [mm]."""
-    return np.array([episode.scores.rmse_mm for episode in episodes])
+    return np.array([episode.scores["rmse_mm"] for episode in episodes])
 
 
 def _mean(column: dict[str, float], subjects: Sequence[str]) -> float:

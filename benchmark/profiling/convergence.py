@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Final
 
 import numpy as np
@@ -11,7 +12,7 @@ from ...agents.loading.loading import PolicySpec
 from ..episode.episode import run_episode
 from ..episode.lift import Lift
 from ..suites.suite import make_suite
-from ..world import PHYSICS, Physics
+from ..world import PHYSICS, BulletWorld, Physics
 
 FINE: Final = Physics(step=0.0005)
 """The reference for the step."""
@@ -76,9 +77,9 @@ def _play(policy: str, physics: Physics) -> tuple[NDArray[np.float64], NDArray[n
     rmse, heights = [], []
     suite = make_suite("quick-v1")
     for scenario in suite.scenarios:
-        lift = Lift(scenario, physics=physics)
+        lift = Lift(scenario, world=partial(BulletWorld, physics=physics))
         episode = run_episode(lift, PolicySpec(text=policy).make(), suite.seeds[0])
         lift.close()
-        rmse.append(episode.scores.rmse_mm)
+        rmse.append(episode.scores["rmse_mm"])
         heights += [episode.trace.human_end, episode.trace.robot_end]
     return np.array(rmse), np.concatenate(heights)

@@ -9,10 +9,9 @@ from PIL import Image, ImageDraw, ImageFont
 
 from ...agents.agent import FRAME
 from ..episode.episode import Episode
-from ..world import Partner
 from .style import FAINT, HUMAN, INK, PAPER, ROBOT
 
-PARTNERS: Final[dict[Partner, str]] = {"nao": "robot", "human": "partner"}
+PARTNERS: Final[dict[str, str]] = {"nao": "robot", "human": "partner"}
 """What the holder of the far end is called."""
 
 
@@ -29,7 +28,7 @@ def title(episode: Episode, policy: str, width: int, height: int) -> Image.Image
     pen = ImageDraw.Draw(picture)
     size, middle = round(0.40 * height), height / 2
     bold, plain = letters(size, bold=True), letters(size)
-    score = f"RMSE {episode.scores.rmse_mm:.1f} mm"
+    score = f"RMSE {episode.scores['rmse_mm']:.1f} mm"
     if episode.failure is not None:
         score = f"failed, {score}"
     right = width - size
@@ -54,7 +53,7 @@ def _fitted(text: str, font: ImageFont.FreeTypeFont, room: float) -> str:
     return f"{text}…"
 
 
-def readout(picture: Image.Image, episode: Episode, frame: int, partner: Partner) -> None:
+def readout(picture: Image.Image, episode: Episode, frame: int, partner: str) -> None:
     """Write a frame's time, the heights of both ends and their difference [mm] into a scene.
 
     They stand in the upper left over a NAO, and in the middle between two people. The last frame

@@ -13,7 +13,6 @@ from ...agents.errors import InputError
 from ...robots.nao.facts import TORSO_HEIGHT
 from ...robots.nao.kinematics import ARM_JOINTS, GRIP_X, REST_Z, STROKE, arm_path
 from ...robots.nao.urdf import nao_urdf_path
-from ..world import Partner
 from ..world.bullet import pybullet
 from ..world.table import TABLE_LENGTH
 from .mannequin import Mannequin
@@ -77,7 +76,7 @@ class Scene:
         Whether to open a window, if there is a display; otherwise all is drawn headless.
     """
 
-    def __init__(self, partner: Partner, *, window: bool = False) -> None:
+    def __init__(self, partner: str, *, window: bool = False) -> None:
         window = window and _display_there()
         self._client: int = pybullet.connect(pybullet.GUI if window else pybullet.DIRECT)
         far_hands = np.array([GRIP_X, 0.0, REST_Z])

@@ -17,7 +17,7 @@ import numpy as np
 from ...agents.humans import Partner
 from ...agents.loading.loading import InMemorySpec, PolicySpec
 from ...agents.spec import AgentSpec
-from ..episode.scores import BOARD
+from ..episode.metric import on_boards
 from ..execution.runner import Run, run_suite
 from ..statistics import Estimate, mean_of, mean_with_missing
 from ..suites.suite import Suite
@@ -46,12 +46,12 @@ class Baseline:
         """Return the baseline that a complete run is."""
         return cls(
             strata=tuple(stratum(episode) for episode in run.episodes),
-            rmse_mm=tuple(episode.scores.rmse_mm for episode in run.episodes),
+            rmse_mm=tuple(episode.scores["rmse_mm"] for episode in run.episodes),
             means={
                 metric.name: mean_with_missing(
-                    [getattr(episode.scores, metric.name) for episode in run.episodes]
+                    [episode.scores[metric.name] for episode in run.episodes]
                 ).mean
-                for metric in BOARD
+                for metric in on_boards(run.suite.metrics)
             },
         )
 
@@ -60,7 +60,7 @@ class Baseline:
         return {
             "strata": [list(key) for key in self.strata],
             "rmse_mm": list(self.rmse_mm),
-            **self.means,
+            "means": dict(self.means),
         }
 
     @classmethod
@@ -69,7 +69,7 @@ class Baseline:
         return cls(
             strata=tuple((behaviour, subject) for behaviour, subject in content["strata"]),
             rmse_mm=tuple(content["rmse_mm"]),
-            means={metric.name: content[metric.name] for metric in BOARD},
+            means=content["means"],
         )
 
     @property

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..episode.episode import Episode
-from ..episode.scores import METRICS
+from ..episode.metric import LEADING, Metrics, reached
 from ..statistics import (
     interquartile_mean,
     mean_of,
@@ -25,7 +25,7 @@ def stratum(episode: Episode) -> Stratum:
 
 
 def summarise(
-    episodes: Sequence[Episode], human_human: Sequence[float] | None = None
+    episodes: Sequence[Episode], metrics: Metrics, human_human: Sequence[float] | None = None
 ) -> dict[str, Any]:
     """Return the summary of a policy's episodes.
 
@@ -39,18 +39,20 @@ def summarise(
     ----------
     episodes
         The policy's episodes.
+    metrics
+        The metrics of the task.
     human_human
         RMSE of the human-human team on the same episodes [mm]. With it, ``vs_human`` is the ratio
         of the means, with the 95 % interval of a bootstrap that pairs the episodes: 1 is as good
         as a human partner, less is better. Without it, ``vs_human`` is None.
     """
-    rmse = [episode.scores.rmse_mm for episode in episodes]
+    rmse = [episode.scores["rmse_mm"] for episode in episodes]
     strata = [stratum(episode) for episode in episodes]
     mean = mean_of(rmse, strata)
     summary: dict[str, Any] = {
         "episodes": len(episodes),
         "failed": sum(episode.failure is not None for episode in episodes),
-        "goal_missed": sum(not episode.scores.reached for episode in episodes),
+        "goal_missed": sum(not reached(episode.scores, metrics) for episode in episodes),
         "rmse_mm": {
             "mean": mean.mean,
             "iqm": float(interquartile_mean(rmse)),
@@ -58,9 +60,9 @@ def summarise(
         },
         "vs_human": _vs_human(rmse, human_human, strata),
     }
-    for name in METRICS:
-        if name != "rmse_mm":
-            summary[name] = _mean([getattr(episode.scores, name) for episode in episodes])
+    for name in metrics:
+        if name != LEADING:
+            summary[name] = _mean([episode.scores[name] for episode in episodes])
     times = np.array([t for episode in episodes for t in episode.step_times] or [math.nan])
     p50, p99 = 1000 * np.percentile(times, [50, 99])
     summary["step_ms"] = {"p50": _number(p50), "p99": _number(p99)}
@@ -77,7 +79,9 @@ def _vs_human(
 
 
 def group(
-    episodes: Sequence[Episode], human_human: Mapping[Stratum, float] | None = None
+    episodes: Sequence[Episode],
+    metrics: Metrics,
+    human_human: Mapping[Stratum, float] | None = None,
 ) -> list[dict[str, Any]]:
     """Return one entry for each behaviour and subject, in order of appearance.
 
@@ -92,7 +96,7 @@ def group(
             "subject": subject,
             "episodes": len(some),
             "failed": sum(episode.failure is not None for episode in some),
-            **{name: _mean([getattr(e.scores, name) for e in some]) for name in METRICS},
+            **{name: _mean([e.scores[name] for e in some]) for name in metrics},
             "human_human_rmse_mm": {"mean": (human_human or {}).get((behaviour, subject))},
         }
         for (behaviour, subject), some in members.items()

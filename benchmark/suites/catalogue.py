@@ -5,9 +5,10 @@ from pathlib import Path
 from ...agents.errors import InputError
 from ...agents.humans import SUBJECTS, Behaviour, Recording, Subject, load_recordings
 from ...agents.near_names import did_you_mean
-from ...agents.registry import HUMANS, lookup
+from ...agents.registry import HUMANS, TASKS, lookup
+from ..episode.level import LEVEL
 from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
-from ..world import Partner
+from ..episode.task import Task
 
 RECORDED = "recorded"
 
@@ -29,6 +30,18 @@ def make_subject(name: str) -> Subject:
     raise InputError(f"unknown subject {name!r}; {near}known: {', '.join(SUBJECTS)}, draw-N")
 
 
+def make_task(name: str) -> Task:
+    """Return the task that is registered under ``name``, with its default parameters.
+
+    Raises
+    ------
+    InputError
+        If the name is unknown; the message lists all names.
+    """
+    task: Task = lookup(TASKS, name)()
+    return task
+
+
 def _recording(source: str) -> Recording:
     """Return the recording of ``FILE.csv`` (its first trial) or ``FILE.csv#TRIAL``."""
     path, _, trial = source.partition("#")
@@ -43,9 +56,10 @@ def _recording(source: str) -> Recording:
 def make_scenario(
     behaviour: str,
     subject: str = "S1",
-    partner: Partner = "nao",
+    partner: str = "nao",
     control_period: float = CONTROL_PERIOD,
     latency: float = LATENCY,
+    task: str = LEVEL.name,
 ) -> Scenario:
     """Return a scenario from names.
 
@@ -58,6 +72,8 @@ def make_scenario(
         One of the five, or ``draw-N``, a new person by seed N.
     partner, control_period, latency
         As in :class:`Scenario`.
+    task
+        A registered task, with its default parameters.
 
     Raises
     ------
@@ -76,4 +92,5 @@ def make_scenario(
         partner=partner,
         control_period=control_period,
         latency=latency,
+        task=make_task(task),
     )

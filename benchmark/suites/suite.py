@@ -4,17 +4,17 @@ import dataclasses
 import hashlib
 import json
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
 from ...agents.errors import InputError
 from ...agents.humans import SUBJECTS, Recorded, load_recordings
-from ...agents.near_names import did_you_mean
+from ...agents.registry import SUITES, lookup
 from ..episode.identity import numbers, plain, scores_hash
+from ..episode.metric import Metrics
 from ..episode.scenario import Scenario
-from ..world import Partner
 from .catalogue import RECORDED, make_scenario
 
 LONGEST_SUITE_NAME: Final = 200
@@ -36,6 +36,11 @@ class Suite:
     def size(self) -> int:
         """Number of episodes."""
         return len(self.scenarios) * len(self.seeds)
+
+    @property
+    def metrics(self) -> Metrics:
+        """The metrics of its task."""
+        return self.scenarios[0].task.metrics
 
     @property
     def digest(self) -> str:
@@ -67,7 +72,27 @@ class Suite:
         name = f"{self.name}[{start}:{stop}]"
         return dataclasses.replace(self, name=name, seeds=tuple(range(start, stop)))
 
-    def with_partner(self, partner: Partner) -> "Suite":
+    def with_behaviours(self, behaviours: Sequence[str]) -> "Suite":
+        """Return the suite's subjects and seeds, each subject with each of other behaviours.
+
+        Raises
+        ------
+        InputError
+            If there is no such behaviour.
+        """
+        first = self.scenarios[0]
+        subjects = {scenario.subject.name: scenario.subject for scenario in self.scenarios}
+        scenarios = tuple(
+            dataclasses.replace(
+                first, behaviour=made.behaviour, human=made.human, trial=made.trial, subject=subject
+            )
+            for made in map(make_scenario, behaviours)
+            for subject in subjects.values()
+        )
+        name = plain_name(f"{self.name} ({', '.join(behaviours)})")
+        return dataclasses.replace(self, name=name, scenarios=scenarios)
+
+    def with_partner(self, partner: str) -> "Suite":
         """Return the same episodes with another holder of the robot's end.
 
         The human's plans stay the same: they follow from the seed and the scenario's name.
@@ -100,34 +125,6 @@ class Suite:
         )
 
 
-def _grid(name: str, behaviours: Sequence[str], seeds: int) -> Suite:
-    """Return the suite of every behaviour with every subject."""
-    scenarios = tuple(
-        make_scenario(behaviour, subject) for behaviour in behaviours for subject in SUBJECTS
-    )
-    return Suite(name=name, scenarios=scenarios, seeds=tuple(range(seeds)))
-
-
-def _quick() -> Suite:
-    strata = zip(BEHAVIOURS, ("S1", "S2", "S3", "S5"), strict=True)
-    scenarios = tuple(make_scenario(behaviour, subject) for behaviour, subject in strata)
-    return Suite(name="quick-v1", scenarios=scenarios, seeds=(0, 1, 2))
-
-
-SUITES: Final[dict[str, tuple[str, Callable[[], Suite]]]] = {
-    "standard-v1": (
-        "5 subjects x 4 behaviours x 15 lifts: the benchmark",
-        lambda: _grid("standard-v1", BEHAVIOURS, 15),
-    ),
-    "paper-v1": (
-        "5 subjects x 10 smooth lifts: the paper's Table I",
-        lambda: _grid("paper-v1", ("smooth",), 10),
-    ),
-    "quick-v1": ("12 lifts, one stratum of each behaviour: a first look", _quick),
-}
-"""The suites by name: one line about each, and what makes it."""
-
-
 def plain_name(name: str) -> str:
     """Return a name as a suite may have it: in ASCII, so that none looks like another's."""
     plain = re.sub(r"[^A-Za-z0-9 ._()\[\]:,+-]", "_", name)
@@ -135,17 +132,15 @@ def plain_name(name: str) -> str:
 
 
 def make_suite(name: str) -> Suite:
-    """Return the suite of that name.
+    """Return the suite that is registered under ``name``.
 
     Raises
     ------
     InputError
         If the name is unknown; the message lists all names.
     """
-    if name not in SUITES:
-        near = did_you_mean(name, SUITES)
-        raise InputError(f"unknown suite {name!r}; {near}known: {', '.join(SUITES)}")
-    return SUITES[name][1]()
+    suite: Suite = lookup(SUITES, name)()
+    return suite
 
 
 def recorded_suite(path: Path) -> Suite:

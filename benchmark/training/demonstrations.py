@@ -38,11 +38,12 @@ from numpy.typing import NDArray
 from ...agents.agent import FRAME
 from ...agents.errors import InputError
 from ...agents.humans import Partner
+from ...agents.registry import SUITES, own_entries
 from ..episode.lift import MOCAP_NOISE, Lift
 from ..episode.scenario import CONTROL_PERIOD
 from ..episode.seeding import derive_seed
 from ..suites.catalogue import make_scenario
-from ..suites.suite import BEHAVIOURS, SUITES, make_suite
+from ..suites.suite import BEHAVIOURS, make_suite
 
 FIRST_SEED: Final = 60_000
 """Seed of the first demonstration, far from those of the suites and of the calibration."""
@@ -133,7 +134,7 @@ def demonstrations(
     """
     if lifts < 1:
         raise InputError(f"lifts must be at least 1, got {lifts}")
-    taken = {each for name in SUITES for each in make_suite(name).seeds}
+    taken = {each for name in own_entries(SUITES) for each in make_suite(name).seeds}
     seeds = range(seed, seed + lifts)
     if seed < 0 or not taken.isdisjoint(seeds):
         raise InputError(

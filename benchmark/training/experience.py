@@ -16,6 +16,7 @@ from ..episode.lift import MOCAP_NOISE, Lift
 from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..episode.seeding import derive_seed
 from ..suites.catalogue import make_scenario, make_subject
+from ..world import since_reset
 from .labels import modes, stroke_ends
 from .roaming import Roaming
 
@@ -126,7 +127,7 @@ def experience(
     lift.close()
 
     size_of_step, age = lift.frames_per_step, lift.scenario.latency_frames
-    heights = np.array([0.0, *lift.world.since_reset(lift.world.human_end)])
+    heights = np.array([0.0, *since_reset(lift.world.human_end)])
     doing, ends = modes(heights), stroke_ends(heights)[:, np.newaxis]
     parts = []
     for first in range(0, size_of_step, max(size_of_step // LOOKS, 1)):

@@ -10,8 +10,8 @@ from ...agents.hardware.decisions import POLICY_SHARE
 from ...agents.spec import AgentSpec
 from ..bundle import results
 from ..episode.episode import START, Episode
+from ..episode.level_metrics import MOSTLY_CLIPPED
 from ..episode.scenario import CONTROL_PERIOD
-from ..episode.scores import MOSTLY_CLIPPED
 from ..execution.runner import Run
 from ..execution.tasks import play
 from ..results.baselines import HUMAN_HUMAN, SPECS, Baseline, shipped_baselines
@@ -134,7 +134,7 @@ def _lifts(episodes: Sequence[Episode]) -> Check:
     for episode in episodes:
         if episode.failure is not None:
             return Check(name="lifts", ok=False, told=_why(episode), printed=episode.log)
-    told = ", ".join(f"{e.behaviour}/{e.subject} {e.scores.rmse_mm:.1f} mm" for e in episodes)
+    told = ", ".join(f"{e.behaviour}/{e.subject} {e.scores['rmse_mm']:.1f} mm" for e in episodes)
     return Check(name="lifts", ok=True, told=told)
 
 

@@ -1,21 +1,21 @@
 """Checks of what a bundle says: its suite, its episodes, and numbers that must follow from them."""
 
-import dataclasses
 import json
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from typing import Any, Final
 
 from ...agents.errors import InputError
+from ...agents.registry import SUITES, entries
 from ..bundle import Bundle, Difference, differences, one_line, results
 from ..bundle.content import with_circumstances
 from ..bundle.files import EPISODES, MANIFEST, RESULTS, TRACES
 from ..episode.episode import Episode
+from ..episode.metric import SCORING
 from ..episode.scenario import CONTROL_PERIOD
-from ..episode.scores import SCORING
 from ..execution.runner import Run
 from ..results.baselines import SPECS, Baseline, play_baselines, shipped_baselines
-from ..suites.suite import SUITES, Suite, make_suite
+from ..suites.suite import Suite, make_suite
 from .deviation import REFERENCES, SCORES
 from .verdict import Finding
 
@@ -28,7 +28,7 @@ def suite_label(suite: Suite) -> str:
     Any other has its name from who made the bundle.
     """
     digest = suite.digest
-    for name in SUITES:
+    for name in entries(SUITES):
         if make_suite(name).digest == digest:
             return name
     first = suite.scenarios[0]
@@ -51,7 +51,7 @@ def suite_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
     if bundle.results["suite"] != suite.name:
         message = f"suite is {bundle.results['suite']!r:.80}, in {MANIFEST} {suite.name!r:.80}"
         yield Finding(file=RESULTS, message=message)
-    if suite.name in SUITES and digest != make_suite(suite.name).digest:
+    if suite.name in entries(SUITES) and digest != make_suite(suite.name).digest:
         message = f"its episodes are not those of {suite.name}, whose name it has"
         yield Finding(file=MANIFEST, message=message)
 
@@ -135,7 +135,7 @@ def score_findings(
     tolerance = 0.0 if exact else SCORES
     played = not exact and shipped_baselines(run.suite) is None
     for claim, true in zip(bundle.episodes, run.episodes, strict=True):
-        scores = (dataclasses.asdict(each.scores) for each in (claim, true))
+        scores = (dict(each.scores) for each in (claim, true))
         for difference in differences(*scores, tolerance=tolerance):
             yield Finding(file=EPISODES, episode=episode_name(true), message=str(difference))
     for difference in differences(bundle.results, content, tolerance=tolerance):

@@ -12,9 +12,6 @@ from ..episode.trace import Trace
 Place = tuple[int, str]
 """A step, and what is wrong there."""
 
-BY_FRAME = tuple(name for name in Trace.series() if name not in ("action", "human_action"))
-"""The series of a trace that have a number a frame."""
-
 HEIGHT: Final = 1e-5
 """Tolerance of heights [m]: of each action of the human, and of the table's ends, rms.
 
@@ -68,8 +65,11 @@ def _human_bits(logged: Trace, found: Simulated) -> Place | None:
 def _frames(logged: Trace, true: Trace) -> list[Place]:
     per_step = logged.human_action.shape[1]
     places = []
-    for name in BY_FRAME:
-        there, here = getattr(logged, name), getattr(true, name)
+    claimed = logged.by_frame()
+    if claimed.keys() != true.by_frame().keys():
+        return [(0, f"the series are {', '.join(claimed)}; must be {', '.join(true.by_frame())}")]
+    for name, here in true.by_frame().items():
+        there = claimed[name]
         unequal = _unequal(there, here)
         if unequal.any():
             frame = int(unequal.argmax())

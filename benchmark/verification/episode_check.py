@@ -10,9 +10,9 @@ from ..bundle import Bundle, one_line
 from ..bundle.files import EPISODES, MANIFEST, TRACES
 from ..episode.episode import Episode
 from ..episode.lift import Lift
+from ..episode.metric import Scores
 from ..episode.replay import ReplayError, replay
 from ..episode.scenario import Scenario
-from ..episode.scores import Scores, score
 from ..episode.trace import Trace
 from ..execution.tasks import SEEDS_PER_TASK
 from ..suites.suite import Suite
@@ -79,7 +79,7 @@ def _check(lift: Lift, place: int, seed: int, claim: Episode, *, same_platform: 
         difference = beyond_tolerance(logged, found)
         if difference is None:
             # The log is near enough; then it is what the scores must follow from.
-            scores = score(lift, logged, failed=found.failure is not None)
+            scores = lift.task.score(lift, logged, failed=found.failure is not None)
     wrong = None
     if difference is not None:
         step, message = difference

@@ -11,7 +11,7 @@ from ...agents.errors import InputError
 from ..bundle import Bundle, one_line, parse, read_files
 from ..bundle.files import LARGEST
 from ..bundle.reading import wrong_hashes
-from ..episode.scores import SCORING
+from ..episode.metric import SCORING
 from ..execution.provenance import POLICIES_ONLY, fingerprint
 from ..execution.runner import Run
 from .content_check import episode_findings, rebuilt, score_findings, suite_findings, suite_label

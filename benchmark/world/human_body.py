@@ -6,6 +6,7 @@ from typing import Final
 
 from ...agents.agent import FRAME
 from .table import GRIP_STIFFNESS, TABLE_LENGTH, WEIGHT_SHARE
+from .world import HISTORY_FRAMES
 
 REFLEX_LIMIT: Final = 0.02
 """A reflex shifts the reference by at most this [m]: it evens out small differences, and does
@@ -13,9 +14,6 @@ not overrule the intended height."""
 
 MUSCLE_TIME: Final = 0.05
 """Time constant of muscle activation [s], a first-order low-pass on the reflex."""
-
-HISTORY_FRAMES: Final = 50
-"""Frames of rest before the episode, so that every delay up to 0.5 s has something to look at."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,6 +1,7 @@
 """The NAO's two arms at the far end of the table."""
 
 import math
+from dataclasses import dataclass
 from typing import ClassVar, Final
 
 from ...agents.agent import FRAME
@@ -10,7 +11,7 @@ from ...robots.nao.urdf import arms_only_urdf
 from .bullet import pybullet
 from .engine import Vector, load_urdf_text
 from .physics import Physics
-from .servo import Servo
+from .servo import SERVO, Servo
 from .table import PITCH, WEIGHT_SHARE
 
 _HAND: Final = (HAND_OFFSET_X, 0.0, -HAND_OFFSET_Z)
@@ -150,3 +151,18 @@ class NaoArms:
             height += state[4][2] + 2 * (x * z - y * w) * _HAND[0]
             height += (1 - 2 * (x * x + y * y)) * _HAND[2]
         return height / 2 - REST_Z
+
+
+@dataclass(frozen=True)
+class NaoFarEnd:
+    """A NAO as the holder of the far end."""
+
+    servo: Servo = SERVO
+    """The position servo of its joints."""
+
+    mass: ClassVar[float] = 0.0
+    """No mass beside that of the robot's own bodies [kg]."""
+
+    def hold(self, client: int, table: int, physics: Physics) -> NaoArms:
+        """Grip the table with both hands; see :meth:`.FarEnd.hold`."""
+        return NaoArms(client, table, physics, self.servo)

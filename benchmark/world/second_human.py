@@ -1,8 +1,27 @@
 """A second human at the robot's end of the table."""
 
+from dataclasses import dataclass
+
 from ...agents.agent import FRAME
 from .human_body import BodyParameters, HumanBody
+from .physics import Physics
 from .table import GRAVITY
+
+
+@dataclass(frozen=True)
+class HumanFarEnd:
+    """A person as the holder of the far end."""
+
+    body: BodyParameters
+
+    @property
+    def mass(self) -> float:
+        """Apparent mass of the arms [kg]; it moves with the table's end."""
+        return self.body.mass
+
+    def hold(self, client: int, table: int, physics: Physics) -> "SecondHuman":
+        """Return the person's arms; see :meth:`.FarEnd.hold`."""
+        return SecondHuman(self.body, physics.step)
 
 
 class SecondHuman:

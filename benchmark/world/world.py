@@ -1,138 +1,44 @@
-"""The world: two holders and a table, stepped one motion-capture frame at a time."""
+"""The seam of the physics: a world that is stepped frame by frame, and the hands at its far end."""
 
-import math
-import weakref
 from collections.abc import Sequence
-from typing import ClassVar, Final, Literal
+from typing import Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...agents.agent import FRAME
-from .bullet import pybullet
-from .engine import disconnect, load_urdf_text, new_client
-from .human_body import HISTORY_FRAMES, BodyParameters, HumanBody
-from .nao_arms import NaoArms
-from .physics import PHYSICS, Physics
-from .second_human import SecondHuman
-from .servo import SERVO, Servo
-from .table import (
-    GRAVITY,
-    GRIP_DAMPING,
-    GRIP_STIFFNESS,
-    HANDS,
-    PITCH,
-    SLIDE,
-    TABLE_INERTIA,
-    TABLE_LENGTH,
-    TABLE_MASS,
-    WEIGHT_SHARE,
-    table_urdf,
-)
+from .physics import Physics
 
-Partner = Literal["nao", "human"]
-"""Who holds the robot's end of the table."""
-
-_JOINTS: Final = [HANDS, PITCH]
-_TORQUE: Final = pybullet.TORQUE_CONTROL
+HISTORY_FRAMES: Final = 50
+"""Frames of rest before an episode, long enough for every delay up to 0.5 s."""
 
 
-class World:
-    """A human, a table and a partner at its other end: a NAO, or a second human.
+class World(Protocol):
+    """A person, a table and a holder of its far end, stepped one motion-capture frame at a time.
 
-    Read-outs are histories with one entry a frame since the last reset, newest last, preceded by
+    Read-outs are histories with one entry per frame since the last reset, newest last, preceded by
     ``HISTORY_FRAMES`` entries of rest. Heights are displacements from rest [m], velocities [m/s],
     forces [N] of the hands on the table, upwards positive.
 
-    ``hand_height`` is the present height of the partner's hands, of a NAO from its encoders.
-
-    ============== =====================================================
-    human_end      height of the human's table end
-    human_velocity its vertical velocity
-    robot_end      height of the robot's table end
-    robot_velocity vertical velocity of the robot's table end
-    human_force    force of the human's hands on the table
-    robot_force    force of the robot's (or partner's) hands on the table
-    ============== =====================================================
-
-    Parameters
-    ----------
-    partner
-        ``"nao"`` or ``"human"``.
-    human
-        The person at the human's end.
-    second_human
-        The person at the robot's end; needed for, and only for, ``partner="human"``.
-    physics
-        Time step and solver.
-    servo
-        The NAO's joint servos.
-
-    Raises
-    ------
-    ValueError
-        If the second human is missing, or given without need.
+    :class:`.BulletWorld` is the implementation that scores.
     """
 
-    arms: ClassVar[type[NaoArms]] = NaoArms
-    """How the NAO's arms are moved."""
-
-    def __init__(
-        self,
-        partner: Partner,
-        human: BodyParameters,
-        second_human: BodyParameters | None = None,
-        *,
-        physics: Physics = PHYSICS,
-        servo: Servo = SERVO,
-    ) -> None:
-        if (partner == "human") != (second_human is not None):
-            raise ValueError(f"second_human is for partner='human', got partner={partner!r}")
-        self.client = new_client(physics)
-        # A world that nobody has any more takes its 30 MB with it, closed or not.
-        self._release = weakref.finalize(self, disconnect, self.client)
-        self._release.atexit = False
-        self._step = physics.step
-        self._begins = [i / physics.steps_per_frame for i in range(physics.steps_per_frame)]
-        self._body = HumanBody(human, physics.step)
-        self._mass = human.mass
-        far_mass = 0.0 if second_human is None else second_human.mass
-        grip = NaoArms.REST_GRIP
-        self._tree = load_urdf_text(
-            self.client,
-            table_urdf(human.mass, far_mass),
-            (grip[0] + TABLE_LENGTH, 0.0, grip[2]),
-        )
-        for joint in (SLIDE, HANDS, PITCH):
-            pybullet.setJointMotorControl2(
-                self._tree, joint, pybullet.VELOCITY_CONTROL, force=0, physicsClientId=self.client
-            )
-        self._far: NaoArms | SecondHuman
-        if second_human is None:
-            self._far = self.arms(self.client, self._tree, physics, servo)
-        else:
-            self._far = SecondHuman(second_human, physics.step)
-        inertia = TABLE_INERTIA + far_mass * TABLE_LENGTH**2
-        implicit = 1 + self._step * GRIP_DAMPING / inertia / 2
-        self._pitch_gain = GRIP_STIFFNESS / implicit
-        self._pitch_rate_gain = GRIP_DAMPING / implicit
-        self._rest = pybullet.saveState(physicsClientId=self.client)
-        self.reset()
+    human_end: list[float]
+    """Height of the human's table end."""
+    human_velocity: list[float]
+    """Its vertical velocity."""
+    robot_end: list[float]
+    """Height of the robot's table end."""
+    robot_velocity: list[float]
+    """Its vertical velocity."""
+    human_force: list[float]
+    """Force of the human's hands on the table."""
+    robot_force: list[float]
+    """Force of the hands at the far end on the table."""
+    hand_height: float
+    """Present height of the hands at the far end; of a NAO, from its encoders."""
 
     def reset(self) -> None:
-        """Put everything back to rest, bit for bit the same each time."""
-        pybullet.restoreState(self._rest, physicsClientId=self.client)
-        self._body.reset()
-        self._far.reset()
-        self._reference = 0.0
-        self._height = self._velocity = self._pitch = self._pitch_rate = 0.0
-        self.human_end = [0.0] * HISTORY_FRAMES
-        self.human_velocity = [0.0] * HISTORY_FRAMES
-        self.robot_end = [0.0] * HISTORY_FRAMES
-        self.robot_velocity = [0.0] * HISTORY_FRAMES
-        self.human_force = [WEIGHT_SHARE] * HISTORY_FRAMES
-        self.robot_force = [WEIGHT_SHARE] * HISTORY_FRAMES
-        self.hand_height = self._far.hand_height(0.0)
+        """Restore the state of rest, bit for bit the same each time."""
 
     def advance(self, human_reference: Sequence[float], robot_reference: Sequence[float]) -> None:
         """Advance by as many frames as the references have entries.
@@ -142,72 +48,67 @@ class World:
         human_reference
             The height that the human's arms pull towards at the end of each frame [m].
         robot_reference
-            The same of the partner [m]; of the NAO it is the commanded hand height.
+            The same at the far end [m]; for a NAO, the commanded height of its hands.
         """
-        client, tree, mass = self.client, self._tree, self._mass
-        share, weight, half = self._step / FRAME, mass * GRAVITY, TABLE_LENGTH / 2 / FRAME
-        stiffness, damping = self._pitch_gain, self._pitch_rate_gain
-        sin, cos = math.sin, math.cos
-        body, far, begins = self._body, self._far, self._begins
-        control, states = pybullet.setJointMotorControlArray, pybullet.getJointStates
-        step_engine = pybullet.stepSimulation
-        human_end, robot_end = self.human_end, self.robot_end
-        human_force, robot_force = self.human_force, self.robot_force
-        human_velocity, robot_velocity = self.human_velocity, self.robot_velocity
-        height, velocity = self._height, self._velocity
-        pitch, pitch_rate = self._pitch, self._pitch_rate
-        previous = self._reference
-        lever = TABLE_LENGTH * cos(pitch)
-        far_height, far_velocity = robot_end[-1], robot_velocity[-1]
-        for wanted, command in zip(human_reference, robot_reference, strict=True):
-            reference = wanted + body.reflex(human_end, robot_end, human_force)
-            change = reference - previous
-            rate = change / FRAME
-            far.prepare(command, robot_end, human_end, robot_force)
-            first_velocity, first_pitch_rate, impulse = velocity, pitch_rate, 0.0
-            for begin in begins:
-                arms = body.arm_force(previous + change * begin, rate, height, velocity)
-                far_arms = far.drive(begin, far_height, far_velocity)
-                torque = lever * far_arms - stiffness * pitch - damping * pitch_rate
-                forces = [arms + weight + far_arms, torque]
-                control(tree, _JOINTS, _TORQUE, forces=forces, physicsClientId=client)
-                step_engine(client)
-                (height, velocity, _, _), (pitch, pitch_rate, _, _) = states(tree, _JOINTS, client)
-                lever = TABLE_LENGTH * cos(pitch)
-                far_height = height + TABLE_LENGTH * sin(pitch)
-                far_velocity = velocity + lever * pitch_rate
-                impulse += arms
-            acceleration = (velocity - first_velocity) / FRAME
-            centre = acceleration + half * (pitch_rate - first_pitch_rate)
-            force = share * impulse - mass * acceleration
-            human_end.append(height)
-            robot_end.append(far_height)
-            human_force.append(force)
-            human_velocity.append(velocity)
-            robot_velocity.append(far_velocity)
-            robot_force.append(TABLE_MASS * (GRAVITY + centre) - force)
-            previous = reference
-        self._reference = previous
-        self._height, self._velocity = height, velocity
-        self._pitch, self._pitch_rate = pitch, pitch_rate
-        self.hand_height = far.hand_height(far_height)
 
     def state(self) -> tuple[float, ...]:
-        """Return what the last frame ended with: heights, velocities, forces, the hand's height."""
-        return (
-            self.human_end[-1],
-            self.human_velocity[-1],
-            self.robot_end[-1],
-            self.robot_velocity[-1],
-            self.human_force[-1],
-            self.robot_force[-1],
-            self.hand_height,
-        )
-
-    def since_reset(self, history: list[float]) -> NDArray[np.float64]:
-        """Return one of the world's histories without the frames of rest before the reset."""
-        return np.array(history[HISTORY_FRAMES:])
+        """Return the last frame's heights, velocities and forces, and the height of the hand."""
 
     def close(self) -> None:
-        """Disconnect from the engine; the world cannot be used afterwards."""
-        self._release()
+        """Release the engine; the world cannot be used afterwards."""
+
+
+class Holder(Protocol):
+    """The hands at the far end of the table, inside a world."""
+
+    def reset(self) -> None:
+        """Return to rest height; the world restores the engine's state."""
+
+    def prepare(
+        self, command: float, own: list[float], other: list[float], force: list[float]
+    ) -> None:
+        """Accept the height to reach at the end of the next frame [m].
+
+        Parameters
+        ----------
+        command
+            Commanded height of a robot's hands, or the height that a person's arms pull towards.
+        own, other, force
+            Histories, newest last: heights of the far and of the near end [m], and the force of
+            the hands on the table [N].
+        """
+
+    def drive(self, begin: float, height: float, velocity: float) -> float:
+        """Act during the physics step that begins at ``begin``, a fraction of the frame.
+
+        Parameters
+        ----------
+        begin
+            Beginning of the physics step as a fraction of the frame.
+        height, velocity
+            Height and velocity of the far end at that time [m, m/s].
+
+        Returns
+        -------
+        float
+            Force of the hands on the far end [N] that is not already in the engine.
+        """
+
+    def hand_height(self, end: float) -> float:
+        """Return the height of the hands [m] when the table's end is at the height ``end``."""
+
+
+class FarEnd(Protocol):
+    """A holder that is not in a world yet."""
+
+    @property
+    def mass(self) -> float:
+        """Mass that moves with the table's end [kg]."""
+
+    def hold(self, client: int, table: int, physics: Physics) -> Holder:
+        """Grip the table in the engine ``client`` at the far end, and return the hands."""
+
+
+def since_reset(history: list[float]) -> NDArray[np.float64]:
+    """Return a history of a world without the frames of rest before its reset."""
+    return np.array(history[HISTORY_FRAMES:])

@@ -232,6 +232,6 @@ def _report(
         print(json.dumps(content, indent=2, allow_nan=False))
         return
     timing = timing_table(content["hardware"]["timing"])
-    show(results_table(content), standing(content), timing)
+    show(results_table(content, done.suite.metrics), standing(content), timing)
     if out is not None:
         print(f"Result bundle: {out}")

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from rich.table import Column, Table
 
-from ...benchmark.episode.scores import Metric
+from ...benchmark.episode.metric import Metric
 from ...benchmark.statistics import Estimate
 from ...leaderboard.board.standings import HumanTeamScores, RankedRow
 from ...leaderboard.records.metrics import board_metrics

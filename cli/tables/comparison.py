@@ -17,7 +17,7 @@ from ...benchmark.comparison.words import (
     title,
     undecided,
 )
-from ...benchmark.episode.scores import BOARD, Metric
+from ...benchmark.episode.metric import Metric
 from ...benchmark.statistics import Estimate
 from ..printing import Cell, number, styled, table
 
@@ -37,7 +37,7 @@ def ranks_table(comparison: Comparison) -> Table:
     suite, overall = comparison.contest.suite, comparison.overall
     entries = {entry.name: entry for entry in comparison.contest.entries}
     rows: list[tuple[float, list[Cell]]] = [
-        (standing.rmse_mm.mean, _rank_row(overall, standing, entries[standing.name]))
+        (standing.rmse_mm.mean, _rank_row(comparison, standing, entries[standing.name]))
         for standing in overall.standings
     ]
     rows += [
@@ -49,7 +49,13 @@ def ranks_table(comparison: Comparison) -> Table:
         (
             Column("#", justify="right"),
             Column("policy", overflow="fold", min_width=len(TEAM)),
-            *("RMSE mm", "95 %", "vs_human", *(each.symbol for each in BOARD), "step"),
+            *(
+                "RMSE mm",
+                "95 %",
+                "vs_human",
+                *(each.symbol for each in comparison.contest.metrics),
+                "step",
+            ),
         ),
         (cells for _, cells in sorted(rows, key=lambda row: row[0])),
         caption=f"{overall.episodes} lifts each; suite digest {suite.digest}. "
@@ -70,19 +76,20 @@ def _baseline_row(comparison: Comparison, name: str) -> list[str]:
         f"{rmse.mean:.2f}",
         _interval(rmse),
         f"{rmse.mean / overall.team_rmse_mm.mean:.2g}",
-        *(metric.text(baseline.means[metric.name]) for metric in BOARD),
+        *(metric.text(baseline.means[metric.name]) for metric in comparison.contest.metrics),
         "",
     ]
 
 
-def _rank_row(overall: Scope, standing: Standing, entry: Entry) -> list[Cell]:
+def _rank_row(comparison: Comparison, standing: Standing, entry: Entry) -> list[Cell]:
+    overall, metrics = comparison.overall, comparison.contest.metrics
     return [
         str(standing.rank) if overall.decisive else "",
         _name(entry.name),
         f"{standing.rmse_mm.mean:.2f}",
         _interval(standing.rmse_mm),
         f"{standing.vs_human.mean:.2f}",
-        *(_metric(metric, standing.metrics[metric.name]) for metric in BOARD),
+        *(_metric(metric, standing.metrics[metric.name]) for metric in metrics),
         number(entry.step_ms[0] if entry.step_ms else None, ".3f"),
     ]
 

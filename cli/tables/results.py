@@ -1,6 +1,6 @@
 """Results as a person reads them in a terminal."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, Final
 
 from rich.table import Table
@@ -8,7 +8,7 @@ from rich.table import Table
 from ...agents.actions import HAND_SPEED
 from ...agents.hardware.setup import LOWEST_RATE
 from ...agents.sandbox.host.levels import LEVELS, VERIFIABLE
-from ...benchmark.episode.scores import METRICS
+from ...benchmark.episode.metric import LEADING, Metric, Metrics
 from ...benchmark.results.headline import error, versus_human
 from ..printing import number, styled, table
 
@@ -17,10 +17,6 @@ NAMES: Final = {
     "hold": "hold (never moves)",
     "copy": "copy (goes where the human was)",
 }
-
-COLUMNS: Final = tuple(
-    each for each in METRICS.values() if each.shown != "file" and each.name != "rmse_mm"
-)
 
 TIMES: Final = {
     "sensing_age_ms": "age of the newest frame",
@@ -39,20 +35,21 @@ MEANINGS: Final = (
 """What the columns mean."""
 
 
-def results_table(content: dict[str, Any]) -> Table:
-    """Return the table of a result: one row a behaviour, and the mean over all."""
+def results_table(content: dict[str, Any], metrics: Metrics) -> Table:
+    """Return the table of a result: one row per behaviour, and the mean over all."""
     summary, groups = content["summary"], content["groups"]
+    shown = [each for each in metrics.values() if each.shown != "file" and each.name != LEADING]
     behaviours = dict.fromkeys(group["behaviour"] for group in groups)
     return table(
         f"{content['policy']['name']} on {content['suite']}",
-        ("human", "RMSE mm", "two people", *(metric.heading for metric in COLUMNS)),
+        ("human", "RMSE mm", "two people", *(metric.heading for metric in shown)),
         [
             *(
-                (name, *_row([group for group in groups if group["behaviour"] == name]))
+                (name, *_row([g for g in groups if g["behaviour"] == name], shown))
                 for name in behaviours
             ),
             None,
-            styled(("all", *_row(groups)), "bold"),
+            styled(("all", *_row(groups, shown)), "bold"),
         ],
         caption=f"{summary['episodes']} lifts, {summary['failed']} failed; "
         f"suite digest {content['suite_digest']}. {MEANINGS}",
@@ -73,7 +70,7 @@ def standing(content: dict[str, Any]) -> str:
             f"The human did not reach the intended height in {summary['goal_missed']} "
             f"of {summary['episodes']} lifts."
         )
-    clipped = summary["clipped"]["mean"]
+    clipped = summary.get("clipped", {}).get("mean")
     if clipped is not None:
         lines.append(
             f"{100 * clipped:.1f} % of the actions were cut to the most that the hands can go "
@@ -87,7 +84,7 @@ def standing(content: dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def _row(groups: list[dict[str, Any]]) -> list[str]:
+def _row(groups: list[dict[str, Any]], shown: Sequence[Metric]) -> list[str]:
     """Return the cells of a row: the means over the groups' episodes."""
     weights = [group["episodes"] for group in groups]
     known = [group["human_human_rmse_mm"]["mean"] for group in groups]
@@ -95,7 +92,7 @@ def _row(groups: list[dict[str, Any]]) -> list[str]:
     if None not in known:
         team = sum(w * mean for w, mean in zip(weights, known, strict=True)) / sum(weights)
     errors = [number(_pooled(groups, "rmse_mm"), ".1f"), number(team, ".1f")]
-    return errors + [metric.text(_pooled(groups, metric.name)) for metric in COLUMNS]
+    return errors + [metric.text(_pooled(groups, metric.name)) for metric in shown]
 
 
 def _pooled(groups: Iterable[dict[str, Any]], name: str) -> float | None:

@@ -13,7 +13,7 @@ from ...agents.sandbox.host.levels import VERIFIABLE
 from ...agents.spec import AgentSpec
 from ...benchmark.bundle import results, write_bundle
 from ...benchmark.episode.episode import Episode
-from ...benchmark.episode.scores import SCORING
+from ...benchmark.episode.metric import SCORING
 from ...benchmark.execution.runner import Run, run_suite
 from ...benchmark.results.baselines import (
     SPECS,
@@ -125,7 +125,7 @@ def evaluate_entrant(
             gap(hidden, public),
         ),
         refusal=None,
-        hidden_rmse_mm=tuple(episode.scores.rmse_mm for episode in hidden.episodes),
+        hidden_rmse_mm=tuple(episode.scores["rmse_mm"] for episode in hidden.episodes),
     )
 
 

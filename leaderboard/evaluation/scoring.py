@@ -49,7 +49,7 @@ def hidden_scores(run: Run, team: Baseline) -> HiddenScores:
     team
         The human-human team on the same episodes.
     """
-    summary = summarise(run.episodes, team.rmse_mm)
+    summary = summarise(run.episodes, run.suite.metrics, team.rmse_mm)
     failure_lines = _failures(run)
     sure = probability_better(_rmse(run), team.rmse_mm, team.strata)
     return HiddenScores(
@@ -73,7 +73,7 @@ def gap(hidden: Run, public: Run) -> Estimate:
 
 
 def _rmse(run: Run) -> list[float]:
-    return [episode.scores.rmse_mm for episode in run.episodes]
+    return [episode.scores["rmse_mm"] for episode in run.episodes]
 
 
 def _failures(run: Run) -> Counter[str]:

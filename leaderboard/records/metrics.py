@@ -3,7 +3,8 @@
 from collections.abc import Mapping
 from typing import Any, Final
 
-from ...benchmark.episode.scores import BOARD, Metric
+from ...benchmark.episode.level import LEVEL
+from ...benchmark.episode.metric import Metric, on_boards
 from ...benchmark.statistics import MeanWithMissing
 
 _MISSING: Final = 1000.0
@@ -12,7 +13,7 @@ _MISSING: Final = 1000.0
 
 def board_metrics() -> tuple[Metric, ...]:
     """Return the metrics that have a column on boards, in their order."""
-    return BOARD
+    return on_boards(LEVEL.metrics)
 
 
 def read_means(content: Mapping[str, Any]) -> dict[str, MeanWithMissing]:

@@ -36,7 +36,7 @@ def choose_replays(episodes: Sequence[Episode]) -> tuple[ReplayChoice, ...]:
         by_behaviour.setdefault(episode.behaviour, []).append(row)
     found = []
     for behaviour, rows in by_behaviour.items():
-        ordered = sorted(rows, key=lambda row: (episodes[row].scores.rmse_mm, row))
+        ordered = sorted(rows, key=lambda row: (episodes[row].scores["rmse_mm"], row))
         last = len(ordered) - 1
         places: dict[Which, int] = {"best": 0, "median": last // 2, "worst": last}
         if last == 1:

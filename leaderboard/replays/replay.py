@@ -30,7 +30,7 @@ import contextlib
 import dataclasses
 import math
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any, Final, Literal
 
 import numpy as np
@@ -120,7 +120,7 @@ def replay_content(
         "seed": episode.seed,
         "which": which,
         "failure": None if episode.failure is None else one_line(episode.failure),
-        "scores": {name: _score(value) for name, value in asdict(episode.scores).items()},
+        "scores": {name: _score(value) for name, value in episode.scores.items()},
         "frame_s": FRAME,
         "period_s": scenario.control_period,
         "latency_s": scenario.latency,
@@ -136,7 +136,7 @@ def replay_content(
         "ghost": {
             "human": changes(team.trace.human_end),
             "robot": changes(team.trace.robot_end),
-            "rmse_mm": _score(team.scores.rmse_mm),
+            "rmse_mm": _score(team.scores["rmse_mm"]),
         },
     }
 

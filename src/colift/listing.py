@@ -1,7 +1,6 @@
 """What there is, by name."""
 
-from .agents.registry import HUMANS, POLICIES, entries
-from .benchmark.suites.suite import SUITES
+from .agents.registry import HUMANS, POLICIES, SUITES, entries
 
 
 def list_policies() -> list[str]:
@@ -16,4 +15,4 @@ def list_humans() -> list[str]:
 
 def list_suites() -> list[str]:
     """Return the names of the suites that :func:`.evaluate` takes."""
-    return list(SUITES)
+    return list(entries(SUITES))

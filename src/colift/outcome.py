@@ -9,6 +9,7 @@ from typing import Any
 from rich.console import Console
 
 from .agents.errors import InputError
+from .benchmark.bundle.table import table_row
 from .benchmark.execution.runner import Run
 from .cli.printing import show
 from .cli.tables.results import results_table, standing
@@ -53,7 +54,7 @@ class Evaluation:
 
     def rows(self) -> list[dict[str, object]]:
         """Return one row a lift: who lifts, the seed, the scores, and why it failed, if it did."""
-        return [episode.row() for episode in self.run.episodes]
+        return [table_row(episode, self.run.suite.metrics) for episode in self.run.episodes]
 
     def to_frame(self) -> Any:
         """Return :meth:`rows` as a ``pandas.DataFrame``.
@@ -72,7 +73,7 @@ class Evaluation:
     def __str__(self) -> str:
         """Return the table and the lines below it."""
         console = Console(file=io.StringIO(), width=WIDTH, no_color=True, _environ={})
-        show(results_table(self.results), *self._lines(), console=console)
+        show(results_table(self.results, self.run.suite.metrics), *self._lines(), console=console)
         assert isinstance(console.file, io.StringIO)
         return console.file.getvalue().strip("\n")
 

@@ -30,7 +30,7 @@ def evaluation_picture(run: Run, results: Mapping[str, Any]) -> str:
     axes = figure.add_subplot()
     plain(axes)
     for row, behaviour in enumerate(behaviours):
-        errors = [e.scores.rmse_mm for e in run.episodes if e.behaviour == behaviour]
+        errors = [e.scores["rmse_mm"] for e in run.episodes if e.behaviour == behaviour]
         groups = [group for group in results["groups"] if group["behaviour"] == behaviour]
         team = np.average(
             [group["human_human_rmse_mm"]["mean"] for group in groups],

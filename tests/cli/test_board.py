@@ -4,9 +4,9 @@ import json
 import os
 
 import pytest
+from colift.agents.registry import SUITES, entries
 from colift.agents.submissions.new import write_template
 from colift.benchmark.results.baselines import Baseline
-from colift.benchmark.suites.suite import SUITES
 from colift.cli.tables.board import board_table
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.tokens import Tokens
@@ -83,7 +83,7 @@ def test_a_token_is_made_listed_and_revoked(board, colift):
 
 
 def test_a_worker_does_what_waits_and_ends(colift, tmp_path, monkeypatch):
-    monkeypatch.setitem(SUITES, "tiny", ENTRY)
+    monkeypatch.setitem(entries(SUITES), "tiny", ENTRY)
     board = Board.open(tmp_path / "board", "tiny")
     write_template(tmp_path / "mine")
     Queue(board).enqueue(board.keep(tmp_path / "mine"), "Ada")

@@ -8,8 +8,8 @@ import sys
 import urllib.request
 
 import pytest
+from colift.agents.registry import SUITES, entries
 from colift.agents.submissions.new import write_template
-from colift.benchmark.suites.suite import SUITES
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.tokens import Tokens
 
@@ -29,7 +29,7 @@ def environment(place):
 @pytest.fixture(scope="module")
 def board(place):
     with pytest.MonkeyPatch.context() as patched:
-        patched.setitem(SUITES, "tiny", tiny.ENTRY)
+        patched.setitem(entries(SUITES), "tiny", tiny.ENTRY)
         board = Board.open(place / "board", "tiny")
         yield board
         board.close()

@@ -9,7 +9,7 @@ import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.bundle.json_text import dump_json
-from colift.benchmark.episode.scores import SCORING
+from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
 

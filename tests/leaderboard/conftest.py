@@ -8,9 +8,9 @@ from pathlib import Path
 import psycopg
 import pytest
 from colift.agents.loading.loading import PolicySpec
+from colift.agents.registry import SUITES, entries
 from colift.agents.submissions.new import write_template
 from colift.benchmark.results.baselines import Baseline
-from colift.benchmark.suites import suite
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.evaluation.entrant import Entrant
 from colift.leaderboard.evaluation.evaluation import play_team
@@ -51,7 +51,7 @@ def chromium() -> Iterator[Browser]:
 def tiny_suite() -> Iterator[None]:
     """A suite ``tiny`` of two lifts, so that an evaluation takes seconds."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setitem(suite.SUITES, "tiny", ENTRY)
+        patched.setitem(entries(SUITES), "tiny", ENTRY)
         yield
 
 

@@ -8,7 +8,9 @@ import dataclasses
 import os
 import signal
 import sys
+from importlib.metadata import EntryPoint
 
+from colift.agents.registry import SUITES, entries
 from colift.benchmark.suites import suite
 from colift.cli.main import main
 
@@ -18,7 +20,7 @@ def tiny() -> suite.Suite:
     return dataclasses.replace(quick, name="tiny", scenarios=quick.scenarios[:1], seeds=(0, 1))
 
 
-ENTRY = ("for tests", tiny)
+ENTRY = EntryPoint(name="tiny", value=f"{__name__}:tiny", group=SUITES)
 
 
 def fork_each() -> None:
@@ -37,7 +39,7 @@ def fork_each() -> None:
 
 
 if __name__ == "__main__":
-    suite.SUITES["tiny"] = ENTRY
+    entries(SUITES)["tiny"] = ENTRY
     if sys.argv[1:] == ["--fork"]:
         fork_each()
     else:

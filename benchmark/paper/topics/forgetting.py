@@ -93,7 +93,7 @@ def _good(pauses: Sequence[SampledLift], runs: Mapping[float, Run]) -> Claim:
 
 
 def _sparc(run: Run) -> list[float]:
-    return [episode.scores.sparc for episode in run.episodes]
+    return [episode.scores["sparc"] for episode in run.episodes]
 
 
 def _after_braking(lift: SampledLift, forgetting: float) -> float:

@@ -28,7 +28,7 @@ def performance_claims(evidence: Evidence) -> list[Claim]:
 
 def _absolute(evidence: Evidence) -> Claim:
     without, with_it = (
-        np.array([episode.scores.abs_error_mm for episode in run.episodes])
+        np.array([episode.scores["abs_error_mm"] for episode in run.episodes])
         for run in (evidence.reactive, evidence.blend)
     )
     p = paired_permutation_p(with_it, without)
@@ -49,7 +49,7 @@ def _smoother(evidence: Evidence) -> Claim:
     a, b = _both(with_it, without)
     p = paired_permutation_p(a, b)
     jerks = [
-        np.nanmean([episode.scores.ldlj for episode in run.episodes])
+        np.nanmean([episode.scores["ldlj"] for episode in run.episodes])
         for run in (evidence.blend, evidence.reactive)
     ]
     return Claim(
@@ -143,7 +143,7 @@ def _jerky(evidence: Evidence) -> list[Claim]:
 
 
 def _scores(episodes: Sequence[Episode]) -> Series:
-    return np.array([episode.scores.sparc for episode in episodes])
+    return np.array([episode.scores["sparc"] for episode in episodes])
 
 
 def _both(a: Series, b: Series) -> tuple[Series, Series]:
@@ -204,8 +204,8 @@ def _figure(cases: Mapping[str, Episode], far: str, limit: float) -> Figure:
         below.fill_between(times, error, color=FAINT, alpha=0.35, lw=0)
         below.plot(times, error, color=FAINT, lw=1.0)
         above.set_title(
-            f"{name}\nRMSE {scores.rmse_mm:.1f} mm, absolute error {scores.abs_error_mm:.0f} mm, "
-            f"SPARC {scores.sparc:.2f}",
+            f"{name}\nRMSE {scores['rmse_mm']:.1f} mm, "
+            f"absolute error {scores['abs_error_mm']:.0f} mm, SPARC {scores['sparc']:.2f}",
             fontsize=9,
             color=INK,
             loc="left",

@@ -163,7 +163,7 @@ def held_out(behaviours, seeds):
 
 
 def rmse(run):
-    return np.array([episode.scores.rmse_mm for episode in run.episodes])
+    return np.array([episode.scores["rmse_mm"] for episode in run.episodes])
 
 
 def test_with_a_person_it_never_met_it_beats_the_human_partner_and_blend():
@@ -174,8 +174,8 @@ def test_with_a_person_it_never_met_it_beats_the_human_partner_and_blend():
     blend = run_suite(PolicySpec(text="blend"), suite)
     assert rmse(mine).mean() < 0.7 * rmse(team).mean()
     assert (rmse(mine) < 0.5 * rmse(blend)).all()
-    mine_smooth = [episode.scores.sparc for episode in mine.episodes]
-    blend_smooth = [episode.scores.sparc for episode in blend.episodes]
+    mine_smooth = [episode.scores["sparc"] for episode in mine.episodes]
+    blend_smooth = [episode.scores["sparc"] for episode in blend.episodes]
     assert np.mean(mine_smooth) > np.mean(blend_smooth)
 
 

@@ -109,7 +109,7 @@ def test_it_beats_a_copy_and_the_reactive_controller(behaviour):
             run_episode(lift, policy(), seed) for policy in (EkfMinimumJerk, Copy, Reactive)
         ]
         assert episodes[0].failure is None
-        ours, copied, reactive = (episode.scores.rmse_mm for episode in episodes)
+        ours, copied, reactive = (episode.scores["rmse_mm"] for episode in episodes)
         assert ours < 0.6 * copied
         assert ours < 0.6 * reactive
 
@@ -120,7 +120,7 @@ def test_more_assistance_is_more_level_than_little():
         EkfMinimumJerk(parameters=EkfMinimumJerkParameters(assistance=assistance))
         for assistance in (0.0, 0.5, 0.9)
     ]
-    rmse = [run_episode(lift, policy, 60000).scores.rmse_mm for policy in policies]
+    rmse = [run_episode(lift, policy, 60000).scores["rmse_mm"] for policy in policies]
     assert rmse[0] > 1.3 * rmse[1] > 1.3**2 * rmse[2]
 
 

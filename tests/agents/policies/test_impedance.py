@@ -212,7 +212,7 @@ class TestInTheWorld:
             for seed in suite.seeds:
                 played, held = (run_episode(lift, policy(), seed) for policy in (Impedance, Hold))
                 assert played.failure is None
-                assert played.scores.rmse_mm < 0.4 * held.scores.rmse_mm
+                assert played.scores["rmse_mm"] < 0.4 * held.scores["rmse_mm"]
 
     def test_is_more_level_than_a_copy_and_smoother_than_plain_feedback(self):
         rmse, sparc = {}, {}
@@ -234,7 +234,7 @@ class TestInTheWorld:
         scenario = make_scenario("pause", "S2", control_period=control_period, latency=latency)
         episode = run_episode(Lift(scenario), Impedance(), 5000)
         assert episode.failure is None
-        assert episode.scores.rmse_mm < 35.0
+        assert episode.scores["rmse_mm"] < 35.0
         apart = episode.trace.human_end - episode.trace.robot_end
         assert np.abs(apart[-10:]).max() < 5e-3
 

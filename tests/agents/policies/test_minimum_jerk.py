@@ -106,7 +106,7 @@ def test_it_beats_a_copy_and_the_reactive_controller_on_smooth_lifts():
                 run_episode(lift, policy(), seed) for policy in (MinimumJerk, Copy, Reactive)
             ]
             assert episodes[0].failure is None
-            ours, copied, reactive = (episode.scores.rmse_mm for episode in episodes)
+            ours, copied, reactive = (episode.scores["rmse_mm"] for episode in episodes)
             assert ours < 0.4 * copied
             assert ours < 0.4 * reactive
 
@@ -117,7 +117,7 @@ def test_it_beats_a_copy_where_the_model_fails(behaviour):
     for seed in (60000, 60001):
         ours, copied = (run_episode(lift, policy(), seed) for policy in (MinimumJerk, Copy))
         assert ours.failure is None
-        assert ours.scores.rmse_mm < 0.85 * copied.scores.rmse_mm
+        assert ours.scores["rmse_mm"] < 0.85 * copied.scores["rmse_mm"]
 
 
 @pytest.mark.parametrize("name", ["latency", "lag"])

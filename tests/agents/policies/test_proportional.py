@@ -106,7 +106,7 @@ def test_beats_holding_still_and_copying_in_the_quick_suite():
         for seed in suite.seeds:
             played = [run_episode(made, policy(), seed) for policy in (Proportional, Copy, Hold)]
             assert played[0].failure is None
-            error, copied, held = (episode.scores.rmse_mm for episode in played)
+            error, copied, held = (episode.scores["rmse_mm"] for episode in played)
             assert error < copied < held
 
 

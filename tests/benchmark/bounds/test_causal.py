@@ -27,6 +27,6 @@ def test_the_bounds_stand_in_the_right_order():
     suite = Suite(name="few", scenarios=scenarios, seeds=(200_000, 200_001, 200_002))
     contest = play_contest({"blend": PolicySpec(text="blend")}, suite, bounds=BOUNDS)
     assert [entry.name for entry in contest.entries] == ["blend"]
-    blend = np.mean([scores.rmse_mm for scores in contest.entries[0].scores])
+    blend = np.mean([scores["rmse_mm"] for scores in contest.entries[0].scores])
     bound = contest.bounds[CAUSAL_BOUND]
     assert 10 * contest.bounds["oracle"].mean < bound.mean < 0.6 * blend

@@ -1,12 +1,10 @@
 """The claims of scores of which the answer is known."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 from colift.benchmark.bounds.claims import claims
 from colift.benchmark.comparison.contest import Contest, Entry
-from colift.benchmark.episode.scores import Scores
+from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.results.baselines import Baseline
 from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
 
@@ -17,10 +15,9 @@ CELLS = tuple(
 
 def entry(name, rmse, sparc=-2.0, force=0.1, strata=CELLS):
     errors = np.broadcast_to(rmse, len(strata))
-    blank = dict.fromkeys((field.name for field in dataclasses.fields(Scores)), 0.0)
+    blank = dict.fromkeys(LEVEL.metrics, 0.0)
     scores = tuple(
-        Scores(**{**blank, "rmse_mm": float(e), "sparc": sparc, "human_force_n": force})
-        for e in errors
+        {**blank, "rmse_mm": float(e), "sparc": sparc, "human_force_n": force} for e in errors
     )
     return Entry(
         name=name,

@@ -49,8 +49,8 @@ def test_rehearsal_leaves_less_than_any_policy_does():
     follower = run_episode(lift, PolicySpec(text="task_model").make(), 200_000)
     lift.close()
     assert episode.failure is None
-    assert episode.scores.rmse_mm < 1.0
-    assert episode.scores.rmse_mm < 0.2 * follower.scores.rmse_mm
+    assert episode.scores["rmse_mm"] < 1.0
+    assert episode.scores["rmse_mm"] < 0.2 * follower.scores["rmse_mm"]
 
 
 def test_it_meets_the_same_lifts_as_policies_do_and_nothing_else_changes():

@@ -11,7 +11,7 @@ from colift.agents.errors import InputError
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import FILES, check_bundle_folder, read_bundle, results, write_bundle
 from colift.benchmark.bundle.content import real_time
-from colift.benchmark.episode.scores import SCORING
+from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.execution.provenance import fingerprint
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
@@ -40,7 +40,7 @@ def test_it_holds_what_the_design_says(run, bundle):
     assert summary["failed"] == 0
     low, high = summary["rmse_mm"]["ci95"]
     assert low < summary["rmse_mm"]["mean"] < high
-    rmse = [episode.scores.rmse_mm for episode in run.episodes]
+    rmse = [episode.scores["rmse_mm"] for episode in run.episodes]
     assert summary["rmse_mm"]["mean"] == pytest.approx(np.mean(rmse))
     assert [group["behaviour"] for group in content["groups"]] == [
         "smooth",

@@ -1,12 +1,12 @@
 """Contests with scores of which the answer is known."""
 
+import math
 from collections.abc import Callable, Mapping
 
 import numpy as np
 import pytest
 from colift.benchmark.comparison.comparison import Comparison, compare
 from colift.benchmark.comparison.contest import Contest, Entry
-from colift.benchmark.episode.scores import Scores
 from colift.benchmark.results.baselines import Baseline
 from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
 
@@ -29,17 +29,18 @@ def entry(name: str, rmse: object, sparc: object, failed: int = 0) -> Entry:
         digest=f"digest of {name}",
         strata=CELLS,
         scores=tuple(
-            Scores(
-                rmse_mm=float(error),
-                abs_error_mm=0.0,
-                max_tilt_deg=0.0,
-                sparc=float(smooth),
-                ldlj=-12.0,
-                human_force_n=0.25,
-                human_work_j=0.0,
-                robot_lag_ms=100.0,
-                short_of_goal_mm=0.0,
-            )
+            {
+                "rmse_mm": float(error),
+                "abs_error_mm": 0.0,
+                "max_tilt_deg": 0.0,
+                "sparc": float(smooth),
+                "ldlj": -12.0,
+                "human_force_n": 0.25,
+                "human_work_j": 0.0,
+                "robot_lag_ms": 100.0,
+                "short_of_goal_mm": 0.0,
+                "clipped": math.nan,
+            }
             for error, smooth in zip(errors, smoothness, strict=True)
         ),
         failures=tuple("step 3: oops" if i < failed else None for i in range(len(CELLS))),

@@ -21,7 +21,7 @@ def named(scope: Scope, name: str) -> Standing:
 
 def errors(comparison: Comparison, name: str) -> np.ndarray:
     (entry,) = [entry for entry in comparison.contest.entries if entry.name == name]
-    return np.array([scores.rmse_mm for scores in entry.scores])
+    return np.array([scores["rmse_mm"] for scores in entry.scores])
 
 
 def test_the_order_is_that_of_the_mean_error(comparison: Comparison) -> None:

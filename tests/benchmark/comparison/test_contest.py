@@ -60,7 +60,7 @@ def test_the_team_is_the_one_shipped_or_is_played(quick: Suite, played: Contest)
     found = play_contest(copies, other, progress=counted.append)
     assert found.bounds == {}
     team = human_team_run(other)
-    assert found.team.rmse_mm == tuple(episode.scores.rmse_mm for episode in team.episodes)
+    assert found.team.rmse_mm == tuple(episode.scores["rmse_mm"] for episode in team.episodes)
     assert sum(counted) == amount(2, other) == 3
 
 

@@ -63,11 +63,13 @@ def test_a_failing_policy_ends_the_episode_with_the_reason_and_counts_as_worst(l
     assert episode.failure.startswith(told)
     assert len(episode.trace.human_end) == 50
     whole = run_episode(lift, Hold(), 4)
-    assert episode.scores.rmse_mm > whole.scores.rmse_mm
+    assert episode.scores["rmse_mm"] > whole.scores["rmse_mm"]
     missing = (lift.horizon - 50) / lift.horizon
-    assert episode.scores.rmse_mm == pytest.approx(FAILED_FRAME_MM * math.sqrt(missing), rel=0.01)
-    assert math.isnan(episode.scores.sparc)
-    assert math.isnan(episode.scores.ldlj)
+    assert episode.scores["rmse_mm"] == pytest.approx(
+        FAILED_FRAME_MM * math.sqrt(missing), rel=0.01
+    )
+    assert math.isnan(episode.scores["sparc"])
+    assert math.isnan(episode.scores["ldlj"])
 
 
 def test_a_policy_that_fails_at_once_scores_the_worst_there_is(lift):
@@ -77,7 +79,7 @@ def test_a_policy_that_fails_at_once_scores_the_worst_there_is(lift):
 
     episode = run_episode(lift, Broken(), 4)
     assert episode.failure == "start: RuntimeError: no model file"
-    assert episode.scores.rmse_mm == FAILED_FRAME_MM
+    assert episode.scores["rmse_mm"] == FAILED_FRAME_MM
     assert len(episode.trace.human_end) == 0
 
 
@@ -117,11 +119,11 @@ def test_the_share_of_actions_that_were_cut_is_told(lift):
     cut = run_episode(lift, Scripted(lambda: [far]), 4)
     steps = len(cut.trace.action)
     assert steps > 5
-    assert cut.scores.clipped == pytest.approx(1 - 5 / steps)
-    assert run_episode(lift, Scripted(lambda: [-lift.step_limit]), 4).scores.clipped == 0.0
+    assert cut.scores["clipped"] == pytest.approx(1 - 5 / steps)
+    assert run_episode(lift, Scripted(lambda: [-lift.step_limit]), 4).scores["clipped"] == 0.0
 
 
 def test_a_policy_without_an_action_and_a_second_human_have_no_share(lift):
-    assert math.isnan(run_episode(lift, Scripted(fail, after=0), 4).scores.clipped)
+    assert math.isnan(run_episode(lift, Scripted(fail, after=0), 4).scores["clipped"])
     with contextlib.closing(Lift(make_scenario("smooth", partner="human"))) as team:
-        assert math.isnan(run_episode(team, Partner(), 4).scores.clipped)
+        assert math.isnan(run_episode(team, Partner(), 4).scores["clipped"])

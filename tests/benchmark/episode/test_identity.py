@@ -21,9 +21,9 @@ from colift.agents.registry import POLICIES, own_entries
 from colift.benchmark import episode, world
 from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.identity import PLANS, PLAYS_AND_SCORES, SIMULATES, STATED, numbers
+from colift.benchmark.episode.level import Level
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.episode.scores import score
 from colift.benchmark.execution.provenance import PLAYS
 from colift.benchmark.suites.suite import make_suite
 
@@ -158,7 +158,7 @@ def test_what_runs_is_in_a_digest(name):
         run_episode(Lift(scenario), policy(), 0)
 
     ran = run_through(play)
-    assert (score.__module__, "score") in ran
+    assert (Level.__module__, "score") in ran
     assert not ran - known
     assert not {each for each in ran - set(code.definitions(policy)) if policies.__name__ in each}
 

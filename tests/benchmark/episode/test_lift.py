@@ -10,6 +10,7 @@ from colift.agents.humans import PARTNER_SUBJECT
 from colift.benchmark.environment import parallel_env
 from colift.benchmark.episode.lift import MOCAP_NOISE, Lift
 from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.world import since_reset
 
 NO_CHANGE = np.zeros(1)
 
@@ -37,11 +38,11 @@ class TestRobotView:
     def test_motion_capture_is_as_old_as_the_latency_and_the_hand_is_fresh(self, latency):
         made = lift(latency=latency)
         views = follow(made, 30)
-        ends = made.world.since_reset(made.world.human_end)
+        ends = since_reset(made.world.human_end)
         frames = np.arange(10, 30) * 10 - 1 - round(latency / 0.01)
         seen = views[10:, RobotObservation.HUMAN_END]
         assert np.abs(seen - ends[frames]).max() < 6 * MOCAP_NOISE
-        hands = made.world.since_reset(made.world.robot_end)[np.arange(10, 30) * 10 - 1]
+        hands = since_reset(made.world.robot_end)[np.arange(10, 30) * 10 - 1]
         assert np.abs(views[10:, RobotObservation.HAND_HEIGHT] - hands).max() < 1e-3
 
     def test_its_noise_has_the_precision_of_the_motion_capture(self):
@@ -54,7 +55,7 @@ class TestRobotView:
                 (RobotObservation.HUMAN_END, made.world.human_end),
                 (RobotObservation.ROBOT_END, made.world.robot_end),
             ):
-                true = made.world.since_reset(history)[np.arange(1, 55) * 10 - 1]
+                true = since_reset(history)[np.arange(1, 55) * 10 - 1]
                 errors.append(views[1:, column] - true)
         assert np.std(errors) == pytest.approx(MOCAP_NOISE, rel=0.1)
         assert abs(np.mean(errors)) < MOCAP_NOISE / 8
@@ -74,9 +75,9 @@ class TestHumanView:
         made = lift(subject="S4")
         follow(made, 25)
         view, world, subject = made.human_observation(), made.world, made.scenario.subject
-        own = world.since_reset(world.human_end)
-        other = world.since_reset(world.robot_end)
-        force = world.since_reset(world.human_force)
+        own = since_reset(world.human_end)
+        other = since_reset(world.robot_end)
+        force = since_reset(world.human_force)
         seen = 250 - round(subject.visual_delay / 0.01)
         felt = 250 - round(subject.haptic_delay / 0.01)
         assert view[HumanObservation.OWN_HEIGHT].tolist() == own[240:250].tolist()
@@ -94,7 +95,7 @@ class TestHumanView:
             made.step(human.act(made.human_observation()), np.zeros(10))
         view = made.partner_observation()
         assert view.shape == made.human_observation().shape
-        others = made.world.since_reset(made.world.human_end)
+        others = since_reset(made.world.human_end)
         seen = 250 - 1 - round(PARTNER_SUBJECT.visual_delay / 0.01)
         assert set(view[HumanObservation.TARGET].tolist()) == {others[seen]}
 
@@ -104,7 +105,7 @@ class TestAction:
         made = lift()
         made.step(np.zeros(10), np.array([0.03]))
         assert made.command == pytest.approx(0.03)
-        rise = np.diff(made.world.since_reset(made.world.robot_end))
+        rise = np.diff(since_reset(made.world.robot_end))
         assert (rise > 0).all()
         assert rise.max() < 0.006
 

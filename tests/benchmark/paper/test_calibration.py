@@ -9,9 +9,10 @@ from colift.agents.estimators.motion_filter import MotionFilterParameters
 from colift.agents.humans import SUBJECTS
 from colift.agents.humans.partner import PartnerParameters
 from colift.agents.loading.loading import PolicySpec
+from colift.agents.registry import SUITES, own_entries
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.paper.calibration import SEEDS, TABLE_1, Fit, calibration_json
-from colift.benchmark.suites.suite import SUITES, make_suite
+from colift.benchmark.suites.suite import make_suite
 
 
 def test_they_are_the_ones_in_use_and_say_where_they_come_from():
@@ -23,7 +24,7 @@ def test_they_are_the_ones_in_use_and_say_where_they_come_from():
 
 
 def test_the_calibrations_seeds_are_in_no_suite():
-    for name in SUITES:
+    for name in own_entries(SUITES):
         assert not set(make_suite(name).seeds) & set(range(*SEEDS))
 
 
@@ -41,7 +42,7 @@ def test_table_one_holds_on_seeds_that_the_fit_has_not_seen():
     columns = []
     for name in ("reactive", "blend"):
         run = run_suite(PolicySpec(text=name), suite)
-        columns.append(np.array([e.scores.rmse_mm for e in run.episodes]).reshape(5, -1))
+        columns.append(np.array([e.scores["rmse_mm"] for e in run.episodes]).reshape(5, -1))
     paper = np.array(list(TABLE_1.values())).T
     means = np.array([column.mean(axis=1) for column in columns])
     assert np.abs(means / paper - 1).max() < 0.15

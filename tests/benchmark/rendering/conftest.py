@@ -1,8 +1,9 @@
+import math
+
 import numpy as np
 import pytest
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.episode.scores import Scores
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.suites.catalogue import make_scenario
 
@@ -16,17 +17,18 @@ def short_episode(frames: int, *, failure: str | None = None) -> Episode:
         subject="S1",
         trial="",
         seed=3,
-        scores=Scores(
-            rmse_mm=20.0,
-            abs_error_mm=0.0,
-            max_tilt_deg=1.4,
-            sparc=-1.5,
-            ldlj=-12.0,
-            human_force_n=0.1,
-            human_work_j=0.0,
-            robot_lag_ms=100.0,
-            short_of_goal_mm=0.0,
-        ),
+        scores={
+            "rmse_mm": 20.0,
+            "abs_error_mm": 0.0,
+            "max_tilt_deg": 1.4,
+            "sparc": -1.5,
+            "ldlj": -12.0,
+            "human_force_n": 0.1,
+            "human_work_j": 0.0,
+            "robot_lag_ms": 100.0,
+            "short_of_goal_mm": 0.0,
+            "clipped": math.nan,
+        },
         failure=failure,
         trace=Trace(
             human_end=target,

@@ -8,13 +8,14 @@ import pytest
 from colift.agents.errors import InputError
 from colift.agents.humans import SUBJECTS
 from colift.agents.loading.loading import PolicySpec
+from colift.agents.registry import SUITES, own_entries
 from colift.agents.spec import InProcess
 from colift.benchmark.episode.episode import policy_seed
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.execution.tasks import shuffled_tasks
 from colift.benchmark.results.baselines import human_team_run
 from colift.benchmark.suites.hidden import commitment, hidden_suite, keyed, new_secret
-from colift.benchmark.suites.suite import SUITES, make_suite
+from colift.benchmark.suites.suite import make_suite
 
 SECRET = bytes(range(32))
 OTHER = bytes(range(1, 33))
@@ -77,7 +78,7 @@ def test_labels_do_not_run_into_each_other():
     assert keyed(SECRET, "a", "bc") != keyed(SECRET, "ab", "c")
 
 
-@pytest.mark.parametrize("name", SUITES)
+@pytest.mark.parametrize("name", own_entries(SUITES))
 def test_a_hidden_suite_has_the_size_and_the_behaviours_of_the_public_one(name):
     public = make_suite(name)
     hidden = hidden_suite(public, SECRET)

@@ -3,7 +3,7 @@
 import json
 
 from colift.benchmark.bundle import write_bundle
-from colift.benchmark.episode.scores import SCORING
+from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.verification import verify
 
 from .forging import edit_arrays, edit_json, flip, mend, refused

@@ -6,7 +6,6 @@ import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import read_bundle, results, write_bundle
 from colift.benchmark.episode.lift import Lift
-from colift.benchmark.episode.scores import score
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import shipped_baselines
 from colift.benchmark.suites.suite import make_suite
@@ -29,7 +28,7 @@ class TestOtherPlatform:
             )
             lift = Lift(run.suite.scenarios[number // 2])
             lift.reset(episode.seed)
-            scores = score(lift, trace, failed=False)
+            scores = lift.task.score(lift, trace, failed=False)
             lift.close()
             episodes.append(dataclasses.replace(episode, trace=trace, scores=scores))
         run = dataclasses.replace(run, episodes=tuple(episodes))

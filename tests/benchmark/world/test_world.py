@@ -5,7 +5,15 @@ import math
 
 import numpy as np
 import pytest
-from colift.benchmark.world import BodyParameters, Physics, Servo, World
+from colift.benchmark.world import (
+    BodyParameters,
+    BulletWorld,
+    HumanFarEnd,
+    NaoFarEnd,
+    Physics,
+    Servo,
+    since_reset,
+)
 from colift.benchmark.world.engine import DIRECT
 from colift.benchmark.world.human_body import REFLEX_LIMIT
 from colift.benchmark.world.table import (
@@ -31,14 +39,14 @@ def ramp(height: float, frames: int = 150) -> list[float]:
 
 @pytest.fixture
 def nao():
-    world = World("nao", BODY)
+    world = BulletWorld(BODY, NaoFarEnd())
     yield world
     world.close()
 
 
 @pytest.fixture
 def humans():
-    world = World("human", BODY, BODY)
+    world = BulletWorld(BODY, HumanFarEnd(BODY))
     yield world
     world.close()
 
@@ -94,7 +102,7 @@ class TestCoupling:
     def test_a_pull_towards_level_evens_out_a_part_of_the_difference(self):
         given = []
         for body in (BODY, PULLED):
-            world = World("nao", body)
+            world = BulletWorld(body, NaoFarEnd())
             world.advance([0.0] * len(ramp(0.05)), ramp(0.05))
             given.append(world.human_end[-1])
             world.close()
@@ -104,9 +112,9 @@ class TestCoupling:
         """Up to the shortest delay a pulled body moves exactly as one without reflexes."""
         paths = []
         for body in (BODY, PULLED):
-            world = World("nao", body)
+            world = BulletWorld(body, NaoFarEnd())
             world.advance([0.0] * 60, [0.05] * 60)
-            paths.append(world.since_reset(world.human_end))
+            paths.append(since_reset(world.human_end))
             world.close()
         differs = np.flatnonzero(paths[0] != paths[1])
         assert differs[0] > round(BODY.haptic_delay / 0.01)
@@ -114,7 +122,7 @@ class TestCoupling:
     def test_a_stiffer_arm_is_moved_less(self):
         given = []
         for stiffness in (150.0, 450.0):
-            world = World("nao", dataclasses.replace(BODY, stiffness=stiffness))
+            world = BulletWorld(dataclasses.replace(BODY, stiffness=stiffness), NaoFarEnd())
             world.advance([0.0] * len(ramp(0.06)), ramp(0.06))
             given.append(world.human_end[-1])
             world.close()
@@ -124,7 +132,7 @@ class TestCoupling:
 class TestServo:
     def test_without_the_weight_offset_the_hands_sag_by_millimetres(self, nao):
         """As in the paper, where an offset had to be added for the table's weight."""
-        sagging = World("nao", BODY, servo=Servo(weight_offset=False))
+        sagging = BulletWorld(BODY, NaoFarEnd(Servo(weight_offset=False)))
         for world in (nao, sagging):
             world.advance([0.0] * SETTLE, [0.0] * SETTLE)
         assert 0.002 < nao.robot_end[-1] - sagging.robot_end[-1] < 0.010
@@ -134,7 +142,7 @@ class TestServo:
         sag = []
         for stiffness in (36.0, 9.0):
             servo = Servo(stiffness=stiffness, weight_offset=False)
-            world = World("nao", BODY, servo=servo)
+            world = BulletWorld(BODY, NaoFarEnd(servo))
             world.advance([0.0] * SETTLE, [0.0] * SETTLE)
             sag.append(-world.robot_end[-1])
             world.close()
@@ -156,7 +164,7 @@ class TestServo:
     def test_the_motors_are_slower_than_a_jump(self, nao):
         """A command that jumps by 0.2 m is followed within the joints' torque, not at once."""
         nao.advance([0.0] * 30, [0.2] * 30)
-        rise = nao.since_reset(nao.robot_end)
+        rise = since_reset(nao.robot_end)
         assert rise[0] < 0.1
         assert rise[-1] > 0.15
 
@@ -166,7 +174,7 @@ class TestDeterminism:
         world.reset()
         world.advance(ramp(0.2), ramp(0.15))
         return [
-            world.since_reset(history).tobytes()
+            since_reset(history).tobytes()
             for history in (world.human_end, world.robot_end, world.human_force)
         ]
 
@@ -177,33 +185,32 @@ class TestDeterminism:
         world.reset()
         world.advance([0.3] * 40, [0.25, -0.02] * 20)
         assert self.play(world) == first
-        second = BODY if partner == "humans" else None
-        fresh = World("human" if second else "nao", BODY, second)
+        fresh = BulletWorld(BODY, HumanFarEnd(BODY) if partner == "humans" else NaoFarEnd())
         assert self.play(fresh) == first
         fresh.close()
 
     def test_worlds_side_by_side_do_not_disturb_each_other(self, nao):
         alone = self.play(nao)
-        other = World("nao", PULLED)
+        other = BulletWorld(PULLED, NaoFarEnd())
         nao.reset()
         for human, robot in zip(ramp(0.2), ramp(0.15), strict=True):
             nao.advance([human], [robot])
             other.advance([0.1], [0.2])
         other.close()
-        assert nao.since_reset(nao.human_end).tobytes() == alone[0]
+        assert since_reset(nao.human_end).tobytes() == alone[0]
 
 
 class TestConvergence:
-    @pytest.mark.parametrize("partner", ["nao", "human"])
-    def test_the_default_step_is_near_a_fine_one(self, partner):
+    @pytest.mark.parametrize("far_end", [NaoFarEnd(), HumanFarEnd(BODY)])
+    def test_the_default_step_is_near_a_fine_one(self, far_end):
         lag = 15
         human = ramp(0.2)
         robot = [0.0] * lag + human[:-lag]
         rmse = []
         for physics in (Physics(), Physics(step=0.0005)):
-            world = World(partner, PULLED, BODY if partner == "human" else None, physics=physics)
+            world = BulletWorld(PULLED, far_end, physics=physics)
             world.advance(human, robot)
-            gap = world.since_reset(world.human_end) - world.since_reset(world.robot_end)
+            gap = since_reset(world.human_end) - since_reset(world.robot_end)
             rmse.append(float(np.sqrt(np.mean(gap**2))))
             world.close()
         assert rmse[0] == pytest.approx(rmse[1], rel=0.015)
@@ -212,9 +219,9 @@ class TestConvergence:
         """Two arms that hold one table are a loop with redundant constraints: the hard case."""
         heights = []
         for physics in (Physics(), Physics(iterations=3000), Physics(iterations=35)):
-            world = World("nao", PULLED, physics=physics)
+            world = BulletWorld(PULLED, NaoFarEnd(), physics=physics)
             world.advance(ramp(0.2), ramp(0.15))
-            heights.append(world.since_reset(world.robot_end))
+            heights.append(since_reset(world.robot_end))
             world.close()
         direct, converged, early = heights
         assert np.abs(direct - converged).max() < 2e-5
@@ -225,7 +232,7 @@ class TestConvergence:
         wild = [0.3, 0.3, -0.2, 0.5] * 40, [0.25, -0.02] * 80
         nao.advance(*wild)
         monkeypatch.setitem(DIRECT, "numSolverIterations", 50)
-        other = World("nao", BODY)
+        other = BulletWorld(BODY, NaoFarEnd())
         other.advance(*wild)
         assert other.robot_end == nao.robot_end
         other.close()
@@ -243,10 +250,3 @@ def test_impossible_physics_is_refused(step, iterations):
 def test_impossible_bodies_are_refused(change):
     with pytest.raises(ValueError, match="must"):
         dataclasses.replace(BODY, **change)
-
-
-def test_a_second_human_is_for_human_partners_only():
-    with pytest.raises(ValueError, match="second_human"):
-        World("nao", BODY, BODY)
-    with pytest.raises(ValueError, match="second_human"):
-        World("human", BODY)

@@ -91,7 +91,7 @@ def test_a_row_has_the_scores_of_both_runs(evaluation, season, team):
     row = evaluation.row
     public = run_suite(PolicySpec(text="copy"), season.suite)
     hidden = run_suite(PolicySpec(text="copy"), season.hidden)
-    errors = [[e.scores.rmse_mm for e in run.episodes] for run in (public, hidden)]
+    errors = [[e.scores["rmse_mm"] for e in run.episodes] for run in (public, hidden)]
     assert row.public.rmse_mm.mean == pytest.approx(np.mean(errors[0]))
     assert row.hidden.rmse_mm.mean == round(np.mean(errors[1]), 2)
     assert row.hidden.vs_human.mean == round(np.mean(errors[1]) / team.mean, 2)

@@ -99,5 +99,5 @@ def _adopted(folder: Path, season: Season, team: Baseline, name: str, number: in
         row=row,
         refusal=None,
     )
-    errors = tuple(episode.scores.rmse_mm for episode in hidden.episodes)
+    errors = tuple(episode.scores["rmse_mm"] for episode in hidden.episodes)
     return ImportedEntry(entry=entry, hidden_rmse_mm=errors, bundle=bundle)

@@ -20,7 +20,7 @@ def test_the_replays_of_a_run_are_small_and_of_public_lifts(replays, bundle):
         same = [
             e for e in bundle.episodes if (e.behaviour, e.seed) == (each["behaviour"], each["seed"])
         ]
-        assert round(same[0].scores.rmse_mm, 4) == each["scores"]["rmse_mm"]
+        assert round(same[0].scores["rmse_mm"], 4) == each["scores"]["rmse_mm"]
 
 
 def test_the_best_is_better_than_the_worst(replays):

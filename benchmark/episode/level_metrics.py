@@ -1,0 +1,109 @@
+"""The metrics of the task to keep the table level."""
+
+from typing import Final
+
+from .metric import Metric, metric_table
+
+REACHED: Final = 0.02
+"""The human has reached the intended height within this distance of it [m]."""
+
+MOSTLY_CLIPPED: Final = 0.5
+"""Share of clipped actions above which they are hardly in metres."""
+
+LEVEL_METRICS: Final = metric_table(
+    (
+        Metric(
+            name="rmse_mm",
+            symbol="RMSE",
+            label="RMSE",
+            unit="mm",
+            missing="never",
+            shown="board",
+            meaning="root mean square of Z1 - Z2 over the whole trial, rest included. The paper's "
+            "measure, by which policies are ranked",
+        ),
+        Metric(
+            name="abs_error_mm",
+            symbol="error",
+            label="Absolute error",
+            unit="mm",
+            digits=0,
+            missing="never",
+            meaning="the paper's eq. 10: sum of the absolute difference over all frames",
+        ),
+        Metric(
+            name="max_tilt_deg",
+            symbol="tilt",
+            label="Tilt",
+            unit="°",
+            digits=1,
+            shown="run",
+            meaning="largest incline of the table",
+        ),
+        Metric(
+            name="sparc",
+            symbol="SPARC",
+            label="Smoothness",
+            better="more",
+            missing="worst",
+            shown="board",
+            meaning="smoothness of the robot's end, mean over the human's strokes: spectral arc "
+            "length (20 Hz, threshold 0.05); nearer to zero is smoother",
+        ),
+        Metric(
+            name="ldlj",
+            symbol="LDLJ",
+            label="Jerk",
+            digits=1,
+            better="more",
+            missing="worst",
+            shown="run",
+            meaning="the same by log dimensionless jerk",
+        ),
+        Metric(
+            name="human_force_n",
+            symbol="force",
+            label="Human force",
+            unit="N",
+            shown="board",
+            meaning="root mean square of the vertical force at the human's hands, beyond their "
+            "half of the table's weight",
+        ),
+        Metric(
+            name="human_work_j",
+            symbol="work",
+            label="Human work",
+            unit="J",
+            meaning="integral of the magnitude of that force times the hands' velocity",
+        ),
+        Metric(
+            name="robot_lag_ms",
+            symbol="lag",
+            label="Lag",
+            unit="ms",
+            digits=0,
+            better="near zero",
+            shown="run",
+            meaning="delay at which the robot's velocity matches the human's best",
+        ),
+        Metric(
+            name="short_of_goal_mm",
+            symbol="short",
+            label="Short of the goal",
+            unit="mm",
+            digits=1,
+            missing="never",
+            limit=1000 * REACHED,
+            meaning="how far below the intended height the human's end stayed; above 20 mm the "
+            "goal was not reached",
+        ),
+        Metric(
+            name="clipped",
+            symbol="clipped",
+            label="Clipped actions",
+            meaning="share of the robot's actions that were larger than its hands can go in a step "
+            "(0.04 m in 100 ms) and cut to that: nearly 1 where millimetres were meant for metres",
+        ),
+    )
+)
+"""One entry for each score of :meth:`.Level.score`, in the same order."""

@@ -1,0 +1,134 @@
+"""The seat at the robot's end: taken by a NAO or by a second human."""
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Final, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.actions import action_limit, limited_command
+from ...agents.agent import Observation
+from ...agents.humans import PARTNER_SUBJECT, Subject
+from ..world import BodyParameters, FarEnd, HumanFarEnd, NaoFarEnd
+
+if TYPE_CHECKING:
+    from .lift import Lift
+
+REFERENCE_RANGE: Final = (-0.2, 0.5)
+"""Heights that a human's hand reference is clipped to [m]."""
+
+
+def body_parameters(person: Subject) -> BodyParameters:
+    """Return the part of a person that the world simulates."""
+    return BodyParameters(
+        stiffness=person.stiffness,
+        damping=person.damping,
+        mass=person.mass,
+        pull=person.pull,
+        felt_share=person.felt_share,
+        visual_delay=person.visual_delay,
+        haptic_delay=person.haptic_delay,
+    )
+
+
+def within_range(references: list[float]) -> list[float]:
+    """Return a human's references, clipped to the range of heights."""
+    low, high = REFERENCE_RANGE
+    if min(references) < low or max(references) > high:
+        return [min(max(value, low), high) for value in references]
+    return references
+
+
+class Seat(Protocol):
+    """Who acts at the robot's end: body, action and observation."""
+
+    @property
+    def label(self) -> str:
+        """What pictures call the holder."""
+
+    @property
+    def is_robot(self) -> bool:
+        """Whether the holder has the robot's observation, or a human's."""
+
+    @property
+    def body(self) -> FarEnd:
+        """The holder in the world."""
+
+    def action_size(self, frames: int) -> int:
+        """Return how many numbers an action has, for ``frames`` frames per step."""
+
+    def action_range(self, control_period: float) -> tuple[float, float]:
+        """Return the lowest and the highest number of an action [m]."""
+
+    def commands(self, lift: "Lift", action: list[float]) -> list[float]:
+        """Return the height to reach at the end of each frame of the step [m]."""
+
+    def observation(self, lift: "Lift") -> Observation:
+        """Return what the holder perceives at the beginning of a step."""
+
+    def clipped(self, actions: NDArray[np.float64], limit: float) -> float:
+        """Return the share of actions larger than ``limit`` [m]; NaN if none was made or counts."""
+
+
+class NaoSeat:
+    """A NAO: an action is one number, the change of the hand command over the step [m]."""
+
+    label: Final = "robot"
+    is_robot: Final = True
+    body: Final = NaoFarEnd()
+
+    def action_size(self, frames: int) -> int:
+        """Return 1."""
+        return 1
+
+    def action_range(self, control_period: float) -> tuple[float, float]:
+        """Return the largest change of the command in one period, down and up [m]."""
+        limit = action_limit(control_period)
+        return -limit, limit
+
+    def commands(self, lift: "Lift", action: list[float]) -> list[float]:
+        """Return a ramp from the present command, clipped to the hands' speed and stroke."""
+        start, size = lift.command, lift.frames_per_step
+        change = limited_command(start, action[0], lift.step_limit) - start
+        return [start + change * (i + 1) / size for i in range(size)]
+
+    def observation(self, lift: "Lift") -> Observation:
+        """Return the task's observation of the robot."""
+        return lift.scenario.task.robot_observation(lift)
+
+    def clipped(self, actions: NDArray[np.float64], limit: float) -> float:
+        """Return the share of changes that were faster than the hands."""
+        return int((np.abs(actions) > limit).sum()) / len(actions) if len(actions) else math.nan
+
+
+class HumanSeat:
+    """A second human: an action is a hand reference for each frame [m]."""
+
+    label: Final = "partner"
+    is_robot: Final = False
+    body: Final = HumanFarEnd(body_parameters(PARTNER_SUBJECT))
+
+    def action_size(self, frames: int) -> int:
+        """Return one number per frame."""
+        return frames
+
+    def action_range(self, control_period: float) -> tuple[float, float]:
+        """Return the range of heights [m]."""
+        return REFERENCE_RANGE
+
+    def commands(self, lift: "Lift", action: list[float]) -> list[float]:
+        """Return the references, clipped to the range of heights."""
+        return within_range(action)
+
+    def observation(self, lift: "Lift") -> Observation:
+        """Return the task's observation of a second human."""
+        return lift.scenario.task.partner_observation(lift)
+
+    def clipped(self, actions: NDArray[np.float64], limit: float) -> float:
+        """Return NaN: no reference is out of a person's reach."""
+        return math.nan
+
+
+SEATS: Final[Mapping[str, Seat]] = {"nao": NaoSeat(), "human": HumanSeat()}
+"""The holders of the robot's end by name."""
