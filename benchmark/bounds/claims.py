@@ -117,4 +117,4 @@ def _kinder(entries: dict[str, Entry], contest: Contest) -> Iterator[Claim]:
 
 
 def _values(entry: Entry, metric: str) -> FloatArray:
-    return np.array([getattr(scores, metric) for scores in entry.scores])
+    return np.array([scores[metric] for scores in entry.scores])

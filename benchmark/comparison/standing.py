@@ -187,4 +187,4 @@ def _metric_mean(values: FloatArray, strata: Sequence[Stratum]) -> MetricMean:
 
 
 def _values(entry: Entry, metric: str) -> FloatArray:
-    return np.array([getattr(scores, metric) for scores in entry.scores])
+    return np.array([scores[metric] for scores in entry.scores])

@@ -136,7 +136,7 @@ def test_where_lifts_are_enough_the_best_are_marked(comparison: Comparison) -> N
 def test_actions_that_are_hardly_in_metres_are_told() -> None:
     def clipped(name: str, share: float) -> Entry:
         made = entry(name, 20.0, -2.0)
-        scores = tuple(dataclasses.replace(each, clipped=share) for each in made.scores)
+        scores = tuple({**each, "clipped": share} for each in made.scores)
         return dataclasses.replace(made, scores=scores)
 
     made = compare(contest(clipped("millimetres", 0.98), clipped("metres", 0.02)))

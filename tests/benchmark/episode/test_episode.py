@@ -8,7 +8,9 @@ import pytest
 from colift.agents.humans import Partner
 from colift.agents.policies.copy import Copy
 from colift.agents.policies.hold import Hold
+from colift.benchmark.bundle.table import table_row
 from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.suites.catalogue import make_scenario
@@ -41,7 +43,7 @@ def test_an_episode_has_all_frames_and_all_scores(lift):
     assert episode.failure is None
     assert len(episode.trace.human_end) == lift.horizon
     assert len(episode.trace.action) == len(episode.step_times) == lift.horizon // 10
-    row = episode.row()
+    row = table_row(episode, LEVEL.metrics)
     assert (row["behaviour"], row["subject"], row["seed"]) == ("pause", "S2", 4)
     gap = 1000 * (episode.trace.human_end - episode.trace.robot_end)
     assert row["rmse_mm"] == pytest.approx(math.sqrt(np.mean(gap**2)))

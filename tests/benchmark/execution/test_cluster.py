@@ -15,6 +15,7 @@ from colift.agents.sandbox.host.levels import strongest
 from colift.agents.sandbox.host.policy import SandboxedPolicy
 from colift.agents.submissions.new import write_template
 from colift.agents.submissions.submission import open_submission
+from colift.benchmark.bundle.table import table_row
 from colift.benchmark.execution import cluster as cluster_module
 from colift.benchmark.execution import connecting
 from colift.benchmark.execution.connecting import dask_pool
@@ -103,7 +104,7 @@ def worker(address, *options, code=None, path=()):
 
 
 def told(run):
-    return [(e.trace.digest(), repr(e.row()), e.log) for e in run.episodes]
+    return [(e.trace.digest(), repr(table_row(e, run.suite.metrics)), e.log) for e in run.episodes]
 
 
 def test_the_cluster_gives_the_same_bits(alone, cluster):

@@ -9,6 +9,7 @@ from dataclasses import dataclass, fields
 import pytest
 from colift.agents.errors import EvaluatorFault, InputError
 from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.bundle.table import table_row
 from colift.benchmark.execution.pool import process_pool
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.execution.tasks import Faults, Task, gather, tasks
@@ -44,7 +45,7 @@ KILLED = "os.kill(os.getpid(), 9)"
 
 
 def told(run):
-    return [(e.trace.digest(), repr(e.row()), e.log) for e in run.episodes]
+    return [(e.trace.digest(), repr(table_row(e, run.suite.metrics)), e.log) for e in run.episodes]
 
 
 @pytest.fixture(scope="module")

@@ -65,8 +65,8 @@ def test_the_error_is_that_of_pure_simulation(policy):
     suite = Suite(name="here", scenarios=(SMOOTH,), seeds=SEEDS)
     here = [e.scores for e in run_suite(PolicySpec(text=policy), suite).episodes]
     for name in ("rmse_mm", "ldlj"):
-        measured = np.mean([getattr(scores, name) for scores in there])
-        simulated = np.mean([getattr(scores, name) for scores in here])
+        measured = np.mean([scores[name] for scores in there])
+        simulated = np.mean([scores[name] for scores in here])
         assert measured == pytest.approx(simulated, rel=0.15)
 
 

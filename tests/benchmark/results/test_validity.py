@@ -10,8 +10,8 @@ from colift.agents.policies.hold import Hold
 from colift.agents.policies.random import Random
 from colift.benchmark.episode.episode import policy_seed, run_episode
 from colift.benchmark.episode.level import LEVEL
-from colift.benchmark.episode.metric import reached
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.metric import reached
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.suites.catalogue import make_scenario
 

@@ -61,7 +61,7 @@ def test_a_digest_changes_with_the_constants_of_the_world(monkeypatch):
 
 
 def test_an_unknown_suite_is_refused_with_the_names():
-    with pytest.raises(InputError, match="standard-v1, paper-v1, quick-v1"):
+    with pytest.raises(InputError, match="paper-v1, quick-v1, standard-v1"):
         make_suite("best-v1")
 
 

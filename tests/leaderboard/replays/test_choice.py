@@ -7,9 +7,7 @@ from colift.leaderboard.replays.chosen import choose_replays
 def lifts(bundle, behaviour, errors):
     like = bundle.episodes[0]
     return [
-        dataclasses.replace(
-            like, behaviour=behaviour, scores=dataclasses.replace(like.scores, rmse_mm=error)
-        )
+        dataclasses.replace(like, behaviour=behaviour, scores={**like.scores, "rmse_mm": error})
         for error in errors
     ]
 
