@@ -5,8 +5,6 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..robots.nao.kinematics import STROKE
-
 HAND_SPEED: Final = 0.4
 """Fastest change of the hand command [m/s]: the paper's largest action, 4 cm in 100 ms."""
 
@@ -14,22 +12,6 @@ HAND_SPEED: Final = 0.4
 def action_limit(control_period: float) -> float:
     """Return the largest change of the hand command in one control period [m]; beyond it is cut."""
     return HAND_SPEED * control_period
-
-
-def limited_command(command: float, change: float, limit: float) -> float:
-    """Return the hand command [m] after a step: clipped to the hands' speed, then to their stroke.
-
-    Parameters
-    ----------
-    command
-        The command before the step [m].
-    change
-        The action, a change of the command [m].
-    limit
-        The largest change in one step [m]; see :func:`action_limit`.
-    """
-    low, high = STROKE
-    return min(max(command + min(max(change, -limit), limit), low), high)
 
 
 class ActionError(ValueError):

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ...agents.actions import action_limit, limited_command
+from ...agents.actions import action_limit
 from ...agents.agent import Observation
 from ...agents.humans import PARTNER_SUBJECT, Subject
+from ...robots.nao.kinematics import STROKE
 from ..world import BodyParameters, FarEnd, HumanFarEnd, NaoFarEnd
 
 if TYPE_CHECKING:
@@ -38,6 +39,22 @@ def within_range(references: list[float]) -> list[float]:
     if min(references) < low or max(references) > high:
         return [min(max(value, low), high) for value in references]
     return references
+
+
+def limited_command(command: float, change: float, limit: float) -> float:
+    """Return the hand command [m] after a step: clipped to the hands' speed, then to their stroke.
+
+    Parameters
+    ----------
+    command
+        The command before the step [m].
+    change
+        The action, a change of the command [m].
+    limit
+        The largest change in one step [m]; see :func:`action_limit`.
+    """
+    low, high = STROKE
+    return min(max(command + min(max(change, -limit), limit), low), high)
 
 
 class Seat(Protocol):

@@ -43,8 +43,8 @@ from ...benchmark.bundle import one_line
 from ...benchmark.episode.episode import Episode, run_episode
 from ...benchmark.episode.lift import Lift
 from ...benchmark.episode.scenario import Scenario
+from ...benchmark.episode.seat import limited_command
 from ...benchmark.results.baselines import TEAM_PARTNER
-from ...robots.nao.kinematics import STROKE
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -152,10 +152,9 @@ def hand_commands(actions: ArrayLike, control_period: float) -> NDArray[np.float
     control_period
         Time of a step [s].
     """
-    limit, (low, high) = action_limit(control_period), STROKE
-    command, found = 0.0, []
+    limit, command, found = action_limit(control_period), 0.0, []
     for change in np.asarray(actions, dtype=np.float64).ravel().tolist():
-        command = min(max(command + min(max(change, -limit), limit), low), high)
+        command = limited_command(command, change, limit)
         found.append(command)
     return np.array(found)
 

@@ -71,7 +71,7 @@ def test_smoothness_is_of_the_strokes_and_jerky_is_worse():
     smooth = episode(record(5.0, up_and_down, up_and_down), person="Ann", number=0).scores
     rough = episode(record(5.0, up_and_down, jerky), person="Ann", number=0).scores
     assert rough["sparc"] < smooth["sparc"] - 0.3
-    assert rough.ldlj < smooth.ldlj - 0.5
+    assert rough["ldlj"] < smooth["ldlj"] - 0.5
 
 
 def test_a_stopped_trial_has_failed_and_a_stop_never_pays():
