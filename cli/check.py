@@ -161,5 +161,5 @@ def _content(folder: Path, checks: list[Check]) -> dict[str, Any]:
             }
             for each in checks
         ],
-        "results": results[0] if results else None,
+        "results": results[0].plain() if results else None,
     }

@@ -7,13 +7,13 @@ from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, Final
+from typing import Annotated, Final
 
 import typer
 
 from ..agents.errors import EvaluatorFault, InputError
 from ..agents.spec import AgentSpec
-from ..benchmark.bundle import check_bundle_folder, check_unfinished, results, write_bundle
+from ..benchmark.bundle import Results, check_bundle_folder, check_unfinished, results, write_bundle
 from ..benchmark.episode.metric import Metrics
 from ..benchmark.execution.cluster import Cluster
 from ..benchmark.execution.journal import Journal, open_journal
@@ -100,7 +100,7 @@ def run(
             finished = done.complete and baselines.keys() == SPECS.keys()
             content = results(done, baselines) if done.episodes else None
             if content is not None and out is not None:
-                write_bundle(out, done, content, platform=platform_of(there))
+                write_bundle(out, done, content.plain(), platform=platform_of(there))
             if journal is not None and finished:
                 journal.remove()
     if content is not None:
@@ -154,17 +154,15 @@ def _evaluate(
     return done, ready
 
 
-def _print_results(
-    content: dict[str, Any], metrics: Metrics, out: Path | None, *, as_json: bool
-) -> None:
+def _print_results(content: Results, metrics: Metrics, out: Path | None, *, as_json: bool) -> None:
     """Print the results, as tables and where the policy stands, or as JSON alone."""
     if as_json:
-        print(json.dumps(content, indent=2, allow_nan=False))
+        print(json.dumps(content.plain(), indent=2, allow_nan=False))
         return
     show(results_table(content, metrics), standing(content))
     if out is not None:
         print(f"Result bundle: {out}")
-        if content["complete"]:
+        if content.complete:
             print(f"Next: colift verify {argument(out)}")
 
 

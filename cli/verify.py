@@ -86,7 +86,7 @@ def verify_bundle(
 
 def _write(folder: Path, verdict: Verdict) -> None:
     if verdict.run is not None and verdict.results is not None:
-        write_bundle(folder, verdict.run, verdict.results, platform=verdict.platform)
+        write_bundle(folder, verdict.run, verdict.results.plain(), platform=verdict.platform)
 
 
 def _good_news(bundle: Path, verdict: Verdict, run: Run) -> str:
@@ -105,7 +105,7 @@ def _good_news(bundle: Path, verdict: Verdict, run: Run) -> str:
     if verdict.policies_differ:
         lines.append(ACTIONS_FROM_LOG)
     if verdict.results is not None:
-        lines.append(headline(verdict.results["summary"]))
+        lines.append(headline(verdict.results.summary))
     if verdict.ok:
         lines.append(f"{bundle} is verified.")
     # Names and versions are the bundle's: no control sequence of theirs meets a terminal.

@@ -13,7 +13,7 @@ file               content
 """
 
 from ..execution.provenance import fingerprint
-from .content import results
+from .content import Results, results
 from .differences import Difference, differences
 from .files import FILES, check_bundle_folder, check_unfinished, read_files
 from .reading import Bundle, parse, read_bundle
@@ -26,6 +26,7 @@ __all__ = [
     "Bundle",
     "Difference",
     "Recipe",
+    "Results",
     "check_bundle_folder",
     "check_unfinished",
     "differences",

@@ -1,6 +1,8 @@
 """The content of ``results.json``."""
 
+import dataclasses
 from collections.abc import Mapping
+from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any
 
@@ -8,15 +10,67 @@ from ...agents.hardware.decisions import POLICY_SHARE
 from ..episode.metric import SCORING
 from ..execution.runner import Run
 from ..results.baselines import HUMAN_HUMAN, Baseline
-from ..results.summary import group, summarise
+from ..results.summary import (
+    StepTimes,
+    StratumScores,
+    Summary,
+    by_stratum,
+    plain_estimate,
+    summarise,
+)
 from ..suites.suite import Suite
 from .table import one_line
 
 
-def results(run: Run, baselines: Mapping[str, Baseline]) -> dict[str, Any]:
-    """Return the content of ``results.json``.
+@dataclass(frozen=True, kw_only=True)
+class Results:
+    """The results of a run, as ``results.json`` has them."""
 
-    Everything follows from the episodes, but for what :func:`with_circumstances` names.
+    colift: str
+    """Version of colift."""
+    suite: str
+    suite_digest: str
+    scoring: int
+    """Version of the scores."""
+    complete: bool
+    """Whether every episode of the suite was played."""
+    policy: str
+    policy_digest: str
+    isolation: str
+    evaluator_faults: int
+    """How often episodes were played again because the machine had failed."""
+    summary: Summary
+    strata: tuple[StratumScores, ...]
+    baselines: Mapping[str, Baseline]
+
+    def plain(self) -> dict[str, Any]:
+        """Return the content of ``results.json``."""
+        return {
+            "colift": self.colift,
+            "suite": self.suite,
+            "suite_digest": self.suite_digest,
+            "scoring": self.scoring,
+            "complete": self.complete,
+            "policy": {"name": self.policy, "digest": self.policy_digest},
+            "isolation": self.isolation,
+            "evaluator_faults": self.evaluator_faults,
+            "summary": self.summary.plain(),
+            "groups": [each.plain() for each in self.strata],
+            "baselines": {name: _plain_baseline(each) for name, each in self.baselines.items()},
+        }
+
+
+def _plain_baseline(baseline: Baseline) -> dict[str, Any]:
+    return {
+        "rmse_mm": plain_estimate(baseline.estimate),
+        **{name: {"mean": mean} for name, mean in baseline.means.items()},
+    }
+
+
+def results(run: Run, baselines: Mapping[str, Baseline]) -> Results:
+    """Return the results of a run.
+
+    Everything follows from the episodes, except what :func:`with_circumstances` names.
 
     Parameters
     ----------
@@ -25,22 +79,22 @@ def results(run: Run, baselines: Mapping[str, Baseline]) -> dict[str, Any]:
     baselines
         Other agents on the same episodes, by name; see :mod:`colift.benchmark.results.baselines`.
     """
-    team = baselines.get(HUMAN_HUMAN)
-    summary = summarise(run.episodes, run.suite.metrics, team.rmse_mm if team else None)
-    summary["real_time"] = real_time(summary["step_ms"]["p99"], run.suite)
-    return {
-        "colift": version("colift"),
-        "suite": run.suite.name,
-        "suite_digest": run.suite.digest,
-        "scoring": SCORING,
-        "complete": run.complete,
-        "policy": {"name": one_line(run.policy), "digest": run.policy_digest},
-        "isolation": one_line(run.isolation),
-        "evaluator_faults": run.faults,
-        "summary": summary,
-        "groups": group(run.episodes, run.suite.metrics, team.by_stratum() if team else None),
-        "baselines": {name: _baseline(value) for name, value in baselines.items()},
-    }
+    human = baselines.get(HUMAN_HUMAN)
+    summary = summarise(run.episodes, run.suite.metrics, human.rmse_mm if human else None)
+    return Results(
+        colift=version("colift"),
+        suite=run.suite.name,
+        suite_digest=run.suite.digest,
+        scoring=SCORING,
+        complete=run.complete,
+        policy=one_line(run.policy),
+        policy_digest=run.policy_digest,
+        isolation=one_line(run.isolation),
+        evaluator_faults=run.faults,
+        summary=dataclasses.replace(summary, real_time=real_time(summary.step_ms.p99, run.suite)),
+        strata=by_stratum(run.episodes, run.suite.metrics, human.by_stratum() if human else None),
+        baselines=baselines,
+    )
 
 
 def real_time(p99_ms: float | None, suite: Suite) -> bool | None:
@@ -55,31 +109,17 @@ def real_time(p99_ms: float | None, suite: Suite) -> bool | None:
     return p99_ms <= 1000 * POLICY_SHARE * period
 
 
-def with_circumstances(
-    content: dict[str, Any], claimed: Mapping[str, Any], suite: Suite
-) -> dict[str, Any]:
-    """Return the content with the circumstances of another: what no simulation can tell.
+def with_circumstances(content: Results, claimed: Mapping[str, Any], suite: Suite) -> Results:
+    """Return results with the circumstances that a bundle claims, which no simulation can show.
 
     They are the version of colift that wrote it, and the policy's times per step. (The policy's
     name and digest, the isolation and the faults come with the run.)
     """
-    step_ms = claimed["summary"]["step_ms"]
-    timed = {
-        "step_ms": {name: step_ms[name] for name in ("p50", "p99")},
-        "real_time": real_time(step_ms["p99"], suite),
-    }
-    return {
-        **content,
-        "colift": claimed["colift"],
-        "summary": {**content["summary"], **timed},
-    }
-
-
-def _baseline(baseline: Baseline) -> dict[str, Any]:
-    return {
-        "rmse_mm": {
-            "mean": baseline.estimate.mean,
-            "ci95": list(baseline.estimate.ci95),
-        },
-        **{name: {"mean": mean} for name, mean in baseline.means.items()},
-    }
+    step_ms = StepTimes(**{name: claimed["summary"]["step_ms"][name] for name in ("p50", "p99")})
+    return dataclasses.replace(
+        content,
+        colift=claimed["colift"],
+        summary=dataclasses.replace(
+            content.summary, step_ms=step_ms, real_time=real_time(step_ms.p99, suite)
+        ),
+    )

@@ -28,7 +28,7 @@ MOST_LOGS: Final = 100
 def write_bundle(
     folder: Path,
     run: Run,
-    content: dict[str, Any],
+    content: Mapping[str, Any],
     *,
     platform: Mapping[str, str] | None = None,
 ) -> None:
@@ -44,7 +44,7 @@ def write_bundle(
     run
         The episodes, at least one.
     content
-        What :func:`.results` returned.
+        The content of ``results.json``; see :meth:`.Results.plain`.
     platform
         The fingerprint of the platform that simulated the episodes, if it is not this one.
 

@@ -66,7 +66,7 @@ def scale(
         for _ in range(rounds):
             alone, run = _timed(run_suite, spec, episodes, executor=local, progress=progress)
             far, _ = _timed(run_suite, spec, episodes, executor=cluster, progress=progress)
-            write, _ = _timed(write_bundle, bundle, run, results(run, baselines))
+            write, _ = _timed(write_bundle, bundle, run, results(run, baselines).plain())
             again, _ = _timed(verify, bundle, executor=local, progress=progress)
             ratios["dask_ratio"].append(alone / far)
             ratios["verify_ratio"].append((alone + write) / again)

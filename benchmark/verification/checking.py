@@ -2,13 +2,13 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 from ...agents.actions import action_limit
 from ...agents.errors import EvaluatorFault
 from ...agents.hardware.decisions import POLICY_SHARE
 from ...agents.spec import AgentSpec
-from ..bundle import results
+from ..bundle import Results, results
 from ..episode.episode import START, Episode
 from ..episode.level_metrics import MOSTLY_CLIPPED
 from ..episode.scenario import CONTROL_PERIOD
@@ -16,6 +16,7 @@ from ..execution.runner import Run
 from ..execution.tasks import play
 from ..results.baselines import HUMAN_HUMAN, SPECS, Baseline, shipped_baselines
 from ..results.headline import headline
+from ..results.summary import Summary
 from ..suites.catalogue import make_scenario
 from ..suites.suite import Suite, make_suite
 from .audit import first_difference
@@ -49,8 +50,8 @@ class Check:
     """What was found, or why it failed."""
     printed: str = ""
     """The end of what the policy printed, if it failed."""
-    results: dict[str, Any] | None = None
-    """The content of ``results.json``, if the check is the score."""
+    results: Results | None = None
+    """The results, if the check is the score."""
     warning: bool = False
     """Whether it is no failure, but something to look at."""
 
@@ -99,8 +100,8 @@ def _checks(
     run = evaluate(policy, suite)
     content = results(run, shipped_baselines(suite) or _baselines(suite, evaluate))
     yield _score(run, content)
-    yield _actions(content["summary"])
-    yield _time(content["summary"], run.episodes)
+    yield _actions(content.summary)
+    yield _time(content.summary, run.episodes)
 
 
 def _baselines(suite: Suite, evaluate: Callable[[AgentSpec, Suite], Run]) -> dict[str, Baseline]:
@@ -152,8 +153,8 @@ def _determinism(first: Sequence[Episode], again: Sequence[Episode]) -> Check:
     return Check(name="determinism", ok=True, told=told)
 
 
-def _score(run: Run, content: dict[str, Any]) -> Check:
-    told = f"{run.suite.name}, {len(run.episodes)} lifts: {headline(content['summary'])}"
+def _score(run: Run, content: Results) -> Check:
+    told = f"{run.suite.name}, {len(run.episodes)} lifts: {headline(content.summary)}"
     failed = [episode for episode in run.episodes if episode.failure is not None]
     if failed:
         told = f"{told}. {len(failed)} failed and count as worst; the first, {_why(failed[0])}"
@@ -169,13 +170,13 @@ def _score(run: Run, content: dict[str, Any]) -> Check:
     )
 
 
-def _worse(content: dict[str, Any]) -> str:
+def _worse(content: Results) -> str:
     """Say which simple policies are better: one that never moves, one that only copies."""
-    error = content["summary"]["rmse_mm"]["mean"]
+    error = content.summary.rmse_mm.mean
     means = {
-        name: baseline["rmse_mm"]["mean"]
-        for name, baseline in content["baselines"].items()
-        if name != HUMAN_HUMAN and baseline["rmse_mm"]["mean"] < error
+        name: baseline.mean
+        for name, baseline in content.baselines.items()
+        if name != HUMAN_HUMAN and baseline.mean < error
     }
     if not means:
         return ""
@@ -183,9 +184,9 @@ def _worse(content: dict[str, Any]) -> str:
     return f". Worse than {told}"
 
 
-def _actions(summary: dict[str, Any]) -> Check:
+def _actions(summary: Summary) -> Check:
     """Tell how many actions were larger than the hands can go."""
-    share = summary["clipped"]["mean"]
+    share = summary.metrics["clipped"].mean
     if share is None:
         return Check(name="actions", ok=False, told="there is none")
     limit = action_limit(CONTROL_PERIOD)
@@ -196,14 +197,14 @@ def _actions(summary: dict[str, Any]) -> Check:
     return Check(name="actions", ok=True, told=told, warning=warning)
 
 
-def _time(summary: dict[str, Any], episodes: Sequence[Episode]) -> Check:
+def _time(summary: Summary, episodes: Sequence[Episode]) -> Check:
     """Tell whether a real robot, which does not wait, could run the policy; it need not."""
-    p50, p99 = summary["step_ms"]["p50"], summary["step_ms"]["p99"]
+    p50, p99 = summary.step_ms.p50, summary.step_ms.p99
     if p50 is None or p99 is None:
         return Check(name="time", ok=False, told="no step came to an end")
     told = (
         f"a step takes {p50:.3f} ms (median), {p99:.3f} ms (99th percentile): "
-        f"{'' if summary['real_time'] else 'not '}real-time capable "
+        f"{'' if summary.real_time else 'not '}real-time capable "
         f"(a robot waits {1000 * POLICY_SHARE * CONTROL_PERIOD:.0f} ms for an answer)"
     )
     printed = max(len(episode.log) for episode in episodes)

@@ -3,11 +3,11 @@
 import json
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from typing import Any, Final
+from typing import Final
 
 from ...agents.errors import InputError
 from ...agents.registry import SUITES, entries
-from ..bundle import Bundle, Difference, differences, one_line, results
+from ..bundle import Bundle, Difference, Results, differences, one_line, results
 from ..bundle.content import with_circumstances
 from ..bundle.files import EPISODES, MANIFEST, RESULTS, TRACES
 from ..episode.episode import Episode
@@ -90,8 +90,8 @@ def _name(behaviour: str, subject: str, trial: str, seed: int) -> str:
     return f"{one_line('/'.join(filter(None, (behaviour, subject, trial))))} seed {seed}"
 
 
-def rebuilt(bundle: Bundle, run: Run, executor: Executor | None) -> dict[str, Any]:
-    """Return what ``results.json`` should say of a run.
+def rebuilt(bundle: Bundle, run: Run, executor: Executor | None) -> Results:
+    """Return the results that follow from a run.
 
     What no simulation can tell is as the bundle has it; so is which baselines there are.
 
@@ -101,9 +101,7 @@ def rebuilt(bundle: Bundle, run: Run, executor: Executor | None) -> dict[str, An
         If the bundle names an unknown baseline.
     """
     content = results(run, _baselines(bundle, run, executor))
-    content = with_circumstances(content, bundle.results, run.suite)
-    plain: dict[str, Any] = json.loads(json.dumps(content))
-    return plain
+    return with_circumstances(content, bundle.results, run.suite)
 
 
 def _baselines(bundle: Bundle, run: Run, executor: Executor | None) -> dict[str, Baseline]:
@@ -117,9 +115,7 @@ def _baselines(bundle: Bundle, run: Run, executor: Executor | None) -> dict[str,
     return {name: known[name] for name in wanted}
 
 
-def score_findings(
-    bundle: Bundle, run: Run, content: dict[str, Any], *, exact: bool
-) -> Iterator[Finding]:
+def score_findings(bundle: Bundle, run: Run, content: Results, *, exact: bool) -> Iterator[Finding]:
     """Yield every score of an episode and every number of the summary that is not what it should.
 
     Parameters
@@ -138,7 +134,8 @@ def score_findings(
         scores = (dict(each.scores) for each in (claim, true))
         for difference in differences(*scores, tolerance=tolerance):
             yield Finding(file=EPISODES, episode=episode_name(true), message=str(difference))
-    for difference in differences(bundle.results, content, tolerance=tolerance):
+    plain = json.loads(json.dumps(content.plain()))
+    for difference in differences(bundle.results, plain, tolerance=tolerance):
         if not (played and _near(difference)):
             yield Finding(file=RESULTS, message=str(difference))
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-from ..bundle import one_line
+from ..bundle import Results, one_line
 from ..execution.provenance import POLICIES_ONLY
 from ..execution.runner import Run
 
@@ -55,8 +55,8 @@ class Verdict:
     """What was played: the name of a shipped suite by its digest, or what suite it is in words."""
     run: Run | None = None
     """The episodes with the scores that the present code finds; None if a replay failed."""
-    results: dict[str, Any] | None = None
-    """The content that ``results.json`` should have; None as ``run``."""
+    results: Results | None = None
+    """The results that follow from the actions; None as ``run``."""
     bit_equal: bool = False
     """Whether every simulated bit is the logged one."""
     tolerance_mm: float | None = None
@@ -110,7 +110,7 @@ class Verdict:
             else {"bundle": self.scoring[0], "here": self.scoring[1]},
             "actions": ACTIONS_FROM_LOG if self.policies_differ else None,
             # A suite of one's own may have any name, such as one that looks like a shipped one's.
-            "results": self.results and {**self.results, "suite": self.suite},
+            "results": self.results and {**self.results.plain(), "suite": self.suite},
             "proves": PROVES,
             "unproven": UNPROVEN,
         }

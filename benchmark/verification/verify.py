@@ -5,10 +5,10 @@ import itertools
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 from ...agents.errors import InputError
-from ..bundle import Bundle, one_line, parse, read_files
+from ..bundle import Bundle, Results, one_line, parse, read_files
 from ..bundle.files import LARGEST
 from ..bundle.reading import wrong_hashes
 from ..episode.metric import SCORING
@@ -76,7 +76,7 @@ def verify(
     findings += [each.finding for each in checked if each.finding is not None]
     bit_equal = all(each.bit_equal for each in checked)
     scored = _rescored(run, checked)
-    content: dict[str, Any] | None = None
+    content: Results | None = None
     outdated = bundle.results["scoring"] != SCORING
     if scored is not None:
         try:

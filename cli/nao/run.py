@@ -225,13 +225,13 @@ def _report(
     done: Run, records: Sequence[Record], about: dict[str, Any], out: Path | None, as_json: bool
 ) -> None:
     """Write the result bundle, and print the results."""
-    content = {**results(done, {}), "hardware": {**about, "timing": timing_report(records)}}
+    content, timing = results(done, {}), timing_report(records)
+    plain = {**content.plain(), "hardware": {**about, "timing": timing}}
     if out is not None:
-        write_bundle(out, done, content)
+        write_bundle(out, done, plain)
     if as_json:
-        print(json.dumps(content, indent=2, allow_nan=False))
+        print(json.dumps(plain, indent=2, allow_nan=False))
         return
-    timing = timing_table(content["hardware"]["timing"])
-    show(results_table(content, done.suite.metrics), standing(content), timing)
+    show(results_table(content, done.suite.metrics), standing(content), timing_table(timing))
     if out is not None:
         print(f"Result bundle: {out}")

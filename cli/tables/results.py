@@ -8,8 +8,10 @@ from rich.table import Table
 from ...agents.actions import HAND_SPEED
 from ...agents.hardware.setup import LOWEST_RATE
 from ...agents.sandbox.host.levels import LEVELS, VERIFIABLE
+from ...benchmark.bundle import Results
 from ...benchmark.episode.metric import LEADING, Metric, Metrics
 from ...benchmark.results.headline import error, versus_human
+from ...benchmark.results.summary import StratumScores
 from ..printing import number, styled, table
 
 NAMES: Final = {
@@ -35,75 +37,76 @@ MEANINGS: Final = (
 """What the columns mean."""
 
 
-def results_table(content: dict[str, Any], metrics: Metrics) -> Table:
+def results_table(content: Results, metrics: Metrics) -> Table:
     """Return the table of a result: one row per behaviour, and the mean over all."""
-    summary, groups = content["summary"], content["groups"]
+    summary, strata = content.summary, content.strata
     shown = [each for each in metrics.values() if each.shown != "file" and each.name != LEADING]
-    behaviours = dict.fromkeys(group["behaviour"] for group in groups)
+    behaviours = dict.fromkeys(each.behaviour for each in strata)
     return table(
-        f"{content['policy']['name']} on {content['suite']}",
+        f"{content.policy} on {content.suite}",
         ("human", "RMSE mm", "two people", *(metric.heading for metric in shown)),
         [
             *(
-                (name, *_row([g for g in groups if g["behaviour"] == name], shown))
+                (name, *_row([each for each in strata if each.behaviour == name], shown))
                 for name in behaviours
             ),
             None,
-            styled(("all", *_row(groups, shown)), "bold"),
+            styled(("all", *_row(strata, shown)), "bold"),
         ],
-        caption=f"{summary['episodes']} lifts, {summary['failed']} failed; "
-        f"suite digest {content['suite_digest']}. {MEANINGS}",
+        caption=f"{summary.episodes} lifts, {summary.failed} failed; "
+        f"suite digest {content.suite_digest}. {MEANINGS}",
     )
 
 
-def standing(content: dict[str, Any]) -> str:
+def standing(content: Results) -> str:
     """Return the lines that say where the policy stands."""
-    summary = content["summary"]
-    step = summary["step_ms"]
+    summary, step = content.summary, content.summary.step_ms
     lines = [error(summary)]
-    if summary["vs_human"] is not None:
+    if summary.vs_human is not None:
         lines.append(f"{versus_human(summary)}: 1 is as good as a human partner, less is better")
-    for name, baseline in content["baselines"].items():
-        lines.append(f"  {NAMES.get(name, name)}: {baseline['rmse_mm']['mean']:.2f} mm")
-    if summary["goal_missed"]:
+    for name, baseline in content.baselines.items():
+        lines.append(f"  {NAMES.get(name, name)}: {baseline.mean:.2f} mm")
+    if summary.goal_missed:
         lines.append(
-            f"The human did not reach the intended height in {summary['goal_missed']} "
-            f"of {summary['episodes']} lifts."
+            f"The human did not reach the intended height in {summary.goal_missed} "
+            f"of {summary.episodes} lifts."
         )
-    clipped = summary.get("clipped", {}).get("mean")
-    if clipped is not None:
+    clipped = summary.metrics.get("clipped")
+    if clipped is not None and clipped.mean is not None:
         lines.append(
-            f"{100 * clipped:.1f} % of the actions were cut to the most that the hands can go "
+            f"{100 * clipped.mean:.1f} % of the actions were cut to the most that the hands can go "
             f"({HAND_SPEED:g} m/s)."
         )
-    if step["p99"] is not None:
-        lines.append(f"Policy time per step: median {step['p50']:.3f} ms, p99 {step['p99']:.3f} ms")
-    if content["isolation"] in LEVELS:
-        told = "" if content["isolation"] in VERIFIABLE else "; no board would call this verified"
-        lines.append(f"Isolation: {content['isolation']}{told}")
+    if step.p50 is not None and step.p99 is not None:
+        lines.append(f"Policy time per step: median {step.p50:.3f} ms, p99 {step.p99:.3f} ms")
+    if content.isolation in LEVELS:
+        note = "" if content.isolation in VERIFIABLE else "; no board would call this verified"
+        lines.append(f"Isolation: {content.isolation}{note}")
     return "\n".join(lines)
 
 
-def _row(groups: list[dict[str, Any]], shown: Sequence[Metric]) -> list[str]:
-    """Return the cells of a row: the means over the groups' episodes."""
-    weights = [group["episodes"] for group in groups]
-    known = [group["human_human_rmse_mm"]["mean"] for group in groups]
-    team = None
-    if None not in known:
-        team = sum(w * mean for w, mean in zip(weights, known, strict=True)) / sum(weights)
-    errors = [number(_pooled(groups, "rmse_mm"), ".1f"), number(team, ".1f")]
-    return errors + [metric.text(_pooled(groups, metric.name)) for metric in shown]
+def _row(strata: Sequence[StratumScores], shown: Sequence[Metric]) -> list[str]:
+    """Return the cells of a row: the means over the episodes of some strata."""
+    human = [
+        (each.human_human_rmse_mm, each.episodes)
+        for each in strata
+        if each.human_human_rmse_mm is not None
+    ]
+    team = _pooled(human) if len(human) == len(strata) else None
+    errors = [number(_pooled(_means(strata, "rmse_mm")), ".1f"), number(team, ".1f")]
+    return errors + [metric.text(_pooled(_means(strata, metric.name))) for metric in shown]
 
 
-def _pooled(groups: Iterable[dict[str, Any]], name: str) -> float | None:
-    """Return the mean of a metric over the episodes of several groups that have it."""
-    total, count = 0.0, 0
-    for group in groups:
-        have = group["episodes"] - group[name]["missing"]
-        if have:
-            total += group[name]["mean"] * have
-            count += have
-    return total / count if count else None
+def _means(strata: Iterable[StratumScores], name: str) -> list[tuple[float, int]]:
+    """Return the mean of a metric in each stratum, and the number of episodes that have it."""
+    means = ((each.metrics[name], each.episodes) for each in strata)
+    return [(m.mean, episodes - m.missing) for m, episodes in means if m.mean is not None]
+
+
+def _pooled(means: Sequence[tuple[float, int]]) -> float | None:
+    """Return the mean of means, weighted by their numbers of episodes; None if there is none."""
+    count = sum(weight for _, weight in means)
+    return sum(weight * mean for mean, weight in means) / count if count else None
 
 
 def timing_table(report: dict[str, Any]) -> Table:

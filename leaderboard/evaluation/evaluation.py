@@ -99,7 +99,7 @@ def evaluate_entrant(
     watch.stage("public run")
     public = run_suite(entrant.policy, season.suite, **playing)
     content = results(public, _baselines(season, executor, watch))
-    write_bundle(bundle, public, content)
+    write_bundle(bundle, public, content.plain())
     if all(episode.failure is not None for episode in public.episodes):
         reasons = "; ".join(failure_lines(public.episodes)[:3])
         raise InputError(f"it fails in every public lift: {reasons}")

@@ -2,40 +2,44 @@
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from typing import Any, Final
+from collections.abc import Sequence
+from typing import Final
 
-from ...benchmark.bundle.content import real_time
+from ...benchmark.bundle.content import Results, real_time
 from ...benchmark.episode.episode import Episode
 from ...benchmark.execution.runner import Run
 from ...benchmark.results.baselines import Baseline
 from ...benchmark.results.summary import stratum, summarise
 from ...benchmark.statistics import Estimate, difference_of_means, probability_better
-from ..records.metrics import read_means
+from ..records.metrics import board_metrics
 from ..records.row import HiddenScores, PublicScores
 
 PLACES: Final = 2
 """Decimals of what is told of hidden episodes: 0.01 mm, well within any interval."""
 
 
-def public_scores(results: Mapping[str, Any]) -> PublicScores:
+def public_scores(results: Results) -> PublicScores:
     """Return what a row says of the public run.
 
     Parameters
     ----------
     results
-        The content of its bundle's ``results.json``, the human-human team among the baselines.
+        Its results, the human-human team among the baselines.
     """
-    summary = results["summary"]
+    summary = results.summary
     return PublicScores(
-        episodes=summary["episodes"],
-        failed=summary["failed"],
-        rmse_mm=_estimate(summary["rmse_mm"]),
-        vs_human=_estimate(summary["vs_human"]),
-        metrics=read_means(summary),
-        step_ms_p50=summary["step_ms"]["p50"],
-        step_ms_p99=summary["step_ms"]["p99"],
-        real_time=summary["real_time"],
+        episodes=summary.episodes,
+        failed=summary.failed,
+        rmse_mm=summary.rmse_mm,
+        vs_human=_known(summary.vs_human),
+        metrics={
+            each.name: summary.metrics[each.name]
+            for each in board_metrics()
+            if each.name in summary.metrics
+        },
+        step_ms_p50=summary.step_ms.p50,
+        step_ms_p99=summary.step_ms.p99,
+        real_time=summary.real_time,
     )
 
 
@@ -53,12 +57,12 @@ def hidden_scores(run: Run, team: Baseline) -> HiddenScores:
     failure_lines = _failures(run)
     sure = probability_better(_rmse(run), team.rmse_mm, team.strata)
     return HiddenScores(
-        episodes=summary["episodes"],
-        failed=summary["failed"],
+        episodes=summary.episodes,
+        failed=summary.failed,
         failures=dict(sorted(failure_lines.items())),
-        rmse_mm=_estimate(summary["rmse_mm"]).rounded(PLACES),
-        vs_human=_estimate(summary["vs_human"]).rounded(PLACES),
-        real_time=real_time(summary["step_ms"]["p99"], run.suite),
+        rmse_mm=summary.rmse_mm.rounded(PLACES),
+        vs_human=_known(summary.vs_human).rounded(PLACES),
+        real_time=real_time(summary.step_ms.p99, run.suite),
         better_than_human=round(sure, PLACES),
     )
 
@@ -83,9 +87,10 @@ def _failures(run: Run) -> Counter[str]:
     return Counter(word if word in ("start", "step") else "table" for word in words)
 
 
-def _estimate(content: Mapping[str, Any]) -> Estimate:
-    low, high = content["ci95"]
-    return Estimate(mean=content["mean"], ci95=(low, high))
+def _known(ratio: Estimate | None) -> Estimate:
+    if ratio is None:
+        raise ValueError("the human-human baseline of this run is missing")
+    return ratio
 
 
 MOST: Final = 20

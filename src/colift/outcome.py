@@ -9,6 +9,7 @@ from typing import Any
 from rich.console import Console
 
 from .agents.errors import InputError
+from .benchmark.bundle import Results
 from .benchmark.bundle.table import table_row
 from .benchmark.execution.runner import Run
 from .cli.printing import show
@@ -24,24 +25,25 @@ class Evaluation:
 
     run: Run
     """The lifts: ``run.episodes``, each with its scores and its trace."""
-    results: dict[str, Any]
-    """All numbers, as in the ``results.json`` of ``colift run --out``."""
+    results: Results
+    """All numbers; ``results.plain()`` is the content of a bundle's ``results.json``."""
 
     @property
     def rmse_mm(self) -> float:
         """Mean over the lifts of the RMSE between the table's ends [mm]: less is better."""
-        return float(self.results["summary"]["rmse_mm"]["mean"])
+        return self.results.summary.rmse_mm.mean
 
     @property
     def rmse_mm_ci95(self) -> tuple[float, float]:
         """95 % confidence interval of :attr:`rmse_mm` [mm]."""
-        low, high = self.results["summary"]["rmse_mm"]["ci95"]
-        return low, high
+        return self.results.summary.rmse_mm.ci95
 
     @property
     def vs_human(self) -> float:
         """:attr:`rmse_mm` over that of a team of two humans: 1 is as good, less is better."""
-        return float(self.results["summary"]["vs_human"]["mean"])
+        ratio = self.results.summary.vs_human
+        assert ratio is not None  # Evaluations always have the baselines.
+        return ratio.mean
 
     @property
     def failures(self) -> tuple[str, ...]:

@@ -1,13 +1,13 @@
 """The picture of an evaluation: each lift's error, by the way the human moves."""
 
 import io
-from collections.abc import Mapping
-from typing import Any, Final
+from typing import Final
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
+from .benchmark.bundle import Results
 from .benchmark.execution.runner import Run
 from .benchmark.rendering.style import HUMAN, INK, ROBOT, plain
 
@@ -15,7 +15,7 @@ ROW: Final = 0.42
 """Height of a row [inches]."""
 
 
-def evaluation_picture(run: Run, results: Mapping[str, Any]) -> str:
+def evaluation_picture(run: Run, results: Results) -> str:
     """Return the picture as an SVG element.
 
     Parameters
@@ -23,7 +23,7 @@ def evaluation_picture(run: Run, results: Mapping[str, Any]) -> str:
     run
         The lifts: a dot each, and a solid line at the mean of each behaviour.
     results
-        The content of ``results.json``: a dashed line at the mean of two humans.
+        Its results: a dashed line at the mean of two humans.
     """
     behaviours = list(dict.fromkeys(episode.behaviour for episode in run.episodes))
     figure = Figure(figsize=(7.0, 1.0 + ROW * len(behaviours)), layout="constrained")
@@ -31,10 +31,10 @@ def evaluation_picture(run: Run, results: Mapping[str, Any]) -> str:
     plain(axes)
     for row, behaviour in enumerate(behaviours):
         errors = [e.scores["rmse_mm"] for e in run.episodes if e.behaviour == behaviour]
-        groups = [group for group in results["groups"] if group["behaviour"] == behaviour]
+        strata = [each for each in results.strata if each.behaviour == behaviour]
         team = np.average(
-            [group["human_human_rmse_mm"]["mean"] for group in groups],
-            weights=[group["episodes"] for group in groups],
+            [each.human_human_rmse_mm for each in strata],
+            weights=[each.episodes for each in strata],
         )
         axes.plot(errors, np.full(len(errors), row), "o", color=ROBOT, alpha=0.35, ms=5, mew=0)
         ends = [row - 0.3, row + 0.3]

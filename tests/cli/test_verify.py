@@ -21,7 +21,7 @@ def made(tmp_path_factory):
     suite = dataclasses.replace(suite, name="two", scenarios=suite.scenarios[:1], seeds=(3, 4))
     run = run_suite(PolicySpec(text="copy"), suite)
     folder = tmp_path_factory.mktemp("made") / "bundle"
-    write_bundle(folder, run, results(run, {}))
+    write_bundle(folder, run, results(run, {}).plain())
     return folder
 
 

@@ -53,5 +53,5 @@ def hostile_run():
 @pytest.fixture
 def hostile(hostile_run, tmp_path):
     folder = tmp_path / "hostile"
-    write_bundle(folder, hostile_run, results(hostile_run, {}))
+    write_bundle(folder, hostile_run, results(hostile_run, {}).plain())
     return folder

@@ -14,6 +14,7 @@ from colift.benchmark.bundle.content import real_time
 from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.execution.provenance import fingerprint
 from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.statistics import MeanWithMissing
 from colift.benchmark.suites.suite import make_suite
 
 
@@ -25,7 +26,7 @@ def run():
 @pytest.fixture
 def bundle(run, tmp_path):
     folder = tmp_path / "deep" / "bundle"
-    write_bundle(folder, run, results(run, {}))
+    write_bundle(folder, run, results(run, {}).plain())
     return folder
 
 
@@ -71,17 +72,17 @@ def test_the_scores_follow_from_the_traces(bundle):
 
 def test_equal_runs_give_equal_files(run, bundle, tmp_path):
     again = run_suite(PolicySpec(text="copy"), make_suite("quick-v1"))
-    write_bundle(tmp_path / "again", again, results(again, {}))
+    write_bundle(tmp_path / "again", again, results(again, {}).plain())
     for name in ("episodes.csv", "traces.npz"):
         assert (tmp_path / "again" / name).read_bytes() == (bundle / name).read_bytes()
 
 
 def test_an_older_bundle_is_replaced_and_other_things_are_left_alone(run, bundle, tmp_path):
-    write_bundle(bundle, run, results(run, {}))
+    write_bundle(bundle, run, results(run, {}).plain())
     assert sorted(path.name for path in bundle.parent.iterdir()) == ["bundle"]
     (bundle / "thesis.tex").write_text("precious")
     with pytest.raises(InputError, match=r"thesis\.tex"):
-        write_bundle(bundle, run, results(run, {}))
+        write_bundle(bundle, run, results(run, {}).plain())
     assert (bundle / "thesis.tex").read_text() == "precious"
 
 
@@ -96,8 +97,8 @@ def test_a_file_in_the_way_is_refused(tmp_path):
 def test_a_policy_without_smoothness_has_none_in_the_bundle(tmp_path):
     still = run_suite(PolicySpec(text="hold"), make_suite("quick-v1").with_seeds(0, 1))
     content = results(still, {})
-    assert content["summary"]["sparc"] == {"mean": None, "missing": 4}
-    write_bundle(tmp_path / "still", still, content)
+    assert content.summary.metrics["sparc"] == MeanWithMissing(mean=None, missing=4)
+    write_bundle(tmp_path / "still", still, content.plain())
     with (tmp_path / "still" / "episodes.csv").open(newline="") as file:
         assert {row["sparc"] for row in csv.DictReader(file)} == {""}
 
@@ -109,7 +110,7 @@ def test_equal_runs_give_equal_bundles_up_to_the_step_times(run, bundle, tmp_pat
             dataclasses.replace(episode, step_times=(0.2,) * 5) for episode in run.episodes
         ),
     )
-    write_bundle(tmp_path / "slower", slower, results(slower, {}))
+    write_bundle(tmp_path / "slower", slower, results(slower, {}).plain())
     one, other = (
         json.loads((folder / "results.json").read_text())
         for folder in (bundle, tmp_path / "slower")
@@ -128,9 +129,9 @@ def test_a_robot_waits_for_a_policy_for_a_share_of_the_period(run, p99_ms, keeps
 
 def test_circumstances_are_in_the_results(run):
     content = results(dataclasses.replace(run, isolation="bubblewrap", faults=2), {})
-    assert content["isolation"] == "bubblewrap"
-    assert content["evaluator_faults"] == 2
-    assert content["scoring"] == SCORING
+    assert content.isolation == "bubblewrap"
+    assert content.evaluator_faults == 2
+    assert content.scoring == SCORING
 
 
 def test_the_manifest_says_how_the_episodes_are_made_and_where_they_were(run, bundle):
@@ -150,7 +151,7 @@ def test_both_agents_actions_and_the_states_are_there_as_they_were(run, bundle):
 
 def test_an_incomplete_run_gives_a_bundle_that_says_so(run, tmp_path):
     part = dataclasses.replace(run, episodes=(run.episodes[1], run.episodes[7]))
-    write_bundle(tmp_path / "part", part, results(part, {}))
+    write_bundle(tmp_path / "part", part, results(part, {}).plain())
     bundle = read_bundle(tmp_path / "part")
     assert bundle.results["complete"] is False
     assert bundle.places == (1, 7)
@@ -163,7 +164,7 @@ def test_a_failed_write_leaves_the_older_bundle(run, bundle, monkeypatch):
     before = {path.name: path.read_bytes() for path in bundle.iterdir()}
     monkeypatch.setattr(type(bundle), "write_bytes", full)
     with pytest.raises(OSError, match="no space"):
-        write_bundle(bundle, run, results(run, {}))
+        write_bundle(bundle, run, results(run, {}).plain())
     assert {path.name: path.read_bytes() for path in bundle.iterdir()} == before
     assert [path.name for path in bundle.parent.iterdir()] == ["bundle"]
 

@@ -26,7 +26,7 @@ def played(quick: Suite) -> Contest:
 
 def test_a_policy_has_the_numbers_that_run_gives_it(quick: Suite, played: Contest) -> None:
     run = run_suite(PolicySpec(text="copy"), quick)
-    summary = results(run, shipped_baselines(quick) or {})["summary"]
+    summary = results(run, shipped_baselines(quick) or {}).summary.plain()
     standing = next(p for p in comparison_json(compare(played))["policies"] if p["name"] == "copy")
     for name in ("mean", "ci95"):
         assert list_of(standing["rmse_mm"][name]) == list_of(summary["rmse_mm"][name])

@@ -52,7 +52,7 @@ found = {"people": repr([Subject.draw(seed) for seed in range(20)])}
 for policy in (PolicySpec(text="copy"), TEAM_PARTNER):
     played = suite.with_partner("human") if policy.name != "copy" else suite
     run = run_suite(policy, played)
-    content = results(run, {})
+    content = results(run, {}).plain()
     del content["summary"]["step_ms"], content["summary"]["real_time"]
     found[policy.name] = [[each.trace.digest(), repr(each.scores)] for each in run.episodes]
     found[policy.name + " in all"] = content

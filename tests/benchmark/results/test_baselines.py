@@ -103,18 +103,17 @@ def test_the_team_beats_copying_wherever_the_human_moves_smoothly(played):
 def test_vs_human_is_the_ratio_of_the_means_with_a_paired_interval(quick, played):
     run = run_suite(PolicySpec(text="copy"), quick)
     content = results(run, played)
-    versus = content["summary"]["vs_human"]
+    versus = content.summary.vs_human
     team = played[HUMAN_HUMAN]
-    assert versus["mean"] == pytest.approx(np.mean(played["copy"].rmse_mm) / team.mean)
-    low, high = versus["ci95"]
-    assert 1 < low < versus["mean"] < high
-    group = content["groups"][0]
-    assert group["human_human_rmse_mm"]["mean"] == pytest.approx(np.mean(team.rmse_mm[:3]))
-    assert content["baselines"]["human_human"]["rmse_mm"]["mean"] == pytest.approx(team.mean)
+    assert versus.mean == pytest.approx(np.mean(played["copy"].rmse_mm) / team.mean)
+    low, high = versus.ci95
+    assert 1 < low < versus.mean < high
+    assert content.strata[0].human_human_rmse_mm == pytest.approx(np.mean(team.rmse_mm[:3]))
+    assert content.baselines[HUMAN_HUMAN].mean == pytest.approx(team.mean)
 
 
 def test_a_team_against_itself_is_exactly_one(quick, played):
     run = human_team_run(quick)
-    against = results(dataclasses.replace(run, suite=quick), played)["summary"]["vs_human"]
-    assert against["mean"] == pytest.approx(1.0)
-    assert against["ci95"] == pytest.approx([1.0, 1.0])
+    against = results(dataclasses.replace(run, suite=quick), played).summary.vs_human
+    assert against.mean == pytest.approx(1.0)
+    assert against.ci95 == pytest.approx([1.0, 1.0])

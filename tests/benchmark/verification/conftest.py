@@ -49,7 +49,7 @@ def made(tmp_path_factory):
     root = tmp_path_factory.mktemp("bundles")
     for name, spec in (("copy", PolicySpec(text="copy")), ("giving", GivingSpec())):
         run = run_suite(spec, SUITE)
-        write_bundle(root / name, run, results(run, {}))
+        write_bundle(root / name, run, results(run, {}).plain())
     return root
 
 

@@ -60,7 +60,7 @@ def rewrite(folder, run, platform=None):
     """Write a bundle of another run, with the step times that it had."""
     told = read_bundle(folder).results
     content = with_circumstances(results(run, {}), told, run.suite)
-    write_bundle(folder, run, content, platform=platform)
+    write_bundle(folder, run, content.plain(), platform=platform)
 
 
 def refused(folder, **place):

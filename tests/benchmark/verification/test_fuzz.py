@@ -31,7 +31,7 @@ def files(tmp_path_factory):
     one = dataclasses.replace(SUITE, name="one", scenarios=SUITE.scenarios[:1], seeds=(3,))
     run = run_suite(PolicySpec(text="copy"), one)
     folder = tmp_path_factory.mktemp("fuzz") / "bundle"
-    write_bundle(folder, run, results(run, {}))
+    write_bundle(folder, run, results(run, {}).plain())
     return read_files(folder)
 
 

@@ -24,8 +24,10 @@ class TestScoring:
         assert not verdict.ok
         assert verdict.rescorable
         assert verdict.scoring == (SCORING - 1, SCORING)
-        assert verdict.results == json.loads((made / "copy" / "results.json").read_text())
-        write_bundle(tmp_path / "new", verdict.run, verdict.results, platform=verdict.platform)
+        assert verdict.results.plain() == json.loads((made / "copy" / "results.json").read_text())
+        write_bundle(
+            tmp_path / "new", verdict.run, verdict.results.plain(), platform=verdict.platform
+        )
         assert verify(tmp_path / "new").ok
 
     def test_changed_actions_are_refused_all_the_same(self, bundle):

@@ -26,7 +26,7 @@ class TestTrue:
         assert verdict.tolerance_mm is None
         assert not verdict.other_platform
         assert sum(counted) == SUITE.size
-        assert verdict.results == json.loads((made / name / "results.json").read_text())
+        assert verdict.results.plain() == json.loads((made / name / "results.json").read_text())
         json.dumps(verdict.plain(), allow_nan=False)
 
     def test_failures_were_among_them(self, made):
@@ -43,7 +43,7 @@ class TestTrue:
         samples = ((trial, k / 50, 0.3 * min(k, 60 - k) / 30) for trial in "ab" for k in range(61))
         path.write_text("trial,t_s,z_m\n" + "".join(f"{a},{b},{c}\n" for a, b, c in samples))
         run = run_suite(PolicySpec(text="copy"), recorded_suite(path).with_timing(0.05, 0.05))
-        write_bundle(tmp_path / "recorded", run, results(run, {}))
+        write_bundle(tmp_path / "recorded", run, results(run, {}).plain())
         path.unlink()
         assert verify(tmp_path / "recorded").ok
         edited = tmp_path / "recorded" / "recordings.csv"
@@ -56,7 +56,7 @@ class TestTrue:
         from colift.benchmark.results.baselines import TEAM_PARTNER
 
         run = run_suite(TEAM_PARTNER, suite)
-        write_bundle(tmp_path / "team", run, results(run, {}))
+        write_bundle(tmp_path / "team", run, results(run, {}).plain())
         assert verify(tmp_path / "team").ok
 
     def test_the_policys_own_words_are_not_verified(self, giving):
@@ -73,7 +73,7 @@ class TestReferences:
         suite = make_suite("quick-v1")
         run = run_suite(PolicySpec(text="hold"), suite)
         folder = tmp_path / "hold"
-        write_bundle(folder, run, results(run, shipped_baselines(suite)))
+        write_bundle(folder, run, results(run, shipped_baselines(suite)).plain())
         assert verify(folder).ok
 
         def better(content):
@@ -86,7 +86,7 @@ class TestReferences:
     def test_others_are_played_again(self, tmp_path):
         suite = dataclasses.replace(SUITE, name="one", scenarios=SUITE.scenarios[:1])
         run, folder = run_suite(PolicySpec(text="copy"), suite), tmp_path / "copy"
-        write_bundle(folder, run, results(run, play_baselines(suite)))
+        write_bundle(folder, run, results(run, play_baselines(suite)).plain())
         assert verify(folder).ok
 
         def worse(content):

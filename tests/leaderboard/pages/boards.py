@@ -69,7 +69,7 @@ def _adopted(folder: Path, season: Season, team: Baseline, name: str, number: in
     public = run_suite(policy, season.suite)
     hidden = run_suite(policy, season.hidden)
     content = results(public, shipped_baselines(season.suite))
-    write_bundle(bundle, public, content)
+    write_bundle(bundle, public, content.plain())
     row = BoardRow(
         season=season.name,
         commitment=season.commitment,

@@ -13,7 +13,7 @@ from colift.benchmark.suites.suite import make_suite
 def bundle_folder(tmp_path_factory) -> Path:
     run = run_suite(PolicySpec(text="blend"), make_suite("quick-v1"))
     folder = tmp_path_factory.mktemp("entry") / "bundle"
-    write_bundle(folder, run, results(run, {}))
+    write_bundle(folder, run, results(run, {}).plain())
     return folder
 
 
