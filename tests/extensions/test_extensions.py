@@ -1,0 +1,71 @@
+"""Another package's task, suite, behaviour and metric, used by every command without any edit."""
+
+import csv
+import json
+import shutil
+
+import numpy as np
+import pytest
+from colift.agents.registry import HUMANS, SUITES, TASKS, entries, lookup
+from colift.benchmark.suites.suite import make_suite
+from colift.testing import check_behaviour, check_suite, check_task
+
+from . import sloping
+
+
+@pytest.fixture(autouse=True)
+def installed(tmp_path_factory, monkeypatch):
+    """Install the package for the time of a test, as pip would."""
+    site = tmp_path_factory.mktemp("site")
+    about = site / "sloping-1.0.dist-info"
+    about.mkdir()
+    about.joinpath("METADATA").write_text("Metadata-Version: 2.1\nName: sloping\nVersion: 1.0\n")
+    about.joinpath("entry_points.txt").write_text(sloping.ENTRY_POINTS)
+    shutil.copy(sloping.__file__, site)
+    monkeypatch.syspath_prepend(site)
+    entries.cache_clear()
+    yield
+    monkeypatch.undo()
+    entries.cache_clear()
+
+
+def test_it_conforms():
+    check_task(lookup(TASKS, "slope")())
+    check_suite(make_suite("slope-v1"))
+    check_behaviour(lookup(HUMANS, "shy")())
+
+
+def test_its_metric_is_in_the_table_the_csv_and_the_json_and_its_bundle_verifies(colift, tmp_path):
+    done = colift("run", "copy", "--suite", "slope-v1", "--out", "mine", COLUMNS="140")
+    assert done.returncode == 0, done.stderr
+    assert "slope mm" in done.stdout
+    rows = list(csv.DictReader((tmp_path / "mine/episodes.csv").read_text().splitlines()))
+    errors = [float(row["slope_error_mm"]) for row in rows]
+    assert len(errors) == 12
+    content = json.loads((tmp_path / "mine/results.json").read_text())
+    assert content["summary"]["slope_error_mm"]["mean"] == pytest.approx(np.mean(errors))
+    # Level is 40 mm off.
+    assert 35 < content["summary"]["rmse_mm"]["mean"] < 60
+    with np.load(tmp_path / "mine/traces.npz") as traces:
+        wanted = traces["task/wanted"]
+    assert wanted.min() == pytest.approx(-0.04)
+    verified = colift("verify", "mine")
+    assert verified.returncode == 0, verified.stdout + verified.stderr
+
+
+def test_policies_are_compared_by_its_metric(colift):
+    done = colift("compare", "copy", "hold", "--suite", "slope-v1", COLUMNS="140")
+    assert done.returncode == 0, done.stderr
+    heading = next(line for line in done.stdout.splitlines() if "vs_human" in line)
+    assert heading.split()[-2:] == ["slope", "step"]
+
+
+def test_everything_is_listed(colift):
+    listed = colift("list").stdout
+    for line in (
+        "slope             Keep the table at a slope",
+        "slope-v1          12 lifts at a slope of 40 mm.",
+        "shy               Lifts to half the height",
+    ):
+        assert line in listed
+    assert set(entries(SUITES)) > {"slope-v1", "standard-v1"}
