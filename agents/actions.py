@@ -1,4 +1,4 @@
-"""What an action must be."""
+"""Validation of actions, and the speed of the hand."""
 
 import math
 from typing import Any, Final
@@ -10,12 +10,12 @@ HAND_SPEED: Final = 0.4
 
 
 def action_limit(control_period: float) -> float:
-    """Return the largest change of the hand command in one control period [m]; beyond it is cut."""
+    """Return the largest change of the hand command in one control period [m]."""
     return HAND_SPEED * control_period
 
 
 class ActionError(ValueError):
-    """An action that cannot be carried out; the message says whose, what it is and should be."""
+    """An action that cannot be carried out; its message names the agent and the rule."""
 
 
 def checked_action(agent: str, action: Any, size: int) -> list[float]:
@@ -24,11 +24,11 @@ def checked_action(agent: str, action: Any, size: int) -> list[float]:
     Parameters
     ----------
     agent
-        Whose it is, for the message.
+        Name of the agent, for the message.
     action
-        Whatever the agent returned. Where one number is due, it need not be in a list.
+        Any object. A single number need not be in a list.
     size
-        How many numbers it must be.
+        Its length.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The interface of every agent, human or robot, and the layout of what each may see.
+"""The interface of every agent, human or robot, and the layout of observations.
 
 Heights are displacements [m] from the table's rest height, z up.
 """
@@ -32,7 +32,7 @@ class Agent(Protocol):
 
 @runtime_checkable
 class Explaining(Protocol):
-    """An agent that can say what its last action was based on."""
+    """An agent that explains its last action."""
 
     def internals(self) -> dict[str, float]:
         """Return named numbers, the same names after every action.
@@ -44,15 +44,15 @@ class Explaining(Protocol):
 
 @runtime_checkable
 class Printing(Protocol):
-    """An agent in a process of its own, whose printed lines are kept."""
+    """An agent in a process of its own, with captured output."""
 
     @property
     def printed(self) -> str:
-        """The end of what it has printed since its reset, to stdout and stderr."""
+        """The end of its output to stdout and stderr since its reset."""
 
 
 class RobotObservation(IntEnum):
-    """Index table of the robot's observation: all that a robot policy may see.
+    """Index table of the robot's observation, version 1: everything that a robot policy perceives.
 
     The two table ends come from motion capture: one sample a step, ``latency`` old, noisy.
     The hand's height comes from its own encoders and is fresh.

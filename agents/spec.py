@@ -35,7 +35,7 @@ class AgentSpec(Protocol):
 
 @runtime_checkable
 class Paced(Protocol):
-    """An agent whose budgets of time follow from the control period."""
+    """An agent with time budgets that follow from the control period."""
 
     def paced(self, period: float) -> Self:
         """Return the same agent with the budgets of a control period [s]."""

@@ -61,7 +61,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
     Rewards [m] at the end of a step, with the heights Z1 of the human's and Z2 of the robot's end:
     the robot's is ``-|Z1 - Z2|`` (the integrand of the paper's eq. 10), the human's
     ``-|Z1 - target| - |Z1 - Z2|``.
-    The episode is terminated when the table is dropped (``infos[agent]["dropped"]`` says why)
+    The episode is terminated when the table is dropped (``infos[agent]["dropped"]`` is the reason)
     and truncated at its horizon.
 
     Parameters

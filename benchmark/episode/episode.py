@@ -1,4 +1,4 @@
-"""One episode: an agent at the robot's end, a scripted human at the other, and what came of it."""
+"""One episode: an agent at the robot's end, a scripted human at the other, and the outcome."""
 
 import time
 from dataclasses import dataclass
@@ -14,10 +14,10 @@ from .seeding import derive_seed
 from .trace import Trace
 
 START: Final = "start: "
-"""How the reason of a failure begins if the policy could not be made or reset."""
+"""Prefix of a failure's reason if the policy could not be made or reset."""
 
 STEP: Final = "step "
-"""How it begins if the policy failed in a step; after a drop of the table it begins otherwise."""
+"""Prefix if the policy failed in a step; the reason of a dropped table has neither prefix."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -34,20 +34,20 @@ class Episode:
     """Why the episode ended early, or nothing if it did not."""
     trace: Trace
     step_times: tuple[float, ...]
-    """What each call of the policy took [s]; with the next, all that differs between two runs."""
+    """Duration of each call of the policy [s]; with the next, all that differs between two runs."""
     policy_time: float = 0.0
-    """What the policy took in all [s]: to be made and reset, and for its steps, with a last one
-    that failed. Not kept in files."""
+    """Total duration of the policy [s]: construction, reset and all steps, a failed last one
+    included. Not kept in files."""
     log: str = ""
-    """The end of what the policy printed, if it was kept apart."""
+    """The end of the policy's printed output, if it ran in a process of its own."""
 
 
 def policy_seed() -> int:
     """Return the seed that a policy is reset with: the same in every episode, public or hidden.
 
-    A policy's seed must tell nothing of the episode. One derived from the episode's would not do:
-    there are few enough public seeds to try them all. A policy that wants to vary from episode to
-    episode can mix its first observation in, which carries the sensors' noise.
+    A policy's seed must reveal nothing about the episode. One derived from the episode's seed
+    would: the public seeds are few enough to try them all. A policy that wants to vary between episodes
+    can use its first observation, which carries the sensors' noise.
     """
     return derive_seed(0, "policy")
 
@@ -55,17 +55,17 @@ def policy_seed() -> int:
 def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
     """Play one episode and score it.
 
-    Whatever the partner does, this returns: an exception or an unusable action of the partner
-    ends the episode with the reason, and the remaining frames count as the worst.
+    It returns in every case: an exception or an unusable action of the partner ends the episode
+    with the reason, and each remaining frame counts as the worst.
 
     Parameters
     ----------
     lift
         The lift; it is reset here and may be used for any number of episodes.
     partner
-        Who acts at the robot's end.
+        The agent at the robot's end.
     seed
-        The episode's seed: plan, noise and human follow from it, whoever the partner is.
+        The episode's seed: plan, noise and human follow from it, with any partner.
 
     Raises
     ------
@@ -128,10 +128,10 @@ def _start(partner: Agent) -> str | None:
 
 
 def _internals(partner: Explaining) -> dict[str, float]:
-    """Return what a partner says of its last action; raises if these are not named numbers."""
+    """Return the partner's explanation of its last action; raise if it is not named numbers."""
     return {str(name): float(value) for name, value in partner.internals().items()}
 
 
 def _log(partner: Agent) -> str:
-    """Return what a partner has printed, where that is kept."""
+    """Return the partner's printed output, if it is captured."""
     return partner.printed if isinstance(partner, Printing) else ""

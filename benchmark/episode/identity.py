@@ -1,4 +1,4 @@
-"""What changes a score: the declared numbers, and the code that simulates, plays and scores."""
+"""The declared numbers and the code that can change a score."""
 
 import dataclasses
 import functools
@@ -31,13 +31,13 @@ from .lift import Lift
 from .recorder import Recorder
 
 SIMULATES: Final[tuple[Root, ...]] = (Lift, Recorder, Partner)
-"""What makes an episode's trace of a human's plan and the actions."""
+"""The code from a plan and actions to a trace."""
 
 PLANS: Final[tuple[Root, ...]] = (Smooth, Pause, Jerky, ChangingGoal, Recorded)
-"""What makes a human's plan of a seed."""
+"""The code from a seed to a human's plan."""
 
 PLAYS_AND_SCORES: Final[tuple[Root, ...]] = (*SIMULATES, RobotObservation, run_episode)
-"""What makes an episode's scores of a human's plan and a policy."""
+"""The code from a plan and a policy to the scores of an episode."""
 
 STATED: Final[tuple[Root, ...]] = (
     (calibration, "CALIBRATION"),
@@ -48,7 +48,7 @@ how metrics are shown changes no score."""
 
 
 def numbers() -> Mapping[str, Any]:
-    """Return the numbers that change a score, by names that stay when the code is tidied."""
+    """Return the numbers that change a score, by names that do not depend on the code."""
     return MappingProxyType(
         {
             "physics": PHYSICS,

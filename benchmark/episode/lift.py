@@ -32,7 +32,7 @@ class Lift:
     Parameters
     ----------
     scenario
-        Who lifts how.
+        The people, the task and the timing.
     world
         Makes the world of the human's body and the far end.
     """
@@ -68,7 +68,7 @@ class Lift:
         self.dropped: str | None = None
 
     def _role_seed(self, role: str) -> int:
-        """Return the seed of a role; other scenarios have others, so that they are independent."""
+        """Return the seed of a role, independent of those of other scenarios."""
         return derive_seed(self.seed, f"{role}/{self.scenario.name}")
 
     @property
@@ -82,7 +82,7 @@ class Lift:
         return self.dropped is not None or self.frame >= self.horizon
 
     def scripted_human(self) -> ScriptedHuman:
-        """Return the agent that carries the human's plan out, ready for the current episode."""
+        """Return the agent that executes the human's plan, reset for the current episode."""
         human = ScriptedHuman(subject=self.scenario.subject)
         human.reset(self._role_seed("human"))
         return human
@@ -117,11 +117,11 @@ class Lift:
         self.dropped = self.task.failure(self)
 
     def partner_observation(self) -> Observation:
-        """Return what the holder of the robot's end perceives now."""
+        """Return the observation of the holder of the robot's end."""
         return self.seat.observation(self)
 
     def human_observation(self) -> Observation:
-        """Return what the human perceives now."""
+        """Return the human's observation."""
         return self.task.human_observation(self)
 
     def robot_view(self) -> Observation:

@@ -70,7 +70,7 @@ def on_boards(metrics: Metrics) -> tuple[Metric, ...]:
 
 
 def reached(scores: Scores, metrics: Metrics) -> bool:
-    """Return whether an episode reached its goal, as far as that is known."""
+    """Return whether an episode reached its goal; True if that is unknown."""
     return not any(
         metric.limit is not None and scores[metric.name] > metric.limit
         for metric in metrics.values()

@@ -16,12 +16,12 @@ HASH_BYTES = 16
 
 
 class Recorder:
-    """Keeps each step's actions, and a hash h of all that happened up to it.
+    """Keeps the actions of each step and a hash h of the episode up to it.
 
         h(k) = BLAKE2b(h(k - 1), actions of step k, state of the world after it), h(-1) empty
 
-    It is over the bits of the float64 numbers, so that two episodes whose last hashes are equal are
-    equal, and else the first step that differs is found.
+    The hash is over the bits of the float64 numbers: two episodes with equal last hashes are equal,
+    and otherwise the first different hash marks the first different step.
 
     Parameters
     ----------
@@ -38,13 +38,13 @@ class Recorder:
 
     @property
     def steps(self) -> int:
-        """How many steps have been recorded."""
+        """Number of recorded steps."""
         return len(self._hashes)
 
     def step(
         self, human: Sequence[float], partner: Sequence[float], internals: Mapping[str, float]
     ) -> None:
-        """Record the step just made: the two actions, and what the partner said of its own."""
+        """Record the step just made: the two actions and the partner's explanation of its own."""
         numbers = (*human, *partner, *self._lift.world.state())
         before = self._hashes[-1] if self._hashes else b""
         message = before + struct.pack(f"<{len(numbers)}d", *numbers)
@@ -54,7 +54,7 @@ class Recorder:
         self._internals.append(internals)
 
     def trace(self) -> Trace:
-        """Return what was recorded."""
+        """Return the trace so far."""
         lift, world, steps = self._lift, self._lift.world, self.steps
         names = self._internals[0] if self._internals else {}
         return Trace(

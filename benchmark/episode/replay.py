@@ -1,4 +1,4 @@
-"""Plays an episode again from its log: without the policy that acted in it."""
+"""Re-simulation of an episode from its logged actions, without the policy."""
 
 from dataclasses import dataclass
 
@@ -16,33 +16,33 @@ from .trace import Trace
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Simulated:
-    """What happens by an episode's actions, in m steps."""
+    """The simulated consequences of an episode's actions, m steps."""
 
     trace: Trace
-    """What happens, without a policy's internals."""
+    """The trace, without a policy's internals."""
     scripted: NDArray[np.float64]
-    """(m, n) what the scripted human does in each step, given what it sees in this replay [m]."""
+    """(m, n) the scripted human's action in each step, on its observation in this replay [m]."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Replay(Simulated):
-    """What follows from an episode's actions."""
+    """Everything that follows from an episode's actions."""
 
     failure: str | None
-    """Why the episode ended early: a drop, or else what was claimed of the policy."""
+    """Why the episode ended early: a drop, or the claimed failure of the policy."""
     scores: Scores
 
 
 class ReplayError(InputError):
-    """Actions that are not those of an episode."""
+    """Actions that cannot be those of an episode."""
 
     def __init__(self, step: int, message: str, found: Simulated) -> None:
         super().__init__(step, message, found)
         self.step = step
-        """The step in which that shows."""
+        """The first step that shows it."""
         self.message = message
         self.found = found
-        """What happens up to that step."""
+        """The simulation up to that step."""
 
     def __str__(self) -> str:
         return self.message
@@ -57,12 +57,11 @@ def replay(
 ) -> Replay:
     """Simulate the episode ``seed`` from both agents' actions alone.
 
-    The world obeys the given actions. The scripted human is asked beside them, in each step, what
-    it does on seeing this world: a log in which the human did something else is not one of this
-    benchmark, however well the rest fits.
+    The world obeys the given actions. In each step the scripted human is also asked for its action
+    in this world: a log with other human actions is not from this benchmark, even if the rest fits.
 
-    That the table was dropped follows from the actions. That the policy failed does not: it is
-    taken as claimed, if the actions end there; the frames that are missing count as the worst.
+    A drop of the table follows from the actions. A failure of the policy does not: the claim is
+    accepted if the actions end there, and each missing frame counts as the worst.
 
     Parameters
     ----------
@@ -74,7 +73,7 @@ def replay(
         Actions of the human's end, shape (m, n), and of the robot's end, as :class:`.Trace` has
         them.
     claimed
-        The failure that is claimed, or None.
+        The claimed failure, or None.
 
     Raises
     ------
@@ -112,7 +111,7 @@ def replay(
 
 
 def _end(lift: Lift, step: int, claimed: str | None) -> str | None:
-    """Return what is wrong with actions that end before ``step``; None if nothing is."""
+    """Return the fault of actions that end before ``step``, or None."""
     begins = (f"step {step}: ", START) if step == 0 else (f"step {step}: ",)
     if lift.done or (claimed is not None and claimed.startswith(begins)):
         return None

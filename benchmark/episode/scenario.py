@@ -1,4 +1,4 @@
-"""A scenario: who lifts how, with whom, at which task, under which timing."""
+"""A scenario: behaviour, subject, partner, task and timing of an episode."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -23,7 +23,7 @@ LONGEST_PERIOD: Final = 0.5
 
 @dataclass(frozen=True, kw_only=True)
 class Scenario:
-    """One lifting task, up to the seed.
+    """Everything that defines an episode but its seed.
 
     Raises
     ------
@@ -32,21 +32,21 @@ class Scenario:
     """
 
     behaviour: str
-    """Name of the way the human moves, for tables."""
+    """Name of the human's behaviour, for tables."""
     human: Behaviour
-    """The way the human moves: makes the plan of each episode."""
+    """The behaviour: makes the plan of each episode."""
     trial: str = ""
-    """Name of the recording that is moved by, empty for a drawn plan."""
+    """Name of the recording, empty for a drawn plan."""
     subject: Subject
-    """Who the human is."""
+    """The human."""
     partner: str = "nao"
-    """Who holds the other end: a name of :data:`.SEATS`."""
+    """Holder of the robot's end: a name of :data:`.SEATS`."""
     control_period: float = CONTROL_PERIOD
     """Time between two of the robot's decisions [s]."""
     latency: float = LATENCY
     """Age of the motion-capture sample when the robot decides [s]."""
     task: Task = LEVEL
-    """What is to be done with the table."""
+    """The agents' common purpose."""
 
     def __post_init__(self) -> None:
         """Check the times."""
@@ -58,7 +58,7 @@ class Scenario:
 
     @property
     def seat(self) -> Seat:
-        """Who holds the other end."""
+        """The holder of the robot's end."""
         return SEATS[self.partner]
 
     @property

@@ -58,11 +58,11 @@ def limited_command(command: float, change: float, limit: float) -> float:
 
 
 class Seat(Protocol):
-    """Who acts at the robot's end: body, action and observation."""
+    """The holder of the robot's end: body, actions and observation."""
 
     @property
     def label(self) -> str:
-        """What pictures call the holder."""
+        """The holder's name in pictures."""
 
     @property
     def is_robot(self) -> bool:
@@ -73,7 +73,7 @@ class Seat(Protocol):
         """The holder in the world."""
 
     def action_size(self, frames: int) -> int:
-        """Return how many numbers an action has, for ``frames`` frames per step."""
+        """Return the length of an action, for ``frames`` frames per step."""
 
     def action_range(self, control_period: float) -> tuple[float, float]:
         """Return the lowest and the highest number of an action [m]."""
@@ -82,7 +82,7 @@ class Seat(Protocol):
         """Return the height to reach at the end of each frame of the step [m]."""
 
     def observation(self, lift: "Lift") -> Observation:
-        """Return what the holder perceives at the beginning of a step."""
+        """Return the holder's observation at the beginning of a step."""
 
     def clipped(self, actions: NDArray[np.float64], limit: float) -> float:
         """Return the share of actions larger than ``limit`` [m]; NaN if none was made or counts."""

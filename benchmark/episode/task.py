@@ -1,4 +1,4 @@
-"""The seam of tasks: what the two agents perceive, what they are asked to do, how it is scored."""
+"""The seam of tasks: observations, rewards, end and scores of an episode."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Protocol
@@ -18,11 +18,11 @@ Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 class Task(Protocol):
-    """What is to be done with the table; :class:`.Level` is the task of the paper.
+    """The agents' common purpose; :class:`.Level` is the task of the paper.
 
     A task is a frozen dataclass: its fields and the code of its class are in the digest of every
     suite that plays it. It is stateless; everything that changes during an episode is in the lift.
-    Most tasks subclass :class:`.Level` and override what differs.
+    Most tasks subclass :class:`.Level` and override the methods that differ.
     """
 
     @property
@@ -34,13 +34,13 @@ class Task(Protocol):
         """Its metrics by name; the first is the leading one, ``rmse_mm``."""
 
     def robot_observation(self, lift: "Lift") -> Observation:
-        """Return what the robot perceives at the beginning of a step."""
+        """Return the robot's observation at the beginning of a step."""
 
     def human_observation(self, lift: "Lift") -> Observation:
-        """Return what the human perceives at the beginning of a step."""
+        """Return the human's observation at the beginning of a step."""
 
     def partner_observation(self, lift: "Lift") -> Observation:
-        """Return what a second human in the robot's place perceives."""
+        """Return the observation of a second human in the robot's place."""
 
     def robot_bounds(self) -> Bounds:
         """Return the bounds of :meth:`robot_observation`."""

@@ -1,4 +1,4 @@
-"""The trace of an episode: what happened, frame by frame."""
+"""The trace of an episode, frame by frame."""
 
 import dataclasses
 import hashlib
@@ -20,7 +20,7 @@ BY_STEP: Final = ("action", "human_action")
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Trace:
-    """Everything that an episode's scores are computed from; n frames at 100 Hz, m steps.
+    """The record that an episode's scores are computed from; n frames at 100 Hz, m steps.
 
     A failed episode ends early: n is then shorter than the horizon.
     """
@@ -46,7 +46,7 @@ class Trace:
     added: Mapping[str, Series] = field(default_factory=dict)
     """(n,) each: the series that the task adds; see :meth:`.Task.series`."""
     internals: Mapping[str, Series] = field(default_factory=dict)
-    """(m,) each: what the policy says its actions were based on, where it says so; see
+    """(m,) each: the policy's explanation of its actions, if it gives one; see
     :class:`colift.agents.agent.Explaining`."""
 
     @staticmethod
@@ -61,7 +61,7 @@ class Trace:
         return {**own, **{f"{ADDED}{name}": series for name, series in self.added.items()}}
 
     def until(self, step: int) -> Self:
-        """Return the trace of what happened before a step."""
+        """Return the trace up to a step."""
         frame = step * self.human_action.shape[1]
         cut: dict[str, Any] = {
             name: getattr(self, name)[: step if name in BY_STEP else frame]

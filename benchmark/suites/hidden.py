@@ -1,4 +1,4 @@
-"""Episodes that nobody can train for: hidden people and hidden plans, out of a board's secret.
+"""Hidden suites: people and plans derived from a season secret.
 
 The behaviours are the public ones; everything else is new. What is derived from a secret cannot
 be told from chance without it, and the commitment, published beforehand, proves afterwards that

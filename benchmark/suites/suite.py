@@ -18,7 +18,7 @@ from ..episode.scenario import Scenario
 from .catalogue import RECORDED, make_scenario
 
 LONGEST_SUITE_NAME: Final = 200
-"""Characters that a suite's name may have."""
+"""Longest name of a suite [characters]."""
 
 BEHAVIOURS: Final = ("smooth", "pause", "jerky", "changing_goal")
 """The behaviours of the standard suites."""
@@ -117,16 +117,16 @@ class Suite:
             changes["control_period"] = control_period
         if not changes:
             return self
-        told = ", ".join(f"{name} {value:g} s" for name, value in changes.items())
+        shown = ", ".join(f"{name} {value:g} s" for name, value in changes.items())
         return dataclasses.replace(
             self,
-            name=f"{self.name} ({told})",
+            name=f"{self.name} ({shown})",
             scenarios=tuple(dataclasses.replace(scene, **changes) for scene in self.scenarios),
         )
 
 
 def plain_name(name: str) -> str:
-    """Return a name as a suite may have it: in ASCII, so that none looks like another's."""
+    """Return a name in plain ASCII: no two suites have names that look alike."""
     plain = re.sub(r"[^A-Za-z0-9 ._()\[\]:,+-]", "_", name)
     return " ".join(plain.split())[:LONGEST_SUITE_NAME].strip()
 

@@ -1,4 +1,4 @@
-"""PyBullet, without what its C code prints."""
+"""PyBullet with the output of its C code discarded."""
 
 import ctypes
 import os
@@ -15,10 +15,10 @@ _ONE_AT_A_TIME: Final = threading.Lock()
 
 @contextmanager
 def silent() -> Iterator[None]:
-    """Discard what C code prints to stdout.
+    """Discard the output of C code to stdout.
 
     The C library's stream is exchanged, which the GNU C library allows, and not the file
-    descriptor: what Python prints, in any thread, and what child processes inherit stays as it is.
+    descriptor: Python's own output, in any thread, and inherited descriptors are unaffected.
     """
     with _ONE_AT_A_TIME:
         stdout = ctypes.c_void_p.in_dll(_C, "stdout")
@@ -31,8 +31,8 @@ def silent() -> Iterator[None]:
             _C.fclose(nowhere)
 
 
-# The line that PyBullet prints to stderr when it loads comes together with the initialisation of
-# the C++ library, which would keep an exchanged stream for good: here the descriptor is re-pointed.
+# PyBullet prints a line to stderr while it initialises the C++ library, which would keep an
+# exchanged stream for good. Here the descriptor itself is redirected.
 _kept = os.dup(2)
 _nowhere = os.open(os.devnull, os.O_WRONLY)
 os.dup2(_nowhere, 2)

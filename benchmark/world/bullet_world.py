@@ -47,7 +47,7 @@ class BulletWorld:
         self, human: BodyParameters, far_end: FarEnd, *, physics: Physics = PHYSICS
     ) -> None:
         self.client = new_client(physics)
-        # A world that nobody has any more takes its 30 MB with it, closed or not.
+        # An unreferenced world releases its 30 MB, closed or not.
         self._release = weakref.finalize(self, disconnect, self.client)
         self._release.atexit = False
         self._step = physics.step

@@ -1,4 +1,4 @@
-"""The few calls that set PyBullet up, each told which client it means."""
+"""Set-up of PyBullet: clients, solver, models."""
 
 import tempfile
 from typing import Final
@@ -16,10 +16,10 @@ DIRECT: Final = {
 }
 """Dantzig's pivoting solves the constraints of a step exactly, up to a compliance of 1e-9.
 
-Two arms and a table are a closed loop, some of whose constraints say the same: without compliance
-the problem is singular, and the engine would fall back to iterations. One hundred times more or ten
-times less changes no RMSE by more than 2e-6 of its value. The number of iterations is that of the
-fall-back, which never happens.
+Two arms and a table form a closed loop with redundant constraints: without compliance the problem
+is singular, and the engine falls back to iterations. A compliance a hundred times larger or ten
+times smaller changes no RMSE by more than 2e-6 of its value. The number of iterations is that of
+the fall-back, which never occurs.
 """
 
 
@@ -28,7 +28,7 @@ def new_client(physics: Physics) -> int:
     client: int = pybullet.connect(pybullet.DIRECT)
     pybullet.setGravity(0, 0, -GRAVITY, physicsClientId=client)
     solver = {"numSolverIterations": physics.iterations} if physics.iterations else DIRECT
-    with silent():  # It tells of each change of the solver.
+    with silent():  # It reports each change of the solver.
         pybullet.setPhysicsEngineParameter(
             fixedTimeStep=physics.step, physicsClientId=client, **solver
         )
@@ -38,7 +38,7 @@ def new_client(physics: Physics) -> int:
 def load_urdf_text(client: int, text: str, position: Vector) -> int:
     """Load a robot with a fixed base and the inertias of its URDF text, and return its body.
 
-    The engine's own damping of velocities is switched off: what damps is stated in the models.
+    The engine's own damping of velocities is switched off: the models state all damping.
     """
     with tempfile.NamedTemporaryFile("w", suffix=".urdf") as file:
         file.write(text)

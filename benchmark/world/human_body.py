@@ -9,8 +9,8 @@ from .table import GRIP_STIFFNESS, TABLE_LENGTH, WEIGHT_SHARE
 from .world import HISTORY_FRAMES
 
 REFLEX_LIMIT: Final = 0.02
-"""A reflex shifts the reference by at most this [m]: it evens out small differences, and does
-not overrule the intended height."""
+"""Largest shift of the reference by a reflex [m]: reflexes even out small differences and do not
+overrule the intended height."""
 
 MUSCLE_TIME: Final = 0.05
 """Time constant of muscle activation [s], a first-order low-pass on the reflex."""
@@ -18,7 +18,7 @@ MUSCLE_TIME: Final = 0.05
 
 @dataclass(frozen=True, kw_only=True)
 class BodyParameters:
-    """What the world needs to know of a person.
+    """The mechanical parameters of a person: impedance, mass, reflexes.
 
     Raises
     ------
@@ -33,13 +33,13 @@ class BodyParameters:
     mass: float
     """M, the arm's apparent mass at the hand [kg]."""
     pull: float
-    """Share of a height difference that the reflexes try to take away, 0 = ignores it."""
+    """Fraction of a height difference that the reflexes counteract; 0 ignores it."""
     felt_share: float = 0.5
-    """Share of the pull that comes from the felt force; the rest comes from sight."""
+    """Fraction of the pull that comes from the felt force; the rest comes from sight."""
     visual_delay: float
-    """Delay of what is seen [s]."""
+    """Delay of sight [s]."""
     haptic_delay: float
-    """Delay of what is felt [s]."""
+    """Delay of touch [s]."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""

@@ -141,7 +141,7 @@ class NaoArms:
     def hand_height(self, end: float) -> float:
         """Return the mean height of the two hands [m] by forward kinematics of the joints.
 
-        It differs from the table's ``end`` as far as the hands slip.
+        It differs from the table's ``end`` when the hands slip.
         """
         height = 0.0
         for state in pybullet.getLinkStates(

@@ -1,7 +1,7 @@
 """The table, and the human's hands on it, as a spanning tree of joints.
 
-Ground - slide (x) - hands (z) - pitch hinge - table. The tree carries the human's end; whatever
-holds the other end closes the loop. The tree's three joints:
+Ground - slide (x) - hands (z) - pitch hinge - table. The tree carries the human's end; the
+holder of the far end closes the loop. The tree's three joints:
 
 * x slides freely: a tilting table needs a few millimetres of it, and a human's arms give that.
 * z is the height of the human's hands; its mass is the arm's apparent mass.
@@ -9,9 +9,8 @@ holds the other end closes the loop. The tree's three joints:
 
 A table on a free pin would transmit nothing. A two-handed grip on its edge resists pitching, so
 that a height difference is felt: 60 mm over 0.8 m are 75 mrad, 0.75 Nm, about 1 N at the hands.
-The far end is held without such a stiffness, whoever holds it: the NAO's fingers do not resist
-pitching, and the wrists of a person who follows give way. So a height difference feels the same
-with either partner.
+The far end has no such stiffness with either holder: the NAO's fingers do not resist pitching, and
+the wrists of a following person give way. A height difference therefore feels the same with both.
 """
 
 from typing import Final
