@@ -46,8 +46,8 @@ def policy_seed() -> int:
     """Return the seed that a policy is reset with: the same in every episode, public or hidden.
 
     A policy's seed must reveal nothing about the episode. One derived from the episode's seed
-    would: the public seeds are few enough to try them all. A policy that wants to vary between episodes
-    can use its first observation, which carries the sensors' noise.
+    would: the public seeds are few enough to try them all. A policy that wants to vary between
+    episodes can use its first observation, which carries the sensors' noise.
     """
     return derive_seed(0, "policy")
 
