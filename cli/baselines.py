@@ -1,4 +1,4 @@
-"""``colift baselines``: play what results are set against."""
+"""``colift baselines``: the baselines and bounds of all suites."""
 
 from pathlib import Path
 from typing import Annotated
@@ -8,30 +8,27 @@ import typer
 from ..agents.registry import SUITES, own_entries
 from ..benchmark.bounds.causal import BOUNDS
 from ..benchmark.comparison.contest import play_bounds
-from ..benchmark.execution.pool import local_pool
 from ..benchmark.results.baselines import SPECS, Baseline, ToShip, baselines_json, play_baselines
 from ..benchmark.statistics import stratified_bootstrap
 from ..benchmark.suites.suite import make_suite
 from .options import Jobs, check_output, write_output
 from .printing import left, show, table
-from .progress import progress_bar
+from .progress import workers
 
 
 def baselines(
     out: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Where to write them, to be shipped.")
+        Path | None,
+        typer.Option(metavar="FILE", help="File for the baselines, as shipped."),
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """Play two people, hold, copy and the bounds on every suite; print the errors by behaviour."""
+    """Play the baselines and the bounds on all suites, and print their RMSE per behaviour."""
     check_output(out)
     suites = [make_suite(name) for name in own_entries(SUITES)]
     total = (len(SPECS) + len(BOUNDS)) * sum(suite.size for suite in suites)
     played: list[ToShip] = []
-    with (
-        local_pool(jobs) as pool,
-        progress_bar("baselines", total) as progress,
-    ):
+    with workers("baselines", total, jobs) as (pool, progress):
         for suite in suites:
             baselines = play_baselines(suite, executor=pool, progress=progress)
             bounds = play_bounds(BOUNDS, suite, executor=pool, progress=progress)

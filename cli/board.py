@@ -1,15 +1,12 @@
-"""``colift board``: a board's tables in the terminal."""
+"""``colift board``: a board's table in the terminal, its pages as files, and its backup."""
 
-import json
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from rich.console import Console
 
-from ..agents.errors import InputError
 from ..leaderboard.backup.backup import Backup, back_up
 from ..leaderboard.backup.restoring import restore
 from ..leaderboard.board.board import Board
@@ -17,74 +14,53 @@ from ..leaderboard.pages.site import write_site
 from ..leaderboard.practice.shipped import open_to_read
 from ..leaderboard.queue import Queue
 from ..leaderboard.records.season import SeasonInfo
-from .printing import show
+from .board_options import BOARD, BoardFolder, SeasonName, opened_board
+from .options import AsJson, check_exclusive
+from .printing import print_json, show
 from .tables.board import board_table
 
 
 def board(
-    board: Annotated[
-        Path, typer.Option(metavar="PATH", help="The board's folder; made if there is none.")
-    ] = Path("board"),
-    season: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Which season; default: the current one.")
-    ] = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the table as JSON, and nothing else.")
-    ] = False,
+    board: BoardFolder = BOARD,
+    season: SeasonName = None,
+    as_json: AsJson = False,
     site: Annotated[
         Path | None,
-        typer.Option(
-            metavar="DIR", help="Write the pages of all seasons as files, to open or host."
-        ),
+        typer.Option(metavar="DIR", help="Write the pages of all seasons, to open or to host."),
     ] = None,
     backup: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Write the whole board, in use or not, into one file."),
+        typer.Option(metavar="FILE", help="Write the whole board, in use or not, to one file."),
     ] = None,
     from_backup: Annotated[
         Path | None,
         typer.Option(
-            "--restore", metavar="FILE", help="Make the board of a backup at PATH, a new folder."
+            "--restore", metavar="FILE", help="Restore a backup into the folder of --board."
         ),
     ] = None,
 ) -> None:
-    """Print a board: rank groups, RMSE with its interval, and the human-human team's line."""
-    asked = [name for name, value in _options(site, as_json, backup, from_backup) if value]
-    if len(asked) > 1:
-        raise InputError(f"{' and '.join(asked)} exclude each other")
+    """Print a board's table: rank groups, RMSE with its interval, and the human-human baseline."""
+    check_exclusive(json=as_json, site=site, backup=backup, restore=from_backup)
     if from_backup is not None:
-        told = restore(from_backup, board)
-        _tell(told, f"restored {from_backup} to {board}")
+        _report(restore(from_backup, board), f"restored {from_backup} to {board}")
         print(f"Next: colift board --board {board}")
         return
-    place = open_to_read(board)
-    try:
+    with opened_board(board, open_to_read) as place:
         if backup is not None:
-            _tell(back_up(place, backup), f"backed up {board} to {backup}")
+            _report(back_up(place, backup), f"backed up {board} to {backup}")
             print("It holds the secrets of the seasons: keep it to yourself.")
         elif site is not None:
             write_site(place, site)
             print(f"Open {(site / 'index.html').absolute().as_uri()}")
         elif as_json:
-            print(json.dumps(_content(place, season), indent=2, allow_nan=False))
+            print_json(_content(place, season))
         else:
             _show(place, season)
-    finally:
-        place.close()
 
 
-def _options(
-    site: Path | None, as_json: bool, backup: Path | None, from_backup: Path | None
-) -> Iterator[tuple[str, object]]:
-    yield "--site", site
-    yield "--json", as_json
-    yield "--backup", backup
-    yield "--restore", from_backup
-
-
-def _tell(told: Backup, done: str) -> None:
-    print(f"{done}: {told.seasons} seasons, {told.entries} entries, {told.jobs} jobs")
-    for each in told.missing:
+def _report(backup: Backup, action: str) -> None:
+    print(f"{action}: {backup.seasons} seasons, {backup.entries} entries, {backup.jobs} jobs")
+    for each in backup.missing:
         print(f"missing: {each}", file=sys.stderr)
 
 
@@ -106,9 +82,9 @@ def _show(place: Board, season: str | None) -> None:
 def _waiting(place: Board) -> str:
     open_jobs = [job for job in Queue(place).jobs() if not job.ended]
     if not open_jobs:
-        return "Nothing waits. Submit by: colift submit DIR --board PATH"
-    told = ", ".join(f"{job.name} ({job.state})" for job in open_jobs[:5])
-    return f"{len(open_jobs)} in the queue: {told}"
+        return "The queue is empty. To submit: colift submit DIR --board PATH"
+    first = ", ".join(f"{job.name} ({job.state})" for job in open_jobs[:5])
+    return f"{len(open_jobs)} in the queue: {first}"
 
 
 def _content(place: Board, season: str | None) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""``colift calibrate``: fit the free numbers to the paper's results."""
+"""``colift calibrate``: fit of the world's free parameters to the paper's results."""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,7 +6,6 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
-from ..benchmark.execution.pool import local_pool
 from ..benchmark.paper.calibration import (
     ROUNDS,
     TABLE_1,
@@ -17,22 +16,19 @@ from ..benchmark.paper.calibration import (
 )
 from .options import Jobs, check_output, write_output
 from .printing import show, table
-from .progress import progress_bar
+from .progress import workers
 
 
 def calibrate(
     out: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Where to write the numbers, with their provenance."),
+        typer.Option(metavar="FILE", help="File for the parameters, with their provenance."),
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """Fit lift heights, process noise and the human team's lag to the paper, on own seeds."""
+    """Fit lift heights, process noise and the human partner's lag to the paper's results."""
     check_output(out)
-    with (
-        local_pool(jobs) as pool,
-        progress_bar("calibrating", episodes()) as progress,
-    ):
+    with workers("calibrating", episodes(), jobs) as (pool, progress):
         for number, fit in enumerate(fit_rounds(executor=pool, progress=progress), 1):
             print(
                 f"round {number} of {ROUNDS}: worst cell {100 * fit.worst_cell:.1f} % off, "

@@ -1,7 +1,6 @@
-"""``colift check``: whether a submission works, and its score."""
+"""``colift check``: the checks of a submission, and its score."""
 
 import dataclasses
-import json
 import textwrap
 from collections.abc import Iterator
 from pathlib import Path
@@ -16,21 +15,20 @@ from ..agents.spec import AgentSpec
 from ..agents.submissions.new import AUTHOR, DESCRIPTION, template
 from ..agents.submissions.packages import undeclared
 from ..agents.submissions.submission import Submission, open_submission
-from ..benchmark.execution.pool import local_pool
 from ..benchmark.execution.runner import Run, run_suite
 from ..benchmark.suites.suite import Suite
 from ..benchmark.verification.checking import Check, check_policy
-from .options import Jobs
+from .options import AsJson, Jobs
 from .policies import AUTO, NONE, auto_level, usable_level
-from .printing import argument
-from .progress import progress_bar
+from .printing import argument, print_json
+from .progress import workers
 from .remedies import explained
 
 PRINTED_LINES: Final = 20
 """Lines of a policy's output that are shown with a failure."""
 
 COLUMN: Final = 21
-"""Where the text of a check begins."""
+"""Column in which the message of a check begins."""
 
 
 def check(
@@ -38,21 +36,19 @@ def check(
     isolation: Annotated[
         str,
         typer.Option(
-            help="What keeps the policy apart: auto (the strongest that works here), bubblewrap, "
-            "landlock, limits, or none (it acts in this process: for code that you trust)."
+            metavar="LEVEL",
+            help="Isolation of the policy: auto (the strongest level that works here), bubblewrap, "
+            "landlock, limits, or none (in this process: for code that you trust).",
         ),
     ] = AUTO,
     jobs: Jobs = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the checks as JSON, and nothing else.")
-    ] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Check a submission: files, interface, determinism, its score, and the time of a step.
 
-    It plays 16 lifts of some 70 steps: seconds for a policy that answers in a few milliseconds,
-    minutes for one that takes a tenth of a second or prints much. The score is on quick-v1, a
-    dozen lifts, and is the very number that a board with that suite prints. Exit code 1 if a check
-    fails.
+    It plays 16 lifts of about 70 steps: seconds for a policy that answers within milliseconds,
+    minutes for one that takes a tenth of a second per step. The score is the RMSE on quick-v1, the
+    same number that a board of that suite shows. Exit code 1 if a check fails.
     """
     level = usable_level(isolation)
     console, done = Console(), []
@@ -62,13 +58,13 @@ def check(
             _show(console, each)
     failed = sum(not each.ok for each in done)
     if as_json:
-        print(json.dumps(_content(folder, done), indent=2, allow_nan=False))
+        print_json(_content(folder, done))
     elif failed:
         checks = "1 check" if failed == 1 else f"{failed} checks"
-        _say(console, f"{checks} failed. Mend it, then: colift check {argument(folder)}")
+        _print(console, f"{checks} failed. Fix it, then: colift check {argument(folder)}")
     else:
         name = argument(folder)
-        _say(console, f"Next: colift run {name}, or colift submit {name} --board PATH")
+        _print(console, f"Next: colift run {name}, or colift submit {name} --board PATH")
     if failed:
         raise typer.Exit(1)
 
@@ -78,7 +74,7 @@ def all_checks(folder: Path, level: str | None, trusted: bool, jobs: int | None)
     try:
         submission = open_submission(folder)
     except InputError as error:
-        yield Check(name="files", ok=False, told=explained(error))
+        yield Check(name="files", ok=False, message=explained(error))
         return
     yield from _files(submission)
     policy: AgentSpec
@@ -90,7 +86,7 @@ def all_checks(folder: Path, level: str | None, trusted: bool, jobs: int | None)
         fresh = dataclasses.replace(policy, preload=False)
 
     def evaluate(spec: AgentSpec, suite: Suite) -> Run:
-        with local_pool(jobs) as pool, progress_bar(suite.name, suite.size) as progress:
+        with workers(suite.name, suite.size, jobs) as (pool, progress):
             return run_suite(spec, suite, executor=pool, progress=progress)
 
     yield from check_policy(policy, fresh, evaluate)
@@ -99,23 +95,23 @@ def all_checks(folder: Path, level: str | None, trusted: bool, jobs: int | None)
 def _files(submission: Submission) -> Iterator[Check]:
     contents, manifest = submission.contents, submission.manifest
     size = f"{contents.size / 1000:.1f} kB"
-    told = f"{len(contents.files)} files, {size}, digest {submission.digest}"
-    yield Check(name="files", ok=True, told=told)
-    told = f"{manifest.name} by {', '.join(manifest.authors)}; licence {manifest.licence}"
+    text = f"{len(contents.files)} files, {size}, digest {submission.digest}"
+    yield Check(name="files", ok=True, message=text)
+    text = f"{manifest.name} by {', '.join(manifest.authors)}; licence {manifest.licence}"
     wanted = [
-        said
-        for said, wanting in (
+        missing
+        for missing, wanting in (
             ("who wrote it", AUTHOR in manifest.authors),
             ("what it does (the description is the template's)", _undescribed(submission)),
         )
         if wanting
     ]
     if wanted:
-        told += f". Say in policy.toml {' and '.join(wanted)}"
-    yield Check(name="manifest", ok=True, told=told, warning=bool(wanted))
+        text += f". Say in policy.toml {' and '.join(wanted)}"
+    yield Check(name="manifest", ok=True, message=text, warning=bool(wanted))
     wrong = list(undeclared(submission.folder, contents, manifest.packages))
-    told = "; ".join(wrong) or ", ".join(manifest.packages) or "none but Python's own"
-    yield Check(name="packages", ok=not wrong, told=told)
+    text = "; ".join(wrong) or ", ".join(manifest.packages) or "none but Python's own"
+    yield Check(name="packages", ok=not wrong, message=text)
 
 
 def _undescribed(submission: Submission) -> bool:
@@ -127,12 +123,12 @@ def _undescribed(submission: Submission) -> bool:
 
 
 def _show(console: Console, check: Check) -> None:
-    """Print a check at once, also into a pipe."""
+    """Print a check at once, even into a pipe."""
     mark = Text("failed", "bold red")
     if check.ok:
         mark = Text("warn  ", "bold yellow") if check.warning else Text("ok    ", "green")
     width = max(console.width - COLUMN, 20)
-    lines = textwrap.wrap(check.told, width, break_long_words=False, break_on_hyphens=False)
+    lines = textwrap.wrap(check.message, width, break_long_words=False, break_on_hyphens=False)
     margin = "\n" + " " * COLUMN
     text = Text.assemble(mark, f"  {check.name:<11}  ", margin.join(lines))
     if check.printed.strip():
@@ -142,7 +138,7 @@ def _show(console: Console, check: Check) -> None:
     console.file.flush()
 
 
-def _say(console: Console, text: str) -> None:
+def _print(console: Console, text: str) -> None:
     console.print(Text(text), soft_wrap=True)
 
 
@@ -156,7 +152,7 @@ def _content(folder: Path, checks: list[Check]) -> dict[str, Any]:
                 "name": each.name,
                 "ok": each.ok,
                 "warning": each.warning,
-                "told": each.told,
+                "message": each.message,
                 "printed": each.printed,
             }
             for each in checks

@@ -22,7 +22,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "submit": "submit:submit_policy",
         "verify": "verify:verify_bundle",
     },
-    "Keep a board": {
+    "Run a board": {
         "serve": "serve:serve_board",
         "board": "board:board",
         "token": "token:app",
@@ -31,7 +31,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "worker": "worker:worker",
         "season": "season:app",
     },
-    "Try it on a robot": {"nao": "nao:app"},
+    "Use a robot": {"nao": "nao:app"},
     "Maintain colift": {
         "learn": "learn:app",
         "calibrate": "calibrate:calibrate",
@@ -43,8 +43,8 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "bench": "bench:bench",
     },
 }
-"""Where each command is: a function, or an app with commands of its own, of a module beside this
-one. ``colift --help`` shows them in these panels and this order."""
+"""The commands by panel of ``colift --help``, each ``module:attribute``: a function, or an app with
+commands of its own."""
 
 COMMANDS: Final = {name: place for panel in PANELS.values() for name, place in panel.items()}
 
@@ -52,7 +52,7 @@ COMMANDS: Final = {name: place for panel in PANELS.values() for name, place in p
 class Commands(TyperGroup):
     """The commands of :data:`COMMANDS`.
 
-    Together they need libraries that take seconds to load; each waits for its own alone.
+    Each is loaded when it is used: all libraries together take seconds to import.
     """
 
     def __init__(self, **attributes: Any) -> None:
@@ -60,7 +60,7 @@ class Commands(TyperGroup):
 
 
 class _Loaded(Mapping[str, Any]):
-    """What Typer runs, by name: loaded when it is looked up, not when names are listed."""
+    """Typer's commands by name, imported when they are looked up."""
 
     def __getitem__(self, name: str) -> Any:
         module, _, attribute = COMMANDS[name].partition(":")

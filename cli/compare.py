@@ -1,7 +1,6 @@
-"""``colift compare``: policies against each other, lift by lift."""
+"""``colift compare``: a comparison of policies, lift by lift."""
 
 import dataclasses
-import json
 import sys
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -28,14 +27,13 @@ from ..benchmark.comparison.contest import (
 )
 from ..benchmark.comparison.files import comparison_json
 from ..benchmark.comparison.words import failures, oddities, verdict
-from ..benchmark.execution.pool import local_pool
 from ..benchmark.suites.suite import Suite
 from .completion import policies as named
 from .completion import suites
-from .options import STANDARD, Jobs, check_folder, chosen_suite
+from .options import STANDARD, AsJson, Jobs, Recordings, Seeds, check_folder, chosen_suite
 from .policies import choose_policy
-from .printing import show
-from .progress import progress_bar
+from .printing import print_json, show
+from .progress import reported_interrupt, workers
 from .tables.comparison import behaviours_table, differences_table, ranks_table
 
 
@@ -44,45 +42,39 @@ def compare_policies(
         list[str] | None,
         typer.Argument(
             metavar="POLICY...",
-            help="Names of 'colift list', module:Class, file.py:Class, submissions' folders; or "
-            "result bundles of colift run --out, which are not played again.",
+            help="Policies as for 'colift run', or result bundles of 'colift run --out', which are "
+            "not simulated again.",
             autocompletion=named,
         ),
     ] = None,
     everything: Annotated[
-        bool, typer.Option("--all", help="Every registered policy, beside those that are named.")
+        bool, typer.Option("--all", help="All registered policies, and those that are named.")
     ] = False,
     suite: Annotated[
         str | None,
         typer.Option(
-            help="Scenario suite; default: that of the bundles, else standard-v1.",
+            metavar="NAME",
+            help="Suite of lifts; default: that of the bundles, else standard-v1.",
             autocompletion=suites,
         ),
     ] = None,
-    seeds: Annotated[
-        str | None, typer.Option(metavar="A:B", help="Seeds A to B-1 instead of the suite's.")
-    ] = None,
-    recordings: Annotated[
-        Path | None,
-        typer.Option(metavar="CSV", help="Recorded lifts (trial,t_s,z_m) instead of a suite."),
-    ] = None,
+    seeds: Seeds = None,
+    recordings: Recordings = None,
     bounds: Annotated[
         bool,
         typer.Option(
             "--bounds",
-            help="Play the oracle and the causal bound, too; whole suites show them anyway.",
+            help="Include the oracle and the causal bound; the named suites include them always.",
         ),
     ] = False,
     jobs: Jobs = None,
     out: Annotated[
         Path | None,
-        typer.Option(metavar="DIR", help="Where to write compare.html, .png, .csv and .json."),
+        typer.Option(metavar="DIR", help="Folder for compare.html, .png, .csv and .json."),
     ] = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print compare.json alone, and nothing else.")
-    ] = False,
+    as_json: AsJson = False,
 ) -> None:
-    """Compare policies on the same lifts: ranks, paired differences, and who wins where."""
+    """Compare policies on the same lifts: ranks, paired differences, and RMSE per behaviour."""
     specs, stored = _named(policies or [], everything)
     if stored and not (suite or seeds or recordings):
         episodes = stored[0].suite
@@ -101,21 +93,21 @@ def compare_policies(
     if out is not None:
         write_comparison(out, comparison)
     if as_json:
-        print(json.dumps(comparison_json(comparison), indent=2, allow_nan=False))
+        print_json(comparison_json(comparison))
     else:
         _show(comparison)
         for each in stored:
-            print(f"{each.entry.name}: as {each.folder} has it, not simulated again here")
+            print(f"{each.entry.name}: from {each.folder}, not simulated again")
         if out is not None:
             print(f"Page: {out / 'compare.html'}")
-    told = failures(comparison)
-    if told:
-        print("\n".join(told), file=sys.stderr)
+    failed = failures(comparison)
+    if failed:
+        print("\n".join(failed), file=sys.stderr)
         raise typer.Exit(1)
 
 
 def _named(named: Sequence[str], everything: bool) -> tuple[dict[str, AgentSpec], list[Stored]]:
-    """Return the policies to play, by the names that tables use, and those that have played.
+    """Return the policies to play, by the names that tables use, and the stored results.
 
     Raises
     ------
@@ -127,8 +119,8 @@ def _named(named: Sequence[str], everything: bool) -> tuple[dict[str, AgentSpec]
         raise InputError(f"policy {twice[0]} is named twice; name each policy once")
     texts = list(dict.fromkeys([*named, *(entries(POLICIES) if everything else ())]))
     if len(texts) < 2:
-        told = f"only {texts[0]}" if texts else "none"
-        raise InputError(f"name at least two policies, or --all: {told} was named")
+        given = f"only {texts[0]}" if texts else "none"
+        raise InputError(f"name at least two policies, or --all: {given} was named")
     registered = entries(POLICIES)
     stored = {
         text: read_stored(Path(text))
@@ -138,7 +130,7 @@ def _named(named: Sequence[str], everything: bool) -> tuple[dict[str, AgentSpec]
     specs = {text: choose_policy(text) for text in texts if text not in stored}
     names = Counter(spec.name for spec in specs.values())
     names.update(each.entry.name for each in stored.values())
-    # Policies of one name are told apart by where they are.
+    # Policies of the same name are distinguished by their place.
     called = {spec.name if names[spec.name] == 1 else text: spec for text, spec in specs.items()}
     return called, [
         each
@@ -155,20 +147,16 @@ def _compare(
     bounds: Mapping[str, Bound],
     jobs: int | None,
 ) -> Comparison:
-    """Play the episodes and compare; after Ctrl-C say so and end."""
-    try:
-        with (
-            local_pool(jobs) as pool,
-            progress_bar("compare", amount(len(specs), suite, bounds=len(bounds))) as progress,
-        ):
-            return compared(
-                play_contest(
-                    specs, suite, stored=stored, bounds=bounds, executor=pool, progress=progress
-                )
-            )
-    except KeyboardInterrupt:
-        print("interrupted: policies are compared on all lifts or not at all", file=sys.stderr)
-        raise typer.Exit(1) from None
+    """Play the episodes and compare."""
+    total = amount(len(specs), suite, bounds=len(bounds))
+    with (
+        reported_interrupt("policies are compared on all lifts or not at all"),
+        workers("compare", total, jobs) as (pool, progress),
+    ):
+        contest = play_contest(
+            specs, suite, stored=stored, bounds=bounds, executor=pool, progress=progress
+        )
+        return compared(contest)
 
 
 def _show(comparison: Comparison) -> None:

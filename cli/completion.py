@@ -1,4 +1,4 @@
-"""What a shell may complete: names that there are, and folders and files that may be policies."""
+"""Completion of names, and of folders and files that may be policies, for a shell."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -9,7 +9,7 @@ from ..agents.submissions.manifest import MANIFEST
 
 
 def policies(incomplete: str) -> Iterator[str]:
-    """Yield the policies whose names begin so: registered ones, submissions and Python files."""
+    """Yield the policies that begin with a text: registered ones, submissions and Python files."""
     yield from (name for name in entries(POLICIES) if name.startswith(incomplete))
     above, slash, start = incomplete.rpartition("/")
     try:
@@ -28,15 +28,15 @@ def policies(incomplete: str) -> Iterator[str]:
 
 
 def suites(incomplete: str) -> Iterator[str]:
-    """Yield the suites whose names begin so."""
+    """Yield the suites that begin with a text."""
     yield from (name for name in entries(SUITES) if name.startswith(incomplete))
 
 
 def behaviours(incomplete: str) -> Iterator[str]:
-    """Yield the human behaviours whose names begin so."""
+    """Yield the human behaviours that begin with a text."""
     yield from (name for name in entries(HUMANS) if name.startswith(incomplete))
 
 
 def people(incomplete: str) -> Iterator[str]:
-    """Yield the subjects whose names begin so."""
+    """Yield the subjects that begin with a text."""
     yield from (name for name in SUBJECTS if name.startswith(incomplete))

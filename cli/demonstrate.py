@@ -1,4 +1,4 @@
-"""``colift demonstrate``: record lifts of human-human teams, for a robot to learn from."""
+"""``colift demonstrate``: recordings of human-human lifts, to learn from."""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,7 +6,6 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from ..benchmark.execution.pool import local_pool
 from ..benchmark.training.demonstrations import (
     FIRST_SEED,
     LIFTS,
@@ -15,16 +14,16 @@ from ..benchmark.training.demonstrations import (
     write_demonstrations,
 )
 from .options import Jobs, check_output
-from .progress import progress_bar
+from .progress import workers
 
 
 def demonstrate_lifts(
-    out: Annotated[Path, typer.Option(metavar="FILE.csv", help="Where to write the lifts.")],
+    out: Annotated[Path, typer.Option(metavar="FILE.csv", help="File for the lifts.")],
     lifts: Annotated[int, typer.Option(metavar="N", help="Number of lifts.")] = LIFTS,
     seed: Annotated[int, typer.Option(help="Seed of the first lift.")] = FIRST_SEED,
     jobs: Jobs = None,
 ) -> None:
-    """Record lifts of human-human teams: new people, all behaviours, seeds of no suite."""
+    """Record simulated human-human lifts: drawn subjects, all behaviours, seeds of no suite."""
     check_output(out)
     recorded = record(lifts, seed, jobs)
     write_demonstrations(out, recorded)
@@ -37,7 +36,7 @@ def demonstrate_lifts(
 
 def record(lifts: int, seed: int, jobs: int | None) -> list[Demonstration]:
     """Return demonstrations, recorded with a progress bar."""
-    with local_pool(jobs) as pool, progress_bar("demonstrating", lifts) as progress:
+    with workers("demonstrating", lifts, jobs) as (pool, progress):
         recorded = []
         for each in demonstrations(lifts, seed, executor=pool):
             recorded.append(each)

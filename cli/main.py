@@ -20,22 +20,22 @@ app = typer.Typer(
 )
 
 LONGEST: Final = 2000
-"""Characters of an error that are shown: a name that is given may be of any length."""
+"""Longest error that is shown whole; names in it may have any length."""
 
 START: Final = """\
 A benchmark for human-robot cooperative lifting.
 
   colift run blend                evaluate a policy on the standard suite
-  colift list                     policies, behaviours, people, suites
-  colift compare blend copy       set policies against each other, lift by lift
-  colift new mine                 begin a policy of your own, in a folder
-  colift check mine               does it work, and how good is it
-  colift submit mine --board DIR  a verified row on a board
-  colift serve                    a board in the browser
+  colift list                     policies, behaviours, subjects, suites
+  colift compare blend copy       compare policies, lift by lift
+  colift new mine                 start a policy of your own in a folder
+  colift check mine               check that it works, and score it
+  colift submit mine --board DIR  get a verified row on a board
+  colift serve                    show a board in the browser
 
 colift --help shows all commands, colift COMMAND --help one of them;
 colift --install-completion completes commands, policies and suites."""
-"""What ``colift`` alone says."""
+"""The text of ``colift`` without a command."""
 
 
 def _show_version(asked: bool) -> None:
@@ -54,15 +54,15 @@ def colift(
         ),
     ] = False,
 ) -> None:
-    """Take the options that come before a command; without one, say how to begin."""
+    """Take the options before a command; without a command, print how to start."""
     if context.invoked_subcommand is None:
         print(START)
 
 
 def main() -> None:
-    """Run the command line; an error ends in one line on stderr.
+    """Run the command line; an error is one line on stderr.
 
-    The exit code is 2 if a user gave something wrong, and 1 if the machine failed.
+    The exit code is 2 after wrong input, and 1 after a failure of the machine.
     """
     try:
         app(prog_name="colift")
@@ -71,7 +71,7 @@ def main() -> None:
     except EvaluatorFault as fault:
         _end(str(fault), 1)
     except BrokenPipeError:
-        # The reader of a pipe has seen enough; Python would complain when it flushes stdout.
+        # The pipe is closed: without this, flushing stdout fails again at exit.
         sys.stderr.close()
         sys.exit(0)
     except OSError as error:
@@ -80,9 +80,9 @@ def main() -> None:
         _end(f"{error.filename}: {error.strerror}", 2)
 
 
-def _end(told: str, code: int) -> NoReturn:
-    """End with one line, of what a terminal can take."""
-    line = " ".join(told.split())
+def _end(message: str, code: int) -> NoReturn:
+    """End with an error of one line and limited length."""
+    line = " ".join(message.split())
     shown = line if len(line) <= LONGEST else f"{line[: LONGEST // 2]}...{line[-LONGEST // 2 :]}"
     print(f"error: {shown}", file=sys.stderr)
     sys.exit(code)

@@ -1,4 +1,4 @@
-"""``colift new``: a submission to begin with."""
+"""``colift new``: a first submission, from a template or a policy."""
 
 from pathlib import Path
 from typing import Annotated
@@ -17,14 +17,14 @@ def new(
         typer.Option(
             "--from",
             metavar="FILE.py:Class",
-            help="Take this policy, with parameters after a comma if any, instead of the template.",
+            help="Policy to submit instead of the template; parameters follow a comma.",
         ),
     ] = None,
 ) -> None:
-    """Write a working submission: a proportional controller, to change as you like.
+    """Write a working submission: a proportional controller to start from.
 
-    policy.py is the policy, one class; policy.toml says who wrote it and what it needs. With --from
-    they are what colift run FILE.py:Class,name=value runs.
+    policy.py holds the policy, one class; policy.toml names its authors and requirements. With
+    --from, the submission is the policy of 'colift run FILE.py:Class,name=value'.
     """
     if source is None:
         write_template(folder)
@@ -32,5 +32,5 @@ def new(
         write_from(folder, source)
     for name in FILES:
         print(f"wrote {folder / name}")
-    told = "edit them" if source is None else "say in policy.toml who wrote it"
-    print(f"Next: {told}, then colift check {argument(folder)}")
+    step = "edit them" if source is None else "name the authors in policy.toml"
+    print(f"Next: {step}, then colift check {argument(folder)}")

@@ -1,4 +1,4 @@
-"""Options that commands share: seeds, suites, worker processes and files to write."""
+"""Options that commands share: policies, suites, timing, worker processes and files to write."""
 
 import os
 from concurrent.futures import Executor
@@ -12,22 +12,60 @@ from ..agents.errors import InputError
 from ..benchmark.execution.connecting import dask_pool
 from ..benchmark.execution.pool import JOBS, local_pool
 from ..benchmark.suites.suite import Suite, make_suite, recorded_suite
+from .completion import policies, suites
 from .remedies import opened
 
 STANDARD: Final = "standard-v1"
-"""The suite that is meant when none is named."""
+"""The default suite."""
 
 DIGITS: Final = 12
 """Digits of the largest seed."""
 
 MOST: Final = 100_000
-"""Seeds in all: so many lifts can be in a result bundle."""
+"""Largest number of seeds: as many lifts as a result bundle can hold."""
 
+LATENCY_OPTION: Final = typer.Option(metavar="S", help="Age of the robot's data, in seconds.")
+PERIOD_OPTION: Final = typer.Option(metavar="S", help="Time between two decisions, in seconds.")
+
+PolicyName = Annotated[
+    str,
+    typer.Argument(
+        metavar="POLICY",
+        help="A name from 'colift list', module:Class, file.py:Class or a submission's folder; "
+        "parameters follow a comma: NAME,gain=0.5.",
+        autocompletion=policies,
+    ),
+]
+SuiteName = Annotated[
+    str, typer.Option("--suite", metavar="NAME", help="Suite of lifts.", autocompletion=suites)
+]
+Seeds = Annotated[
+    str | None, typer.Option(metavar="A:B", help="Seeds A to B-1 instead of the suite's.")
+]
+Recordings = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="CSV", help="Recorded human motion (columns trial,t_s,z_m) instead of a suite."
+    ),
+]
+PolicyIsolation = Annotated[
+    str,
+    typer.Option(
+        "--isolation",
+        metavar="LEVEL",
+        help="Isolation of the policy: auto (the strongest sandbox that works here; none for "
+        "colift's own policies), none, bubblewrap, landlock or limits.",
+    ),
+]
 Jobs = Annotated[
     int | None,
-    typer.Option(metavar="N", help=f"Worker processes; default: all cores, or what {JOBS} says."),
+    typer.Option(metavar="N", help=f"Worker processes; default: {JOBS} if set, else all cores."),
 ]
-"""The option ``--jobs``."""
+Dask = Annotated[
+    str | None,
+    typer.Option(metavar="URL", help="Dask scheduler of a cluster to use: tcp://host:8786."),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
 
 
 def seed_range(text: str) -> tuple[int, int]:
@@ -49,7 +87,7 @@ def seed_range(text: str) -> tuple[int, int]:
 
 
 def chosen_suite(name: str, seeds: str | None, recordings: Path | None) -> Suite:
-    """Return a suite by name, with other seeds if any are given, or that of a file of recordings.
+    """Return a suite by name, with other seeds if any are given, or the suite of recordings.
 
     Raises
     ------
@@ -64,8 +102,21 @@ def chosen_suite(name: str, seeds: str | None, recordings: Path | None) -> Suite
     return recorded_suite(recordings)
 
 
+def check_exclusive(**options: object) -> None:
+    """Refuse options that exclude each other.
+
+    Raises
+    ------
+    InputError
+        If more than one is set.
+    """
+    chosen = [f"--{name.replace('_', '-')}" for name, value in options.items() if value]
+    if len(chosen) > 1:
+        raise InputError(f"{' and '.join(chosen)} exclude each other: give one")
+
+
 def executor(jobs: int | None, dask: str | None) -> AbstractContextManager[Executor | None]:
-    """Return what plays the episodes; None is this process.
+    """Return the executor of the episodes; None is this process.
 
     Parameters
     ----------
@@ -87,7 +138,7 @@ def executor(jobs: int | None, dask: str | None) -> AbstractContextManager[Execu
 
 
 def write_output(path: Path | None, content: str) -> None:
-    """Write what a command made into the file that was asked for, if any, and say so."""
+    """Write the result of a command into the requested file, if any, and report it."""
     if path is not None:
         path.write_text(content)
         print(f"written: {path}")

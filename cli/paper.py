@@ -1,17 +1,14 @@
-"""``colift paper``: the paper's results, reproduced."""
+"""``colift paper``: reproduction of the paper's results."""
 
-import json
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 from rich.console import RenderableType
 
-from ..benchmark.execution.pool import local_pool
-from .options import Jobs, check_folder, seed_range
-from .printing import left, show, table
-from .progress import progress_bar
+from .options import AsJson, Jobs, check_folder, seed_range
+from .printing import left, print_json, show, table
+from .progress import reported_interrupt, workers
 
 if TYPE_CHECKING:
     from ..benchmark.paper.report import Report
@@ -23,19 +20,17 @@ SHOWN: Final = (0, 1, 2, 4, 5, 8)
 def paper(
     out: Annotated[
         Path,
-        typer.Option(metavar="DIR", help="Where to write the report; report.html is its page."),
+        typer.Option(metavar="DIR", help="Folder for the report; its page is report.html."),
     ] = Path("paper"),
     seeds: Annotated[
-        str, typer.Option(metavar="A:B", help="Seeds A to B-1 for each subject.")
+        str, typer.Option(metavar="A:B", help="Seeds A to B-1, for each subject.")
     ] = "1000:1020",
     jobs: Jobs = None,
     trials: Annotated[int, typer.Option(metavar="N", help="Learning trials.", min=1)] = 60,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print claims.json alone, and nothing else.")
-    ] = False,
+    as_json: AsJson = False,
 ) -> None:
-    """Reproduce the paper: Table I, figures 4 to 9 and its claims, side by side with ours."""
-    # The report needs matplotlib, which is slow to load: not for the other commands.
+    """Reproduce the paper: Table I, figures 4 to 9 and its claims, beside the published values."""
+    # The report needs matplotlib, which is slow to load.
     from ..benchmark.paper.evidence import Effort, amount, gather
     from ..benchmark.paper.report import claims_json, make_report, write_report
     from ..benchmark.suites.suite import make_suite
@@ -43,19 +38,15 @@ def paper(
     suite = make_suite("paper-v1").with_seeds(*seed_range(seeds))
     effort = Effort(learning_trials=trials)
     check_folder("--out", out)
-    try:
-        with (
-            local_pool(jobs) as pool,
-            progress_bar("paper", amount(suite, effort)) as progress,
-        ):
-            evidence = gather(suite, effort, executor=pool, progress=progress)
-    except KeyboardInterrupt:
-        print("interrupted: no report was written", file=sys.stderr)
-        raise typer.Exit(1) from None
+    with (
+        reported_interrupt("no report was written"),
+        workers("paper", amount(suite, effort), jobs) as (pool, progress),
+    ):
+        evidence = gather(suite, effort, executor=pool, progress=progress)
     report = make_report(evidence)
     write_report(report, out)
     if as_json:
-        print(json.dumps(claims_json(report), indent=2, allow_nan=False))
+        print_json(claims_json(report))
     else:
         show(*_summary(report))
         print(f"Report: {out / 'report.html'}")

@@ -1,4 +1,4 @@
-"""From what a user calls a policy to what runs it, and how far apart from the scores."""
+"""Choice of a policy and its isolation from a command's arguments."""
 
 import functools
 import sys
@@ -19,28 +19,25 @@ from ..agents.submissions.snapshot import snapshot_file
 from ..agents.submissions.submission import digest_with, open_submission
 
 AUTO: Final = "auto"
-"""Colift's own policies by name in this process, all others in the strongest sandbox."""
+"""Colift's own policies in this process, all others in the strongest sandbox."""
 
 NONE: Final = "none"
 """Everything in this process."""
 
-HELP: Final = "A name of 'colift list', module:Class, file.py:Class or a submission's folder."
-"""What a policy may be, for the help of commands."""
-
 
 def choose_policy(text: str, isolation: str = AUTO) -> AgentSpec:
-    """Return the policy that a user means.
+    """Return the policy of a command's argument.
 
     Parameters
     ----------
     text
-        A registered name, ``module:Class`` or ``file.py:Class``, each with parameters after a
-        comma if any; or the folder of a submission, with or without them. A name comes before a
-        folder of that name: say ``./name`` for the folder.
+        A registered name, ``module:Class``, ``file.py:Class`` or the folder of a submission, each
+        with or without parameters after a comma. A name precedes a folder of that name: write
+        ``./name`` for the folder.
     isolation
         ``auto``: colift's own policies by name in this process, all others in the strongest
-        sandbox that works here. ``none``: in this process, whatever it is. Else the isolation
-        level, for any policy.
+        sandbox that works here. ``none``: any policy in this process. Otherwise the isolation level
+        of any policy.
 
     Raises
     ------
@@ -63,7 +60,7 @@ def choose_policy(text: str, isolation: str = AUTO) -> AgentSpec:
     if Path(text).is_dir():
         place, parameters = text, ""
     if not place or place.endswith(".py") or not ("/" in place or Path(place).is_dir()):
-        spec.load()  # Tells that the class is missing, or which names there are.
+        spec.load()  # Raises: the class is missing, or there is no such name.
     submission = open_submission(Path(place))
     if isolation == NONE:
         return submission.trusted(parameters)
@@ -92,7 +89,7 @@ def usable_level(isolation: str) -> str | None:
 
 @functools.cache
 def auto_level() -> str:
-    """Return the strongest level that works here; say once on stderr which stronger ones do not.
+    """Return the strongest level that works here; report once on stderr which stronger ones do not.
 
     Raises
     ------
@@ -106,7 +103,7 @@ def auto_level() -> str:
 
 
 def _foreign(spec: PolicySpec, level: str | None) -> SandboxedPolicy:
-    """Return a class of somebody else's in a sandbox, where it sees its own file and packages."""
+    """Return a third party's class in a sandbox, where it sees its own file and packages."""
     place, _, parameters = spec.parts
     if place in entries(POLICIES):
         place = entries(POLICIES)[place].value

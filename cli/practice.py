@@ -1,4 +1,4 @@
-"""``colift practice``: evaluate the project's policies for the board that is shipped."""
+"""``colift practice``: evaluation of colift's own policies in the practice seasons."""
 
 import sys
 from concurrent.futures import Executor
@@ -17,35 +17,30 @@ from ..leaderboard.evaluation.progress import Callbacks
 from ..leaderboard.practice.practice import SUITES, is_current, play_policy, practice_season
 from ..leaderboard.practice.shipped import Shipped
 from ..leaderboard.records.season import Season
-from .options import Jobs, executor
+from .options import Dask, Jobs, executor
 from .printing import show, table
-from .progress import job_bar
+from .progress import job_bar, reported_interrupt
 
 
 def practice(
     out: Annotated[
         Path,
-        typer.Option(metavar="DIR", help="Where the files are; in a clone, leaderboard/data."),
+        typer.Option(metavar="DIR", help="Folder of the files; leaderboard/data in a clone."),
     ],
     suite: Annotated[
-        list[str] | None, typer.Option(help="A suite; may be repeated. Default: all public ones.")
+        list[str] | None, typer.Option(metavar="NAME", help="A suite; repeatable. Default: all.")
     ] = None,
     policy: Annotated[
         list[str] | None,
-        typer.Option(help="A policy of the project; may be repeated. Default: all."),
+        typer.Option(metavar="NAME", help="A policy of colift; repeatable. Default: all."),
     ] = None,
-    fresh: Annotated[
-        bool, typer.Option("--fresh", help="Evaluate also what is there and current.")
-    ] = False,
+    fresh: Annotated[bool, typer.Option("--fresh", help="Evaluate current entries, too.")] = False,
     jobs: Jobs = None,
-    dask: Annotated[
-        str | None,
-        typer.Option(metavar="URL", help="Use the Dask cluster of this scheduler: tcp://host:8786"),
-    ] = None,
+    dask: Dask = None,
 ) -> None:
-    """Evaluate the project's policies in the practice season, whose secret is public.
+    """Evaluate colift's own policies in the practice seasons, whose secrets are public.
 
-    A policy is written as soon as it is finished: what is interrupted goes on by the same command.
+    Each policy is saved when it is finished: the same command continues after an interruption.
     """
     if not out.is_dir():
         raise InputError(f"cannot write to {out}: there is no such folder")
@@ -57,11 +52,8 @@ def practice(
     refused = False
     with executor(jobs, dask) as pool:
         for season in [practice_season(name) for name in suite or SUITES]:
-            try:
+            with reported_interrupt("the same command continues"):
                 shipped, faults = _season(season, names, out, pool, fresh)
-            except KeyboardInterrupt:
-                print("interrupted: go on by the same command", file=sys.stderr)
-                raise typer.Exit(1) from None
             refused |= bool(faults)
             show(_table(season, shipped))
             for fault in faults:
@@ -73,7 +65,7 @@ def practice(
 def _season(
     season: Season, names: list[str], out: Path, pool: Executor | None, fresh: bool
 ) -> tuple[Shipped, list[EvaluatorFault]]:
-    """Evaluate what is not there yet; return all that is, and what could not be evaluated."""
+    """Evaluate the missing entries; return all entries, and the faults of the machine."""
     there = Shipped.read(season.suite.name, out)
     if there is None or there.suite_digest != season.suite.digest:
         there = None

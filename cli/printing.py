@@ -1,8 +1,10 @@
-"""Tables and lines on stdout, which can be pasted as they stand."""
+"""Tables, text and JSON on stdout, without blanks at the ends of lines."""
 
+import json
 import shlex
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 from rich import box
 from rich.console import Console, RenderableType
@@ -61,8 +63,8 @@ def styled(cells: Sequence[Cell], style: str) -> list[Cell]:
     return [Text(str(cell), style) for cell in cells]
 
 
-def number(value: float | None, digits: str) -> str:
-    """Return a number in a format such as ``.2f``, or that there is none."""
+def optional_number(value: float | None, digits: str) -> str:
+    """Return a number in a format such as ``.2f``, or ``none``."""
     return "none" if value is None else format(value, digits)
 
 
@@ -72,9 +74,9 @@ def show(*parts: RenderableType, console: Console | None = None) -> None:
     Parameters
     ----------
     parts
-        What to print, each on lines of its own. A word is a text without markup.
+        Each is printed on lines of its own. A string is text without markup.
     console
-        Where to; None is stdout.
+        Destination; None is stdout.
     """
     shown = console or Console()
     for part in parts:
@@ -84,8 +86,13 @@ def show(*parts: RenderableType, console: Console | None = None) -> None:
             shown.print(Segments(segments), end="", soft_wrap=True)
 
 
+def print_json(content: Any) -> None:
+    """Print JSON, which has no word for values that are not finite."""
+    print(json.dumps(content, indent=2, allow_nan=False))
+
+
 def argument(path: Path) -> str:
-    """Return a file or folder as an argument of a command: quoted, and no policy's name."""
+    """Return a file or folder as an argument of a command: quoted, and never a policy's name."""
     shown = str(path)
     if shown in entries(POLICIES) or shown.startswith("-"):
         shown = f"./{shown}"

@@ -1,9 +1,12 @@
-"""The progress bar of long jobs: on stderr, and only on a terminal."""
+"""Worker processes and the progress bar of long jobs: on stderr, and only on a terminal."""
 
+import sys
 from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
 from contextlib import contextmanager
 from dataclasses import dataclass
 
+import typer
 from rich.console import Console
 from rich.progress import (
     BarColumn,
@@ -14,35 +17,64 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
+from ..benchmark.execution.pool import local_pool
+
+
+@contextmanager
+def workers(
+    description: str, total: int | None, jobs: int | None
+) -> Iterator[tuple[Executor | None, Callable[[int], None]]]:
+    """Start worker processes and show a bar while the body runs.
+
+    Parameters
+    ----------
+    description, total
+        Text and length of the bar.
+    jobs
+        Number of processes; see :func:`.local_pool`.
+    """
+    with local_pool(jobs) as pool, progress_bar(description, total) as progress:
+        yield pool, progress
+
+
+@contextmanager
+def reported_interrupt(message: str) -> Iterator[None]:
+    """End the command with a message if Ctrl-C is pressed while the body runs."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        print(f"interrupted: {message}", file=sys.stderr)
+        raise typer.Exit(1) from None
+
 
 @contextmanager
 def progress_bar(description: str, total: int | None) -> Iterator[Callable[[int], None]]:
-    """Show a bar while the body runs; the yielded function adds to what is done."""
+    """Show a bar while the body runs; the yielded function advances it."""
     with job_bar(description, total) as bar:
         yield bar.advance
 
 
 @dataclass(frozen=True)
 class JobBar:
-    """The bar of a job in stages."""
+    """The progress bar of a job in stages."""
 
     progress: Progress
     task: TaskID
 
     def stage(self, name: str) -> None:
-        """Say what is done now."""
+        """Name the present stage."""
         self.progress.update(self.task, description=name)
 
     def advance(self, done: int) -> None:
-        """Add to what is done."""
+        """Add to the finished part."""
         self.progress.advance(self.task, done)
 
     def total(self, total: int) -> None:
-        """Say how much there is to do, once that is known."""
+        """Set the length of the bar, once it is known."""
         self.progress.update(self.task, total=total)
 
     def at(self, stage: str, done: int, total: int) -> None:
-        """Say how far somebody else is."""
+        """Show the progress of another process."""
         self.progress.update(self.task, description=stage, completed=done, total=total)
 
 

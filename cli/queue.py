@@ -1,4 +1,4 @@
-"""``colift queue``: what waits at a board, what came of it and why, another try, or none."""
+"""``colift queue``: the jobs of a board, their logs, retries and cancellations."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -12,42 +12,40 @@ from ..leaderboard.board.board import LOCAL, Board
 from ..leaderboard.practice.shipped import open_stocked, open_to_read
 from ..leaderboard.queue import Queue
 from ..leaderboard.records.job import STATES, Job
+from .board_options import BOARD, BoardFolder, Why, opened_board
 from .printing import left, show, table
 
 app = typer.Typer(
-    help="See what waits at a board and what came of it, try again, or cancel.",
+    help="List, retry and cancel the jobs of a board.",
     no_args_is_help=True,
 )
 
-BoardOption = Annotated[
-    Path, typer.Option("--board", metavar="PATH", help="The board's folder; made if there is none.")
-]
-WhyOption = Annotated[str, typer.Option(help="Why, for everybody to read.")]
-JobArgument = Annotated[
-    str, typer.Argument(metavar="JOB", help="Its number in 'colift queue list', or the beginning.")
+JobNumber = Annotated[
+    str,
+    typer.Argument(metavar="JOB", help="The job's number in 'colift queue list', or its start."),
 ]
 
 SHORT: Final = 8
-"""Digits of a job's number that a list shows."""
+"""Digits of a job's number that the list shows."""
 
 MOST: Final = 1000
-"""Jobs among which one is looked for by the beginning of its number."""
+"""Number of the latest jobs that are searched by the start of a number."""
 
 
 @app.command("list")
 def list_jobs(
-    board: BoardOption = Path("board"),
+    board: BoardFolder = BOARD,
     state: Annotated[
-        str | None, typer.Option(help=f"Only those that are {', '.join(STATES)}.")
+        str | None, typer.Option(metavar="STATE", help=f"One of: {', '.join(STATES)}.")
     ] = None,
-    last: Annotated[int, typer.Option(metavar="N", min=1, help="How many.")] = 20,
+    last: Annotated[int, typer.Option(metavar="N", min=1, help="Number of jobs.")] = 20,
 ) -> None:
-    """List the last jobs, the newest first: how far each is, or why it has no row."""
+    """List the latest jobs, newest first: their progress, or why they have no row."""
     known = {each: each for each in STATES}
     if state is not None and state not in known:
         raise InputError(f"--state {state!r} is none of {', '.join(STATES)}")
-    with _opened(board, open_to_read) as queue:
-        jobs = queue.jobs(known[state] if state else None, last)
+    with opened_board(board, open_to_read) as place:
+        jobs = Queue(place).jobs(known[state] if state else None, last)
     if not jobs:
         print("No job." if state is None else f"No job is {state}.")
         return
@@ -60,43 +58,35 @@ def list_jobs(
 
 
 @app.command()
-def log(job: JobArgument, board: BoardOption = Path("board")) -> None:
-    """Print what the workers wrote of a job."""
+def log(job: JobNumber, board: BoardFolder = BOARD) -> None:
+    """Print a job's log."""
     with _found(board, job, open_to_read) as (_, found):
-        print((found.log or "No worker has begun it.").rstrip())
+        print((found.log or "No worker has begun this job.").rstrip())
 
 
 @app.command()
-def retry(job: JobArgument, why: WhyOption, board: BoardOption = Path("board")) -> None:
-    """Queue a job again that has ended without an entry, such as by a fault of the machine."""
+def retry(job: JobNumber, why: Why, board: BoardFolder = BOARD) -> None:
+    """Queue a job again that has ended without an entry, for example after an evaluator fault."""
     with _found(board, job) as (queue, found):
         queue.retry(found.id, LOCAL, why)
     print(f"{found.name} is queued again\nNext: colift worker --board {board} --once")
 
 
 @app.command("cancel")
-def cancel_job(job: JobArgument, why: WhyOption, board: BoardOption = Path("board")) -> None:
-    """Take a job out of the queue, also one that is worked on; 'retry' puts it back."""
+def cancel_job(job: JobNumber, why: Why, board: BoardFolder = BOARD) -> None:
+    """Take a job out of the queue, even while it is evaluated; 'retry' puts it back."""
     with _found(board, job) as (queue, found):
         queue.cancel(found.id, LOCAL, why)
     print(f"{found.name} is cancelled")
 
 
 @contextmanager
-def _opened(folder: Path, opening: Callable[[Path], Board] = open_stocked) -> Iterator[Queue]:
-    place = opening(folder)
-    try:
-        yield Queue(place)
-    finally:
-        place.close()
-
-
-@contextmanager
 def _found(
     folder: Path, beginning: str, opening: Callable[[Path], Board] = open_stocked
 ) -> Iterator[tuple[Queue, Job]]:
-    """Open the queue of a board, and find a job by its number or the beginning of that."""
-    with _opened(folder, opening) as queue:
+    """Open the queue of a board, and find a job by its number or the start of it."""
+    with opened_board(folder, opening) as place:
+        queue = Queue(place)
         whole = queue.job(beginning)
         jobs = queue.jobs(limit=MOST) if whole is None else (whole,)
         found = [job for job in jobs if job.id.startswith(beginning)]

@@ -9,7 +9,7 @@ from ..agents.errors import InputError, Remedy
 T = TypeVar("T")
 
 REMEDIES: Final[Mapping[Remedy, str]] = {
-    Remedy.RESUME: "--resume goes on with it",
+    Remedy.RESUME: "--resume continues it",
     Remedy.RESCORE: "'colift verify {target} --rescore DIR' writes a bundle with present scores",
     Remedy.NEW_SUBMISSION: "'colift new DIR' writes one",
     Remedy.SUBMISSION_FROM_FILE: "'colift new DIR --from {target}' makes one of it",

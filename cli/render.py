@@ -1,4 +1,4 @@
-"""``colift render``: a lift as picture, film, or a page on which it can be played."""
+"""``colift render``: a lift as a picture, a film or a page with a player."""
 
 import sys
 from pathlib import Path
@@ -11,42 +11,42 @@ from ..benchmark.episode.episode import START, STEP, Episode
 from ..benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..benchmark.execution.tasks import play
 from ..benchmark.suites.catalogue import make_scenario
-from .completion import behaviours, people, policies
-from .options import check_output
-from .policies import HELP, choose_policy
+from .completion import behaviours, people
+from .options import LATENCY_OPTION, PERIOD_OPTION, PolicyName, check_output
+from .policies import choose_policy
 from .progress import progress_bar
 
 HTML: Final = ".html"
 
 
 def render_episode(
-    policy: Annotated[str, typer.Argument(help=HELP, autocompletion=policies)],
+    policy: PolicyName,
     out: Annotated[
         Path,
         typer.Option(
             metavar="FILE",
-            help="FILE.gif, FILE.mp4, FILE.png, or FILE.html: a replay to play, in one file.",
+            help="Film (.gif, .mp4), picture (.png) or page with a player (.html).",
         ),
     ],
     scenario: Annotated[
         str,
         typer.Option(
-            help="The human's behaviour, or recorded:FILE.csv#TRIAL.", autocompletion=behaviours
+            metavar="NAME",
+            help="The human's behaviour, or recorded:FILE.csv#TRIAL.",
+            autocompletion=behaviours,
         ),
     ] = "smooth",
     subject: Annotated[
         str,
-        typer.Option(help="Who the human is: S1 to S5, or draw-N.", autocompletion=people),
+        typer.Option(
+            metavar="NAME", help="The human's body: S1 to S5, or draw-N.", autocompletion=people
+        ),
     ] = "S1",
     seed: Annotated[int, typer.Option(help="The lift's seed.")] = 0,
-    latency: Annotated[
-        float, typer.Option(metavar="S", help="Age of the robot's data, in seconds.")
-    ] = LATENCY,
-    control_period: Annotated[
-        float, typer.Option(metavar="S", help="Time between two decisions, in seconds.")
-    ] = CONTROL_PERIOD,
+    latency: Annotated[float, LATENCY_OPTION] = LATENCY,
+    control_period: Annotated[float, PERIOD_OPTION] = CONTROL_PERIOD,
 ) -> None:
-    """Draw a lift, seen from the side, with the heights of both ends under it.
+    """Draw a lift from the side, with the heights of both ends over time.
 
     Exit code 1, and no file, if the policy fails.
     """

@@ -1,6 +1,5 @@
-"""``colift run``: evaluate a policy on a suite."""
+"""``colift run``: the evaluation of a policy on a suite."""
 
-import json
 import sys
 from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor
@@ -21,63 +20,55 @@ from ..benchmark.execution.provenance import origin, platform_of
 from ..benchmark.execution.runner import InterruptedRunError, Run, run_suite
 from ..benchmark.results.baselines import SPECS, Baseline, play_baselines, shipped_baselines
 from ..benchmark.suites.suite import Suite
-from .completion import policies, suites
-from .options import STANDARD, Jobs, chosen_suite, executor
-from .policies import AUTO, HELP, choose_policy
-from .printing import argument, show
+from .options import (
+    LATENCY_OPTION,
+    PERIOD_OPTION,
+    STANDARD,
+    AsJson,
+    Dask,
+    Jobs,
+    PolicyIsolation,
+    PolicyName,
+    Recordings,
+    Seeds,
+    SuiteName,
+    chosen_suite,
+    executor,
+)
+from .policies import AUTO, choose_policy
+from .printing import argument, print_json, show
 from .progress import progress_bar
 from .remedies import naming, opened
-from .tables.results import results_table, standing
+from .tables.results import results_table, results_text
 
-GO_ON: Final = "what is finished is kept: go on by the same command with --resume"
+GO_ON: Final = "the finished lifts are kept: resume by the same command with --resume"
 
 
 def run(
-    policy: Annotated[str, typer.Argument(help=HELP, autocompletion=policies)],
-    suite: Annotated[str, typer.Option(help="Scenario suite.", autocompletion=suites)] = STANDARD,
-    seeds: Annotated[
-        str | None, typer.Option(metavar="A:B", help="Seeds A to B-1 instead of the suite's.")
-    ] = None,
-    recordings: Annotated[
-        Path | None,
-        typer.Option(metavar="CSV", help="Recorded lifts (trial,t_s,z_m) instead of a suite."),
-    ] = None,
-    latency: Annotated[
-        float | None,
-        typer.Option(metavar="S", help="Age of the robot's data, in seconds."),
-    ] = None,
-    control_period: Annotated[
-        float | None, typer.Option(metavar="S", help="Time between two decisions, in seconds.")
-    ] = None,
-    isolation: Annotated[
-        str,
-        typer.Option(
-            help="What keeps the policy apart: auto (a sandbox, unless it is colift's own), none, "
-            "bubblewrap, landlock or limits."
-        ),
-    ] = AUTO,
+    policy: PolicyName,
+    suite: SuiteName = STANDARD,
+    seeds: Seeds = None,
+    recordings: Recordings = None,
+    latency: Annotated[float | None, LATENCY_OPTION] = None,
+    control_period: Annotated[float | None, PERIOD_OPTION] = None,
+    isolation: PolicyIsolation = AUTO,
     jobs: Jobs = None,
-    dask: Annotated[
-        str | None,
-        typer.Option(metavar="URL", help="Use the Dask cluster of this scheduler: tcp://host:8786"),
-    ] = None,
+    dask: Dask = None,
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Where to write the result bundle.")
+        Path | None, typer.Option(metavar="DIR", help="Folder for the result bundle.")
     ] = None,
     force: Annotated[
         bool, typer.Option("--force", help="Replace the finished result bundle in --out.")
     ] = False,
     resume: Annotated[
         bool,
-        typer.Option("--resume", help="Go on with the run of the same --out that was interrupted."),
+        typer.Option("--resume", help="Resume the interrupted run of the same --out."),
     ] = False,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print results.json alone, and nothing else.")
-    ] = False,
+    as_json: AsJson = False,
 ) -> None:
-    """Evaluate a policy on a scenario suite and print where it stands.
+    """Evaluate a policy on a suite, and compare it with the human-human baseline.
 
-    With --out, every lift is kept as soon as it is finished: what is interrupted can be resumed.
+    With --out, each lift is saved when it is finished, and an interrupted run can be resumed.
     """
     episodes = chosen_suite(suite, seeds, recordings).with_timing(latency, control_period)
     if resume and out is None:
@@ -110,7 +101,7 @@ def run(
 
 
 def _identity(spec: AgentSpec, suite: Suite, there: Mapping[str, str]) -> dict[str, str]:
-    """Return whatever an episode depends on, by name."""
+    """Return everything that an episode depends on, by name."""
     return {
         "policy": spec.name,
         "policy digest": spec.digest(),
@@ -124,7 +115,7 @@ def _identity(spec: AgentSpec, suite: Suite, there: Mapping[str, str]) -> dict[s
 def _journal(
     out: Path | None, resume: bool, identity: Mapping[str, str]
 ) -> AbstractContextManager[Journal | None]:
-    """Return where finished episodes are kept, if there is to be a bundle."""
+    """Return the journal of finished episodes, if a bundle is requested."""
     if out is None:
         return nullcontext()
     journal = open_journal(out, identity, resume=resume)
@@ -155,11 +146,11 @@ def _evaluate(
 
 
 def _print_results(content: Results, metrics: Metrics, out: Path | None, *, as_json: bool) -> None:
-    """Print the results, as tables and where the policy stands, or as JSON alone."""
+    """Print the results, as tables and text or as JSON."""
     if as_json:
-        print(json.dumps(content.plain(), indent=2, allow_nan=False))
+        print_json(content.plain())
         return
-    show(results_table(content, metrics), standing(content))
+    show(results_table(content, metrics), results_text(content))
     if out is not None:
         print(f"Result bundle: {out}")
         if content.complete:
@@ -167,7 +158,7 @@ def _print_results(content: Results, metrics: Metrics, out: Path | None, *, as_j
 
 
 def _mention_idle(cluster: Cluster) -> None:
-    """Say on stderr if a cluster's workers have threads that will get nothing to do."""
+    """Report on stderr the threads of a cluster's workers that stay idle."""
     if cluster.idle_threads:
         print(
             f"{cluster.idle_threads} threads of the workers stay idle, since each worker plays one "
@@ -177,16 +168,16 @@ def _mention_idle(cluster: Cluster) -> None:
 
 
 def _complain(run: Run, *, finished: bool, hint: str) -> bool:
-    """Say on stderr what went wrong; return whether the result is to be doubted.
+    """Report failures on stderr; return whether there are any.
 
     Parameters
     ----------
     run
-        What was played.
+        The policy's run.
     finished
-        Whether that is everything, the baselines included.
+        Whether the run and the baselines are complete.
     hint
-        How to go on with what is not finished.
+        How to resume an unfinished run.
     """
     for line in (*_faults(run), *_failures(run)):
         print(line, file=sys.stderr)
@@ -216,4 +207,4 @@ def _interrupted(run: Run) -> str:
         return "interrupted before the first lift was finished"
     if not run.complete:
         return f"interrupted: partial results of {len(run.episodes)} of {run.suite.size} lifts"
-    return "interrupted before the baselines were played: there is nothing to compare with"
+    return "interrupted before the baselines were played: there is no comparison"

@@ -1,11 +1,10 @@
-"""``colift serve``: the board on the web, and the workers that evaluate what is submitted."""
+"""``colift serve``: a board on the web, and the workers that evaluate its submissions."""
 
 import errno
 import logging
 import signal
 import socket
 import sys
-from pathlib import Path
 from types import FrameType
 from typing import Annotated
 
@@ -18,41 +17,39 @@ from ..agents.submissions.folder import MIB
 from ..benchmark.execution.pool import default_jobs
 from ..leaderboard.evaluation.entrant import AUTO
 from ..leaderboard.queue import Quota
-from .board_isolation import Isolation
+from .board_options import BOARD, BoardFolder, BoardIsolation
 
 ENDING = (signal.SIGINT, signal.SIGTERM)
 """Signals that end the service."""
 
 
 def serve_board(
-    board: Annotated[
-        Path, typer.Option(metavar="PATH", help="The board's folder; made if there is none.")
-    ] = Path("board"),
+    board: BoardFolder = BOARD,
     host: Annotated[
-        str, typer.Option(help="Address to listen at; 0.0.0.0 is all of this machine.")
+        str, typer.Option(help="Address to listen on; 0.0.0.0: all of this machine's.")
     ] = "127.0.0.1",
     port: Annotated[
-        int, typer.Option(min=0, max=65535, help="Port to listen at; 0 is any free one.")
+        int, typer.Option(min=0, max=65535, help="Port to listen on; 0: any free one.")
     ] = 8000,
     workers: Annotated[
         int, typer.Option(metavar="N", min=0, help="Processes that evaluate submissions.")
     ] = 1,
-    isolation: Isolation = AUTO,
+    isolation: BoardIsolation = AUTO,
     rows_a_day: Annotated[
         int,
-        typer.Option(metavar="N", min=1, help="Rows that a submitter may get in 24 hours."),
+        typer.Option(metavar="N", min=1, help="Rows per submitter in 24 hours."),
     ] = Quota().rows,
     kept: Annotated[
         int,
-        typer.Option(metavar="MIB", min=1, help="Files that are kept of a submitter, in MiB."),
+        typer.Option(metavar="MIB", min=1, help="Size of the files kept per submitter, in MiB."),
     ] = Quota().size // MIB,
     contact: Annotated[
         str,
-        typer.Option(metavar="TEXT", help="How you are reached; shown where people submit."),
+        typer.Option(metavar="TEXT", help="How to reach you; shown on the submission page."),
     ] = "",
     root: Annotated[
         str,
-        typer.Option(metavar="/PATH", help="Path below which a reverse proxy shows the board."),
+        typer.Option(metavar="/PATH", help="Path of the board behind a reverse proxy."),
     ] = "",
 ) -> None:
     """Serve a board on the web: its pages, its JSON interface, and uploads."""
@@ -71,7 +68,7 @@ def serve_board(
     command += ["--jobs", str(max(1, default_jobs() // max(1, workers)))]  # They share the cores.
     command += ["--isolation", isolation]
     for number in ENDING:
-        signal.signal(number, _leave)  # uvicorn raises it again when all is closed.
+        signal.signal(number, _leave)  # uvicorn raises it again after closing.
     try:
         with _listening(host, port) as listener:
             server = make_server(create_app(board, contact=contact, quota=quota), root.rstrip("/"))
@@ -79,28 +76,28 @@ def serve_board(
                 print(f"Board {board}: {_url(listener)} (Ctrl-C ends it)", flush=True)
                 server.run(sockets=[listener])
     except KeyboardInterrupt:
-        pass  # Asked for, and done.
+        pass  # Requested, and done.
 
 
 def _listening(host: str, port: int) -> socket.socket:
-    """Return a socket that is listened at.
+    """Return a listening socket.
 
     Raises
     ------
     InputError
-        If that is not possible here.
+        If the address or the port cannot be used.
     """
     from ..leaderboard.service.server import listening
 
     try:
         return listening(host, port)
     except OSError as error:
-        told = {
-            errno.EADDRINUSE: f"port {port} is taken; name another by --port, or 0 for a free one",
-            errno.EACCES: f"port {port} is not for everybody; name one above 1023 by --port",
+        reason = {
+            errno.EADDRINUSE: f"port {port} is taken; choose another by --port (0: any free one)",
+            errno.EACCES: f"port {port} needs more rights; choose one above 1023 by --port",
             errno.EADDRNOTAVAIL: "this machine has no such address; 127.0.0.1 and 0.0.0.0 are",
         }.get(error.errno or 0, error.strerror)
-        raise InputError(f"cannot listen at {host}:{port}: {told}") from error
+        raise InputError(f"cannot listen on {host}:{port}: {reason}") from error
 
 
 def _url(listener: socket.socket) -> str:
@@ -110,5 +107,5 @@ def _url(listener: socket.socket) -> str:
 
 def _leave(number: int, frame: FrameType | None) -> None:
     for each in ENDING:
-        signal.signal(each, signal.SIG_IGN)  # One is enough; the workers have some seconds.
+        signal.signal(each, signal.SIG_IGN)  # A second one would cut the workers' last seconds.
     raise KeyboardInterrupt

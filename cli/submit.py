@@ -1,19 +1,35 @@
-"""``colift submit``: put a submission on a board, and see what comes of it."""
+"""``colift submit``: a submission to a board in a folder or on the web, and its row."""
 
 import sys
+import time
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, Final, NoReturn
 
 import typer
 
-from ..agents.submissions.submission import open_submission
-from ..benchmark.execution.pool import checked_jobs
+from ..agents.errors import InputError
+from ..agents.submissions.submission import Submission, open_submission
+from ..benchmark.execution.pool import checked_jobs, local_pool
+from ..leaderboard.board.board import Board
+from ..leaderboard.client import API, RemoteBoard
+from ..leaderboard.evaluation.progress import Callbacks
+from ..leaderboard.pages.links import ServiceLinks
+from ..leaderboard.practice.shipped import open_stocked
+from ..leaderboard.queue import NO_QUOTA, Queue, WorkerQueue
+from ..leaderboard.queue.worker import Worker
+from ..leaderboard.records.job import Job
+from ..leaderboard.records.row import BoardRow
+from .board_options import opened_board
 from .check import all_checks
+from .completion import suites
 from .options import Jobs
 from .printing import argument, show
-from .submit_here import Here
-from .submit_there import There
-from .tables.row import Outcome, row_table, standing
+from .progress import job_bar
+from .tables.row import SectionRow, row_table, row_text
+
+POLL_S: Final = 0.5
+"""Time between two looks at a job that another process evaluates [s]."""
 
 
 def submit_policy(
@@ -22,55 +38,144 @@ def submit_policy(
         str,
         typer.Option(
             metavar="PATH|URL",
-            help="The board's folder, made if there is none; or its address, https://...",
+            help="The board's folder, created if missing; or its address, https://...",
         ),
     ],
     suite: Annotated[
         str | None,
-        typer.Option(help="Suite that the board must have; a new one has standard-v1 by default."),
+        typer.Option(
+            metavar="NAME",
+            help="Suite that the board must have; a new board has standard-v1 by default.",
+            autocompletion=suites,
+        ),
     ] = None,
     jobs: Jobs = None,
     token: Annotated[
-        str, typer.Option(envvar="COLIFT_TOKEN", help="For a board on the web: who you are.")
+        str,
+        typer.Option(
+            envvar="COLIFT_TOKEN", help="Your token for a board on the web, from its maintainer."
+        ),
     ] = "",
 ) -> None:
-    """Put a submission on a board: public and hidden lifts, audit, replay, and a row.
+    """Submit a policy to a board: check, public and hidden lifts, audit, verification, row.
 
-    A board in a folder evaluates it here and at once, one on the web when its turn has come.
+    A board in a folder is evaluated here and now, a board on the web by its own workers.
     """
     count = checked_jobs(jobs)
-    opened = open_submission(folder)
+    submission = open_submission(folder)
     if board.startswith(("http://", "https://")):
-        there = There.open(board, token)
-        _check(folder, count)
-        _tell(there.submitted(opened), folder)
-        return
-    here = Here.open(Path(board), suite)
+        _submit_to_web(submission, folder, board, token, count)
+    else:
+        with opened_board(Path(board), lambda path: open_stocked(path, suite)) as place:
+            _submit_to_folder(submission, folder, place, count)
+
+
+def _submit_to_folder(submission: Submission, folder: Path, board: Board, jobs: int) -> None:
+    """Evaluate a submission unless its board has an entry of it, and print its row."""
+    if board.entry(board.season.name, submission.contents.digest) is None:
+        _check(folder, jobs)
+    else:
+        print(f"This content (digest {submission.digest}) is on the board already.")
+    queue = Queue(board, quota=NO_QUOTA)
+    job = queue.enqueue(board.keep(submission.folder))
+    again = f"submit again, or: colift worker --board {board.folder} --once"
     try:
-        if here.known(opened):
-            print(f"This content (digest {opened.digest}) is on the board already.")
-        else:
-            _check(folder, count)
-        _tell(here.submitted(opened, count), folder)
-    finally:
-        here.close()
+        job = job if job.ended else _evaluated(queue, job, jobs)
+    except KeyboardInterrupt:
+        _refuse(f"interrupted: nothing was recorded; {again}")
+    if job.state == "evaluator fault":
+        _refuse(f"evaluator fault, not the policy's: {job.reason}\nNothing was recorded; {again}")
+    entry = board.entry(job.season, job.submission)
+    bundle = board.bundle(job.season, job.submission)
+    if entry is None or entry.row is None:
+        public = "" if bundle is None else f"\nIts public run: {bundle}"
+        _refuse(f"refused, so there is no row: {job.reason}{public}", fix=folder)
+    rows = ((each.section, each.group, each.row) for each in board.standings(job.season))
+    _show_row(job.submission, rows)
+    print(f"Bundle of the public run: {bundle}\nNext: colift verify {bundle}")
+
+
+def _evaluated(queue: Queue, job: Job, jobs: int) -> Job:
+    """Return the job at its end, or after a fault of this machine.
+
+    It is evaluated by this process, unless a worker has it.
+    """
+    with local_pool(jobs) as pool, job_bar(job.name, job.total) as bar:
+        watch = Callbacks(stage=bar.stage, progress=bar.advance, total=bar.total)
+        worker = Worker(WorkerQueue(queue.board), pool)
+        while True:
+            mine = worker.once(job.id, watch)
+            job = mine or queue.job(job.id) or job
+            if job.ended or (mine is not None and job.state == "evaluator fault"):
+                return job
+            bar.at(job.stage or job.state, job.done, job.total)
+            time.sleep(POLL_S)
+
+
+def _submit_to_web(submission: Submission, folder: Path, url: str, token: str, jobs: int) -> None:
+    """Upload a submission, follow its evaluation, and print its row."""
+    if not token:
+        raise InputError(
+            f"board {url} needs a token: --token or COLIFT_TOKEN; its maintainer makes one by: "
+            "colift token add NAME"
+        )
+    board = RemoteBoard(url, token)
+    board.submitter()  # Refuses an unknown token before any work is done.
+    _check(folder, jobs)
+    job = board.submit(submission.folder)
+    links = ServiceLinks(board.url.rstrip("/"))
+    page = f"{links.root}/jobs/{job['id']}"
+    print(f"submitted; job {page}", flush=True)
+    try:
+        job = _followed(board, job)
+    except KeyboardInterrupt:
+        _refuse(f"the board continues without you: {page}")
+    if job["state"] == "evaluator fault":
+        _refuse(f"evaluator fault, not the policy's: {job['reason']}\nSubmit again.")
+    if job["state"] == "cancelled":
+        _refuse(f"cancelled by {job['reason']}")
+    if job["state"] == "failed":
+        _refuse(f"refused, so there is no row: {job['reason']}\nIts log: {page}", fix=folder)
+    season, digest = job["season"], job["submission"]
+    _show_row(
+        digest,
+        (
+            (each["section"], each["group"], BoardRow.read(each["row"]))
+            for each in board.standings(season)
+        ),
+    )
+    bundle = f"{links.root}{API}/entries/{season}/{digest}/bundle.zip"
+    print(f"Bundle of the public run: {bundle}\nIts page: {links.policy(season, digest)}")
+
+
+def _followed(board: RemoteBoard, job: dict[str, Any]) -> dict[str, Any]:
+    """Return a job when it has ended; show its progress until then."""
+    with job_bar(job["name"], job["total"]) as bar:
+        while job["ended_at"] is None:
+            bar.at(job["stage"] or job["state"], job["done"], job["total"])
+            time.sleep(POLL_S)
+            job = board.job(job["id"])
+    return job
 
 
 def _check(folder: Path, jobs: int) -> None:
-    """Leave with the reason if the submission fails a check."""
+    """End with the reason if the submission fails a check."""
     for each in all_checks(folder, None, False, jobs):
         if not each.ok:
-            print(f"not submitted, its check fails: {each.name}: {each.told}", file=sys.stderr)
-            print(f"Mend it, then: colift check {argument(folder)}", file=sys.stderr)
-            raise typer.Exit(1)
+            _refuse(f"not submitted, its check fails: {each.name}: {each.message}", fix=folder)
 
 
-def _tell(outcome: Outcome, folder: Path) -> None:
-    """Print the row, or leave with the reason why there is none."""
-    if outcome.row is None:
-        print(outcome.reason, file=sys.stderr)
-        if outcome.mend:
-            print(f"Mend it, then: colift check {argument(folder)}", file=sys.stderr)
-        raise typer.Exit(1)
-    show(row_table(outcome.row), standing(outcome.row, outcome.ranking, outcome.section))
-    print(outcome.next)
+def _refuse(reason: str, fix: Path | None = None) -> NoReturn:
+    """End with the reason why there is no row, and the folder to fix, if any."""
+    print(reason, file=sys.stderr)
+    if fix is not None:
+        print(f"Fix it, then: colift check {argument(fix)}", file=sys.stderr)
+    raise typer.Exit(1)
+
+
+def _show_row(digest: str, rows: Iterable[SectionRow]) -> None:
+    """Print the row of a submission and its rank among the rows of its season."""
+    known = list(rows)
+    section, _, row = next(each for each in known if each[2].submission == digest)
+    ranking = [(group, other) for place, group, other in known if place == section]
+    show(row_table(row), row_text(row, ranking, section))

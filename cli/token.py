@@ -1,6 +1,5 @@
-"""``colift token``: who may submit to a board over the web."""
+"""``colift token``: the submitters of a board on the web."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -8,35 +7,36 @@ import typer
 from ..leaderboard.board.board import Board
 from ..leaderboard.board.tokens import Tokens
 from ..leaderboard.practice.shipped import open_to_read
+from .board_options import BOARD, BoardFolder, opened_board
 from .printing import show, table
 
-app = typer.Typer(help="Say who may submit to a board over the web.", no_args_is_help=True)
+app = typer.Typer(
+    help="Manage the tokens of those who submit to a board on the web.", no_args_is_help=True
+)
 
-BoardOption = Annotated[Path, typer.Option("--board", metavar="PATH", help="The board's folder.")]
-NameArgument = Annotated[str, typer.Argument(metavar="NAME", help="Of who submits.")]
-
-
-@app.command()
-def add(name: NameArgument, board: BoardOption = Path("board")) -> None:
-    """Make a token for somebody, and print it; it is shown now and never again."""
-    print(Tokens(Board.open(board)).add(name))
+Submitter = Annotated[str, typer.Argument(metavar="NAME", help="The submitter's name.")]
 
 
 @app.command()
-def revoke(name: NameArgument, board: BoardOption = Path("board")) -> None:
-    """Make somebody's token worthless, at once."""
-    Tokens(Board.open(board)).revoke(name)
-    print(f"the token of {name} counts no more")
+def add(name: Submitter, board: BoardFolder = BOARD) -> None:
+    """Create a submitter's token and print it; it cannot be shown again."""
+    with opened_board(board, Board.open) as place:
+        print(Tokens(place).add(name))
+
+
+@app.command()
+def revoke(name: Submitter, board: BoardFolder = BOARD) -> None:
+    """Revoke a submitter's token, at once."""
+    with opened_board(board, Board.open) as place:
+        Tokens(place).revoke(name)
+    print(f"the token of {name} is revoked")
 
 
 @app.command("list")
-def list_tokens(board: BoardOption = Path("board")) -> None:
-    """List who has a token, or had one."""
-    place = open_to_read(board)
-    try:
+def list_tokens(board: BoardFolder = BOARD) -> None:
+    """List the submitters, with the dates of their tokens."""
+    with opened_board(board, open_to_read) as place:
         found = Tokens(place).all()
-    finally:
-        place.close()
     rows = (
         (
             each.name,

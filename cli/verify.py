@@ -1,7 +1,6 @@
-"""``colift verify``: whether a bundle's scores follow from its actions."""
+"""``colift verify``: verification of a bundle's scores from its actions."""
 
 import itertools
-import json
 import sys
 from pathlib import Path
 from typing import Annotated, Final
@@ -14,19 +13,20 @@ from ..benchmark.execution.pool import checked_jobs, process_pool
 from ..benchmark.execution.runner import Run
 from ..benchmark.results.headline import headline
 from ..benchmark.verification import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Verdict, verify
-from .options import Jobs
+from .options import AsJson, Jobs
+from .printing import print_json
 from .progress import progress_bar
 from .remedies import naming
 
 MOST_LINES: Final = 20
-"""In how many ways a bundle's platform is said to be another."""
+"""Largest number of differences between platforms that are printed."""
 
 
 def verify_bundle(
     bundle: Annotated[
         Path,
         typer.Argument(
-            metavar="BUNDLE", help="A folder that colift run --out, or a board, has written."
+            metavar="BUNDLE", help="A result bundle of 'colift run --out' or of a board."
         ),
     ],
     jobs: Jobs = None,
@@ -34,20 +34,18 @@ def verify_bundle(
         Path | None,
         typer.Option(
             metavar="DIR",
-            help="Write the bundle anew there, with the scores of this version of colift.",
+            help="Folder for the same bundle with the scores of this version of colift.",
         ),
     ] = None,
     force: Annotated[
         bool, typer.Option("--force", help="Replace the finished result bundle in --rescore.")
     ] = False,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the verdict as JSON, and nothing else.")
-    ] = False,
+    as_json: AsJson = False,
 ) -> None:
-    """Simulate every lift of a result bundle again, and compare every number.
+    """Simulate each lift of a result bundle again from its actions, and compare every number.
 
-    Nothing in the bundle is trusted, and no policy is run. Exit code 0: it is verified; 1: it is
-    not, with the file, the lift and the first step in which that shows.
+    Nothing in the bundle is trusted, and no policy is run. Exit code 0: verified; 1: refused, with
+    the file, the lift and the first step that differ.
     """
     count = checked_jobs(jobs)
     if rescore is not None:
@@ -63,15 +61,15 @@ def verify_bundle(
         ):
             verdict = verify(bundle, executor=pool, progress=progress)
     except EvaluatorFault as fault:
-        print(f"not verified: {fault}; this says nothing of the bundle", file=sys.stderr)
+        print(f"not verified: {fault}; this is no finding about the bundle", file=sys.stderr)
         raise typer.Exit(1) from None
     written = rescore is not None and (verdict.ok or verdict.rescorable)
     if rescore is not None and written:
         _write(rescore, verdict)
     if as_json:
-        print(json.dumps(verdict.plain(), indent=2, allow_nan=False))
+        print_json(verdict.plain())
     elif verdict.run is not None and not verdict.findings:
-        print(_good_news(bundle, verdict, verdict.run))
+        print(_proof(bundle, verdict, verdict.run))
         if written:
             print(f"Rescored bundle: {rescore}")
     if verdict.findings:
@@ -89,8 +87,8 @@ def _write(folder: Path, verdict: Verdict) -> None:
         write_bundle(folder, verdict.run, verdict.results.plain(), platform=verdict.platform)
 
 
-def _good_news(bundle: Path, verdict: Verdict, run: Run) -> str:
-    """Return what is proved, and how far."""
+def _proof(bundle: Path, verdict: Verdict, run: Run) -> str:
+    """Return the text about a bundle whose numbers were repeated."""
     if verdict.bit_equal:
         how = "equal to the bit"
     else:
@@ -108,7 +106,7 @@ def _good_news(bundle: Path, verdict: Verdict, run: Run) -> str:
         lines.append(headline(verdict.results.summary))
     if verdict.ok:
         lines.append(f"{bundle} is verified.")
-    # Names and versions are the bundle's: no control sequence of theirs meets a terminal.
+    # Names and versions come from the bundle: control sequences must not reach a terminal.
     return "\n".join([*map(one_line, lines), PROVES, UNPROVEN])
 
 

@@ -1,8 +1,7 @@
-"""``colift worker``: evaluate what is submitted to a board."""
+"""``colift worker``: evaluation of the submissions in a board's queue."""
 
 import signal
 import sys
-from pathlib import Path
 from types import FrameType
 from typing import Annotated
 
@@ -11,62 +10,53 @@ import typer
 
 from ..agents.errors import EvaluatorFault
 from ..leaderboard.evaluation.entrant import AUTO
-from ..leaderboard.practice.shipped import open_stocked
 from ..leaderboard.queue import WorkerQueue
 from ..leaderboard.queue.worker import Worker
 from ..leaderboard.records.job import Job
-from .board_isolation import Isolation, tell_isolation
-from .options import Jobs, executor
+from .board_options import BOARD, BoardFolder, BoardIsolation, opened_board, report_isolation
+from .options import Dask, Jobs, executor
 
 ENDING = (signal.SIGINT, signal.SIGTERM)
 """Signals that end a worker."""
 
 
 def worker(
-    board: Annotated[
-        Path, typer.Option(metavar="PATH", help="The board's folder; made if there is none.")
-    ] = Path("board"),
+    board: BoardFolder = BOARD,
     jobs: Jobs = None,
-    dask: Annotated[
-        str | None,
-        typer.Option(metavar="URL", help="Use the Dask cluster of this scheduler: tcp://host:8786"),
-    ] = None,
-    isolation: Isolation = AUTO,
+    dask: Dask = None,
+    isolation: BoardIsolation = AUTO,
     once: Annotated[
-        bool, typer.Option("--once", help="End when nothing waits, instead of waiting for more.")
+        bool, typer.Option("--once", help="End when the queue is empty, instead of waiting.")
     ] = False,
 ) -> None:
-    """Take submissions out of a board's queue and evaluate them, one after the other.
+    """Evaluate the submissions in a board's queue, one after the other.
 
-    Any number of workers may share a board. One that is killed loses nothing: another begins anew.
+    Any number of workers may share a board. If one is killed, another takes its job over.
     """
     for number in ENDING:
         signal.signal(number, _stop)
-    tell_isolation(isolation)
-    place = open_stocked(board)
+    report_isolation(isolation)
     try:
-        with executor(jobs, dask) as workers:
+        with opened_board(board) as place, executor(jobs, dask) as workers:
             here = Worker(WorkerQueue(place), workers, isolation=isolation)
             if once:
                 while (job := here.once()) is not None:
-                    _tell(job)
+                    _report(job)
             else:
                 print(f"working for {place.folder}; Ctrl-C ends it", file=sys.stderr, flush=True)
-                here.run(ended=_tell)
+                here.run(ended=_report)
     except KeyboardInterrupt:
         print("ended; an unfinished evaluation is in the queue again", file=sys.stderr)
     except sa.exc.OperationalError as error:
         raise EvaluatorFault(f"the board's database does not work: {error.orig}") from error
-    finally:
-        place.close()
 
 
-def _tell(job: Job) -> None:
+def _report(job: Job) -> None:
     reason = "" if job.reason is None else f": {job.reason.splitlines()[0]}"
     print(f"{job.name} ({job.submission[:16]}) {job.state}{reason}", flush=True)
 
 
 def _stop(number: int, frame: FrameType | None) -> None:
     for each in ENDING:
-        signal.signal(each, signal.SIG_IGN)  # One is enough; a second one would only interrupt it.
+        signal.signal(each, signal.SIG_IGN)  # A second one would interrupt the ending.
     raise KeyboardInterrupt

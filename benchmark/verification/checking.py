@@ -46,8 +46,8 @@ class Check:
 
     name: str
     ok: bool
-    told: str
-    """What was found, or why it failed."""
+    message: str
+    """The result, or why the check failed."""
     printed: str = ""
     """The end of what the policy printed, if it failed."""
     results: Results | None = None
@@ -78,7 +78,7 @@ def check_policy(
     try:
         yield from _checks(policy, fresh, evaluate)
     except EvaluatorFault as fault:
-        yield Check(name=MACHINE, ok=False, told=f"{fault}; this is no fault of the policy")
+        yield Check(name=MACHINE, ok=False, message=f"{fault}; this is no fault of the policy")
 
 
 def _checks(
@@ -125,18 +125,18 @@ def _played(policy: AgentSpec, lifts: Sequence[tuple[str, str]]) -> list[Episode
 def _interface(policy: AgentSpec, episodes: Sequence[Episode]) -> Check:
     for episode in episodes:
         if episode.failure is not None and episode.failure.startswith(START):
-            told = episode.failure.removeprefix(START)
-            return Check(name="interface", ok=False, told=told, printed=episode.log)
-    told = f"has reset(seed) and act(observation); isolation: {policy.isolation}"
-    return Check(name="interface", ok=True, told=told)
+            message = episode.failure.removeprefix(START)
+            return Check(name="interface", ok=False, message=message, printed=episode.log)
+    message = f"has reset(seed) and act(observation); isolation: {policy.isolation}"
+    return Check(name="interface", ok=True, message=message)
 
 
 def _lifts(episodes: Sequence[Episode]) -> Check:
     for episode in episodes:
         if episode.failure is not None:
-            return Check(name="lifts", ok=False, told=_why(episode), printed=episode.log)
-    told = ", ".join(f"{e.behaviour}/{e.subject} {e.scores['rmse_mm']:.1f} mm" for e in episodes)
-    return Check(name="lifts", ok=True, told=told)
+            return Check(name="lifts", ok=False, message=_why(episode), printed=episode.log)
+    message = ", ".join(f"{e.behaviour}/{e.subject} {e.scores['rmse_mm']:.1f} mm" for e in episodes)
+    return Check(name="lifts", ok=True, message=message)
 
 
 def _determinism(first: Sequence[Episode], again: Sequence[Episode]) -> Check:
@@ -144,26 +144,26 @@ def _determinism(first: Sequence[Episode], again: Sequence[Episode]) -> Check:
     for one, other in zip(first, again, strict=True):
         step = first_difference(one, other)
         if step is not None:
-            told = (
+            message = (
                 f"the same lift again ({_where(one)}) goes another way from step {step} on: "
                 "actions must follow from the seed and the observations of the lift alone"
             )
-            return Check(name="determinism", ok=False, told=told, printed=other.log)
-    told = "the same lifts again, started afresh in another order: equal to the bit"
-    return Check(name="determinism", ok=True, told=told)
+            return Check(name="determinism", ok=False, message=message, printed=other.log)
+    message = "the same lifts again, started afresh in another order: equal to the bit"
+    return Check(name="determinism", ok=True, message=message)
 
 
 def _score(run: Run, content: Results) -> Check:
-    told = f"{run.suite.name}, {len(run.episodes)} lifts: {headline(content.summary)}"
+    message = f"{run.suite.name}, {len(run.episodes)} lifts: {headline(content.summary)}"
     failed = [episode for episode in run.episodes if episode.failure is not None]
     if failed:
-        told = f"{told}. {len(failed)} failed and count as worst; the first, {_why(failed[0])}"
+        message += f". {len(failed)} failed and count as worst; the first, {_why(failed[0])}"
     worse = "" if failed else _worse(content)
     printed = failed[0].log if failed else ""
     return Check(
         name="score",
         ok=not failed,
-        told=told + worse,
+        message=message + worse,
         printed=printed,
         results=content,
         warning=bool(worse),
@@ -180,37 +180,37 @@ def _worse(content: Results) -> str:
     }
     if not means:
         return ""
-    told = " and ".join(f"{name} ({MEANINGS[name]}, {mean:.2f} mm)" for name, mean in means.items())
-    return f". Worse than {told}"
+    better = (f"{name} ({MEANINGS[name]}, {mean:.2f} mm)" for name, mean in means.items())
+    return f". Worse than {' and '.join(better)}"
 
 
 def _actions(summary: Summary) -> Check:
     """Tell how many actions were larger than the hands can go."""
     share = summary.metrics["clipped"].mean
     if share is None:
-        return Check(name="actions", ok=False, told="there is none")
+        return Check(name="actions", ok=False, message="there is none")
     limit = action_limit(CONTROL_PERIOD)
-    told = f"{100 * share:.1f} % were cut to {limit:g} m a step, the most that the hands can go"
+    message = f"{100 * share:.1f} % were cut to {limit:g} m a step, the most that the hands can go"
     warning = share > MOSTLY_CLIPPED
     if warning:
-        told += ". Are they in metres, and changes of the height?"
-    return Check(name="actions", ok=True, told=told, warning=warning)
+        message += ". Are they in metres, and changes of the height?"
+    return Check(name="actions", ok=True, message=message, warning=warning)
 
 
 def _time(summary: Summary, episodes: Sequence[Episode]) -> Check:
     """Tell whether a real robot, which does not wait, could run the policy; it need not."""
     p50, p99 = summary.step_ms.p50, summary.step_ms.p99
     if p50 is None or p99 is None:
-        return Check(name="time", ok=False, told="no step came to an end")
-    told = (
+        return Check(name="time", ok=False, message="no step came to an end")
+    message = (
         f"a step takes {p50:.3f} ms (median), {p99:.3f} ms (99th percentile): "
         f"{'' if summary.real_time else 'not '}real-time capable "
         f"(a robot waits {1000 * POLICY_SHARE * CONTROL_PERIOD:.0f} ms for an answer)"
     )
     printed = max(len(episode.log) for episode in episodes)
     if printed >= MUCH_PRINTED:
-        told += f". It prints much (over {MUCH_PRINTED} characters in a lift), which takes time"
-    return Check(name="time", ok=True, told=told, warning=printed >= MUCH_PRINTED)
+        message += f". It prints much (over {MUCH_PRINTED} characters in a lift), which takes time"
+    return Check(name="time", ok=True, message=message, warning=printed >= MUCH_PRINTED)
 
 
 def _where(episode: Episode) -> str:

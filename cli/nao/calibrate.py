@@ -1,7 +1,6 @@
-"""``colift nao calibrate``: what trials say of a laboratory."""
+"""``colift nao calibrate``: estimates of a laboratory's properties from trials."""
 
 import dataclasses
-import json
 import math
 from pathlib import Path
 from typing import Annotated
@@ -14,14 +13,15 @@ from ...benchmark.episode.lift import MOCAP_NOISE
 from ...benchmark.episode.scenario import LATENCY
 from ...benchmark.hardware.estimates import Estimates, estimate_setup
 from ...benchmark.world import SERVO
-from ..printing import show, table
+from ..options import AsJson
+from ..printing import print_json, show, table
 
 
 def calibrate_setup(
     recordings: Annotated[
         list[Path], typer.Argument(metavar="CSV...", help="Trials of 'nao run --record'.")
     ],
-    as_json: Annotated[bool, typer.Option("--json", help="Print the numbers alone.")] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Estimate latency, sag and noise from trials, as numbers for the simulated world."""
     found = estimate_setup([read_recording(path) for path in recordings])
@@ -30,7 +30,7 @@ def calibrate_setup(
             name: value if math.isfinite(value) else None
             for name, value in dataclasses.asdict(found).items()
         }
-        print(json.dumps(plain, indent=2, allow_nan=False))
+        print_json(plain)
         return
     show(_table(found))
     print(f"To simulate this laboratory: colift run POLICY --latency {found.latency:.2f}")

@@ -1,4 +1,4 @@
-"""``colift nao check``: whether a robot and a motion capture can be worked with."""
+"""``colift nao check``: the state of a robot and a motion capture before trials."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -18,27 +18,32 @@ from ...agents.hardware.nao.naoqi import NaoqiArm
 from ...agents.hardware.ports import Naoqi, RobotLostError
 from ...agents.hardware.safety import LOWEST_STIFFNESS
 from ...agents.hardware.setup import measure_rest
-from .connections import layout_of, open_capture, open_robot
+from .connections import (
+    URL,
+    HumanMarkers,
+    MotionCapture,
+    RobotMarkers,
+    UpAxis,
+    layout_of,
+    open_capture,
+    open_robot,
+)
 
 READINGS: Final = 50
 """How often the robot is read to time it."""
 
 Line = tuple[bool, str, str]
-"""Whether it is well, what it is, and what was found or is missing."""
+"""Whether it is well, its name, and its state or what is missing."""
 
 
 def check_setup(
-    robot: Annotated[
-        str, typer.Option(metavar="URL", help="Where the robot's NAOqi listens.")
-    ] = "tcp://127.0.0.1:9559",
-    mocap: Annotated[str, typer.Option(metavar="lsl:NAME", help="The motion capture.")] = (
-        "lsl:colift"
-    ),
-    human_markers: Annotated[str, typer.Option(help="Markers at the human's end.")] = "H1,H2",
-    robot_markers: Annotated[str, typer.Option(help="Markers at the robot's end.")] = "R1,R2",
-    up: Annotated[str, typer.Option(help="The stream's axis that points up.")] = "Z",
+    robot: Annotated[str, typer.Option(metavar="URL", help="Address of the robot's NAOqi.")] = URL,
+    mocap: MotionCapture = "lsl:colift",
+    human_markers: HumanMarkers = "H1,H2",
+    robot_markers: RobotMarkers = "R1,R2",
+    up: UpAxis = "Z",
 ) -> None:
-    """Find a robot and a motion capture, and say what is missing; nothing moves."""
+    """Check a robot and a motion capture, and list what is missing; nothing moves."""
     layout = layout_of(human_markers, robot_markers, up)
     console = Console()
     well = True
@@ -56,7 +61,7 @@ def check_setup(
 
 
 def _reported(part: str, lines: Callable[[], Iterator[Line]]) -> Iterator[Line]:
-    """Yield what is found, and at the end of it what went wrong."""
+    """Yield the lines of a part, and its failure if there is one."""
     try:
         yield from lines()
     except (InputError, RobotLostError) as error:
@@ -64,16 +69,16 @@ def _reported(part: str, lines: Callable[[], Iterator[Line]]) -> Iterator[Line]:
 
 
 def package_lines() -> Iterator[Line]:
-    """Yield the versions of what hardware needs."""
+    """Yield the versions of the packages for hardware."""
     for name in ("qi", "pylsl"):
         try:
             yield True, name, version(name)
         except PackageNotFoundError:
-            yield False, name, f"not installed; say: {how_to_install('nao')}"
+            yield False, name, f"not installed; run: {how_to_install('nao')}"
 
 
 def robot_lines(arm: NaoqiArm) -> Iterator[Line]:
-    """Yield what the robot says of itself."""
+    """Yield the state of the robot."""
     session = arm.session
     if session.has("ALSystem"):
         name, naoqi = session.calls("ALSystem", [("robotName",), ("systemVersion",)], within=2.0)
@@ -112,22 +117,22 @@ def robot_lines(arm: NaoqiArm) -> Iterator[Line]:
         times.append(time.monotonic() - begin)
     yield True, "reading the robot", _milliseconds(times)
     speech = session.has("ALTextToSpeech")
-    yield True, "speech", "says 'Go'" if speech else "none: tell the person yourself"
+    yield True, "speech", "says 'Go'" if speech else "none: give the person the signal yourself"
 
 
 def commander(session: Naoqi) -> Line:
-    """Return who commands the robot: a claim counts if it has a heartbeat."""
+    """Return the holder of the robot: a claim counts if it has a heartbeat."""
     first = holder(session)
     if not first.name:
         return True, "commanded by", "nobody"
     time.sleep(3 * BEAT)
     if holder(session) == first:
-        return True, "commanded by", f"nobody; {first.name} did, and has not let go"
-    return False, "commanded by", f"{first.name}: one at a time, end that first"
+        return True, "commanded by", f"nobody; {first.name} did, and has not released it"
+    return False, "commanded by", f"{first.name}: end that first"
 
 
 def capture_lines(capture: LslCapture) -> Iterator[Line]:
-    """Yield what the motion capture sends."""
+    """Yield the state of the motion capture."""
     info: dict[str, Any] = capture.info
     yield (
         True,

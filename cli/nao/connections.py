@@ -1,8 +1,10 @@
-"""From what a user types to a robot and a motion capture."""
+"""Options for a robot and a motion capture, and the connections to both."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
+from typing import Annotated, Final
+
+import typer
 
 from ...agents.agent import Agent
 from ...agents.errors import InputError
@@ -18,20 +20,34 @@ from ...benchmark.hardware.simulated import SimulatedLaboratory
 from ...benchmark.suites.catalogue import make_scenario
 
 WORLD: Final = "world"
-"""What is typed for the simulated laboratory instead of a robot's address."""
+"""Name of the simulated laboratory, instead of a robot's address."""
+
+URL: Final = "tcp://127.0.0.1:9559"
+"""The default address of a robot's NAOqi."""
+
+MotionCapture = Annotated[
+    str, typer.Option(metavar="lsl:NAME", help="Stream of the motion capture.")
+]
+HumanMarkers = Annotated[
+    str, typer.Option(metavar="NAMES", help="Markers at the human's end, with commas.")
+]
+RobotMarkers = Annotated[
+    str, typer.Option(metavar="NAMES", help="Markers at the robot's end, with commas.")
+]
+UpAxis = Annotated[str, typer.Option(metavar="AXIS", help="The stream's upward axis: X, Y or Z.")]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Place:
-    """Where trials are played."""
+    """A laboratory, real or simulated."""
 
     arm: NaoqiArm
     capture: TableCapture
     clock: Clock
     asked_by: Callable[[Agent], Decider]
-    """What asks the policy."""
+    """The caller of the policy."""
     simulated: bool
-    """Whether the time is, and nobody has to confirm anything."""
+    """Whether time is simulated and no operator confirms."""
 
 
 def open_place(robot: str, mocap: str, layout: Layout, button: StopButton) -> Place:
@@ -40,7 +56,7 @@ def open_place(robot: str, mocap: str, layout: Layout, button: StopButton) -> Pl
     Raises
     ------
     InputError
-        If something is not there.
+        If the robot or the motion capture is missing.
     """
     kind, _, scenario = robot.partition(":")
     if kind == WORLD:
@@ -65,7 +81,7 @@ def open_capture(text: str, layout: Layout) -> LslCapture:
     Raises
     ------
     InputError
-        If it is not there, or the text is none.
+        If it is missing, or the text has another form.
     """
     kind, colon, name = text.partition(":")
     if kind != "lsl" or not colon or not name:
@@ -79,7 +95,7 @@ def open_robot(url: str) -> NaoqiArm:
     Raises
     ------
     InputError
-        If it is not there, or no NAO.
+        If it is missing, or not a NAO.
     """
     try:
         return NaoqiArm(NaoqiSession(url))

@@ -1,4 +1,4 @@
-"""``colift nao emulate``: a NAO and a motion capture that are not there."""
+"""``colift nao emulate``: an emulated NAO with a motion capture."""
 
 import sys
 import time
@@ -12,28 +12,46 @@ from ...benchmark.hardware.emulator import Emulator
 from ...benchmark.hardware.faults import KINDS, parse_fault
 from ...benchmark.hardware.laboratory import CAPTURE_LATENCY, Conditions
 from ...benchmark.suites.catalogue import make_scenario
+from ..completion import behaviours, people
+from .connections import URL
 
 
 def emulate(
     human: Annotated[
-        str, typer.Option(help="How the person lifts: a behaviour of 'colift list'.")
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="The human's behaviour, from 'colift list'.",
+            autocompletion=behaviours,
+        ),
     ] = "smooth",
-    subject: Annotated[str, typer.Option(help="Who lifts: S1 to S5, or draw-N.")] = "S1",
-    url: Annotated[str, typer.Option(help="Where the robot listens.")] = "tcp://127.0.0.1:9559",
-    stream: Annotated[str, typer.Option(help="Name of the motion-capture stream.")] = "colift",
+    subject: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME", help="The human's body: S1 to S5, or draw-N.", autocompletion=people
+        ),
+    ] = "S1",
+    url: Annotated[str, typer.Option(metavar="URL", help="Address of the emulated NAOqi.")] = URL,
+    stream: Annotated[
+        str, typer.Option(metavar="NAME", help="Name of the motion-capture stream.")
+    ] = "colift",
     seed: Annotated[int, typer.Option(help="Seed of the first lift.", min=0)] = 0,
     capture_latency: Annotated[
-        float, typer.Option(metavar="S", help="From a frame to its sending.", min=0.0, max=1.0)
+        float,
+        typer.Option(
+            metavar="S", help="Age of a frame when it is sent, in seconds.", min=0.0, max=1.0
+        ),
     ] = CAPTURE_LATENCY,
     fault: Annotated[
         list[str] | None,
         typer.Option(
             metavar="KIND@START[:DURATION[:VALUE]]",
-            help=f"What goes wrong, in seconds after the first lift began: {', '.join(KINDS)}.",
+            help="A fault, START seconds after the beginning of the first lift; repeatable. "
+            f"KIND: {', '.join(KINDS)}.",
         ),
     ] = None,
 ) -> None:
-    """Run a laboratory over the real protocols, until Ctrl-C: libqi and Lab Streaming Layer.
+    """Emulate a laboratory over libqi and Lab Streaming Layer, until Ctrl-C.
 
     The person begins a lift whenever the robot says "Go".
     """

@@ -1,4 +1,4 @@
-"""``colift nao replay``: a recorded trial through the same loop."""
+"""``colift nao replay``: a recorded trial through the same control loop."""
 
 import sys
 from pathlib import Path
@@ -9,6 +9,7 @@ import typer
 from ...agents.hardware.csv_replay import recorded_commands, replay_trial
 from ...agents.hardware.recording import read_recording
 from ...benchmark.episode.episode import policy_seed
+from ..options import PolicyIsolation
 from ..policies import AUTO, choose_policy
 
 
@@ -17,16 +18,14 @@ def replay_recording(
         Path, typer.Argument(metavar="CSV", help="A trial of 'nao run --record'.")
     ],
     policy: Annotated[
-        str | None, typer.Option(help="Another policy than the one that was recorded.")
+        str | None, typer.Option(metavar="POLICY", help="Policy; default: the recorded one.")
     ] = None,
-    isolation: Annotated[
-        str, typer.Option(help="What keeps the policy apart, as for 'nao run'.")
-    ] = AUTO,
+    isolation: PolicyIsolation = AUTO,
 ) -> None:
-    """Play a recorded trial again, and compare the commands with the recorded ones, bit for bit.
+    """Replay a recorded trial, and compare each command with the recorded one, bit for bit.
 
-    Exit code 1 if one differs. Another policy does not move what was recorded: it shows what it
-    would have commanded, given what the recorded one saw.
+    Exit code 1 if a command differs. Another policy is shown the recorded observations: its
+    commands do not change them.
     """
     recorded = read_recording(recording)
     spec = choose_policy(policy or recorded.policy, isolation)
@@ -41,8 +40,8 @@ def replay_recording(
         return
     if differing:
         k = differing[0]
-        told = f"step {k}: commanded {there[k]!r} m, now {here[k]!r} m"
+        difference = f"step {k}: commanded {there[k]!r} m, now {here[k]!r} m"
     else:
-        told = f"{len(there)} steps recorded, {len(here)} played"
-    print(f"the commands differ, {told}", file=sys.stderr)
+        difference = f"{len(there)} steps recorded, {len(here)} played"
+    print(f"the commands differ, {difference}", file=sys.stderr)
     raise typer.Exit(1)

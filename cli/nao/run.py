@@ -1,6 +1,5 @@
-"""``colift nao run``: a policy on a robot."""
+"""``colift nao run``: trials of a policy on a robot."""
 
-import json
 import signal
 import sys
 from collections.abc import Iterator, Sequence
@@ -25,70 +24,73 @@ from ...benchmark.execution.runner import Run
 from ...benchmark.hardware.timing import timing_report
 from ...benchmark.hardware.trial import episode, hardware_run, hardware_suite
 from ...benchmark.suites.suite import Suite
-from ..policies import AUTO, HELP, choose_policy
-from ..printing import show
+from ..options import PERIOD_OPTION, AsJson, PolicyIsolation, PolicyName
+from ..policies import AUTO, choose_policy
+from ..printing import print_json, show
 from ..remedies import naming
-from ..tables.results import results_table, standing, timing_table
-from .connections import WORLD, Place, layout_of, open_place
+from ..tables.results import results_table, results_text, timing_table
+from .connections import (
+    URL,
+    WORLD,
+    HumanMarkers,
+    MotionCapture,
+    Place,
+    RobotMarkers,
+    UpAxis,
+    layout_of,
+    open_place,
+)
 
 
 def run_on_robot(
-    policy: Annotated[str, typer.Argument(help=HELP)],
+    policy: PolicyName,
     robot: Annotated[
         str,
         typer.Option(
             metavar="URL",
-            help="Where the robot's NAOqi listens; or 'world' or 'world:BEHAVIOUR/SUBJECT', a "
-            "laboratory that is simulated here, as fast as it goes, with a motion capture of its "
-            "own.",
+            help="Address of the robot's NAOqi; or 'world' or 'world:BEHAVIOUR/SUBJECT' for a "
+            "simulated laboratory with a motion capture of its own, faster than real time.",
         ),
-    ] = "tcp://127.0.0.1:9559",
-    mocap: Annotated[str, typer.Option(metavar="lsl:NAME", help="The motion capture.")] = (
-        "lsl:colift"
-    ),
-    trials: Annotated[int, typer.Option(metavar="N", help="How many lifts.", min=1)] = 10,
-    control_period: Annotated[
-        float, typer.Option(metavar="S", help="Time between two decisions.")
-    ] = 0.1,
+    ] = URL,
+    mocap: MotionCapture = "lsl:colift",
+    trials: Annotated[int, typer.Option(metavar="N", help="Number of lifts.", min=1)] = 10,
+    control_period: Annotated[float, PERIOD_OPTION] = 0.1,
     latency: Annotated[
         float,
-        typer.Option(metavar="S", help="From a frame to the hands' move, at least."),
+        typer.Option(metavar="S", help="Least time from a frame to the hands' move, in seconds."),
     ] = 0.1,
     duration: Annotated[
         float | None,
-        typer.Option(metavar="S", help="Length of a trial; default: until the table is down."),
-    ] = None,
-    person: Annotated[str, typer.Option(help="Who lifts, for the tables.")] = "person",
-    human_markers: Annotated[str, typer.Option(help="Markers at the human's end.")] = "H1,H2",
-    robot_markers: Annotated[str, typer.Option(help="Markers at the robot's end.")] = "R1,R2",
-    up: Annotated[str, typer.Option(help="The stream's axis that points up.")] = "Z",
-    isolation: Annotated[
-        str,
         typer.Option(
-            help="What keeps the policy apart: auto (a sandbox, unless it is colift's own), none, "
-            "bubblewrap, landlock or limits."
+            metavar="S", help="Length of a trial, in seconds; default: until the table is down."
         ),
-    ] = AUTO,
+    ] = None,
+    person: Annotated[
+        str, typer.Option(metavar="NAME", help="Name of the person who lifts.")
+    ] = "person",
+    human_markers: HumanMarkers = "H1,H2",
+    robot_markers: RobotMarkers = "R1,R2",
+    up: UpAxis = "Z",
+    isolation: PolicyIsolation = AUTO,
     dry_run: Annotated[
-        bool, typer.Option("--dry-run", help="Compute and log commands, and move nothing.")
+        bool, typer.Option("--dry-run", help="Compute and log commands without moving the robot.")
     ] = False,
     yes: Annotated[
         bool, typer.Option("--yes", help="Do not wait for the operator's confirmations.")
     ] = False,
     record: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Where to write each trial as a CSV file.")
+        Path | None, typer.Option(metavar="DIR", help="Folder for a CSV file per trial.")
     ] = None,
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Where to write the result bundle.")
+        Path | None, typer.Option(metavar="DIR", help="Folder for the result bundle.")
     ] = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print results.json alone, and nothing else.")
-    ] = False,
+    as_json: AsJson = False,
 ) -> None:
-    """Let a policy lift with a person, and score it; Ctrl-C or Enter stops everything.
+    """Let a policy lift with a person, and score it; Ctrl-C or Enter stops the robot.
 
-    Exit codes: 0 done, 2 wrong usage or set-up, 10 operator, 11 robot lost, 12 motion capture lost,
-    13 motion capture not plausible, 14 policy, 15 motors, or somebody else commands the robot.
+    Exit code 0: done; 2: wrong usage or set-up. A stopped trial: 10 by the operator, 11 robot lost,
+    12 motion capture lost, 13 motion capture not plausible, 14 by the policy, 15 by the motors or
+    another program that commands the robot.
     """
     spec = choose_policy(policy, isolation)
     spec.check()
@@ -105,9 +107,9 @@ def run_on_robot(
     button = StopButton()
 
     def confirm(line: str) -> None:
-        _tell(line)
+        _report_line(line)
         if not unattended:
-            _tell("  Enter when ready, Ctrl-C to stop.")
+            _report_line("  Enter when ready, Ctrl-C to stop.")
             await_enter(button)
 
     place = open_place(robot, mocap, layout, button)
@@ -116,7 +118,7 @@ def run_on_robot(
         arm=place.arm,
         capture=place.capture,
         clock=place.clock,
-        tell=_tell,
+        tell=_report_line,
         confirm=confirm,
         button=button,
         dry=dry_run,
@@ -138,7 +140,7 @@ def run_on_robot(
                 if not dry_run:
                     session.finish(_nothing if unattended else _enter)
     except Exception as error:
-        # What was lifted before is told all the same.
+        # Earlier lifts are reported all the same.
         ended = error
     finally:
         place.capture.close()
@@ -147,10 +149,10 @@ def run_on_robot(
         if records:
             _report(_scored(spec, suite, records, person), records, about, out, as_json)
     except Exception as error:
-        # A lift that was stopped is told by its exit code, whatever else fails.
+        # A stopped lift sets the exit code, whatever else fails.
         if ended is None:
             raise
-        _tell(f"there is no report: {error}")
+        _report_line(f"there is no report: {error}")
     if isinstance(ended, StopTrialError):
         raise typer.Exit(int(ended.stop))
     if ended is not None:
@@ -158,7 +160,7 @@ def run_on_robot(
 
 
 def _alone(place: Place, dry_run: bool) -> AbstractContextManager[None]:
-    """Return what keeps a robot that is real, and moves, to this one command."""
+    """Return a claim of the robot for this command, if it is real and moves."""
     return nullcontext() if dry_run or place.simulated else claimed(place.arm, place.clock)
 
 
@@ -179,7 +181,7 @@ def _trials(
         yield played
         if played.stop is not None:
             raise StopTrialError(played.stop, played.reason)
-        _tell(f"lift {number} of {trials}: {len(played.steps)} steps")
+        _report_line(f"lift {number} of {trials}: {len(played.steps)} steps")
 
 
 def _record(folder: Path, policy: str, session: Session, played: Record, *, number: int) -> None:
@@ -206,7 +208,7 @@ def _scored(spec: AgentSpec, suite: Suite, records: Sequence[Record], person: st
 
 def _enter() -> None:
     """Wait until the operator has taken the table out; Ctrl-C counts as well."""
-    _tell("  Enter when it is out.")
+    _report_line("  Enter when it is out.")
     armed_with = signal.signal(signal.SIGINT, signal.default_int_handler)
     with suppress(KeyboardInterrupt):
         sys.stdin.readline()
@@ -217,7 +219,7 @@ def _nothing() -> None:
     """Do not wait: nobody is asked."""
 
 
-def _tell(line: str) -> None:
+def _report_line(line: str) -> None:
     print(line, file=sys.stderr, flush=True)
 
 
@@ -230,8 +232,8 @@ def _report(
     if out is not None:
         write_bundle(out, done, plain)
     if as_json:
-        print(json.dumps(plain, indent=2, allow_nan=False))
+        print_json(plain)
         return
-    show(results_table(content, done.suite.metrics), standing(content), timing_table(timing))
+    show(results_table(content, done.suite.metrics), results_text(content), timing_table(timing))
     if out is not None:
         print(f"Result bundle: {out}")

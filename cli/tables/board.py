@@ -10,7 +10,7 @@ from ...leaderboard.board.standings import HumanTeamScores, RankedRow
 from ...leaderboard.records.metrics import board_metrics
 from ...leaderboard.records.row import BoardRow
 from ...leaderboard.records.season import SeasonInfo
-from ..printing import Cell, number, styled, table
+from ..printing import Cell, optional_number, styled, table
 
 NARROW = 100
 """Below so many columns the table leaves out what is least asked for."""
@@ -121,5 +121,5 @@ def _interval(estimate: Estimate) -> str:
 
 
 def _step(row: BoardRow) -> str:
-    told = number(row.public.step_ms_p50, ".3f")
+    told = optional_number(row.public.step_ms_p50, ".3f")
     return told if row.real_time else f"{told}, slow"

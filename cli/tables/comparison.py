@@ -19,7 +19,7 @@ from ...benchmark.comparison.words import (
 )
 from ...benchmark.episode.metric import Metric
 from ...benchmark.statistics import Estimate
-from ..printing import Cell, number, styled, table
+from ..printing import Cell, optional_number, styled, table
 
 NAME: Final = 18
 """Longest name that stays on one line."""
@@ -90,7 +90,7 @@ def _rank_row(comparison: Comparison, standing: Standing, entry: Entry) -> list[
         _interval(standing.rmse_mm),
         f"{standing.vs_human.mean:.2f}",
         *(_metric(metric, standing.metrics[metric.name]) for metric in metrics),
-        number(entry.step_ms[0] if entry.step_ms else None, ".3f"),
+        optional_number(entry.step_ms[0] if entry.step_ms else None, ".3f"),
     ]
 
 

@@ -12,7 +12,7 @@ from ...benchmark.bundle import Results
 from ...benchmark.episode.metric import LEADING, Metric, Metrics
 from ...benchmark.results.headline import error, versus_human
 from ...benchmark.results.summary import StratumScores
-from ..printing import number, styled, table
+from ..printing import optional_number, styled, table
 
 NAMES: Final = {
     "human_human": "human-human team",
@@ -58,8 +58,8 @@ def results_table(content: Results, metrics: Metrics) -> Table:
     )
 
 
-def standing(content: Results) -> str:
-    """Return the lines that say where the policy stands."""
+def results_text(content: Results) -> str:
+    """Return the lines that compare the policy with the baselines."""
     summary, step = content.summary, content.summary.step_ms
     lines = [error(summary)]
     if summary.vs_human is not None:
@@ -93,7 +93,10 @@ def _row(strata: Sequence[StratumScores], shown: Sequence[Metric]) -> list[str]:
         if each.human_human_rmse_mm is not None
     ]
     team = _pooled(human) if len(human) == len(strata) else None
-    errors = [number(_pooled(_means(strata, "rmse_mm")), ".1f"), number(team, ".1f")]
+    errors = [
+        optional_number(_pooled(_means(strata, "rmse_mm")), ".1f"),
+        optional_number(team, ".1f"),
+    ]
     return errors + [metric.text(_pooled(_means(strata, metric.name))) for metric in shown]
 
 
@@ -122,7 +125,7 @@ def timing_table(report: dict[str, Any]) -> Table:
         "Times in ms",
         ("", "median", "p99", "largest"),
         (
-            (title, *(number(report[name][key], ".2f") for key in ("p50", "p99", "max")))
+            (title, *(optional_number(report[name][key], ".2f") for key in ("p50", "p99", "max")))
             for name, title in TIMES.items()
         ),
         caption=f"{report['steps']} steps; {report['late_steps']} periods skipped; "

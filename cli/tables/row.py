@@ -1,7 +1,6 @@
-"""What came of a submission, and its row of a board as a person reads it in a terminal."""
+"""A board's row for a terminal."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final
 
 from rich.table import Table
@@ -18,22 +17,8 @@ UNRANKED: Final[dict[Section, str]] = {
     "out": "No rank: it was taken out of the ranking",
 }
 
-
-@dataclass(frozen=True, kw_only=True)
-class Outcome:
-    """A row, or why there is none."""
-
-    row: BoardRow | None = None
-    ranking: tuple[tuple[int, BoardRow], ...] = ()
-    """Rank group and row of all in its section of the season's table."""
-    section: Section = "ranking"
-    """The section that it is in."""
-    reason: str = ""
-    """Why there is no row."""
-    mend: bool = False
-    """Whether that is for the submitter to mend."""
-    next: str = ""
-    """What to look at."""
+SectionRow = tuple[Section, int, BoardRow]
+"""A row with its section of the season's table and its rank group there."""
 
 
 def row_table(row: BoardRow) -> Table:
@@ -52,7 +37,7 @@ def row_table(row: BoardRow) -> Table:
     )
 
 
-def standing(
+def row_text(
     row: BoardRow, ranking: Sequence[tuple[int, BoardRow]], section: Section = "ranking"
 ) -> str:
     """Return the lines that say where the row stands, and what its numbers rest on."""

@@ -153,9 +153,9 @@ def _check(entrant: Entrant, playing: Playing) -> None:
 
     for check in check_policy(entrant.policy, entrant.fresh, play):
         if check.name == MACHINE:
-            raise EvaluatorFault(check.told)
+            raise EvaluatorFault(check.message)
         if not check.ok:
-            raise InputError(f"the check of its {check.name} failed: {check.told}")
+            raise InputError(f"the check of its {check.name} failed: {check.message}")
 
 
 def episode_count(season: Season) -> int:

@@ -13,7 +13,7 @@ from .benchmark.bundle import Results
 from .benchmark.bundle.table import table_row
 from .benchmark.execution.runner import Run
 from .cli.printing import show
-from .cli.tables.results import results_table, standing
+from .cli.tables.results import results_table, results_text
 
 WIDTH = 100
 """Columns of the table as text."""
@@ -93,8 +93,8 @@ class Evaluation:
         return f"{evaluation_picture(self.run, self.results)}<pre>{html.escape(str(self))}</pre>"
 
     def _lines(self) -> list[str]:
-        told = [standing(self.results)]
+        lines = [results_text(self.results)]
         if self.failures:
             count, first = len(self.failures), self.failures[0]
-            told.append(f"{count} of {len(self.run.episodes)} lifts failed; the first, {first}")
-        return told
+            lines.append(f"{count} of {len(self.run.episodes)} lifts failed; the first, {first}")
+        return lines

@@ -78,7 +78,7 @@ def test_a_token_is_made_listed_and_revoked(board, colift):
     made = colift("token", "add", "ada", "--board", "board")
     assert Tokens(board).submitter(made.stdout.strip()) == "ada"
     assert "ada" in colift("token", "list", "--board", "board").stdout
-    assert "counts no more" in colift("token", "revoke", "ada", "--board", "board").stdout
+    assert "is revoked" in colift("token", "revoke", "ada", "--board", "board").stdout
     assert Tokens(board).submitter(made.stdout.strip()) is None
 
 

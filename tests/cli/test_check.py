@@ -124,12 +124,12 @@ FAILING = {
 
 
 @pytest.mark.parametrize("case", FAILING)
-def test_what_fails_is_told_with_the_reason(checked, case):
+def test_what_fails_is_reported_with_the_reason(checked, case):
     source, name, told = FAILING[case]
     found = checked(source)
     assert list(found)[-1] == name
     assert [each.name for each in found.values() if not each.ok] == [name]
-    assert told in found[name].told
+    assert told in found[name].message
 
 
 def test_a_failure_is_shown_with_what_was_printed_and_what_to_do(colift, mine):
@@ -137,7 +137,7 @@ def test_a_failure_is_shown_with_what_was_printed_and_what_to_do(colift, mine):
     done = colift("check", "mine", COLUMNS="60")
     lines = [line.strip() for line in done.stdout.splitlines()]
     assert "loud" in lines
-    assert lines[-1] == "1 check failed. Mend it, then: colift check mine"
+    assert lines[-1] == "1 check failed. Fix it, then: colift check mine"
     assert any(line.startswith("failed  lifts        smooth/S1 seed 7000") for line in lines)
     told, _, printed = done.stdout.partition("it printed:\n")
     assert all(len(line) <= 60 for line in told.splitlines())
@@ -159,8 +159,10 @@ def test_a_traceback_has_the_policys_own_files_and_lines_alone(checked, mine):
     ]
 
 
-def test_what_fails_on_import_is_told_with_its_line(checked):
-    assert "'gone' (policy.py, line 2)" in checked("\nraise KeyError('gone')\n")["interface"].told
+def test_what_fails_on_import_is_reported_with_its_line(checked):
+    assert (
+        "'gone' (policy.py, line 2)" in checked("\nraise KeyError('gone')\n")["interface"].message
+    )
 
 
 @pytest.mark.parametrize(
@@ -181,7 +183,7 @@ def test_chance_is_found(checked, source):
         + "    def act(self, observation): return [R.random() / 1000]\n"
     )
     assert not found["determinism"].ok
-    assert "goes another way from step 0 on" in found["determinism"].told
+    assert "goes another way from step 0 on" in found["determinism"].message
 
 
 def test_what_is_kept_from_one_lift_to_the_next_is_found(checked, mine):
@@ -198,24 +200,24 @@ def test_what_is_kept_from_one_lift_to_the_next_is_found(checked, mine):
         "    def act(self, observation): return [KEPT[0] / 1000]\n"
     )
     assert not found["determinism"].ok
-    assert "changing_goal/S4" in found["determinism"].told
+    assert "changing_goal/S4" in found["determinism"].message
 
 
 def test_millimetres_for_metres_are_warned_of(checked):
     found = checked(ACTING + "1000 * (o[0] - o[3])\n")
     assert all(each.ok for each in found.values())
     assert found["actions"].warning
-    assert " % were cut to 0.04 m a step" in found["actions"].told
-    assert "Are they in metres" in found["actions"].told
+    assert " % were cut to 0.04 m a step" in found["actions"].message
+    assert "Are they in metres" in found["actions"].message
     assert found["score"].warning
-    assert "Worse than copy (goes where the human was, " in found["score"].told
+    assert "Worse than copy (goes where the human was, " in found["score"].message
 
 
 def test_who_is_worse_than_one_that_never_moves_is_told(checked):
     score = checked(ACTING + "-1e-4\n")["score"]
     assert score.ok
     assert score.warning
-    assert "Worse than hold (never moves, " in score.told
+    assert "Worse than hold (never moves, " in score.message
 
 
 def test_a_plain_number_is_an_action_and_a_sound_policy_is_not_warned_of(checked):
@@ -224,17 +226,17 @@ def test_a_plain_number_is_an_action_and_a_sound_policy_is_not_warned_of(checked
 
 
 def test_the_templates_words_about_itself_are_to_be_replaced(checked, mine):
-    told = checked((mine / "policy.py").read_text())["manifest"].told
+    told = checked((mine / "policy.py").read_text())["manifest"].message
     assert told.endswith("Say in policy.toml who wrote it")
     own = FAILING["no act"][0]
-    told = checked(own)["manifest"].told
+    told = checked(own)["manifest"].message
     assert told.endswith("who wrote it and what it does (the description is the template's)")
     manifest = mine / "policy.toml"
     manifest.write_text(
         manifest.read_text().replace("Your Name", "Ada").replace("Takes away a fixed", "Takes a")
     )
     manifested = checked(own)["manifest"]
-    assert manifested.told == "mine by Ada; licence MIT"
+    assert manifested.message == "mine by Ada; licence MIT"
     assert not manifested.warning
 
 
@@ -245,13 +247,13 @@ def test_printing_much_is_warned_of(checked):
         + "    def act(self, o):\n        print('x' * 200)\n        return 0.0\n"
     )
     assert found["time"].warning
-    assert "It prints much" in found["time"].told
+    assert "It prints much" in found["time"].message
 
 
 def test_an_undeclared_package_fails_though_it_is_installed(checked, mine):
     found = checked((mine / "policy.py").read_text() + "import PIL\n")
     assert not found["packages"].ok
-    assert "policy.py imports PIL, which" in found["packages"].told
+    assert "policy.py imports PIL, which" in found["packages"].message
     assert found["score"].ok
 
 
@@ -268,7 +270,7 @@ def test_a_folder_that_is_no_submission_is_refused(mine, spoil, told):
     spoil(mine)
     (found,) = all_checks(mine, None, trusted=False, jobs=1)
     assert (found.name, found.ok) == ("files", False)
-    assert told in found.told
+    assert told in found.message
 
 
 def test_run_refuses_a_folder_that_is_no_submission(colift, mine):

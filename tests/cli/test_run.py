@@ -177,7 +177,7 @@ def test_an_interrupted_run_is_not_begun_anew(colift, slow, interrupted):
     code, _, told = colift("run", slow, "--suite", "quick-v1", "--out", interrupted)
     assert code == 2
     assert "lifts of an interrupted run; resume it, name another folder" in told
-    assert told.endswith("(--resume goes on with it)\n")
+    assert told.endswith("(--resume continues it)\n")
 
 
 def test_ctrl_c_in_the_baselines_keeps_the_run(tmp_path):
@@ -241,7 +241,7 @@ def test_a_run_whose_scheduler_dies_goes_on_elsewhere(slow, whole, tmp_path):
     assert process.returncode == 1
     assert told.startswith("error: ")
     assert f"lost the Dask scheduler {address}" in told
-    assert told.endswith("go on by the same command with --resume\n")
+    assert told.endswith("resume by the same command with --resume\n")
     assert told.count("\n") == 1
     assert run(*options, "--resume") == (0, "")
     assert timeless(bundle) == whole

@@ -132,7 +132,7 @@ def test_a_port_that_is_taken_is_named(serve):
         process, line = serve("--port", str(port), "--workers", "0")
         _, err = process.communicate(timeout=60)
     assert (process.returncode, line) == (2, "")
-    assert f"cannot listen at 127.0.0.1:{port}: port {port} is taken" in err
+    assert f"cannot listen on 127.0.0.1:{port}: port {port} is taken" in err
     assert "--port" in err
 
 
@@ -141,7 +141,7 @@ def test_an_address_that_is_not_here_is_named(serve):
     _, err = process.communicate(timeout=60)
     assert process.returncode == 2
     assert err.startswith(
-        "error: cannot listen at 192.0.2.1:8000: this machine has no such address"
+        "error: cannot listen on 192.0.2.1:8000: this machine has no such address"
     )
     assert len(err.splitlines()) == 1
 

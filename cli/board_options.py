@@ -1,0 +1,68 @@
+"""Options and opening of boards, shared by the commands of submitters and maintainers."""
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Final
+
+import typer
+
+from ..agents.sandbox.host.levels import VERIFIABLE
+from ..leaderboard.board.board import Board
+from ..leaderboard.evaluation.entrant import NoSandboxError, board_level
+from ..leaderboard.practice.shipped import open_stocked
+
+BOARD: Final = Path("board")
+"""The default folder."""
+
+BoardFolder = Annotated[
+    Path, typer.Option("--board", metavar="PATH", help="The board's folder, created if missing.")
+]
+SeasonName = Annotated[
+    str | None, typer.Option("--season", metavar="NAME", help="Season; default: the current one.")
+]
+Why = Annotated[str, typer.Option("--why", metavar="TEXT", help="The reason; it is public.")]
+BoardIsolation = Annotated[
+    str,
+    typer.Option(
+        "--isolation",
+        metavar="LEVEL",
+        help="Isolation of the submissions: auto (the strongest level that can be verified; "
+        "without one, submissions wait), bubblewrap, landlock, or limits (no sandbox: rows are "
+        "neither verified nor ranked).",
+    ),
+]
+
+
+@contextmanager
+def opened_board(folder: Path, opening: Callable[[Path], Board] = open_stocked) -> Iterator[Board]:
+    """Open the board in a folder while the body runs; see :func:`.open_stocked`."""
+    board = opening(folder)
+    try:
+        yield board
+    finally:
+        board.close()
+
+
+def report_isolation(isolation: str) -> None:
+    """Report on stderr how submissions are isolated, and why no stronger level is used.
+
+    Raises
+    ------
+    InputError
+        If there is no isolation of that name.
+    """
+    try:
+        choice = board_level(isolation)
+    except NoSandboxError as error:
+        print(
+            f"submissions are not evaluated here: {error}\n"
+            "They wait, and it is tried again every minute. To evaluate them without a sandbox, "
+            "for rows that are not verified and have no rank: --isolation limits",
+            file=sys.stderr,
+            flush=True,
+        )
+        return
+    note = "" if choice.level in VERIFIABLE else "; no sandbox: rows are not verified, not ranked"
+    print(f"{choice}{note}", file=sys.stderr, flush=True)
