@@ -58,7 +58,7 @@ def check_policy(make: Callable[[], Agent]) -> None:
     other.reset(4)
     together = []
     for view, elsewhere in zip(seen, others, strict=True):
-        together.append(np.asarray(one.act(view)).copy())
+        together.append(np.array(one.act(view), dtype=np.float64).reshape(1))
         other.act(elsewhere)
     _require(np.array_equal(together, alone), "two objects of the class must not share state")
     explaining = make()

@@ -1,4 +1,4 @@
-"""The package of docs/extending.md, installed as it stands there."""
+"""The package of ``docs/extending.md``, installed as it stands there."""
 
 import json
 import os
@@ -9,12 +9,12 @@ from pathlib import Path
 
 import pytest
 
-PAGE = Path(__file__).parents[1] / "docs" / "extending.md"
+PAGE = Path(__file__).parents[2] / "docs" / "extending.md"
 
 
 @pytest.fixture(scope="module")
-def colift(tmp_path_factory):
-    """Return a function that runs a command of colift where the package is installed."""
+def python(tmp_path_factory):
+    """Return a function that runs Python where the package is installed."""
     site = tmp_path_factory.mktemp("site")
     page = PAGE.read_text()
     for name, source in re.findall(r"^```python\n# (\S+)\n(.*?)^```", page, re.DOTALL | re.M):
@@ -29,7 +29,7 @@ def colift(tmp_path_factory):
 
     def run(*arguments):
         return subprocess.run(
-            [sys.executable, "-m", "colift", *arguments],
+            [sys.executable, *arguments],
             env={**os.environ, "PYTHONPATH": str(site)},
             capture_output=True,
             text=True,
@@ -40,14 +40,16 @@ def colift(tmp_path_factory):
     return run
 
 
-def test_the_list_has_all_of_it(colift):
-    listed = colift("list").stdout
-    for name in ("follow", "twice", "twice-v1"):
-        assert re.search(rf"^\W*{name}\b", listed, re.MULTILINE), listed
+def test_it_conforms(python):
+    code = "from my_package.test_conformance import *; test_everything_conforms()"
+    done = python("-c", code)
+    assert done.returncode == 0, done.stderr
 
 
-def test_the_command_of_the_page_uses_all_of_it(colift):
-    done = colift("run", "follow", "--suite", "twice-v1", "--isolation", "none", "--json")
+def test_the_command_of_the_page_uses_all_of_it(python):
+    command = ("run", "follow", "--suite", "twice-v1")
+    assert f"`colift {' '.join(command)}`" in PAGE.read_text()
+    done = python("-m", "colift", *command, "--isolation", "none", "--json")
     assert done.returncode == 0, done.stderr
     summary = json.loads(done.stdout)["summary"]
     assert summary["episodes"] == 4
