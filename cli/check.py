@@ -17,7 +17,7 @@ from ..agents.submissions.packages import undeclared
 from ..agents.submissions.submission import Submission, open_submission
 from ..benchmark.execution.runner import Run, run_suite
 from ..benchmark.suites.suite import Suite
-from ..benchmark.verification.checking import Check, check_policy
+from ..benchmark.verification.checking import Check, presubmission_checks
 from .options import AsJson, Jobs
 from .policies import AUTO, NONE, auto_level, usable_level
 from .printing import argument, print_json
@@ -89,7 +89,7 @@ def all_checks(folder: Path, level: str | None, trusted: bool, jobs: int | None)
         with workers(suite.name, suite.size, jobs) as (pool, progress):
             return run_suite(spec, suite, executor=pool, progress=progress)
 
-    yield from check_policy(policy, fresh, evaluate)
+    yield from presubmission_checks(policy, fresh, evaluate)
 
 
 def _files(submission: Submission) -> Iterator[Check]:

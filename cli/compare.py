@@ -20,7 +20,7 @@ from ..benchmark.comparison.contest import (
     Entry,
     Stored,
     amount,
-    check_suite,
+    check_same_suite,
     is_bundle,
     play_contest,
     read_stored,
@@ -80,7 +80,7 @@ def compare_policies(
         episodes = stored[0].suite
     else:
         episodes = chosen_suite(suite or STANDARD, seeds, recordings)
-    check_suite(stored, episodes)
+    check_same_suite(stored, episodes)
     for spec in specs.values():
         spec.check()
     if out is not None:

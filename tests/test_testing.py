@@ -5,10 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from colift.agents.errors import InputError
 from colift.agents.humans import Smooth
 from colift.agents.registry import SUITES, TASKS, entries, lookup
 from colift.benchmark.episode.level import LEVEL, Level
-from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.suites.suite import Suite, make_suite
 from colift.testing import check_behaviour, check_policy, check_suite, check_task
 
 
@@ -217,18 +218,16 @@ def test_a_suite_that_breaks_a_rule_is_refused():
         ({"seeds": (1, 1)}, "seeds must be distinct"),
         ({"seeds": (-1,)}, "must not be negative"),
         (
-            {
-                "scenarios": (
-                    first,
-                    dataclasses.replace(quick.scenarios[1], task=Unmeasured()),
-                )
-            },
-            "one task",
-        ),
-        (
             {"scenarios": (dataclasses.replace(first, subject=heavier),)},
             "does not rebuild it",
         ),
     ):
         with pytest.raises(AssertionError, match=rule):
             check_suite(dataclasses.replace(quick, **changes))
+
+
+def test_a_suite_has_one_task():
+    first, second, *_ = make_suite("quick-v1").scenarios
+    mixed = (first, dataclasses.replace(second, task=Unmeasured()))
+    with pytest.raises(InputError, match="suite 'mixed' must have one task, got 2"):
+        Suite(name="mixed", scenarios=mixed, seeds=(0,))

@@ -203,7 +203,7 @@ def read_stored(folder: Path) -> Stored:
     return Stored(folder=folder, entry=entry, suite=run.suite)
 
 
-def check_suite(stored: Sequence[Stored], suite: Suite) -> None:
+def check_same_suite(stored: Sequence[Stored], suite: Suite) -> None:
     """Raise an InputError if a bundle is of other lifts than those of a suite."""
     for each in stored:
         if each.suite.digest != suite.digest:

@@ -4,7 +4,7 @@ import functools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Final
+from typing import ClassVar, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,11 +15,8 @@ from . import metrics
 from .level_metrics import LEVEL_METRICS
 from .metric import Metrics, Scores
 from .smoothness import ldlj, sparc
-from .task import Bounds
-
-if TYPE_CHECKING:
-    from .lift import Lift
-    from .trace import Trace
+from .task import Bounds, Playing
+from .trace import Trace
 
 DROP_TILT: Final = math.radians(40)
 """A table inclined by more than this [rad] slides out of the hands."""
@@ -55,16 +52,16 @@ class Level:
     name: ClassVar[str] = "level"
     metrics: ClassVar[Metrics] = LEVEL_METRICS
 
-    def robot_observation(self, lift: "Lift") -> Observation:
+    def robot_observation(self, lift: Playing) -> Observation:
         """Return the robot's senses."""
         return lift.robot_view()
 
-    def human_observation(self, lift: "Lift") -> Observation:
+    def human_observation(self, lift: Playing) -> Observation:
         """Return the human's senses and the intended heights in the coming step."""
         frame = lift.frame
         return lift.human_view(lift.target[frame : frame + lift.frames_per_step])
 
-    def partner_observation(self, lift: "Lift") -> Observation:
+    def partner_observation(self, lift: Playing) -> Observation:
         """Return a second human's senses; its target is the height of the end that it sees."""
         return lift.partner_view(np.full(lift.frames_per_step, lift.seen_by_partner()))
 
@@ -86,14 +83,14 @@ class Level:
         low[HumanObservation.TIME] = 0.0
         return low, high
 
-    def rewards(self, lift: "Lift") -> tuple[float, float]:
+    def rewards(self, lift: Playing) -> tuple[float, float]:
         """Return ``-|Z1 - target| - |Z1 - Z2|`` and ``-|Z1 - Z2|`` [m], the integrand of eq. 10."""
         human = lift.world.human_end[-1]
         level = abs(human - lift.world.robot_end[-1])
         miss = abs(human - lift.target[lift.frame - 1])
         return -float(miss) - level, -level
 
-    def failure(self, lift: "Lift") -> str | None:
+    def failure(self, lift: Playing) -> str | None:
         """Return how the table was dropped in the step just made, or None."""
         world, size = lift.world, lift.frames_per_step
         if abs(world.human_end[-1] - world.robot_end[-1]) > TABLE_LENGTH * math.sin(DROP_TILT):
@@ -104,11 +101,11 @@ class Level:
             return "the table's end is out of the partner's reach"
         return None
 
-    def series(self, lift: "Lift") -> Mapping[str, NDArray[np.float64]]:
+    def series(self, lift: Playing) -> Mapping[str, NDArray[np.float64]]:
         """Return none: everything is in the fields of :class:`.Trace`."""
         return {}
 
-    def score(self, lift: "Lift", trace: "Trace", *, failed: bool) -> Scores:
+    def score(self, lift: Playing, trace: Trace, *, failed: bool) -> Scores:
         """Return the scores of :data:`.LEVEL_METRICS`.
 
         A failed episode keeps the frames it has for force and work; it has no smoothness and no
@@ -128,7 +125,7 @@ class Level:
             "human_work_j": nan if empty else metrics.human_work_j(felt, trace.human_velocity),
             "robot_lag_ms": nan if failed else metrics.robot_lag_ms(human, robot),
             "short_of_goal_mm": 1000 * (lift.plan.goal - float(human.max(initial=0.0))),
-            "clipped": lift.seat.clipped(trace.action, lift.step_limit),
+            "clipped": lift.clipped(trace.action),
         }
 
 

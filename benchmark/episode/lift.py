@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Final
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ...agents.actions import action_limit, checked_action
 from ...agents.agent import FRAME, HISTORY, HumanObservation, Observation
@@ -118,7 +118,7 @@ class Lift:
 
     def partner_observation(self) -> Observation:
         """Return the observation of the holder of the robot's end."""
-        return self.seat.observation(self)
+        return self.seat.observation(self.task, self)
 
     def human_observation(self) -> Observation:
         """Return the human's observation."""
@@ -169,6 +169,10 @@ class Lift:
     def seen_by_partner(self) -> float:
         """Return the height of the human's end [m] that a second human sees now."""
         return self.world.human_end[-1 - self._partner_delays[0]]
+
+    def clipped(self, actions: NDArray[np.float64]) -> float:
+        """Return the share of actions beyond the hands' speed; NaN for a second human."""
+        return self.seat.clipped(actions, self.step_limit)
 
     def _senses(
         self,

@@ -40,7 +40,7 @@ class Scenario:
     subject: Subject
     """The human."""
     partner: str = "nao"
-    """Holder of the robot's end: a name of :data:`.SEATS`."""
+    """Hands of the robot's end: a name of :data:`.SEATS`."""
     control_period: float = CONTROL_PERIOD
     """Time between two of the robot's decisions [s]."""
     latency: float = LATENCY

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,7 @@ from ...agents.agent import Observation
 from ...agents.humans import PARTNER_SUBJECT, Subject
 from ...robots.nao.kinematics import STROKE
 from ..world import BodyParameters, FarEnd, HumanFarEnd, NaoFarEnd
-
-if TYPE_CHECKING:
-    from .lift import Lift
+from .task import Playing, Task
 
 REFERENCE_RANGE: Final = (-0.2, 0.5)
 """Heights that a human's hand reference is clipped to [m]."""
@@ -78,10 +76,10 @@ class Seat(Protocol):
     def action_range(self, control_period: float) -> tuple[float, float]:
         """Return the lowest and the highest number of an action [m]."""
 
-    def commands(self, lift: "Lift", action: list[float]) -> list[float]:
+    def commands(self, lift: Playing, action: list[float]) -> list[float]:
         """Return the height to reach at the end of each frame of the step [m]."""
 
-    def observation(self, lift: "Lift") -> Observation:
+    def observation(self, task: Task, lift: Playing) -> Observation:
         """Return the holder's observation at the beginning of a step."""
 
     def clipped(self, actions: NDArray[np.float64], limit: float) -> float:
@@ -104,15 +102,15 @@ class NaoSeat:
         limit = action_limit(control_period)
         return -limit, limit
 
-    def commands(self, lift: "Lift", action: list[float]) -> list[float]:
+    def commands(self, lift: Playing, action: list[float]) -> list[float]:
         """Return a ramp from the present command, clipped to the hands' speed and stroke."""
         start, size = lift.command, lift.frames_per_step
         change = limited_command(start, action[0], lift.step_limit) - start
         return [start + change * (i + 1) / size for i in range(size)]
 
-    def observation(self, lift: "Lift") -> Observation:
+    def observation(self, task: Task, lift: Playing) -> Observation:
         """Return the task's observation of the robot."""
-        return lift.scenario.task.robot_observation(lift)
+        return task.robot_observation(lift)
 
     def clipped(self, actions: NDArray[np.float64], limit: float) -> float:
         """Return the share of changes that were faster than the hands."""
@@ -134,13 +132,13 @@ class HumanSeat:
         """Return the range of heights [m]."""
         return REFERENCE_RANGE
 
-    def commands(self, lift: "Lift", action: list[float]) -> list[float]:
+    def commands(self, lift: Playing, action: list[float]) -> list[float]:
         """Return the references, clipped to the range of heights."""
         return within_range(action)
 
-    def observation(self, lift: "Lift") -> Observation:
+    def observation(self, task: Task, lift: Playing) -> Observation:
         """Return the task's observation of a second human."""
-        return lift.scenario.task.partner_observation(lift)
+        return task.partner_observation(lift)
 
     def clipped(self, actions: NDArray[np.float64], limit: float) -> float:
         """Return NaN: no reference is out of a person's reach."""

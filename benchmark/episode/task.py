@@ -1,20 +1,55 @@
 """The seam of tasks: observations, rewards, end and scores of an episode."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...agents.agent import Observation
+from ...agents.humans import Plan
+from ..world import World
 from .metric import Metrics, Scores
-
-if TYPE_CHECKING:
-    from .lift import Lift
-    from .trace import Trace
+from .trace import Trace
 
 Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
 """Lowest and highest value of each number of an observation."""
+
+
+class Playing(Protocol):
+    """A lift in progress, as tasks and seats see it; :class:`.Lift` is the implementation."""
+
+    world: World
+    """The physical world, with its read-outs."""
+    frames_per_step: int
+    """Motion-capture frames per control period."""
+    step_limit: float
+    """Largest change of a robot's hand command in one step [m]."""
+    plan: Plan
+    """The human's private plan."""
+    target: NDArray[np.float64]
+    """(horizon,) the human's intended height at the end of each frame [m]."""
+    horizon: int
+    """Frames of the episode."""
+    frame: int
+    """Frames since its beginning."""
+    command: float
+    """The robot's hand command [m]."""
+
+    def robot_view(self) -> Observation:
+        """Return the robot's senses, laid out as :class:`.RobotObservation`."""
+
+    def human_view(self, target: Observation) -> Observation:
+        """Return the human's senses, laid out as :class:`.HumanObservation`, with a target [m]."""
+
+    def partner_view(self, target: Observation) -> Observation:
+        """Return the same of a second human at the robot's end."""
+
+    def seen_by_partner(self) -> float:
+        """Return the height of the human's end [m] that a second human sees."""
+
+    def clipped(self, actions: NDArray[np.float64]) -> float:
+        """Return the share of actions beyond the hands' speed; NaN for a second human."""
 
 
 class Task(Protocol):
@@ -33,13 +68,13 @@ class Task(Protocol):
     def metrics(self) -> Metrics:
         """Its metrics by name; the first is the leading one, ``rmse_mm``."""
 
-    def robot_observation(self, lift: "Lift") -> Observation:
+    def robot_observation(self, lift: Playing) -> Observation:
         """Return the robot's observation at the beginning of a step."""
 
-    def human_observation(self, lift: "Lift") -> Observation:
+    def human_observation(self, lift: Playing) -> Observation:
         """Return the human's observation at the beginning of a step."""
 
-    def partner_observation(self, lift: "Lift") -> Observation:
+    def partner_observation(self, lift: Playing) -> Observation:
         """Return the observation of a second human in the robot's place."""
 
     def robot_bounds(self) -> Bounds:
@@ -48,14 +83,14 @@ class Task(Protocol):
     def human_bounds(self, frames: int) -> Bounds:
         """Return the bounds of the two humans' observations, for ``frames`` frames per step."""
 
-    def rewards(self, lift: "Lift") -> tuple[float, float]:
+    def rewards(self, lift: Playing) -> tuple[float, float]:
         """Return the rewards of the human and of the robot for the step just made."""
 
-    def failure(self, lift: "Lift") -> str | None:
+    def failure(self, lift: Playing) -> str | None:
         """Return why the episode ends after the step just made, or None if it goes on."""
 
-    def series(self, lift: "Lift") -> Mapping[str, NDArray[np.float64]]:
+    def series(self, lift: Playing) -> Mapping[str, NDArray[np.float64]]:
         """Return the series that the task adds to a trace, (n,) each, one number per frame."""
 
-    def score(self, lift: "Lift", trace: "Trace", *, failed: bool) -> Scores:
+    def score(self, lift: Playing, trace: Trace, *, failed: bool) -> Scores:
         """Return the scores of a trace of the lift's current episode, one for each metric."""

@@ -118,5 +118,5 @@ class JointWorld(BulletWorld):
     @property
     def joint_arms(self) -> JointArms:
         """The NAO's arms."""
-        assert isinstance(self.holder, JointArms)
-        return self.holder
+        assert isinstance(self.hands, JointArms)
+        return self.hands

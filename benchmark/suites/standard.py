@@ -7,17 +7,17 @@ from .catalogue import make_scenario
 from .suite import BEHAVIOURS, Suite
 
 
-def standard() -> Suite:
+def standard_suite() -> Suite:
     """5 subjects x 4 behaviours x 15 lifts: the benchmark."""
     return _grid("standard-v1", BEHAVIOURS, 15)
 
 
-def paper() -> Suite:
+def paper_suite() -> Suite:
     """5 subjects x 10 smooth lifts: the paper's Table I."""
     return _grid("paper-v1", ("smooth",), 10)
 
 
-def quick() -> Suite:
+def quick_suite() -> Suite:
     """12 lifts, one stratum of each behaviour: a first look."""
     strata = zip(BEHAVIOURS, ("S1", "S2", "S3", "S5"), strict=True)
     scenarios = tuple(make_scenario(behaviour, subject) for behaviour, subject in strata)

@@ -26,11 +26,23 @@ BEHAVIOURS: Final = ("smooth", "pause", "jerky", "changing_goal")
 
 @dataclass(frozen=True, kw_only=True)
 class Suite:
-    """A named tuple of scenarios, each played with a tuple of seeds."""
+    """A named tuple of scenarios with one task, each played with a tuple of seeds.
+
+    Raises
+    ------
+    InputError
+        If there is no scenario, or they have different tasks.
+    """
 
     name: str
     scenarios: tuple[Scenario, ...]
     seeds: tuple[int, ...]
+
+    def __post_init__(self) -> None:
+        """Check that there is one task: its metrics are the columns of every table."""
+        tasks = {scenario.task for scenario in self.scenarios}
+        if len(tasks) != 1:
+            raise InputError(f"suite {self.name!r} must have one task, got {len(tasks)}")
 
     @property
     def size(self) -> int:

@@ -56,7 +56,7 @@ class Check:
     """Whether it is no failure, but something to look at."""
 
 
-def check_policy(
+def presubmission_checks(
     policy: AgentSpec, fresh: AgentSpec, evaluate: Callable[[AgentSpec, Suite], Run]
 ) -> Iterator[Check]:
     """Check a policy; the iterator ends early where the rest would tell nothing more.

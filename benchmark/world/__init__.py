@@ -6,7 +6,7 @@ from .nao_arms import NaoFarEnd
 from .physics import PHYSICS, Physics
 from .second_human import HumanFarEnd
 from .servo import SERVO, Servo
-from .world import HISTORY_FRAMES, FarEnd, Holder, World, since_reset
+from .world import HISTORY_FRAMES, FarEnd, Hands, World, since_reset
 
 __all__ = [
     "HISTORY_FRAMES",
@@ -15,7 +15,7 @@ __all__ = [
     "BodyParameters",
     "BulletWorld",
     "FarEnd",
-    "Holder",
+    "Hands",
     "HumanFarEnd",
     "NaoFarEnd",
     "Physics",

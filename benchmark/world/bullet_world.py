@@ -64,7 +64,7 @@ class BulletWorld:
             pybullet.setJointMotorControl2(
                 self._tree, joint, pybullet.VELOCITY_CONTROL, force=0, physicsClientId=self.client
             )
-        self.holder = far_end.hold(self.client, self._tree, physics)
+        self.hands = far_end.hold(self.client, self._tree, physics)
         inertia = TABLE_INERTIA + far_end.mass * TABLE_LENGTH**2
         implicit = 1 + self._step * GRIP_DAMPING / inertia / 2
         self._pitch_gain = GRIP_STIFFNESS / implicit
@@ -76,7 +76,7 @@ class BulletWorld:
         """Restore the state of rest; see :meth:`.World.reset`."""
         pybullet.restoreState(self._rest, physicsClientId=self.client)
         self._body.reset()
-        self.holder.reset()
+        self.hands.reset()
         self._reference = 0.0
         self._height = self._velocity = self._pitch = self._pitch_rate = 0.0
         self.human_end = [0.0] * HISTORY_FRAMES
@@ -85,7 +85,7 @@ class BulletWorld:
         self.robot_velocity = [0.0] * HISTORY_FRAMES
         self.human_force = [WEIGHT_SHARE] * HISTORY_FRAMES
         self.robot_force = [WEIGHT_SHARE] * HISTORY_FRAMES
-        self.hand_height = self.holder.hand_height(0.0)
+        self.hand_height = self.hands.hand_height(0.0)
 
     def advance(self, human_reference: Sequence[float], robot_reference: Sequence[float]) -> None:
         """Advance by as many frames as the references have entries; see :meth:`.World.advance`."""
@@ -93,7 +93,7 @@ class BulletWorld:
         share, weight, half = self._step / FRAME, mass * GRAVITY, TABLE_LENGTH / 2 / FRAME
         stiffness, damping = self._pitch_gain, self._pitch_rate_gain
         sin, cos = math.sin, math.cos
-        body, holder, begins = self._body, self.holder, self._begins
+        body, hands, begins = self._body, self.hands, self._begins
         control, states = pybullet.setJointMotorControlArray, pybullet.getJointStates
         step_engine = pybullet.stepSimulation
         human_end, robot_end = self.human_end, self.robot_end
@@ -108,11 +108,11 @@ class BulletWorld:
             reference = wanted + body.reflex(human_end, robot_end, human_force)
             change = reference - previous
             rate = change / FRAME
-            holder.prepare(command, robot_end, human_end, robot_force)
+            hands.prepare(command, robot_end, human_end, robot_force)
             first_velocity, first_pitch_rate, impulse = velocity, pitch_rate, 0.0
             for begin in begins:
                 arms = body.arm_force(previous + change * begin, rate, height, velocity)
-                far_arms = holder.drive(begin, far_height, far_velocity)
+                far_arms = hands.drive(begin, far_height, far_velocity)
                 torque = lever * far_arms - stiffness * pitch - damping * pitch_rate
                 forces = [arms + weight + far_arms, torque]
                 control(tree, _JOINTS, _TORQUE, forces=forces, physicsClientId=client)
@@ -135,7 +135,7 @@ class BulletWorld:
         self._reference = previous
         self._height, self._velocity = height, velocity
         self._pitch, self._pitch_rate = pitch, pitch_rate
-        self.hand_height = holder.hand_height(far_height)
+        self.hand_height = hands.hand_height(far_height)
 
     def state(self) -> tuple[float, ...]:
         """Return the last frame's read-outs; see :meth:`.World.state`."""

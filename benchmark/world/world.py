@@ -58,7 +58,7 @@ class World(Protocol):
         """Release the engine; the world cannot be used afterwards."""
 
 
-class Holder(Protocol):
+class Hands(Protocol):
     """The hands at the far end of the table, inside a world."""
 
     def reset(self) -> None:
@@ -105,7 +105,7 @@ class FarEnd(Protocol):
     def mass(self) -> float:
         """Mass that moves with the table's end [kg]."""
 
-    def hold(self, client: int, table: int, physics: Physics) -> Holder:
+    def hold(self, client: int, table: int, physics: Physics) -> Hands:
         """Grip the table in the engine ``client`` at the far end, and return the hands."""
 
 

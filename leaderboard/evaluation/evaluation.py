@@ -26,7 +26,7 @@ from ...benchmark.statistics import Estimate
 from ...benchmark.suites.suite import Suite, make_suite
 from ...benchmark.verification import verify
 from ...benchmark.verification.audit import audit, audited
-from ...benchmark.verification.checking import MACHINE, SUITE, check_policy
+from ...benchmark.verification.checking import MACHINE, SUITE, presubmission_checks
 from ..records.row import BoardRow, HiddenScores, PublicScores
 from ..records.season import Season
 from .entrant import Entrant
@@ -151,7 +151,7 @@ def _check(entrant: Entrant, playing: Playing) -> None:
             return run_suite(policy, suite, **playing)
         return run_suite(policy, suite, executor=playing["executor"])
 
-    for check in check_policy(entrant.policy, entrant.fresh, play):
+    for check in presubmission_checks(entrant.policy, entrant.fresh, play):
         if check.name == MACHINE:
             raise EvaluatorFault(check.message)
         if not check.ok:

@@ -182,16 +182,14 @@ def _check_scores(task: Task, episode: Episode) -> None:
 def check_suite(suite: Suite) -> None:
     """Check that a suite can be run, published and verified.
 
-    Its name is plain ASCII, scenarios have distinct names and one task, seeds are distinct, and
-    its recipe, which goes into result bundles, rebuilds it.
+    Its name is plain ASCII, scenarios have distinct names, seeds are distinct, and its recipe,
+    which goes into result bundles, rebuilds it.
     """
     _require(bool(suite.name) and plain_name(suite.name) == suite.name, "the name must be ASCII")
     names = [scenario.name for scenario in suite.scenarios]
     _require(len(set(names)) == len(names) > 0, "scenarios must have distinct names")
     _require(len(set(suite.seeds)) == len(suite.seeds) > 0, "seeds must be distinct")
     _require(min(suite.seeds) >= 0, "seeds must not be negative")
-    tasks = {scenario.task for scenario in suite.scenarios}
-    _require(len(tasks) == 1, "all scenarios must have one task: they share a table of metrics")
     _require(
         Recipe.of(suite) is not None,
         "its recipe does not rebuild it: behaviours, subjects and tasks must be registered, with "

@@ -174,7 +174,9 @@ def test_what_fails_the_check_is_played_no_further(season, team, tmp_path, act, 
 
 def test_what_fails_in_every_public_lift_gets_no_row(season, team, tmp_path, monkeypatch):
     """It passes the check: as if that were on other lifts."""
-    monkeypatch.setattr("colift.leaderboard.evaluation.evaluation.check_policy", lambda *_: ())
+    monkeypatch.setattr(
+        "colift.leaderboard.evaluation.evaluation.presubmission_checks", lambda *_: ()
+    )
     policy = written(tmp_path, "raise ValueError('my fault')")
     told = r"it fails in every public lift: 2 lifts: ValueError: my fault \(first: smooth/S1 seed 0"
     with pytest.raises(InputError, match=told):
@@ -222,7 +224,9 @@ def test_time_that_a_policy_takes_to_begin_and_to_fail_is_counted(season):
 def test_a_policy_that_acts_by_chance_in_public_is_refused_with_the_place(
     season, team, tmp_path, monkeypatch
 ):
-    monkeypatch.setattr("colift.leaderboard.evaluation.evaluation.check_policy", lambda *_: ())
+    monkeypatch.setattr(
+        "colift.leaderboard.evaluation.evaluation.presubmission_checks", lambda *_: ()
+    )
     policy = written(tmp_path, "return [os.urandom(1)[0] * 1e-6]")
     found = evaluate_entrant(make_entrant(policy), season, team, tmp_path / "bundle")
     assert found.row is None

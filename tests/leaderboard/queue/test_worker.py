@@ -92,7 +92,9 @@ def test_what_acts_by_chance_is_refused_with_the_reason(
     board, queue, write_submission, monkeypatch
 ):
     """It passes the check, as if that were on other lifts, but not the audit."""
-    monkeypatch.setattr("colift.leaderboard.evaluation.evaluation.check_policy", lambda *_: ())
+    monkeypatch.setattr(
+        "colift.leaderboard.evaluation.evaluation.presubmission_checks", lambda *_: ()
+    )
     job = queue.enqueue(board.keep(write_submission(REFUSED)), "Ada")
     done = Worker(WorkerQueue(queue.board)).once()
     assert done.state == "failed"
