@@ -1,7 +1,8 @@
-"""Where an agent comes from: the interface of specifications, and agents made in this process."""
+"""Specifications of agents: their interface, and the part that all in-process ones share."""
 
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
+from pathlib import Path
 from typing import Protocol, Self, runtime_checkable
 
 from threadpoolctl import threadpool_limits
@@ -10,7 +11,7 @@ from .agent import Agent
 
 
 class AgentSpec(Protocol):
-    """Where the agent at the robot's end comes from; goes to worker processes, so it is pickled.
+    """The origin of the agent at the robot's end; picklable, since it goes to worker processes.
 
     :class:`colift.agents.loading.loading.PolicySpec` is one.
     """
@@ -21,7 +22,7 @@ class AgentSpec(Protocol):
 
     @property
     def isolation(self) -> str:
-        """What keeps the agent from the process that scores; ``none`` if it acts inside it."""
+        """Isolation level of the agent; ``none`` if it acts in the process that scores."""
 
     def digest(self) -> str:
         """Return a hash of the agent's source."""
@@ -34,18 +35,34 @@ class AgentSpec(Protocol):
 
 
 @runtime_checkable
+class Portable(AgentSpec, Protocol):
+    """An agent that can be packaged for machines that do not share this one's files."""
+
+    @property
+    def files(self) -> Path | None:
+        """The file or folder with the agent's own code; None if all of it is installed."""
+
+    @property
+    def module(self) -> str:
+        """The installed module that the digest does not cover anew; empty if there is none."""
+
+    def moved(self, folder: Path) -> Self:
+        """Return the same agent with its files in another folder."""
+
+
+@runtime_checkable
 class Paced(Protocol):
     """An agent with time budgets that follow from the control period."""
 
     def paced(self, period: float) -> Self:
-        """Return the same agent with the budgets of a control period [s]."""
+        """Return the same agent with the time budgets of a control period [s]."""
 
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """Give linear algebra one thread, as it has in a sandbox: their number changes last bits.
+    """Limit linear algebra to one thread, as in a sandbox: the number changes the last bits.
 
-    It holds for the libraries that are loaded at the beginning.
+    Only libraries that are already loaded are limited.
     """
     with threadpool_limits(limits=1):
         yield
@@ -56,7 +73,7 @@ class InProcess:
 
     @property
     def isolation(self) -> str:
-        """What keeps the agent apart: nothing."""
+        """Isolation level: none."""
         return "none"
 
     def make(self) -> Agent:

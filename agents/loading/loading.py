@@ -107,6 +107,23 @@ class PolicySpec(InProcess):
         name, comma, parameters = rest.partition(",")
         return path + colon + name, comma, parameters
 
+    @property
+    def files(self) -> Path | None:
+        """The policy's file; None if its class is in an installed module."""
+        source, _, _ = self.parts[0].rpartition(":")
+        return Path(source) if source.endswith(".py") else None
+
+    @property
+    def module(self) -> str:
+        """Empty: :meth:`digest` reads an installed module wherever it is called."""
+        return ""
+
+    def moved(self, folder: Path) -> "PolicySpec":
+        """Return the same policy with its file in another folder."""
+        place, comma, parameters = self.parts
+        source, _, name = place.rpartition(":")
+        return PolicySpec(text=f"{folder / Path(source).name}:{name}{comma}{parameters}")
+
     def _values(self, policy: type) -> dict[str, Any]:
         """Return the values of the parameters that are given, by name."""
         place, comma, parameters = self.parts

@@ -6,7 +6,7 @@ import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
@@ -33,6 +33,20 @@ class TrustedSubmission(InProcess):
     source_digest: str
     parameters: str = ""
     """What is set of it: ``parameter=value,parameter=value``."""
+
+    @property
+    def files(self) -> Path:
+        """The folder."""
+        return self.folder
+
+    @property
+    def module(self) -> str:
+        """Empty: all code is in the folder."""
+        return ""
+
+    def moved(self, folder: Path) -> "TrustedSubmission":
+        """Return the same submission in another folder."""
+        return replace(self, folder=folder)
 
     def digest(self) -> str:
         """Return the hash of the folder."""

@@ -98,6 +98,9 @@ class Cluster(Executor):
         What :func:`.origin` is on every worker.
     """
 
+    shares_files: Final = False
+    """Policies must be packaged: the workers may be on machines without this one's files."""
+
     def __init__(self, client: Any, address: str, origin: Mapping[str, str]) -> None:
         self._client = client
         self._address = address

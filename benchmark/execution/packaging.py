@@ -1,4 +1,4 @@
-"""Takes a policy to machines that do not share a file system with this one."""
+"""Packaging of policies for machines that do not share a file system with this one."""
 
 import dataclasses
 import tempfile
@@ -13,41 +13,38 @@ import msgpack
 
 from ...agents.agent import Agent
 from ...agents.errors import EvaluatorFault, InputError
-from ...agents.loading.loading import PolicySpec
-from ...agents.sandbox.host.policy import SandboxedPolicy
-from ...agents.spec import AgentSpec, Paced
+from ...agents.spec import AgentSpec, Paced, Portable
 from ...agents.submissions.folder import read_folder
 from ...agents.submissions.modules import module_digest
 from ...agents.submissions.snapshot import snapshot, snapshot_file
-from ...agents.submissions.trusted import TrustedSubmission
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShippedPolicy:
+class PackagedPolicy:
     """A policy with its files inside, as :class:`.AgentSpec`: the same agent on every machine."""
 
     spec: AgentSpec
-    """The policy, where it comes from."""
+    """The policy on the machine where it was packaged."""
     name: str
     isolation: str
     source_digest: str
-    """The policy's digest, where it comes from."""
-    module_digest: str = ""
-    """The digest of the installed module that it is in; empty if it comes with its files."""
-    files: bytes = b""
-    """Its files, as msgpack: where in their folder each is, and its content."""
+    """The policy's digest there."""
+    installed_digest: str
+    """The digest of its installed code; other machines must have the same."""
+    packed_files: bytes = b""
+    """Its files as msgpack: pairs of the path in their folder and the content."""
     contents_digest: str = ""
-    """The digest of all files; empty if there is none."""
+    """The digest of all files; empty if there are none."""
 
     def digest(self) -> str:
         """Return the hash of the policy's source."""
         return self.source_digest
 
     def check(self) -> None:
-        """Do nothing: it was checked before it was shipped."""
+        """Accept it: it was checked before it was packaged."""
 
-    def paced(self, period: float) -> "ShippedPolicy":
-        """Return the same policy with the budgets of a control period [s]."""
+    def paced(self, period: float) -> "PackagedPolicy":
+        """Return the same policy with the time budgets of a control period [s]."""
         spec = self.spec.paced(period) if isinstance(self.spec, Paced) else self.spec
         return dataclasses.replace(self, spec=spec)
 
@@ -63,101 +60,85 @@ class ShippedPolicy:
         try:
             policy = _local(self)
         except (InputError, OSError) as error:
-            # Whoever plays an episode takes other errors for the policy's.
+            # Any other error would count as the policy's own failure.
             raise EvaluatorFault(str(error)) from error
         with policy.agent() as agent:
             yield agent
 
 
-def shipped(spec: AgentSpec) -> ShippedPolicy:
-    """Return a policy with its files, to be run by the same isolation everywhere.
+def packaged(spec: AgentSpec) -> PackagedPolicy:
+    """Return a policy with its files, to be run at the same isolation level everywhere.
 
-    Of ``file.py:Class`` the file alone is taken along, of a submission its folder; what is named
-    ``module:Class`` has to be installed over there.
+    Of ``file.py:Class`` the file alone is packaged, of a submission its folder; the module of
+    ``module:Class`` must be installed on the other machines.
 
     Raises
     ------
     InputError
-        If there is no such policy, or its files are more than a submission may be.
+        If there is no such policy, or its files are larger than a submission may be.
     """
-    if isinstance(spec, ShippedPolicy):
+    if isinstance(spec, PackagedPolicy):
         return spec
     spec.check()
-    source_digest, folder, module = spec.digest(), _folder(spec), ""
-    if isinstance(spec, SandboxedPolicy) and folder is None:
-        module = spec.place.rpartition(":")[0]
-    files, contents_digest = b"", ""
-    if folder is not None:
+    path, module = (spec.files, spec.module) if isinstance(spec, Portable) else (None, "")
+    source_digest, files, contents_digest = spec.digest(), b"", ""
+    if path is not None:
+        folder = snapshot_file(path)[0] if path.is_file() else path
         contents = read_folder(folder)
-        files = msgpack.packb([(path, (folder / path).read_bytes()) for path in contents.paths])
+        files = msgpack.packb([(name, (folder / name).read_bytes()) for name in contents.paths])
         contents_digest = contents.digest
-    return ShippedPolicy(
+    return PackagedPolicy(
         spec=spec,
         name=spec.name,
         isolation=spec.isolation,
         source_digest=source_digest,
-        module_digest=module_digest(module) if module else "",
-        files=files,
+        installed_digest=module_digest(module) if module else source_digest,
+        packed_files=files,
         contents_digest=contents_digest,
     )
 
 
-def _folder(spec: AgentSpec) -> Path | None:
-    """Return the folder with a policy's files, if it has files of its own."""
-    match spec:
-        case SandboxedPolicy(folder=folder) | TrustedSubmission(folder=folder):
-            return folder
-        case PolicySpec():
-            source, _, _ = spec.parts[0].rpartition(":")
-            return snapshot_file(Path(source))[0] if source.endswith(".py") else None
-    return None
-
-
 _moved: Final[dict[str, AgentSpec]] = {}
-"""The policies that this process has unpacked or looked at, as they are found here."""
+"""The policies that this process has unpacked or compared, as they are on this machine."""
 _moving: Final = threading.Lock()
 
 
-def _local(policy: ShippedPolicy) -> AgentSpec:
-    """Return the policy as it is found on this machine."""
-    key = f"{policy.spec!r} {policy.source_digest} {policy.contents_digest}"
+def _local(policy: PackagedPolicy) -> AgentSpec:
+    """Return the policy as it is on this machine."""
+    key = f"{policy.spec!r} {policy.installed_digest} {policy.contents_digest}"
     with _moving:
         if key not in _moved:
-            _moved[key] = _unpacked(policy) if policy.contents_digest else _same(policy)
+            _moved[key] = _found(policy)
         return _moved[key]
 
 
-def _unpacked(policy: ShippedPolicy) -> AgentSpec:
+def _found(policy: PackagedPolicy) -> AgentSpec:
+    spec = policy.spec
+    if policy.contents_digest and isinstance(spec, Portable):
+        return _with_files(policy, spec)
+    return _installed(policy, spec)
+
+
+def _with_files(policy: PackagedPolicy, spec: Portable) -> AgentSpec:
     """Return the policy with its files in a private folder of this machine."""
     with tempfile.TemporaryDirectory(prefix="colift-") as temporary:
-        for name, content in msgpack.unpackb(policy.files):
+        for name, content in msgpack.unpackb(policy.packed_files):
             place = Path(temporary, name)
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(content)
         folder, contents = snapshot(Path(temporary))
     if contents.digest != policy.contents_digest:
-        raise InputError(f"the files of policy {policy.name} have changed on the way")
-    match policy.spec:
-        case SandboxedPolicy() | TrustedSubmission():
-            return dataclasses.replace(policy.spec, folder=folder)
-        case PolicySpec():
-            place_, comma, parameters = policy.spec.parts
-            source, _, name = place_.rpartition(":")
-            moved = f"{folder / Path(source).name}:{name}{comma}{parameters}"
-            return PolicySpec(text=moved)
-    raise TypeError(f"a {type(policy.spec).__name__} has no files")
+        raise InputError(f"the files of policy {policy.name} were changed in transit")
+    return spec.moved(folder)
 
 
-def _same(policy: ShippedPolicy) -> AgentSpec:
+def _installed(policy: PackagedPolicy, spec: AgentSpec) -> AgentSpec:
     """Return the policy if this machine has the same one."""
-    spec = policy.spec
-    if isinstance(spec, SandboxedPolicy):
-        wanted, here = policy.module_digest, module_digest(spec.place.rpartition(":")[0])
-    else:
-        wanted, here = policy.source_digest, spec.digest()
-    if here != wanted:
+    module = spec.module if isinstance(spec, Portable) else ""
+    here = module_digest(module) if module else spec.digest()
+    if here != policy.installed_digest:
         raise InputError(
-            f"policy {policy.name} has digest {here} on a worker and {wanted} here: "
-            "install the same one"
+            f"policy {policy.name} has digest {here} on a worker, must have "
+            f"{policy.installed_digest}: install the same one"
         )
     return spec

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from ...agents.spec import AgentSpec
 from ..episode.episode import Episode
 from ..suites.suite import Suite
-from .cluster import Cluster
-from .packaging import shipped
+from .packaging import packaged
 from .tasks import Faults, gather, shuffled_tasks, tasks
 
 
@@ -49,7 +48,7 @@ def placed(policy: AgentSpec, executor: Executor | None) -> AgentSpec:
     InputError
         If there is no such policy, or its files are more than a submission may be.
     """
-    return shipped(policy) if isinstance(executor, Cluster) else policy
+    return policy if getattr(executor, "shares_files", True) else packaged(policy)
 
 
 def run_suite(

@@ -52,6 +52,20 @@ class SandboxedPolicy:
     size: int = 1
     """How many numbers its action is."""
 
+    @property
+    def files(self) -> Path | None:
+        """The submission's folder; None if the policy is in an installed module."""
+        return self.folder
+
+    @property
+    def module(self) -> str:
+        """The installed module that the policy is in; empty if it has a folder."""
+        return "" if self.folder else self.place.rpartition(":")[0]
+
+    def moved(self, folder: Path) -> "SandboxedPolicy":
+        """Return the same policy with its submission in another folder."""
+        return replace(self, folder=folder)
+
     def paced(self, period: float) -> "SandboxedPolicy":
         """Return the same policy with the budgets of a control period [s]."""
         return replace(self, limits=replace(self.limits, period=period))

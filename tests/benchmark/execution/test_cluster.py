@@ -19,7 +19,7 @@ from colift.benchmark.bundle.table import table_row
 from colift.benchmark.execution import cluster as cluster_module
 from colift.benchmark.execution import connecting
 from colift.benchmark.execution.connecting import dask_pool
-from colift.benchmark.execution.packaging import shipped
+from colift.benchmark.execution.packaging import packaged
 from colift.benchmark.execution.pool import process_pool
 from colift.benchmark.execution.provenance import origin
 from colift.benchmark.execution.runner import run_suite
@@ -130,14 +130,14 @@ def test_a_submission_with_many_weights_gives_the_same_bits(cluster, tmp_path):
     write_template(tmp_path / "heavy")
     (tmp_path / "heavy" / "weights.bin").write_bytes(os.urandom(20_000_000))
     spec = open_submission(tmp_path / "heavy").sandboxed(None)
-    run = run_suite(shipped(spec), SUITE, executor=cluster)
+    run = run_suite(packaged(spec), SUITE, executor=cluster)
     assert (told(run), run.faults) == (told(run_suite(spec, SUITE)), 0)
 
 
 def test_a_worker_that_dies_in_an_episode_changes_nothing_but_the_count(alone, cluster, tmp_path):
     path = tmp_path / "dying.py"
     path.write_text(DYING.format(once=str(tmp_path / "once")))
-    run = run_suite(shipped(PolicySpec(text=f"{path}:Dying")), SUITE, executor=cluster)
+    run = run_suite(packaged(PolicySpec(text=f"{path}:Dying")), SUITE, executor=cluster)
     assert told(run) == told(alone)
     assert run.faults >= 1
 
@@ -150,7 +150,7 @@ def test_all_workers_may_be_killed_in_mid_run(cluster, dask_address):
         while pids:
             os.kill(pids.pop(), signal.SIGKILL)
 
-    run = run_suite(shipped(SANDBOXED), LONGER, executor=cluster, progress=kill)
+    run = run_suite(packaged(SANDBOXED), LONGER, executor=cluster, progress=kill)
     assert pids == []
     assert told(run) == told(run_suite(COPY, LONGER))
     assert run.faults >= 1
@@ -163,7 +163,7 @@ def test_a_cluster_that_stays_without_workers_ends_the_run(bare_address, monkeyp
         dask_pool(bare_address) as connected,
         pytest.raises(EvaluatorFault, match=r"cannot go on: .* had no worker for"),
     ):
-        run_suite(shipped(COPY), LONGER, executor=connected, progress=lambda _: process.kill())
+        run_suite(packaged(COPY), LONGER, executor=connected, progress=lambda _: process.kill())
 
 
 def test_a_lost_scheduler_ends_the_run():
@@ -172,7 +172,7 @@ def test_a_lost_scheduler_ends_the_run():
             pid = client.run_on_scheduler(os.getpid)
         with pytest.raises(EvaluatorFault, match=f"lost the Dask scheduler {address}"):
             run_suite(
-                shipped(COPY),
+                packaged(COPY),
                 LONGER,
                 executor=connected,
                 progress=lambda _: os.kill(pid, signal.SIGKILL),

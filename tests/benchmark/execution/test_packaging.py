@@ -15,7 +15,7 @@ from colift.agents.sandbox.host.levels import strongest
 from colift.agents.sandbox.host.policy import SandboxedPolicy
 from colift.agents.submissions.new import write_template
 from colift.agents.submissions.submission import open_submission
-from colift.benchmark.execution.packaging import shipped
+from colift.benchmark.execution.packaging import packaged
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
 
@@ -86,20 +86,20 @@ def here(spec):
 
 def test_a_policy_of_ours_is_found_over_there(tmp_path):
     spec = PolicySpec(text="extrapolate,steps=1")
-    assert elsewhere(shipped(spec), tmp_path) == here(spec)
-    assert shipped(spec).files == b""
+    assert elsewhere(packaged(spec), tmp_path) == here(spec)
+    assert packaged(spec).packed_files == b""
 
 
 def test_a_file_travels_with_its_policy(file, tmp_path):
     spec = PolicySpec(text=f"{file}:Mine,gain=0.8")
-    wanted, policy = here(spec), shipped(spec)
+    wanted, policy = here(spec), packaged(spec)
     file.unlink()
     assert elsewhere(policy, tmp_path) == wanted
 
 
 def test_a_submission_travels_whole_and_is_isolated_as_it_was(submission, tmp_path):
     spec = submission.sandboxed(None)
-    wanted, policy = here(spec), shipped(spec)
+    wanted, policy = here(spec), packaged(spec)
     assert policy.spec.isolation == policy.isolation == spec.isolation == strongest()
     assert elsewhere(policy, tmp_path) == wanted
     weights = list(tmp_path.glob("colift/submissions/*/notes/weights.bin"))
@@ -108,44 +108,41 @@ def test_a_submission_travels_whole_and_is_isolated_as_it_was(submission, tmp_pa
 
 def test_a_trusted_submission_travels_too(submission, tmp_path):
     spec = submission.trusted()
-    assert elsewhere(shipped(spec), tmp_path) == here(spec)
+    assert elsewhere(packaged(spec), tmp_path) == here(spec)
 
 
 def test_a_sandboxed_module_is_found_over_there(tmp_path):
     spec = SandboxedPolicy(name="copy", place="colift.agents.policies.copy:Copy", source_digest="d")
-    assert elsewhere(shipped(spec), tmp_path) == here(spec)
+    assert elsewhere(packaged(spec), tmp_path) == here(spec)
 
 
-def test_what_does_not_exist_is_not_shipped():
+def test_what_does_not_exist_is_not_packaged():
     with pytest.raises(InputError, match="nonesuch"):
-        shipped(PolicySpec(text="nonesuch"))
+        packaged(PolicySpec(text="nonesuch"))
 
 
 def sandboxed_copy():
     return SandboxedPolicy(name="copy", place="colift.agents.policies.copy:Copy")
 
 
-@pytest.mark.parametrize(
-    ("spec", "digest"),
-    [(PolicySpec(text="copy"), "source_digest"), (sandboxed_copy(), "module_digest")],
-)
-def test_another_policy_of_that_name_is_the_machines_fault(spec, digest):
-    other = dataclasses.replace(shipped(spec), **{digest: "0" * 16})
-    with pytest.raises(EvaluatorFault, match="on a worker and 0000000000000000 here: install the"):
+@pytest.mark.parametrize("spec", [PolicySpec(text="copy"), sandboxed_copy()])
+def test_another_policy_of_that_name_is_the_machines_fault(spec):
+    other = dataclasses.replace(packaged(spec), installed_digest="0" * 16)
+    with pytest.raises(EvaluatorFault, match="on a worker, must have 0000000000000000: install"):
         run_suite(other, SUITE)
 
 
 def test_files_that_change_on_the_way_are_the_machines_fault(file):
-    policy = shipped(PolicySpec(text=f"{file}:Mine"))
-    ((name, content),) = msgpack.unpackb(policy.files)
+    policy = packaged(PolicySpec(text=f"{file}:Mine"))
+    ((name, content),) = msgpack.unpackb(policy.packed_files)
     files = msgpack.packb([(name, content.replace(b"1.0", b"1.1"))])
-    changed = dataclasses.replace(policy, files=files)
-    with pytest.raises(EvaluatorFault, match="the files of policy Mine have changed on the way"):
+    changed = dataclasses.replace(policy, packed_files=files)
+    with pytest.raises(EvaluatorFault, match="the files of policy Mine were changed in transit"):
         run_suite(changed, SUITE)
 
 
 def test_a_machine_without_room_for_the_files_is_at_fault(file, tmp_path, monkeypatch):
-    policy = shipped(PolicySpec(text=f"{file}:Mine,gain=0.7"))
+    policy = packaged(PolicySpec(text=f"{file}:Mine,gain=0.7"))
     Path(tmp_path / "full").write_bytes(b"")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "full"))
     with pytest.raises(EvaluatorFault, match="cannot write to"):
