@@ -1,4 +1,4 @@
-"""How to get libraries that come with an extra of colift."""
+"""Instructions for installing libraries of an extra of colift."""
 
 import json
 import shlex

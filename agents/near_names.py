@@ -1,4 +1,4 @@
-"""What a name that does not exist was meant to be."""
+"""Suggestions for misspelt names."""
 
 import difflib
 from collections.abc import Iterable

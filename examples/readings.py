@@ -1,4 +1,4 @@
-"""What the ambiguous places of the paper change: ``python examples/readings.py``."""
+"""The effect of the paper's ambiguous places: ``python examples/readings.py``."""
 
 import colift
 import numpy as np

@@ -1,4 +1,4 @@
-"""How far a prediction can be trusted: the paper's confidence (eqs. 6 and 7)."""
+"""The paper's confidence in a prediction (eqs. 6 and 7)."""
 
 import math
 from typing import Literal

@@ -1,4 +1,4 @@
-"""How far from a model samples are, judged by the misses of its own forecasts."""
+"""The distance of samples from a model, estimated from the misses of its own forecasts."""
 
 import math
 from collections import deque

@@ -1,4 +1,4 @@
-"""What the samples of a stroke so far say of the whole: a fit of the minimum-jerk movement."""
+"""A fit of the minimum-jerk movement to the samples of a stroke so far."""
 
 import math
 from dataclasses import dataclass

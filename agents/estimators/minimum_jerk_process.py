@@ -1,4 +1,4 @@
-"""How a hand goes on by least jerk from any state, and what is uncertain about it."""
+"""The least-jerk motion of a hand from any state, and its uncertainty."""
 
 import math
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""How far a prediction can be trusted, from the statistics of its residuals.
+"""Confidence in a prediction, from the statistics of its residuals.
 
 The paper derives its confidence (eqs. 6 and 7) from an earlier one "based on the statistical
 properties of the residuals between the predicted measurements and the observed measurements"

@@ -1,4 +1,4 @@
-"""Where one stroke ends and the next begins: the samples of the movement that is going on."""
+"""The window of the present stroke: the samples since the last rest or turning point."""
 
 import math
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""From the positions of markers to the heights of the table's ends: what is hidden, what is frozen.
+"""The heights of the table's ends, from the positions of markers: hidden and frozen ones included.
 
 The height of an end is the mean over its markers, as in the paper (section II.A). An end is not
 seen if one of its markers is not: because it is hidden (NaN), or because it is frozen. Some clients

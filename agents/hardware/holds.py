@@ -1,4 +1,4 @@
-"""How long the hands may be held: in one piece, or in all of the last seconds."""
+"""The budget of holds: in one piece, or in all of the last seconds."""
 
 from collections import deque
 from typing import Final

@@ -1,4 +1,4 @@
-"""Whether motion capture can be believed: not seen, too old, jumped, or against the encoders."""
+"""Plausibility of motion capture: invisible, too old, jumped, or against the encoders."""
 
 import math
 from collections import deque

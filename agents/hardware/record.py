@@ -1,4 +1,4 @@
-"""What a trial leaves behind: every frame and every step, in the order in which they came."""
+"""The record of a trial: every frame and every step, in the order in which they came."""
 
 import math
 from dataclasses import dataclass, field

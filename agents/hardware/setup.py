@@ -1,4 +1,4 @@
-"""From a robot that holds a table to a first trial: offsets, rest heights, and a small test move.
+"""The set-up before the first trial: offsets, rest heights, and a small test move.
 
 Every function raises :class:`.StopTrialError` if the operator stops or a connection is lost, and
 :class:`.InputError` if the set-up is wrong; the message says what to do.

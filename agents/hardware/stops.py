@@ -1,4 +1,4 @@
-"""Why a trial holds for a moment, and why it stops for good."""
+"""Reasons for holding a trial for a moment, and for stopping it for good."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -1,4 +1,4 @@
-"""When a trial is over."""
+"""The end of a trial."""
 
 from collections import deque
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""What every behaviour of one lift has in common: its height, its times, its natural strokes."""
+"""The draws that every behaviour shares: height, times, natural strokes."""
 
 from dataclasses import dataclass
 from typing import Self

@@ -1,4 +1,4 @@
-"""What can be set of a policy, in words: names, defaults, kinds, meanings."""
+"""The parameters of a policy in words: names, defaults, kinds, meanings."""
 
 import ast
 import inspect

@@ -1,4 +1,4 @@
-"""From what a user types to a policy."""
+"""Specifications of policies, made from the text that a user types."""
 
 import hashlib
 import importlib

@@ -1,4 +1,4 @@
-"""What the values of a manifest may be: one function a field, from what TOML has to what we keep.
+"""Validators for the fields of ``policy.toml``, one function per field.
 
 Each raises an InputError that says what would be right; :mod:`.manifest` says where.
 """

@@ -1,4 +1,4 @@
-"""What each part of `anticipate` is worth: the policy without it, on lifts with new people."""
+"""The value of each part of `anticipate`: the policy without it, on lifts with new people."""
 
 import dataclasses
 from collections.abc import Callable, Iterator, Sequence

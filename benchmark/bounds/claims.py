@@ -1,4 +1,4 @@
-"""What is claimed of `anticipate`, measured."""
+"""The claims about `anticipate`, measured."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

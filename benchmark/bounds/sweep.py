@@ -1,4 +1,4 @@
-"""What a faster or better-informed robot would gain: latency and control period, swept."""
+"""The gain of a faster or better-informed robot: a sweep of latency and control period."""
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor

@@ -1,4 +1,4 @@
-"""Where two contents differ."""
+"""The places at which two contents differ."""
 
 import math
 from collections.abc import Iterator

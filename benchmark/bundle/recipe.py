@@ -1,4 +1,4 @@
-"""What re-makes the episodes of a bundle."""
+"""The recipe from which the episodes of a bundle are made again."""
 
 import csv
 import io

@@ -1,4 +1,4 @@
-"""Which part of the plane of level and smooth is drawn to scale, and what lies beside it."""
+"""The part of a scatter plot that is drawn to scale, and the points beside it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

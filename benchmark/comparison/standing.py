@@ -1,4 +1,4 @@
-"""Where each policy stands among the others: on all episodes, on a behaviour, with a subject."""
+"""Estimates of each policy among the others: on all episodes, on a behaviour, with a subject."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What is measured in one episode: pure functions from recorded traces to one number each.
+"""Metrics of one episode: pure functions from recorded traces to one number each.
 
 Every trace is sampled at 100 Hz. Heights are displacements of the table's two ends [m] from its
 rest height: Z1 the human's end, Z2 the robot's. NaN stands for "this episode has none".

@@ -1,4 +1,4 @@
-"""What a trial says of a laboratory: latency, sag and noise, as numbers for the simulated world."""
+"""Estimates from a trial: a laboratory's latency, sag and noise, for the simulated world."""
 
 import math
 from collections.abc import Sequence

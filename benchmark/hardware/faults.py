@@ -1,4 +1,4 @@
-"""What can go wrong in the emulated laboratory, on request."""
+"""Faults of the emulated laboratory, on request."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

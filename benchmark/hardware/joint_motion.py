@@ -1,4 +1,4 @@
-"""What ALMotion does with joint commands, as far as it is documented: names, limits, 20 ms ticks.
+"""Joint commands of ALMotion, as far as documented: names, limits, 20 ms ticks.
 
 Sources: Aldebaran documentation, "Joint control API" and "Stiffness control API" of NAOqi 1.14 and
 2.8 (names, chains, blocking or not, units; ALMotion runs at 50 Hz), and "General tools API"

@@ -1,4 +1,4 @@
-"""From the record of a trial to an episode, with the metrics of the simulated ones.
+"""The episode of a recorded trial, with the metrics of the simulated ones.
 
 Motion capture knows heights, and nothing of forces or intentions: force, work, and how far the
 person meant to go have no value. Smoothness and lag are those of the filtered heights; see

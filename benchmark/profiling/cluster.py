@@ -1,4 +1,4 @@
-"""What many processes cost and bring: a Dask cluster, and verification, against the local pool."""
+"""Throughput of a Dask cluster and of verification, relative to the local pool."""
 
 import statistics
 import tempfile

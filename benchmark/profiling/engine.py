@@ -1,4 +1,4 @@
-"""How fast the benchmark is, as ratios of things measured in one run."""
+"""The speed of the benchmark, as ratios of figures measured in one run."""
 
 import resource
 import statistics

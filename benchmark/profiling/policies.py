@@ -1,4 +1,4 @@
-"""How long policies take to decide."""
+"""The time that policies take to decide."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What isolation costs, over the same policy in this process."""
+"""The cost of isolation, relative to the same policy in this process."""
 
 import contextlib
 import dataclasses

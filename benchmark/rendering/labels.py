@@ -1,4 +1,4 @@
-"""Where the labels of a scatter plot go: near their points, and over nothing.
+"""Label placement in a scatter plot: near their points, and over nothing else.
 
 Each label has some hundred places around its point. In turn, each moves to its cheapest place while
 the others stay, until none moves: a discrete gradient descent, as compared with others by

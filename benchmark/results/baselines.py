@@ -1,4 +1,4 @@
-"""What every result is set against: the human-human team, and the policies hold and copy.
+"""The baselines of every result: the human-human baseline, and the policies hold and copy.
 
 For the public suites the baselines are shipped, and with them the bounds (:mod:`.bounds`), which
 take minutes to play; for any other set of episodes they are played.

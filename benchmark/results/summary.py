@@ -1,4 +1,4 @@
-"""From episodes to the numbers of a results table."""
+"""The summary of a run: from episodes to the numbers of a results table."""
 
 import dataclasses
 import math

@@ -1,4 +1,4 @@
-"""What may be said from a sample of episodes: averages, intervals, tests and ranks.
+"""Statistics of a sample of episodes: averages, intervals, tests and ranks.
 
 The cells of a suite (subject x behaviour) are fixed; only the seeds within a cell are a sample. So
 episodes are resampled within their cell, never across, and an interval says how far another draw

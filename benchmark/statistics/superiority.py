@@ -1,4 +1,4 @@
-"""How sure it is that one policy is better than another, and how often it is.
+"""The probability that one policy is better than another, and how often it is.
 
 Better means smaller: the values are errors.
 

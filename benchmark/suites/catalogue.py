@@ -1,4 +1,4 @@
-"""From names to scenarios."""
+"""Scenarios, subjects and tasks by name."""
 
 from pathlib import Path
 

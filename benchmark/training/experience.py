@@ -1,4 +1,4 @@
-"""What a robot can learn anticipation from: lifts with simulated people, looked at again."""
+"""Training data for anticipation: lifts with simulated people, looked at again."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

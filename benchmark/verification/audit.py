@@ -1,4 +1,4 @@
-"""Whether a run's actions can be believed: sampled episodes are played again, and compared."""
+"""The audit of a run: sampled episodes are played again, and their actions compared."""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor

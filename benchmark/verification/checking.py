@@ -1,4 +1,4 @@
-"""What a policy is checked for before it is submitted: that it works, repeats itself, its score."""
+"""Pre-submission checks: interface, determinism, score, timing."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass

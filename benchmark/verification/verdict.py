@@ -1,4 +1,4 @@
-"""What a verification finds."""
+"""The outcome of a verification."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

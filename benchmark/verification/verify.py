@@ -1,4 +1,4 @@
-"""From a folder to a verdict."""
+"""Verification of a bundle: from a folder to a verdict."""
 
 import dataclasses
 import itertools

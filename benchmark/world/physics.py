@@ -1,4 +1,4 @@
-"""How finely the world is simulated."""
+"""Parameters of the simulation's step and solver."""
 
 from dataclasses import dataclass
 from typing import Final

@@ -1,4 +1,4 @@
-"""How the NAO's joints hold their position."""
+"""The servos that hold the NAO's joints in position."""
 
 from dataclasses import dataclass
 from typing import Final

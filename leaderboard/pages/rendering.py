@@ -1,4 +1,4 @@
-"""From a view to a page."""
+"""Pages from views, by Jinja templates."""
 
 import functools
 import io

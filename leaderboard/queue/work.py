@@ -1,4 +1,4 @@
-"""What a worker does with the queue: takes a job, tells how far it is, and brings it to an end.
+"""A worker's side of the queue: taking a job, reporting its progress, and ending it.
 
 A worker has a job for as long as it gives signs of life. Every change is one transaction that asks
 first whether the job is still its worker's; so whoever was given up and comes back changes nothing.

@@ -1,4 +1,4 @@
-"""What the scene looks like from the side: the NAO, the person and the table as flat shapes.
+"""The scene from the side: the NAO, the person and the table as flat shapes.
 
 Everything comes from the simulation's robot model and from the person of the pictures; the page
 only draws. Lengths are in m, x from the robot towards the human, z upwards; the origin is the

@@ -1,4 +1,4 @@
-"""What a robot is made of: shapes, links and joints, and their mirror images.
+"""The parts of a robot: shapes, links and joints, and their mirror images.
 
 Frames: x forward, y left, z up. Units: m, kg, kg m^2, rad, rad/s, N m.
 """

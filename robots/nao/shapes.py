@@ -1,4 +1,4 @@
-"""What the NAO looks like: boxes, cylinders and spheres for each link, and what it collides with.
+"""The NAO's shapes: boxes, cylinders and spheres for each link, and its collision shapes.
 
 The shapes are ours, drawn around the published joints by eye; no mesh and no outline of the maker
 is used. Only places that are facts (eyes, cameras, chest button, sole) come from the sensor frames

@@ -1,4 +1,4 @@
-"""What there is, by name."""
+"""Lists of the available policies, suites and behaviours."""
 
 from .agents.registry import HUMANS, POLICIES, SUITES, entries
 

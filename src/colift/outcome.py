@@ -1,4 +1,4 @@
-"""What came of an evaluation, to be read by people and programs."""
+"""The outcome of an evaluation, for people and programs."""
 
 import html
 import io

@@ -1,4 +1,4 @@
-"""What a sandboxed policy may see of the file system: a Python with its packages, and its folder.
+"""The visible files of a sandboxed policy: a Python with its packages, and the policy's folder.
 
 Of colift it is ``colift.agents`` without the humans: no suite, scenario, plan or seed.
 """
