@@ -54,7 +54,7 @@ class Printing(Protocol):
 class RobotObservation(IntEnum):
     """Index table of the robot's observation, version 1: everything that a robot policy perceives.
 
-    The two table ends come from motion capture: one sample a step, ``latency`` old, noisy.
+    The two table ends come from motion capture: one sample per step, ``latency`` old, noisy.
     The hand's height comes from its own encoders and is fresh.
     """
 

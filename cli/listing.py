@@ -1,4 +1,4 @@
-"""``colift list``: what there is."""
+"""``colift list``: policies, behaviours, subjects, tasks and suites."""
 
 from typing import Annotated
 

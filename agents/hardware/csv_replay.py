@@ -116,7 +116,7 @@ class RecordedDecider(Inline):
 
 
 def replay_trial(recording: TrialRecording, policy: Agent) -> Record:
-    """Play a recorded trial again, with a policy that has been reset; return what came of it."""
+    """Play a recorded trial again, with a policy that has been reset; return the outcome."""
     replay = CsvReplay(recording)
     record = recording.record
     settings = LoopSettings(period=record.period, latency=record.latency)

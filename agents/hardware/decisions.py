@@ -17,7 +17,7 @@ is for reading the robot and for the command."""
 
 @dataclass(frozen=True, kw_only=True)
 class Decision:
-    """What came of asking the policy once."""
+    """Outcome of asking the policy once."""
 
     action: float | None = None
     """Its change of the hand command [m], or None."""

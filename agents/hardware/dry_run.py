@@ -9,7 +9,7 @@ from .safety import next_command
 
 
 class DryArm:
-    """A :class:`.RobotArm` whose commands go nowhere: held to the limits and returned, not sent."""
+    """A :class:`.RobotArm` whose commands are clipped to the limits and returned, but not sent."""
 
     def __init__(self, arm: NaoqiArm) -> None:
         self._arm = arm
@@ -17,7 +17,7 @@ class DryArm:
 
     @property
     def limits(self) -> HandLimits:
-        """What commands are held to; the tilt of the table is not this policy's doing."""
+        """Limits of the commands; the tilt of the table is not this policy's doing."""
         return dataclasses.replace(self._arm.limits, tilt=math.inf)
 
     def state(self) -> ArmState:

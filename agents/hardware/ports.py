@@ -34,7 +34,7 @@ class ArmState(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class HandLimits:
-    """What a hand command is held to."""
+    """Limits of a hand command."""
 
     low: float
     """Lowest height [m]."""
@@ -130,7 +130,7 @@ class RobotArm(Protocol):
         Returns
         -------
         float
-            The height that was commanded [m]: the wanted one, held to the limits.
+            The height that was commanded [m]: the wanted one, clipped to the limits.
 
         Raises
         ------

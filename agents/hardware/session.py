@@ -72,7 +72,7 @@ class Session:
 
     @property
     def limits(self) -> HandLimits:
-        """What the trials are held to."""
+        """Limits of the trials."""
         return self.robot.limits
 
     def set_up(self) -> None:

@@ -21,7 +21,7 @@ WHOLE: Final = "*"
 """The name under which a module itself is referred to."""
 
 ROUNDS: Final = 4
-"""How far definitions are told apart by what they use, to put those of a module in order."""
+"""Rounds in which definitions are distinguished by those they use, to order a module's."""
 
 COLIFT: Final = __name__.partition(".")[0]
 

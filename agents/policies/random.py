@@ -18,7 +18,7 @@ class RandomParameters:
 class Random:
     """Moves up or down at random, whatever the human does.
 
-    The seed that a policy gets is the same in every episode (it must tell nothing of the
+    The seed that a policy gets is the same in every episode (it must not identify the
     episode), so the first observation, which carries the sensors' noise, is mixed into it.
     """
 

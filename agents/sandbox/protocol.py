@@ -206,7 +206,7 @@ class Channel:
 
     @property
     def partial(self) -> str:
-        """What there is of an unfinished frame, in words; empty if nothing."""
+        """The received part of an unfinished frame, in words; empty if nothing."""
         return f"sent {len(self._buffer)} bytes of an answer, then no more" if self._buffer else ""
 
     def receive(self) -> list[Any]:

@@ -60,7 +60,7 @@ def check_unfinished(folder: Path) -> None:
     Raises
     ------
     InputError
-        If it does, or if it cannot be told whether the bundle there is finished.
+        If it does, or if the state of the bundle there cannot be determined.
     """
     try:
         content = json.loads((folder / RESULTS).read_bytes())

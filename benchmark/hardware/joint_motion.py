@@ -89,7 +89,7 @@ def spread(value: Any, count: int, what: str) -> list[float]:
 
 
 def clipped(joint: str, angle: float) -> float:
-    """Return an angle held to the joint's limits [rad]."""
+    """Return an angle clipped to the joint's limits [rad]."""
     return min(max(angle, JOINTS[joint].lower), JOINTS[joint].upper)
 
 
@@ -136,7 +136,7 @@ class JointMotion:
                 self._moves[joint] = (clipped(joint, angle), fraction * JOINTS[joint].speed)
 
     def set_stiffness(self, names: Sequence[str], values: Sequence[float], time: float) -> None:
-        """Bring joints to stiffnesses, held to [0, 1], within a time [s]."""
+        """Bring joints to stiffnesses, clipped to [0, 1], within a time [s]."""
         with self._lock:
             for joint, value in zip(names, values, strict=True):
                 target = min(max(value, 0.0), 1.0)

@@ -1,6 +1,6 @@
 """The common look of pictures: colours and axes, one colour for each end of the table.
 
-Blue and vermillion are told apart with any kind of colour vision (M. Okabe and K. Ito, "Color
+Blue and vermillion are distinct with any kind of colour vision (M. Okabe and K. Ito, "Color
 universal design", 2008).
 """
 

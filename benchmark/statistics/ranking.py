@@ -1,4 +1,4 @@
-"""Ranks that say no more than the episodes do: policies that cannot be told apart share one."""
+"""Ranks that claim no more than the episodes show: indistinguishable policies share one."""
 
 from collections.abc import Mapping
 from typing import Final
@@ -12,7 +12,7 @@ from .samples import paired
 RankGroups = tuple[tuple[str, ...], ...]
 
 LEVEL: Final = 0.05
-"""Largest corrected p value at which two policies can be told apart."""
+"""Largest corrected p value at which two policies are distinguished."""
 
 
 def decisive(policies: int, episodes: int, *, level: float = LEVEL) -> bool:
@@ -35,13 +35,13 @@ def rank_groups(
     """Return the policies in groups, best first; those of a group share a rank.
 
     In the order of their means, the first policy is the anchor of the first group. Its paired
-    permutation tests against all policies behind it, Holm-corrected, say which can be told from
+    permutation tests against all policies behind it, Holm-corrected, show which differ from
     it. The policies up to the first that can join its group; that one is the next anchor, and so
     on. The anchor of a group never moves: if each were compared with its neighbour instead, small
     differences would chain, and the first and the last of a group could be far apart.
 
     So every policy in a group is one that the episodes cannot tell from the group's best, and
-    the anchors of two neighbouring groups can be told apart. Two policies of one group, or of
+    the anchors of two neighbouring groups are distinguishable. Two policies of one group, or of
     neighbouring groups, may still differ from each other either way: pairs are what
     :func:`.paired_difference` is for.
 
@@ -51,7 +51,7 @@ def rank_groups(
         Error of each policy in the same episodes in the same order, each of shape (n,); smaller is
         better. Episodes that failed are in it, with the worst error.
     level
-        Largest corrected p value at which two policies can be told apart.
+        Largest corrected p value at which two policies are distinguished.
     resamples, seed
         As for :func:`.paired_permutation_p`.
 

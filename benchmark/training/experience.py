@@ -48,7 +48,7 @@ class Timing:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Experience:
-    """What was seen, and what came of it; in single precision, as there is a lot of it."""
+    """Observations and their outcomes; in single precision, as there is a lot of it."""
 
     inputs: NDArray[np.float32]
     """(n, window.size) inputs of :class:`.FeatureHistory`."""

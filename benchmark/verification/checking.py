@@ -59,7 +59,7 @@ class Check:
 def presubmission_checks(
     policy: AgentSpec, fresh: AgentSpec, evaluate: Callable[[AgentSpec, Suite], Run]
 ) -> Iterator[Check]:
-    """Check a policy; the iterator ends early where the rest would tell nothing more.
+    """Check a policy; the iterator ends early where the rest would add nothing.
 
     Parameters
     ----------
@@ -185,7 +185,7 @@ def _worse(content: Results) -> str:
 
 
 def _actions(summary: Summary) -> Check:
-    """Tell how many actions were larger than the hands can go."""
+    """Report how many actions were larger than the hands can go."""
     share = summary.metrics["clipped"].mean
     if share is None:
         return Check(name="actions", ok=False, message="there is none")
@@ -198,7 +198,7 @@ def _actions(summary: Summary) -> Check:
 
 
 def _time(summary: Summary, episodes: Sequence[Episode]) -> Check:
-    """Tell whether a real robot, which does not wait, could run the policy; it need not."""
+    """Report whether a real robot, which does not wait, could run the policy; it need not."""
     p50, p99 = summary.step_ms.p50, summary.step_ms.p99
     if p50 is None or p99 is None:
         return Check(name="time", ok=False, message="no step came to an end")

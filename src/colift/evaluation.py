@@ -113,7 +113,7 @@ def evaluate(
     Returns
     -------
     Evaluation
-        What came of it: print it, or see its attributes.
+        The outcome: print it, or see its attributes.
 
     Raises
     ------

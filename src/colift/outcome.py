@@ -55,7 +55,7 @@ class Evaluation:
         )
 
     def rows(self) -> list[dict[str, object]]:
-        """Return one row a lift: who lifts, the seed, the scores, and why it failed, if it did."""
+        """Return one row per lift: subject, seed, scores, and the reason of a failure."""
         return [table_row(episode, self.run.suite.metrics) for episode in self.run.episodes]
 
     def to_frame(self) -> Any:

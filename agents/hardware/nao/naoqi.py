@@ -74,7 +74,7 @@ class NaoqiArm:
 
     @property
     def limits(self) -> HandLimits:
-        """What commands are held to; from the robot's own joint limits, the offset included."""
+        """Limits of the commands; from the robot's own joint limits, the offset included."""
         own, offset = self._limits, self.weight_offset
         low, high = max(own.low, own.low - offset), min(own.high, own.high - offset)
         return dataclasses.replace(own, low=low, high=high)

@@ -33,7 +33,7 @@ _QUANTITIES = ("position", "velocity", "acceleration")
 def derivatives(lift: SampledLift) -> tuple[Series, Series]:
     """Return velocity [m/s] and acceleration [m/s2] of the samples by central differences.
 
-    Both have shape (m,), one value a sample.
+    Both have shape (m,), one value per sample.
     """
     period = lift.scenario.control_period
     velocity = np.gradient(lift.samples, period)

@@ -32,7 +32,7 @@ MOVING: Final = 0.03
 
 @dataclass(frozen=True, kw_only=True)
 class TimingResult:
-    """What came of one setting; predictions only where there are any (NaN elsewhere)."""
+    """Outcome of one setting; predictions only where there are any (NaN elsewhere)."""
 
     policy: str
     control_period_s: float
