@@ -30,7 +30,16 @@ from ..benchmark.comparison.words import failures, oddities, verdict
 from ..benchmark.suites.suite import Suite
 from .completion import policies as named
 from .completion import suites
-from .options import STANDARD, AsJson, Jobs, Recordings, Seeds, check_folder, chosen_suite
+from .options import (
+    STANDARD,
+    AsJson,
+    Behaviours,
+    Jobs,
+    Recordings,
+    Seeds,
+    check_folder,
+    chosen_suite,
+)
 from .policies import choose_policy
 from .printing import print_json, show
 from .progress import reported_interrupt, workers
@@ -58,6 +67,7 @@ def compare_policies(
             autocompletion=suites,
         ),
     ] = None,
+    behaviour: Behaviours = None,
     seeds: Seeds = None,
     recordings: Recordings = None,
     bounds: Annotated[
@@ -76,10 +86,10 @@ def compare_policies(
 ) -> None:
     """Compare policies on the same lifts: ranks, paired differences, and RMSE per behaviour."""
     specs, stored = _named(policies or [], everything)
-    if stored and not (suite or seeds or recordings):
+    if stored and not (suite or seeds or recordings or behaviour):
         episodes = stored[0].suite
     else:
-        episodes = chosen_suite(suite or STANDARD, seeds, recordings)
+        episodes = chosen_suite(suite or STANDARD, seeds, recordings, behaviour)
     check_same_suite(stored, episodes)
     for spec in specs.values():
         spec.check()

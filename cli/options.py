@@ -1,6 +1,7 @@
 """Options that commands share: policies, suites, timing, worker processes and files to write."""
 
 import os
+from collections.abc import Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -12,7 +13,7 @@ from ..agents.errors import InputError
 from ..benchmark.execution.connecting import dask_pool
 from ..benchmark.execution.pool import JOBS, local_pool
 from ..benchmark.suites.suite import Suite, make_suite, recorded_suite
-from .completion import policies, suites
+from .completion import behaviours, policies, suites
 from .remedies import opened
 
 STANDARD: Final = "standard-v1"
@@ -46,6 +47,15 @@ Recordings = Annotated[
     Path | None,
     typer.Option(
         metavar="CSV", help="Recorded human motion (columns trial,t_s,z_m) instead of a suite."
+    ),
+]
+Behaviours = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--behaviour",
+        metavar="NAME",
+        help="Human behaviour instead of the suite's, from 'colift list'; repeatable.",
+        autocompletion=behaviours,
     ),
 ]
 PolicyIsolation = Annotated[
@@ -86,17 +96,23 @@ def seed_range(text: str) -> tuple[int, int]:
     return int(start), int(stop)
 
 
-def chosen_suite(name: str, seeds: str | None, recordings: Path | None) -> Suite:
-    """Return a suite by name, with other seeds if any are given, or the suite of recordings.
+def chosen_suite(
+    name: str, seeds: str | None, recordings: Path | None, behaviours: Sequence[str] | None = None
+) -> Suite:
+    """Return a suite by name, with other seeds or behaviours if given, or that of recordings.
 
     Raises
     ------
     InputError
-        If there is no such suite, or the file or the seeds cannot be used.
+        If there is no such suite or behaviour, or the file or the seeds cannot be used.
     """
     if recordings is None:
         suite = make_suite(name)
+        if behaviours:
+            suite = suite.with_behaviours(list(dict.fromkeys(behaviours)))
         return suite if seeds is None else suite.with_seeds(*seed_range(seeds))
+    if behaviours:
+        raise InputError("--behaviour and --recordings exclude each other: people move as recorded")
     if seeds is not None:
         raise InputError("--seeds and --recordings exclude each other: a recording has no seed")
     return recorded_suite(recordings)

@@ -25,6 +25,7 @@ from .options import (
     PERIOD_OPTION,
     STANDARD,
     AsJson,
+    Behaviours,
     Dask,
     Jobs,
     PolicyIsolation,
@@ -47,6 +48,7 @@ GO_ON: Final = "the finished lifts are kept: resume by the same command with --r
 def run(
     policy: PolicyName,
     suite: SuiteName = STANDARD,
+    behaviour: Behaviours = None,
     seeds: Seeds = None,
     recordings: Recordings = None,
     latency: Annotated[float | None, LATENCY_OPTION] = None,
@@ -70,7 +72,9 @@ def run(
 
     With --out, each lift is saved when it is finished, and an interrupted run can be resumed.
     """
-    episodes = chosen_suite(suite, seeds, recordings).with_timing(latency, control_period)
+    episodes = chosen_suite(suite, seeds, recordings, behaviour).with_timing(
+        latency, control_period
+    )
     if resume and out is None:
         raise InputError("--resume needs the --out of the run that was interrupted")
     if out is not None:

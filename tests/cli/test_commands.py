@@ -296,6 +296,7 @@ def test_alone_it_says_how_to_begin(colift):
         ("compare blend co", ["copy"]),
         ("list blen", ["blend"]),
         ("render blend --scenario pau", ["pause"]),
+        ("run blend --behaviour pau", ["pause"]),
         ("render blend --subject S5", ["S5"]),
         ("verif", ["verify"]),
     ],
