@@ -8,7 +8,7 @@ from rich.table import Table
 
 from ..agents.loading.loading import PolicySpec
 from ..benchmark.bounds.causal import BOUNDS
-from ..benchmark.bounds.claims import POLICY, RIVALS, Claim, claims
+from ..benchmark.bounds.claims import POLICY, RIVALS, PolicyClaim, claims
 from ..benchmark.bounds.held_out import FIRST_SEED, held_out_suite
 from ..benchmark.comparison.comparison import compare
 from ..benchmark.comparison.contest import amount, play_contest
@@ -51,7 +51,7 @@ def bounds(
         raise typer.Exit(1)
 
 
-def _table(found: tuple[Claim, ...]) -> Table:
+def _table(found: tuple[PolicyClaim, ...]) -> Table:
     return table(
         f"Claims of {POLICY}",
         ("what", "value", "95 %", "limit", "holds"),

@@ -16,12 +16,12 @@ from ..agents.errors import InputError
 from ..benchmark.execution.pool import checked_jobs, local_pool
 from ..benchmark.training.demonstrations import FIRST_SEED, LIFTS, read_demonstrations
 from ..benchmark.training.q_learning import LearningTrial, learning_trials, table_json
+from ..benchmark.training.scikit import import_sklearn
 from ..benchmark.training.task_model import (
     COMPONENTS,
-    PRACTICE_LIFTS,
+    TUNING_LIFTS,
+    fine_tune,
     learn_task,
-    practise,
-    require_learner,
 )
 from .demonstrate import record
 from .learn_anticipate import anticipate, learn_causal_bound
@@ -84,7 +84,7 @@ def task_model(
     seed: Annotated[int, typer.Option(help="Seed of the mixture's fit.")] = 0,
     practice: Annotated[
         int, typer.Option(metavar="N", help="Lifts to practise the impedance in.")
-    ] = PRACTICE_LIFTS,
+    ] = TUNING_LIFTS,
     out: Annotated[
         Path | None, typer.Option(metavar="FILE.json", help="Where to write the model.")
     ] = None,
@@ -93,14 +93,14 @@ def task_model(
     if practice < 1:
         raise InputError(f"--practice must be at least 1, got {practice}")
     check_output(out)
-    require_learner()
+    import_sklearn("mixture")
     if demonstrations is None:
         lifts = record(LIFTS, FIRST_SEED, None)
     else:
         lifts = list(read_demonstrations(demonstrations))
     task = learn_task(lifts, components=components, seed=seed)
     with progress_bar("practising", practice) as progress:
-        task = practise(task, practice, progress=progress)
+        task = fine_tune(task, practice, progress=progress)
     source = "" if demonstrations is None else f" --demonstrations {demonstrations.name}"
     command = (
         f"colift learn task_model{source} --components {components} --seed {seed} "

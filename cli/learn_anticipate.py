@@ -14,7 +14,7 @@ from ..benchmark.bounds import causal
 from ..benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
 from ..benchmark.execution.pool import local_pool
 from ..benchmark.training.anticipation import FIRST_SEED, HIDDEN, LIFTS, ROUNDS, learn_anticipation
-from ..benchmark.training.experience import Timing
+from ..benchmark.training.data import Timing
 from .options import Jobs, check_output, write_output
 from .printing import show, table
 from .progress import progress_bar

@@ -31,7 +31,7 @@ def paper(
 ) -> None:
     """Reproduce the paper: Table I, figures 4 to 9 and its claims, beside the published values."""
     # The report needs matplotlib, which is slow to load.
-    from ..benchmark.paper.evidence import Effort, amount, gather
+    from ..benchmark.paper.evidence import Effort, collect_evidence, lift_count
     from ..benchmark.paper.report import claims_json, make_report, write_report
     from ..benchmark.suites.suite import make_suite
 
@@ -40,9 +40,9 @@ def paper(
     check_folder("--out", out)
     with (
         reported_interrupt("no report was written"),
-        workers("paper", amount(suite, effort), jobs) as (pool, progress),
+        workers("paper", lift_count(suite, effort), jobs) as (pool, progress),
     ):
-        evidence = gather(suite, effort, executor=pool, progress=progress)
+        evidence = collect_evidence(suite, effort, executor=pool, progress=progress)
     report = make_report(evidence)
     write_report(report, out)
     if as_json:
@@ -54,7 +54,7 @@ def paper(
 
 def _summary(report: "Report") -> list[RenderableType]:
     """Return Table I and the list of the claims."""
-    from ..benchmark.paper.words import HEADER, table_notes, table_rows, verdict
+    from ..benchmark.paper.pages import HEADER, table_notes, table_rows, verdict
 
     titles = [HEADER[column].replace(": ", ":\n") for column in SHOWN]
     rows = [

@@ -15,8 +15,8 @@ from ..execution.runner import Run, run_suite
 from ..results.summary import stratum
 from ..statistics import Estimate, paired_difference
 from ..suites.suite import BEHAVIOURS, Suite
-from ..training.anticipation import HIDDEN, WAYS, Lesson, learned
-from ..training.experience import Experience, Timing
+from ..training.anticipation import CURRICULUM, HIDDEN, Lesson, learned
+from ..training.data import Timing, TrainingData
 from .causal import AnticipationSpec
 
 WHOLE: Final = "whole"
@@ -34,7 +34,7 @@ class Variant:
     """Units of its hidden layers."""
     first_round: bool = False
     """Whether it learns from the first round only."""
-    only: Sequence[str] = WAYS
+    only: Sequence[str] = CURRICULUM
     """Ways to move of the people that it learns from."""
     parameters: dict[str, Any] = field(default_factory=dict)
     """What differs in its parameters."""
@@ -42,7 +42,7 @@ class Variant:
     @property
     def learns(self) -> bool:
         """Whether it has to be fitted anew."""
-        return bool(self.window) or self.hidden != HIDDEN or self.only != WAYS
+        return bool(self.window) or self.hidden != HIDDEN or self.only != CURRICULUM
 
 
 VARIANTS: Final = (
@@ -94,22 +94,22 @@ def variants(first: Lesson, last: Lesson, *, seed: int = 0) -> Iterator[Anticipa
             model = first.model
         elif variant.learns:
             narrow = dataclasses.replace(window, **variant.window)
-            data = narrowed(moving(last.experience, variant.only), narrow)
+            data = narrowed(moving(last.data, variant.only), narrow)
             model = learned(data, narrow, Timing(), hidden=variant.hidden, provenance={})
         yield AnticipationSpec(name=variant.name, model=model, parameters=parameters)
 
 
-def narrowed(data: Experience, window: FeatureWindow) -> Experience:
+def narrowed(data: TrainingData, window: FeatureWindow) -> TrainingData:
     """Return experience as it would be with a narrower window: the first of its inputs."""
     return dataclasses.replace(data, inputs=data.inputs[:, : window.size])
 
 
-def moving(data: Experience, ways: Sequence[str]) -> Experience:
-    """Return the part of experience of :data:`.WAYS` in which people move in some of them."""
-    if ways == WAYS:
+def moving(data: TrainingData, ways: Sequence[str]) -> TrainingData:
+    """Return the part of experience of :data:`.CURRICULUM` in which people move in some of them."""
+    if ways == CURRICULUM:
         return data
-    chosen = np.isin(data.seeds % len(WAYS), [WAYS.index(way) for way in ways])
-    return Experience(
+    chosen = np.isin(data.seeds % len(CURRICULUM), [CURRICULUM.index(way) for way in ways])
+    return TrainingData(
         inputs=data.inputs[chosen], outcomes=data.outcomes[chosen], seeds=data.seeds[chosen]
     )
 

@@ -30,7 +30,7 @@ WINS: Final = 0.98
 
 
 @dataclass(frozen=True, kw_only=True)
-class Claim:
+class PolicyClaim:
     """A number, and what it has to be."""
 
     text: str
@@ -46,7 +46,7 @@ class Claim:
         return self.value >= self.limit if self.least else self.value <= self.limit
 
 
-def claims(contest: Contest) -> tuple[Claim, ...]:
+def claims(contest: Contest) -> tuple[PolicyClaim, ...]:
     """Return what a contest of the policy, its rivals and the bounds says to each claim.
 
     The causal bound and the rivals are needed, and the human-human team is always there. On
@@ -59,13 +59,13 @@ def claims(contest: Contest) -> tuple[Claim, ...]:
     bound, team = (
         np.array(other.rmse_mm) for other in (contest.bounds[CAUSAL_BOUND], contest.team)
     )
-    found: list[Claim] = []
+    found: list[PolicyClaim] = []
 
     def ratio(text: str, other: FloatArray, chosen: FloatArray, limit: float) -> None:
         some = [stratum for stratum, taken in zip(strata, chosen, strict=True) if taken]
         of = ratio_of_means(mine[chosen], other[chosen], some)
         text = f"RMSE over that of {text}"
-        found.append(Claim(text=text, value=of.mean, ci95=of.ci95, limit=limit))
+        found.append(PolicyClaim(text=text, value=of.mean, ci95=of.ci95, limit=limit))
 
     everything = np.full(len(strata), True)
     for behaviour in dict.fromkeys(behaviours.tolist()):
@@ -77,7 +77,7 @@ def claims(contest: Contest) -> tuple[Claim, ...]:
             ratio(f"blend, {behaviour}", blend, chosen, TO_BLEND)
         if behaviour == RECORDED:
             found.append(
-                Claim(
+                PolicyClaim(
                     text="share of the recorded lifts more level than with blend",
                     value=share_better(mine[chosen], blend[chosen]),
                     ci95=None,
@@ -90,7 +90,7 @@ def claims(contest: Contest) -> tuple[Claim, ...]:
     return (*found, *_kinder(entries, contest))
 
 
-def _kinder(entries: dict[str, Entry], contest: Contest) -> Iterator[Claim]:
+def _kinder(entries: dict[str, Entry], contest: Contest) -> Iterator[PolicyClaim]:
     """Yield the claims that it moves more smoothly, and is no harder on the human's hands."""
     for name in RIVALS:
         smoother = [_values(entries[other], "sparc") for other in (POLICY, name)]
@@ -99,7 +99,7 @@ def _kinder(entries: dict[str, Entry], contest: Contest) -> Iterator[Claim]:
             stratum for stratum, taken in zip(contest.team.strata, moved, strict=True) if taken
         ]
         difference = paired_difference(smoother[0][moved], smoother[1][moved], strata)
-        yield Claim(
+        yield PolicyClaim(
             text=f"SPARC minus that of {name}, paired",
             value=difference.mean,
             ci95=difference.ci95,
@@ -108,7 +108,7 @@ def _kinder(entries: dict[str, Entry], contest: Contest) -> Iterator[Claim]:
         )
     force = [_values(entries[other], "human_force_n") for other in (POLICY, "blend")]
     difference = paired_difference(force[0], force[1], contest.team.strata)
-    yield Claim(
+    yield PolicyClaim(
         text="rms force at the human's hands minus that with blend [N], paired",
         value=difference.mean,
         ci95=difference.ci95,

@@ -14,7 +14,7 @@ from ..execution.runner import Run, run_suite
 from ..results.baselines import human_team_run
 from ..suites.suite import Suite
 from ..training.anticipation import ROUNDS, learn_anticipation
-from ..training.experience import Timing
+from ..training.data import Timing
 from . import causal
 from .causal import AnticipationSpec
 from .oracle import ORACLE, oracle_run

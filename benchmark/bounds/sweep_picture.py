@@ -10,7 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ..episode.scenario import CONTROL_PERIOD, LATENCY
-from ..rendering.style import FAINT, HUMAN, INK, PAPER, ROBOT, plain
+from ..rendering.style import FAINT, HUMAN, INK, PAPER, ROBOT, style_axes
 from .causal import CAUSAL_BOUND
 from .oracle import ORACLE
 from .sweep import Swept
@@ -58,7 +58,7 @@ def sweep_figure(swept: Sequence[Swept], team: float, title: str) -> Figure:
 
 
 def _panel(axes: Axes, swept: Sequence[Swept], along: str, team: float) -> None:
-    plain(axes)
+    style_axes(axes)
     axes.set_xticks(sorted({1000 * getattr(each, along) for each in swept}))
     axes.axhline(team, color=HUMAN, lw=1.2, ls=(0, (4, 3)), label="human-human team")
     for name, (colour, line, marker) in LOOKS.items():

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
 
-from ..rendering.style import FAINT, HUMAN, INK, LINE, PAPER, ROBOT, SKY, plain
+from ..rendering.style import FAINT, HUMAN, INK, LINE, PAPER, ROBOT, SKY, style_axes
 from .comparison import Comparison
 from .names import LETTERS, MARKER, write_names
 from .scale import Box, Scale, Spot, make_scale, spots
@@ -41,7 +41,7 @@ def comparison_figure(
     scale = make_scale(drawn)
     figure = _framed(title, width, height)
     axes = figure.add_subplot()
-    plain(axes)
+    style_axes(axes)
     axes.set_xlim(scale.x[0], scale.right)
     axes.set_ylim(scale.bottom, scale.y[1])
     across = "RMSE of the height difference [mm]   (← more level)"

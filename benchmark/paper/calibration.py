@@ -28,7 +28,7 @@ from ...agents.policies.blend import Blend
 from ...agents.spec import AgentSpec
 from ..execution.runner import run_suite
 from ..suites.suite import Suite, make_suite
-from .table_one import HUMAN_TEAM, WITH_PREDICTION, WITHOUT_PREDICTION
+from .table_one import HUMAN_HUMAN_RMSE, WITH_PREDICTION, WITHOUT_PREDICTION
 
 TABLE_1: Final = {
     name: (WITHOUT_PREDICTION[name], WITH_PREDICTION[name]) for name in WITHOUT_PREDICTION
@@ -164,7 +164,7 @@ def _correct(fit: Fit) -> Calibration:
         amplitude[name] = round(height, 4)
     wanted = sum(row[1] for row in TABLE_1.values()) / sum(row[0] for row in TABLE_1.values())
     factor = math.exp((wanted - _ratio(fit)) / RATIO_SLOPE)
-    lag = old.partner_lag + (HUMAN_TEAM - fit.human_human) / LAG_SLOPE
+    lag = old.partner_lag + (HUMAN_HUMAN_RMSE - fit.human_human) / LAG_SLOPE
     return Calibration(
         amplitude=amplitude,
         process_noise=float(f"{old.process_noise * factor:.3g}"),

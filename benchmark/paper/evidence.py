@@ -45,7 +45,7 @@ class Effort:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Timing:
+class TimingSetting:
     """One setting of the comparison of control periods and latencies."""
 
     policy: str
@@ -65,7 +65,7 @@ class Evidence:
     """Table I with prediction."""
     lifts: list[SampledLift]
     """The lifts of ``blend``."""
-    team: Run
+    human_human: Run
     """Two humans on the lifts of Table I."""
     pauses: list[SampledLift]
     """Lifts that stop for 2 s on the way up."""
@@ -76,12 +76,12 @@ class Evidence:
     """Lifts in fits and starts."""
     forgetting: Mapping[float, Run]
     """Some of Table I's lifts with prediction, by forgetting factor."""
-    timing: Mapping[Timing, Run]
+    timing: Mapping[TimingSetting, Run]
     """Some of Table I's lifts, by policy, control period and latency."""
     learning: list[LearningTrial]
 
 
-def gather(
+def collect_evidence(
     suite: Suite,
     effort: Effort | None = None,
     *,
@@ -98,7 +98,7 @@ def gather(
     effort
         How much of each experiment.
     executor, progress
-        As for :func:`.run_suite`; :func:`amount` is what ``progress`` adds up to.
+        As for :func:`.run_suite`; :func:`lift_count` is what ``progress`` adds up to.
 
     Raises
     ------
@@ -114,7 +114,7 @@ def gather(
     jerky = behaving(suite, "jerky", Jerky(), effort.jerky)
     some = first_seeds(suite, effort.forgetting)
     timings = [
-        Timing(policy=policy, control_period=period, latency=latency)
+        TimingSetting(policy=policy, control_period=period, latency=latency)
         for policy, period, latency in itertools.product(
             ("reactive", "blend"), effort.periods, effort.latencies
         )
@@ -123,7 +123,7 @@ def gather(
         reactive=run(REACTIVE, suite),
         blend=blend,
         lifts=sampled_lifts(blend),
-        team=human_team_run(suite, executor=executor, progress=progress),
+        human_human=human_team_run(suite, executor=executor, progress=progress),
         pauses=sampled_lifts(run(BLEND, behaving(suite, "pause", PAUSE, effort.pause))),
         rests=sampled_lifts(run(BLEND, behaving(suite, "pause", LONG_PAUSE, effort.rest))),
         jerky_reactive=run(REACTIVE, jerky),
@@ -142,8 +142,8 @@ def gather(
     )
 
 
-def amount(suite: Suite, effort: Effort | None = None) -> int:
-    """Return the number of lifts and learning trials that :func:`gather` plays."""
+def lift_count(suite: Suite, effort: Effort | None = None) -> int:
+    """Return the number of lifts and learning trials that :func:`collect_evidence` plays."""
     effort = effort or Effort()
     subjects, seeds = len(suite.scenarios), len(suite.seeds)
     settings = 2 * len(effort.periods) * len(effort.latencies)

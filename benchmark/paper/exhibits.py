@@ -1,4 +1,4 @@
-"""Exhibits of the report: claims and pictures, and the look that all pictures share."""
+"""Claims and figures of the report, and the common look of the figures."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from ..rendering.style import HUMAN, INK, LINE, PAPER, ROBOT, plain
+from ..rendering.style import HUMAN, INK, LINE, PAPER, ROBOT, style_axes
 
 OUTSIDE = "The measured value lies outside the criterion."
 
@@ -39,7 +39,7 @@ class Claim:
             object.__setattr__(self, "note", OUTSIDE)
 
 
-def p_text(p: float) -> str:
+def p_value_text(p: float) -> str:
     """Return a p value as text; its floor is the number of resamples."""
     return f"p = {p:.4f}" if p >= 0.00015 else "p < 0.0002"
 
@@ -56,7 +56,7 @@ COLOURS: Final = {"human": HUMAN, "robot": ROBOT}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Picture:
+class Exhibit:
     """A figure of the report."""
 
     name: str
@@ -110,7 +110,7 @@ def panels(
     rows: list[list[Axes]] = [list(row) for row in grid]
     for row, label in zip(rows, labels, strict=True):
         for axes in row:
-            plain(axes)
+            style_axes(axes)
         row[0].set_ylabel(label, fontsize=9, color=INK)
     for axes in rows[-1]:
         axes.set_xlabel(x_label, fontsize=9, color=INK)

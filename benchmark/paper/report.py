@@ -14,16 +14,21 @@ import numpy as np
 
 from ..episode.episode import Episode
 from .evidence import Evidence
-from .exhibits import Claim, Picture
+from .exhibits import Claim, Exhibit
 from .pages import report_pages
 from .table_one import TableOne, table_one
-from .topics.confidence import confidence_claims, confidence_picture, pause_picture
-from .topics.forgetting import forgetting_claims, forgetting_picture
-from .topics.learning import learning_claims, learning_picture
-from .topics.performance import comparison_picture, error_limit, performance_claims, team_picture
-from .topics.prediction import prediction_claims, prediction_picture
-from .topics.table import table_claims, table_picture
-from .topics.timing import timing_claims, timing_picture, timing_results
+from .topics.confidence import confidence_claims, confidence_exhibit, pause_exhibit
+from .topics.forgetting import forgetting_claims, forgetting_exhibit
+from .topics.learning import learning_claims, learning_exhibit
+from .topics.performance import (
+    comparison_exhibit,
+    error_limit,
+    human_human_exhibit,
+    performance_claims,
+)
+from .topics.prediction import prediction_claims, prediction_exhibit
+from .topics.table import table_claims, table_exhibit
+from .topics.timing import timing_claims, timing_exhibit, timing_results
 from .watched import SampledLift
 
 PAGES: Final = ("report.html", "report.md", "claims.json")
@@ -35,7 +40,7 @@ class Report:
     """Everything that the pages show."""
 
     table: TableOne
-    pictures: list[Picture]
+    exhibits: list[Exhibit]
     claims: list[Claim]
     provenance: str
     """What the report was made from, in one line."""
@@ -43,11 +48,11 @@ class Report:
 
 def make_report(evidence: Evidence) -> Report:
     """Return the report of the evidence."""
-    table = table_one(evidence.reactive, evidence.blend, evidence.team)
+    table = table_one(evidence.reactive, evidence.blend, evidence.human_human)
     suite = evidence.blend.suite
     return Report(
         table=table,
-        pictures=all_pictures(evidence, table),
+        exhibits=all_exhibits(evidence, table),
         claims=all_claims(evidence, table),
         provenance=f"colift {version('colift')}, suite {suite.name}, digest {suite.digest}, "
         f"seeds {suite.seeds[0]} to {suite.seeds[-1]}, {table.lifts} lifts a subject and case",
@@ -62,28 +67,28 @@ def claims_json(report: Report) -> list[dict[str, Any]]:
 def write_report(report: Report, folder: Path) -> None:
     """Write the report into a folder: pages, claims, and a PNG and a CSV for each figure."""
     folder.mkdir(parents=True, exist_ok=True)
-    drawn = {picture.name: _png(picture) for picture in report.pictures}
-    for picture in report.pictures:
-        (folder / f"{picture.name}.png").write_bytes(drawn[picture.name])
-        _write_csv(folder / f"{picture.name}.csv", picture)
+    drawn = {exhibit.name: _png(exhibit) for exhibit in report.exhibits}
+    for exhibit in report.exhibits:
+        (folder / f"{exhibit.name}.png").write_bytes(drawn[exhibit.name])
+        _write_csv(folder / f"{exhibit.name}.csv", exhibit)
     pages = (
-        *report_pages(report.table, report.pictures, drawn, report.claims, report.provenance),
+        *report_pages(report.table, report.exhibits, drawn, report.claims, report.provenance),
         json.dumps(claims_json(report), indent=2, allow_nan=False, ensure_ascii=False) + "\n",
     )
     for name, content in zip(PAGES, pages, strict=True):
         (folder / name).write_text(content, encoding="utf-8")
 
 
-def _png(picture: Picture) -> bytes:
+def _png(exhibit: Exhibit) -> bytes:
     buffer = io.BytesIO()
     # Without the library's name and version in it, the same data give the same file.
-    picture.figure.savefig(buffer, format="png", metadata={"Software": None})
+    exhibit.figure.savefig(buffer, format="png", metadata={"Software": None})
     return buffer.getvalue()
 
 
-def _write_csv(path: Path, picture: Picture) -> None:
+def _write_csv(path: Path, exhibit: Exhibit) -> None:
     """Write the columns; those that end early, and missing values, leave their cells empty."""
-    columns = picture.columns
+    columns = exhibit.columns
     length = max(len(values) for values in columns.values())
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
@@ -98,7 +103,7 @@ def _cell(value: float | str) -> float | str:
     return "" if value != value else value
 
 
-def all_pictures(evidence: Evidence, table: TableOne) -> list[Picture]:
+def all_exhibits(evidence: Evidence, table: TableOne) -> list[Exhibit]:
     """Return all figures in the report's order.
 
     Where a figure shows one lift, it is the one with the median error of its experiment: neither
@@ -106,16 +111,17 @@ def all_pictures(evidence: Evidence, table: TableOne) -> list[Picture]:
     """
     shown = median_lift([lift.episode for lift in evidence.lifts])
     lift, reactive = evidence.lifts[shown], evidence.reactive.episodes[shown]
+    limit = error_limit(lift.episode, reactive)
     return [
-        table_picture(table),
-        prediction_picture(lift),
-        confidence_picture(lift),
-        pause_picture(_median(evidence.pauses)),
-        forgetting_picture(_median(evidence.rests)),
-        comparison_picture(lift.episode, reactive),
-        team_picture(evidence.team.episodes[shown], error_limit(lift.episode, reactive)),
-        learning_picture(evidence.learning),
-        timing_picture(timing_results(evidence.timing)),
+        table_exhibit(table),
+        prediction_exhibit(lift),
+        confidence_exhibit(lift),
+        pause_exhibit(_median(evidence.pauses)),
+        forgetting_exhibit(_median(evidence.rests)),
+        comparison_exhibit(lift.episode, reactive),
+        human_human_exhibit(evidence.human_human.episodes[shown], limit),
+        learning_exhibit(evidence.learning),
+        timing_exhibit(timing_results(evidence.timing)),
     ]
 
 

@@ -24,7 +24,7 @@ WITHOUT_PREDICTION: Final = {"S1": 19.139, "S2": 23.567, "S3": 24.872, "S4": 20.
 WITH_PREDICTION: Final = {"S1": 12.967, "S2": 16.591, "S3": 18.418, "S4": 15.391, "S5": 17.684}
 """Table I: average RMSE of each subject with the whole framework [mm]."""
 
-HUMAN_TEAM: Final = 6.531
+HUMAN_HUMAN_RMSE: Final = 6.531
 """RMSE of the one human-human team [mm] (section V.A)."""
 
 MEDIAN_ITERATIONS: Final = 36
@@ -44,7 +44,7 @@ FORGETTING_FACTORS: Final = (0.05, 0.25, 0.45, 0.65, 0.85, 0.95)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Cell:
+class Reproduction:
     """One number of the paper and ours."""
 
     paper: float
@@ -59,13 +59,13 @@ class Cell:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Row:
+class SubjectRow:
     """One subject, or all of them."""
 
     subject: str
-    reactive: Cell
+    reactive: Reproduction
     """RMSE without prediction [mm]."""
-    blend: Cell
+    blend: Reproduction
     """RMSE with prediction [mm]."""
     difference: Estimate
     """With minus without, over the same lifts [mm]."""
@@ -77,18 +77,18 @@ class Row:
 class TableOne:
     """The paper's Table I with ours next to it."""
 
-    rows: tuple[Row, ...]
-    mean: Row
+    rows: tuple[SubjectRow, ...]
+    mean: SubjectRow
     """All subjects together."""
-    ratio: Cell
+    ratio: Reproduction
     """Mean with prediction / mean without."""
-    team: Cell
+    human_human: Reproduction
     """RMSE of the human-human team [mm] (section V.A)."""
     lifts: int
     """Lifts in each of our cells."""
 
 
-def table_one(reactive: Run, blend: Run, team: Run) -> TableOne:
+def table_one(reactive: Run, blend: Run, human_human: Run) -> TableOne:
     """Return Table I from runs on the same suite, one scenario a subject."""
     subjects = [scenario.subject.name for scenario in blend.suite.scenarios]
     strata = [episode.subject for episode in blend.episodes]
@@ -97,10 +97,10 @@ def table_one(reactive: Run, blend: Run, team: Run) -> TableOne:
     paper_with = _mean(WITH_PREDICTION, subjects)
     ratio = ratio_of_means(with_it, without, strata)
 
-    def row(name: str, papers: tuple[float, float], members: Sequence[str]) -> Row:
+    def row(name: str, papers: tuple[float, float], members: Sequence[str]) -> SubjectRow:
         mask = np.isin(strata, members)
         cells = [subject for subject in strata if subject in members]
-        return Row(
+        return SubjectRow(
             subject=name,
             reactive=_cell(papers[0], without[mask], cells),
             blend=_cell(papers[1], with_it[mask], cells),
@@ -114,8 +114,8 @@ def table_one(reactive: Run, blend: Run, team: Run) -> TableOne:
             for subject in subjects
         ),
         mean=row("mean", (paper_without, paper_with), subjects),
-        ratio=Cell(paper=paper_with / paper_without, mean=ratio.mean, ci95=ratio.ci95),
-        team=_cell(HUMAN_TEAM, errors(team.episodes), strata),
+        ratio=Reproduction(paper=paper_with / paper_without, mean=ratio.mean, ci95=ratio.ci95),
+        human_human=_cell(HUMAN_HUMAN_RMSE, errors(human_human.episodes), strata),
         lifts=len(blend.suite.seeds),
     )
 
@@ -129,5 +129,6 @@ def _mean(column: dict[str, float], subjects: Sequence[str]) -> float:
     return float(np.mean([column[subject] for subject in subjects]))
 
 
-def _cell(paper: float, values: NDArray[np.float64], strata: Sequence[str]) -> Cell:
-    return Cell(paper=paper, mean=float(values.mean()), ci95=stratified_bootstrap(values, strata))
+def _cell(paper: float, values: NDArray[np.float64], strata: Sequence[str]) -> Reproduction:
+    ci95 = stratified_bootstrap(values, strata)
+    return Reproduction(paper=paper, mean=float(values.mean()), ci95=ci95)

@@ -31,7 +31,7 @@ POLICIES: Final = ("anticipate", "blend", "copy", "random")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Row:
+class PhysicsDeviation:
     """One setting of the physics against a reference."""
 
     physics: Physics
@@ -45,7 +45,7 @@ class Row:
     """Root mean square error of the two ends' heights [mm]."""
 
 
-def study() -> Iterator[Row]:
+def study() -> Iterator[PhysicsDeviation]:
     """Play the first seed of ``quick-v1`` with each policy and setting, and yield the errors."""
     for reference, settings in STUDIED.items():
         for policy in POLICIES:
@@ -58,11 +58,11 @@ def solver_error() -> float:
     return max(row.rmse_error for row in rows)
 
 
-def _errors(policy: str, reference: Physics, *settings: Physics) -> Iterator[Row]:
+def _errors(policy: str, reference: Physics, *settings: Physics) -> Iterator[PhysicsDeviation]:
     exact_rmse, exact_heights = _play(policy, reference)
     for physics in settings:
         rmse, heights = _play(policy, physics)
-        yield Row(
+        yield PhysicsDeviation(
             physics=physics,
             reference=reference,
             policy=policy,

@@ -22,7 +22,7 @@ def letters(size: int, *, bold: bool = False) -> ImageFont.FreeTypeFont:
     return ImageFont.truetype(Path(matplotlib.get_data_path(), "fonts", "ttf", name), size)
 
 
-def title(episode: Episode, policy: str, width: int, height: int) -> Image.Image:
+def title_strip(episode: Episode, policy: str, width: int, height: int) -> Image.Image:
     """Return a strip that says which lift it is, and its RMSE in mm (and whether it failed)."""
     picture = Image.new("RGB", (width, height), PAPER)
     pen = ImageDraw.Draw(picture)

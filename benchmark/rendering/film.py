@@ -12,7 +12,7 @@ from ...agents.agent import FRAME
 from ...agents.errors import InputError
 from ..episode.episode import Episode
 from ..episode.scenario import Scenario
-from .caption import PARTNERS, readout, title
+from .caption import PARTNERS, readout, title_strip
 from .curves import Curves
 from .scene import Picture, Scene
 from .style import PAPER
@@ -72,7 +72,7 @@ def frames(
     partner = scenario.partner
     shown = shown_frames(episode, fps)
     page = Image.new("RGB", (WIDTH, TITLE + SCENE + CURVES), PAPER)
-    page.paste(title(episode, policy, WIDTH, TITLE))
+    page.paste(title_strip(episode, policy, WIDTH, TITLE))
     curves = Curves(episode.trace, WIDTH, CURVES, partner=PARTNERS[partner])
     with closing(Scene(partner)) as scene:
         for frame in shown:
@@ -83,7 +83,7 @@ def frames(
             yield np.asarray(page).copy()
 
 
-def still(episode: Episode, scenario: Scenario, policy: str) -> Picture:
+def still_picture(episode: Episode, scenario: Scenario, policy: str) -> Picture:
     """Return one picture of a lift: three moments side by side, and the curves under them.
 
     The moments are the start, the human's highest and that of the largest difference; of a failed
@@ -104,7 +104,7 @@ def still(episode: Episode, scenario: Scenario, policy: str) -> Picture:
         moments = [shown[0], shown[len(shown) // 2], shown[-1]]
     size = (STILL_WIDTH, STILL_TITLE + STILL_SCENE + STILL_CURVES)
     page = Image.new("RGB", size, PAPER)
-    page.paste(title(episode, policy, STILL_WIDTH, STILL_TITLE))
+    page.paste(title_strip(episode, policy, STILL_WIDTH, STILL_TITLE))
     step = (STILL_WIDTH + GUTTER) // len(moments)
     with closing(Scene(partner)) as scene:
         for column, frame in enumerate(moments):
@@ -145,7 +145,7 @@ def film_episode(
     check_film(path)
     shown_frames(episode, fps)
     if path.suffix == ".png":
-        pictures = iter((still(episode, scenario, policy),))
+        pictures = iter((still_picture(episode, scenario, policy),))
     else:
         pictures = frames(episode, scenario, policy, fps=fps)
     write(path, _told(pictures, drawn), fps)

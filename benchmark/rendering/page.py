@@ -54,11 +54,11 @@ def render(package: str, template: str, **content: Any) -> str:
     content
         What the template shows, by name.
     """
-    return environment(package).get_template(template).render(**content)
+    return templates(package).get_template(template).render(**content)
 
 
 @functools.cache
-def environment(package: str) -> Environment:
+def templates(package: str) -> Environment:
     """Return the templates of a package, which can extend and import those of this one."""
     made = Environment(
         loader=ChoiceLoader([PackageLoader(each, "templates") for each in (package, __package__)]),

@@ -24,7 +24,7 @@ def rgba(colour: str) -> tuple[float, float, float, float]:
     return red, green, blue, 1.0
 
 
-def plain(axes: "Axes") -> None:
+def style_axes(axes: "Axes") -> None:
     """Give axes the common look."""
     axes.grid(color=LINE, linewidth=0.7)
     axes.set_axisbelow(True)

@@ -6,8 +6,6 @@ give in to the robot, so that they move a little differently with each policy. I
 the robot extrapolates, in each further one it anticipates with what was learned from all before.
 """
 
-import importlib
-import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from functools import partial
@@ -20,12 +18,12 @@ from numpy.typing import NDArray
 from ...agents.control.anticipation import Anticipation, FeatureWindow
 from ...agents.errors import InputError
 from ...agents.estimators.perceptron import Perceptron
-from ...agents.extras import how_to_install
 from ...agents.policies.anticipate import AnticipateParameters
 from ..suites.suite import BEHAVIOURS
-from .experience import LEADS, ROAMING, Experience, Timing, experience
+from .data import LEADS, ROAMING, Timing, TrainingData, training_data
+from .scikit import import_sklearn, reproducible_fit
 
-WAYS: Final = (*BEHAVIOURS, ROAMING)
+CURRICULUM: Final = (*BEHAVIOURS, ROAMING)
 """How the people move that are learned from, in turn."""
 
 FIRST_SEED: Final = 100_000
@@ -54,7 +52,7 @@ CHUNK: Final = 100_000
 
 
 def fit(
-    data: Experience, *, hidden: Sequence[int] = HIDDEN, seed: int = 0
+    data: TrainingData, *, hidden: Sequence[int] = HIDDEN, seed: int = 0
 ) -> tuple[Perceptron, NDArray[np.float64]]:
     """Fit a perceptron to experience, by Adam on the mean squared error; a line, exactly.
 
@@ -71,19 +69,18 @@ def fit(
     InputError
         If scikit-learn is not installed.
     """
-    learner, threads = _learner()
+    neural_network = import_sklearn("neural_network")
     centre = data.inputs.mean(axis=0, dtype=np.float64)
     spread = data.inputs.std(axis=0, dtype=np.float64) + 1e-9
     inputs = ((data.inputs - centre) / spread).astype(np.float32)
-    with threads.threadpool_limits(1), warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)  # Its ConvergenceWarning: stages end early.
+    with reproducible_fit():
         affine = np.hstack((inputs, np.ones((len(inputs), 1), np.float32)))
         normal = affine.T @ affine + np.eye(affine.shape[1])
         line = np.linalg.solve(normal, affine.T @ data.outcomes)
         gain = (data.outcomes - affine @ line).std(axis=0, dtype=np.float64) + 1e-9
         weights, biases = [line[:-1] / gain], [line[-1] / gain]
         if hidden:
-            network = learner.MLPRegressor(
+            network = neural_network.MLPRegressor(
                 hidden_layer_sizes=tuple(hidden),
                 batch_size=min(BATCH, len(inputs)),
                 warm_start=True,
@@ -108,7 +105,7 @@ def fit(
     return perceptron, np.sqrt(squares / len(inputs))
 
 
-def gather(
+def collect_training_data(
     seeds: range,
     *,
     model: Anticipation | None,
@@ -118,8 +115,8 @@ def gather(
     parameters: AnticipateParameters | None = None,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
-) -> Experience:
-    """Return the experience of lifts on these seeds; see :func:`.experience`.
+) -> TrainingData:
+    """Return the experience of lifts on these seeds; see :func:`.training_data`.
 
     Raises
     ------
@@ -134,7 +131,7 @@ def gather(
             f"got {seeds[0]} to {seeds[-1]}"
         )
     play = partial(
-        experience,
+        training_data,
         model=model,
         window=window,
         behaviours=behaviours,
@@ -145,14 +142,14 @@ def gather(
     for part in map(play, seeds) if executor is None else executor.map(play, seeds, chunksize=8):
         parts.append(part)
         progress(1)
-    return Experience.join(parts)
+    return TrainingData.join(parts)
 
 
 class Lesson(NamedTuple):
     """What a round of learning led to."""
 
     model: Anticipation
-    experience: Experience
+    data: TrainingData
     """All that it was learned from."""
 
 
@@ -165,7 +162,7 @@ def learn_anticipation(
     first_seed: int = FIRST_SEED,
     partner: Anticipation | None = None,
     parameters: AnticipateParameters | None = None,
-    behaviours: Sequence[str] = WAYS,
+    behaviours: Sequence[str] = CURRICULUM,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
 ) -> Iterator[Lesson]:
@@ -195,16 +192,16 @@ def learn_anticipation(
     Raises
     ------
     InputError
-        If scikit-learn is not installed, or as :func:`gather`.
+        If scikit-learn is not installed, or as :func:`collect_training_data`.
     """
-    _learner()
+    import_sklearn("neural_network")
     timing = timing or Timing()
     window = window_for(timing)
     model = partner
-    data: Experience | None = None
+    data: TrainingData | None = None
     for number in range(rounds):
         first = first_seed + number * lifts
-        part = gather(
+        part = collect_training_data(
             range(first, first + lifts),
             model=model,
             window=window,
@@ -214,7 +211,7 @@ def learn_anticipation(
             executor=executor,
             progress=progress,
         )
-        data = part if data is None else Experience.join((data, part))
+        data = part if data is None else TrainingData.join((data, part))
         about = {
             "seeds": [first_seed, first + lifts - 1],
             "rounds": number + 1,
@@ -225,7 +222,7 @@ def learn_anticipation(
 
 
 def learned(
-    data: Experience,
+    data: TrainingData,
     window: FeatureWindow,
     timing: Timing,
     *,
@@ -255,15 +252,3 @@ def window_for(timing: Timing) -> FeatureWindow:
     return FeatureWindow(
         interval=period, velocities=max(FeatureWindow.velocities, round(1.2 / period))
     )
-
-
-def _learner() -> tuple[Any, Any]:
-    """Return the modules that learning needs beyond what a robot needs."""
-    try:
-        return (
-            importlib.import_module("sklearn.neural_network"),
-            importlib.import_module("threadpoolctl"),
-        )
-    except ImportError as error:
-        told = f"learning to anticipate needs scikit-learn: {how_to_install('learn')}"
-        raise InputError(told) from error

@@ -38,7 +38,7 @@ TILT_LIMIT: Final = 0.08
 
 
 @dataclass(frozen=True, kw_only=True)
-class Standing:
+class StandingHuman:
     """Rises to a height and stands still there."""
 
     duration: float
@@ -79,7 +79,7 @@ def learn(seed: int, *, iterations: int = 100, subject: str = "S1") -> LearningT
     """
     person = SUBJECTS[subject]
     duration = iterations * (1 + WAIT) * 0.1 + 1.0
-    standing = Standing(duration=duration)
+    standing = StandingHuman(duration=duration)
     lift = Lift(Scenario(behaviour="standing", human=standing, subject=person))
     lift.reset(seed)
     table = _Table(lift)

@@ -2,8 +2,6 @@
 
 import dataclasses
 import hashlib
-import importlib
-import warnings
 from collections.abc import Callable, Sequence
 from importlib.metadata import version
 from typing import Any, Final
@@ -17,13 +15,13 @@ from ...agents.control.adaptive_impedance import Gains, LearnedImpedance, Moveme
 from ...agents.control.learned_task import LearnedTask, velocity_inputs
 from ...agents.errors import InputError
 from ...agents.estimators.gaussian_mixture import GaussianMixture
-from ...agents.extras import how_to_install
 from ...agents.policies.task_model import TaskModelController, TaskModelParameters
 from ..episode.lift import Lift
 from ..episode.scenario import CONTROL_PERIOD, LATENCY
 from ..suites.catalogue import make_scenario
 from ..suites.suite import BEHAVIOURS
 from .demonstrations import Demonstration
+from .scikit import import_sklearn, reproducible_fit
 
 Array = NDArray[np.float64]
 
@@ -39,10 +37,10 @@ COMING: Final = 3
 FIRST_STIFFNESS: Final = 1.0
 """Stiffness in every situation before the practice: that of the table."""
 
-PRACTICE_SEED: Final = 80_000
+TUNING_SEED: Final = 80_000
 """Seed of the first lift of the practice, far from those of the suites and demonstrations."""
 
-PRACTICE_LIFTS: Final = 200
+TUNING_LIFTS: Final = 200
 """Lifts of the practice, each with another person; the last half counts."""
 
 SEEN_AFTER: Final = round((CONTROL_PERIOD + LATENCY) / CONTROL_PERIOD)
@@ -69,15 +67,6 @@ def windows(demonstration: Demonstration, interval: float) -> Array:
     return np.concatenate((inputs, np.diff(heights) / interval), axis=1)
 
 
-def require_learner() -> None:
-    """Raise an InputError if what :func:`learn_task` needs is not installed."""
-    try:
-        importlib.import_module("sklearn")
-    except ImportError as error:
-        told = f"learning a task model needs scikit-learn: {how_to_install('learn')}"
-        raise InputError(told) from error
-
-
 def learn_task(
     demonstrations: Sequence[Demonstration], *, components: int = COMPONENTS, seed: int = 0
 ) -> LearnedTask:
@@ -100,9 +89,7 @@ def learn_task(
     InputError
         If scikit-learn is not installed, the intervals differ, or there are too few samples.
     """
-    require_learner()
-    learner = importlib.import_module("sklearn.mixture")
-    threads = importlib.import_module("threadpoolctl")
+    sklearn_mixture = import_sklearn("mixture")
     gaps = [float(np.diff(each.times).mean()) for each in demonstrations]
     if max(gaps) - min(gaps) > 0.01 * min(gaps):
         raise InputError(
@@ -117,15 +104,14 @@ def learn_task(
             f"got {len(data)}"
         )
     scale = data.std(axis=0)
-    fit = learner.GaussianMixture(components, random_state=seed, tol=1e-4, max_iter=1000)
-    with threads.threadpool_limits(1), warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)  # Its ConvergenceWarning; it is told below.
+    fit = sklearn_mixture.GaussianMixture(components, random_state=seed, tol=1e-4, max_iter=1000)
+    with reproducible_fit():
         fit.fit(data / scale)
-    spreads = fit.covariances_ * np.outer(scale, scale)
+    covariances = fit.covariances_ * np.outer(scale, scale)
     mixture = GaussianMixture(
         weights=fit.weights_ / fit.weights_.sum(),
         means=fit.means_ * scale,
-        covariances=(spreads + spreads.transpose(0, 2, 1)) / 2,
+        covariances=(covariances + covariances.transpose(0, 2, 1)) / 2,
     )
     apart = np.concatenate([each["human_m"] - each["partner_m"] for each in demonstrations])
     return LearnedTask(
@@ -150,9 +136,9 @@ def learn_task(
     )
 
 
-def practise(
+def fine_tune(
     task: LearnedTask,
-    lifts: int = PRACTICE_LIFTS,
+    lifts: int = TUNING_LIFTS,
     *,
     gains: Gains | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
@@ -173,7 +159,7 @@ def practise(
     gains = gains or Gains()
     controller = TaskModelController(task, TaskModelParameters())
     learned: list[LearnedImpedance] = []
-    for seed in range(PRACTICE_SEED, PRACTICE_SEED + lifts):
+    for seed in range(TUNING_SEED, TUNING_SEED + lifts):
         _lift_together(controller, task.tolerance, gains, seed)
         learned.append(controller.impedance)
         progress(1)
@@ -183,7 +169,7 @@ def practise(
         lead=float(np.mean([each.lead for each in late])),
         offset=float(np.mean([each.offset for each in late])),
     )
-    about = {"seed": PRACTICE_SEED, "lifts": lifts, "gains": dataclasses.asdict(gains)}
+    about = {"seed": TUNING_SEED, "lifts": lifts, "gains": dataclasses.asdict(gains)}
     return dataclasses.replace(
         task, impedance=impedance, provenance={**task.provenance, "practice": about}
     )

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from .benchmark.bundle import Results
 from .benchmark.execution.runner import Run
-from .benchmark.rendering.style import HUMAN, INK, ROBOT, plain
+from .benchmark.rendering.style import HUMAN, INK, ROBOT, style_axes
 
 ROW: Final = 0.42
 """Height of a row [inches]."""
@@ -28,7 +28,7 @@ def evaluation_picture(run: Run, results: Results) -> str:
     behaviours = list(dict.fromkeys(episode.behaviour for episode in run.episodes))
     figure = Figure(figsize=(7.0, 1.0 + ROW * len(behaviours)), layout="constrained")
     axes = figure.add_subplot()
-    plain(axes)
+    style_axes(axes)
     for row, behaviour in enumerate(behaviours):
         errors = [e.scores["rmse_mm"] for e in run.episodes if e.behaviour == behaviour]
         strata = [each for each in results.strata if each.behaviour == behaviour]

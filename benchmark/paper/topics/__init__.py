@@ -1,1 +1,1 @@
-"""Topics of the paper: each with its measurements, its claims and its pictures."""
+"""Topics of the paper: each with its measurements, its claims and its exhibits."""

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from ...rendering.style import FAINT, HUMAN, INK
-from ..exhibits import CONFIDENCE, PREDICTION, Claim, Picture, legend, panels, shade
+from ..exhibits import CONFIDENCE, PREDICTION, Claim, Exhibit, legend, panels, shade
 from ..watched import SampledLift
 from .timing import MOVING
 
@@ -171,13 +171,13 @@ def moving_confidence(lifts: Sequence[SampledLift]) -> Series:
     return np.concatenate([lift.confidence[lift.speed > MOVING] for lift in lifts])
 
 
-def confidence_picture(lift: SampledLift) -> Picture:
+def confidence_exhibit(lift: SampledLift) -> Exhibit:
     """Return figure 5 from one lift."""
     strokes = [
         (lift.step_showing(start), lift.step_showing(stop)) for start, stop in lift.plan.strokes
     ]
     figure, _ = _course(lift, strokes, "the human moves")
-    return Picture(
+    return Exhibit(
         name="figure-5",
         title="Figure 5. Confidence together with predictions and observations",
         caption=f"Subject {lift.episode.subject}, seed {lift.episode.seed}. While the table is "
@@ -188,7 +188,7 @@ def confidence_picture(lift: SampledLift) -> Picture:
     )
 
 
-def pause_picture(lift: SampledLift) -> Picture:
+def pause_exhibit(lift: SampledLift) -> Exhibit:
     """Return figure 6 from one lift that pauses."""
     onset, still, resume = (lift.step_showing(lift.event(e)) for e in ("brake", "pause", "resume"))
     figure, (upper, lower) = _course(lift, [(still, resume)], "the human stands still")
@@ -199,7 +199,7 @@ def pause_picture(lift: SampledLift) -> Picture:
         lower.annotate(
             word, (step, 1.02), ha="center", va="bottom", fontsize=8.5, color=FAINT, clip_on=False
         )
-    return Picture(
+    return Exhibit(
         name="figure-6",
         title="Figure 6. An irregular case: a pause on the way up",
         caption=f"Subject {lift.episode.subject}, seed {lift.episode.seed}. The human stops half "

@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike
 
 from ...execution.runner import Run
 from ...rendering.style import HUMAN, INK
-from ..exhibits import CONFIDENCE, Claim, Picture, panels, shade
-from ..replay import confidence_course, replay
+from ..exhibits import CONFIDENCE, Claim, Exhibit, panels, shade
+from ..refilter import confidence_trajectory, refilter
 from ..table_one import FORGETTING, FORGETTING_FACTORS, errors
 from ..watched import SampledLift, rms
 
@@ -26,9 +26,9 @@ def forgetting_claims(
 
 
 def _fluctuates(rests: Sequence[SampledLift], factors: Sequence[float]) -> Claim:
-    courses = [replay(lift.samples, lift.scenario.control_period).likelihood for lift in rests]
+    courses = [refilter(lift.samples, lift.scenario.control_period).likelihood for lift in rests]
     means = [
-        float(np.mean([fluctuation(confidence_course(course, phi)) for course in courses]))
+        float(np.mean([fluctuation(confidence_trajectory(course, phi)) for course in courses]))
         for phi in factors
     ]
     return Claim(
@@ -98,8 +98,8 @@ def _sparc(run: Run) -> list[float]:
 
 def _after_braking(lift: SampledLift, forgetting: float) -> float:
     """Return the confidence in the fifth step that shows the braking, offline."""
-    course = confidence_course(
-        replay(lift.samples, lift.scenario.control_period).likelihood, forgetting
+    course = confidence_trajectory(
+        refilter(lift.samples, lift.scenario.control_period).likelihood, forgetting
     )
     return float(course[lift.step_showing(lift.event("brake")) + 4])
 
@@ -110,9 +110,9 @@ def _listed(factors: Sequence[float], values: Sequence[float], digits: str) -> s
     )
 
 
-def forgetting_picture(lift: SampledLift) -> Picture:
+def forgetting_exhibit(lift: SampledLift) -> Exhibit:
     """Return figure 7 from one lift with a long pause."""
-    replayed = replay(lift.samples, lift.scenario.control_period)
+    refiltered = refilter(lift.samples, lift.scenario.control_period)
     start, stop = (lift.step_showing(lift.event(event)) for event in ("pause", "resume"))
     figure, rows = panels(
         ["position [mm]", *(f"φ = {phi:.2f}" for phi in FORGETTING_FACTORS)],
@@ -124,10 +124,10 @@ def forgetting_picture(lift: SampledLift) -> Picture:
     columns: dict[str, Sequence[float]] = {
         "step": steps.tolist(),
         "observed_position_m": lift.samples.tolist(),
-        "likelihood": replayed.likelihood.tolist(),
+        "likelihood": refiltered.likelihood.tolist(),
     }
     for (axes,), phi in zip(rows[1:], FORGETTING_FACTORS, strict=True):
-        course = confidence_course(replayed.likelihood, phi)
+        course = confidence_trajectory(refiltered.likelihood, phi)
         columns[f"confidence_phi_{phi:.2f}"] = course.tolist()
         shade(axes, [(start, stop)])
         axes.plot(steps, course, color=CONFIDENCE, lw=1.8)
@@ -139,7 +139,7 @@ def forgetting_picture(lift: SampledLift) -> Picture:
             fontsize=8.5,
             color=INK,
         )
-    return Picture(
+    return Exhibit(
         name="figure-7",
         title="Figure 7. Effect of the forgetting factor on confidence",
         caption=f"Subject {lift.episode.subject}, seed {lift.episode.seed}: one recorded lift with "
@@ -167,8 +167,8 @@ def settling(lift: SampledLift, forgetting: float, *, staying: bool = False) -> 
     staying
         Whether to wait for the last departure, noise included, instead of the first arrival.
     """
-    replayed = replay(lift.samples, lift.scenario.control_period)
-    course = confidence_course(replayed.likelihood, forgetting)
+    refiltered = refilter(lift.samples, lift.scenario.control_period)
+    course = confidence_trajectory(refiltered.likelihood, forgetting)
     start, stop = (lift.step_showing(lift.event(event)) for event in ("pause", "resume"))
     return settling_steps(course[start:stop], staying=staying)
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ....agents.control.q_learning import ACTIONS, Q_PARAMETERS, learned_table, state_of
 from ...rendering.style import FAINT, HUMAN, INK
 from ...training.q_learning import LearningTrial
-from ..exhibits import Claim, Picture, legend, panels
+from ..exhibits import Claim, Exhibit, legend, panels
 from ..table_one import LONGEST_ITERATIONS, MEDIAN_ITERATIONS, TRIALS
 
 LEVEL: Final = 0.01
@@ -104,7 +104,7 @@ def _finite(value: float) -> float | None:
     return value if np.isfinite(value) else None
 
 
-def learning_picture(trials: Sequence[LearningTrial]) -> Picture:
+def learning_exhibit(trials: Sequence[LearningTrial]) -> Exhibit:
     """Return the histogram of the iterations to convergence."""
     converged = [trial.converged_at for trial in trials if trial.converged_at is not None]
     figure, ((axes,),) = panels(["trials"], [2.6], x_label="iterations until convergence")
@@ -118,7 +118,7 @@ def learning_picture(trials: Sequence[LearningTrial]) -> Picture:
     for value, colour, dashes, label in lines:
         axes.axvline(value, color=colour, lw=1.8, ls=dashes, label=label)
     legend(axes)
-    return Picture(
+    return Exhibit(
         name="q-learning",
         title="Q-learning: iterations to convergence",
         caption=f"{len(trials)} learning phases from an empty table, in the world, while the human "

@@ -13,7 +13,7 @@ from ...episode.smoothness import sparc
 from ...rendering.style import FAINT, HUMAN, INK, ROBOT
 from ...statistics import paired_permutation_p, stratified_bootstrap
 from ..evidence import Evidence
-from ..exhibits import Claim, Picture, legend, p_text, panels
+from ..exhibits import Claim, Exhibit, legend, p_value_text, panels
 from ..table_one import errors
 from ..watched import SampledLift, sampled_lifts
 from .confidence import moving_confidence
@@ -38,7 +38,7 @@ def _absolute(evidence: Evidence) -> Claim:
         paper="one pair of lifts, drawn",
         criterion="mean of eq. 10 lower, paired p < 0.01",
         measured=f"{with_it.mean():.0f} mm against {without.mean():.0f} mm, summed over the frames "
-        f"of a lift ({p_text(p)}); lower in {np.mean(with_it < without):.0%} of the lifts",
+        f"of a lift ({p_value_text(p)}); lower in {np.mean(with_it < without):.0%} of the lifts",
         values={"with_mm": float(with_it.mean()), "without_mm": float(without.mean()), "p": p},
         holds=bool(with_it.mean() < without.mean() and p < 0.01),
     )
@@ -57,8 +57,8 @@ def _smoother(evidence: Evidence) -> Claim:
         figure="figure 8",
         paper="one pair of lifts, drawn",
         criterion="mean SPARC of the robot's end higher (closer to 0), paired p < 0.01",
-        measured=f"SPARC {a.mean():.2f} against {b.mean():.2f} ({p_text(p)}), {a.size} lifts; "
-        f"LDLJ {jerks[0]:.1f} against {jerks[1]:.1f}",
+        measured=f"SPARC {a.mean():.2f} against {b.mean():.2f} ({p_value_text(p)}), "
+        f"{a.size} lifts; LDLJ {jerks[0]:.1f} against {jerks[1]:.1f}",
         values={"with": float(a.mean()), "without": float(b.mean()), "p": p},
         holds=bool(a.mean() > b.mean() and p < 0.01),
     )
@@ -74,7 +74,7 @@ def _lowering(evidence: Evidence) -> Claim:
         figure="figure 8",
         paper="one lift, drawn; put down to the arm's jerks against gravity",
         criterion="mean SPARC of the robot's end higher in the lowering, paired p < 0.01",
-        measured=f"SPARC {down.mean():.2f} lowering, {up.mean():.2f} lifting ({p_text(p)})",
+        measured=f"SPARC {down.mean():.2f} lowering, {up.mean():.2f} lifting ({p_value_text(p)})",
         values={"lowering": float(down.mean()), "lifting": float(up.mean()), "p": p},
         holds=better and p < 0.01,
         note="The paper's reason, an arm that jerks when it works against gravity, is not in the "
@@ -152,9 +152,9 @@ def _both(a: Series, b: Series) -> tuple[Series, Series]:
     return a[present], b[present]
 
 
-def comparison_picture(blend: Episode, reactive: Episode) -> Picture:
+def comparison_exhibit(blend: Episode, reactive: Episode) -> Exhibit:
     """Return figure 8: the same lift with and without prediction."""
-    return Picture(
+    return Exhibit(
         name="figure-8",
         title="Figure 8. With and without prediction",
         caption=f"Subject {blend.subject}, seed {blend.seed}: the same intention of the human in "
@@ -175,9 +175,9 @@ def error_limit(*episodes: Episode) -> float:
     return 1050 * max(float(np.abs(t.human_end - t.robot_end).max()) for t in traces)
 
 
-def team_picture(team: Episode, limit: float) -> Picture:
+def human_human_exhibit(team: Episode, limit: float) -> Exhibit:
     """Return figure 9: two humans, the error's axis up to ``limit`` [mm]."""
-    return Picture(
+    return Exhibit(
         name="figure-9",
         title="Figure 9. A human-human team",
         caption=f"Subject {team.subject}, seed {team.seed}, with a second human at the far end "

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...rendering.style import HUMAN
 from ...statistics import paired_permutation_p
-from ..exhibits import PREDICTION, Claim, Picture, legend, p_text, panels
+from ..exhibits import PREDICTION, Claim, Exhibit, legend, p_value_text, panels
 from ..watched import SampledLift, rms
 
 Series = NDArray[np.float64]
@@ -62,7 +62,7 @@ def _improves(lifts: Sequence[SampledLift]) -> Claim:
         criterion="the rms error of position is lower in steps 11 to 20 of the motion than in "
         "steps 1 to 10, paired p < 0.01",
         measured=f"{means[0]:.2f} mm in steps 1 to 10, {means[1]:.2f} mm in steps 11 to 20 "
-        f"({p_text(p)}), {means[2]:.2f} mm from step 11 to the end of the lift",
+        f"({p_value_text(p)}), {means[2]:.2f} mm from step 11 to the end of the lift",
         values={"early_mm": means[0], "late_mm": means[1], "after_mm": means[2], "p": p},
         holds=bool(means[1] < means[0] and p < 0.01),
         note=f"The error is largest in step {worst} of strokes that last {stroke:.0f} steps on "
@@ -163,7 +163,7 @@ def _acceleration(lifts: Sequence[SampledLift]) -> Claim:
     )
 
 
-def prediction_picture(lift: SampledLift) -> Picture:
+def prediction_exhibit(lift: SampledLift) -> Exhibit:
     """Return figure 4 from one lift."""
     velocity, acceleration = derivatives(lift)
     observed = (lift.samples, velocity, acceleration)
@@ -184,7 +184,7 @@ def prediction_picture(lift: SampledLift) -> Picture:
     for name, seen, expected in zip(_QUANTITIES, observed, predicted, strict=True):
         columns[f"observed_{name}_m"] = seen.tolist()
         columns[f"predicted_{name}_m"] = expected.tolist()
-    return Picture(
+    return Exhibit(
         name="figure-4",
         title="Figure 4. Predictions of the Kalman filter",
         caption=f"Subject {lift.episode.subject}, seed {lift.episode.seed}. What was predicted of "

@@ -3,8 +3,8 @@
 from typing import Final
 
 from ...rendering.style import HUMAN, INK, ROBOT
-from ..exhibits import Claim, Picture, legend, p_text, panels
-from ..table_one import Row, TableOne
+from ..exhibits import Claim, Exhibit, legend, p_value_text, panels
+from ..table_one import SubjectRow, TableOne
 
 CELL: Final = 0.12
 """Largest relative deviation of a cell of Table I."""
@@ -33,13 +33,13 @@ def _lower(table: TableOne) -> Claim:
         paper="lower by 4.7 to 7.0 mm in each of 5 subjects",
         criterion="the mean difference is negative for every subject, paired p < 0.01 each",
         measured=f"mean difference {table.mean.difference.mean:.2f} mm; smallest for "
-        f"{least.subject}: {least.difference.mean:.2f} mm; largest p: {p_text(worst.p)}",
+        f"{least.subject}: {least.difference.mean:.2f} mm; largest p: {p_value_text(worst.p)}",
         values={f"difference_{row.subject}_mm": row.difference.mean for row in table.rows}
         | {f"p_{row.subject}": row.p for row in table.rows},
         holds=all(row.difference.mean < 0 and row.p < 0.01 for row in table.rows),
         note="Sign flips over the lifts of each subject."
         if worst.p < 0.01
-        else f"{worst.subject}: {p_text(worst.p)} with {table.lifts} lifts.",
+        else f"{worst.subject}: {p_value_text(worst.p)} with {table.lifts} lifts.",
     )
 
 
@@ -85,7 +85,7 @@ def _ratio(table: TableOne) -> Claim:
 
 
 def _practised(table: TableOne) -> Claim:
-    def error(row: Row) -> float:
+    def error(row: SubjectRow) -> float:
         return row.blend.mean
 
     best = min(table.rows, key=error)
@@ -103,7 +103,7 @@ def _practised(table: TableOne) -> Claim:
 
 
 def _team(table: TableOne) -> Claim:
-    team, blend, reactive = table.team, table.mean.blend, table.mean.reactive
+    team, blend, reactive = table.human_human, table.mean.blend, table.mean.reactive
     better = team.ci95[1] < blend.ci95[0] and blend.ci95[1] < reactive.ci95[0]
     near = abs(team.mean - team.paper) <= TEAM
     return Claim(
@@ -114,7 +114,7 @@ def _team(table: TableOne) -> Claim:
         f"{TEAM} mm",
         measured=f"{team.mean:.2f} mm (95 % interval {team.ci95[0]:.2f} to {team.ci95[1]:.2f}), "
         f"against {blend.mean:.2f} with and {reactive.mean:.2f} mm without prediction",
-        values={"team_mm": team.mean, "blend_mm": blend.mean, "reactive_mm": reactive.mean},
+        values={"human_human_mm": team.mean, "blend_mm": blend.mean, "reactive_mm": reactive.mean},
         holds=better and near,
         note="The partner's level is calibrated to this number by one parameter; the order is not."
         if better and near
@@ -123,7 +123,7 @@ def _team(table: TableOne) -> Claim:
     )
 
 
-def table_picture(table: TableOne) -> Picture:
+def table_exhibit(table: TableOne) -> Exhibit:
     """Return the errors of Table I as points, ours with their 95 % intervals."""
     rows = table.rows
     figure, ((axes,),) = panels(["RMSE [mm]"], [3.0], x_label="subject")
@@ -147,11 +147,12 @@ def table_picture(table: TableOne) -> Picture:
                 mew=1.6,
                 label="the paper" if first and shift > 0 else None,
             )
-    axes.axhline(table.team.mean, color="#009E73", lw=1.4, ls=(0, (4, 3)), label="two humans")
+    level = table.human_human.mean
+    axes.axhline(level, color="#009E73", lw=1.4, ls=(0, (4, 3)), label="two humans")
     axes.set_xticks(range(len(rows)), [row.subject for row in rows])
     axes.set_ylim(bottom=0)
     legend(axes)
-    return Picture(
+    return Exhibit(
         name="table-1",
         title="Table I as a picture",
         caption="Mean error of each subject without and with prediction, with 95 % intervals; the "

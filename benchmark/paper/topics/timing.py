@@ -15,9 +15,9 @@ from ....agents.control.predictor import PredictorParameters
 from ...episode.scenario import LATENCY
 from ...execution.runner import Run
 from ...rendering.style import FAINT, INK
-from ..evidence import Timing
-from ..exhibits import CONFIDENCE, PREDICTION, Claim, Picture, panels
-from ..replay import replay
+from ..evidence import TimingSetting
+from ..exhibits import CONFIDENCE, PREDICTION, Claim, Exhibit, panels
+from ..refilter import refilter
 from ..table_one import errors
 from ..watched import SampledLift, rms, sampled_lifts
 
@@ -48,7 +48,7 @@ class TimingResult:
     """The same, offline, with the process noise of :func:`retuned`."""
 
 
-def timing_results(runs: Mapping[Timing, Run]) -> list[TimingResult]:
+def timing_results(runs: Mapping[TimingSetting, Run]) -> list[TimingResult]:
     """Return the errors of each setting, in the order of the runs."""
     return [_result(timing, run) for timing, run in runs.items()]
 
@@ -60,7 +60,7 @@ def at_papers_latency(results: Sequence[TimingResult], policy: str) -> list[Timi
     return sorted(some, key=lambda result: result.control_period_s)
 
 
-def _result(timing: Timing, run: Run) -> TimingResult:
+def _result(timing: TimingSetting, run: Run) -> TimingResult:
     one_step = one_step_ms = ahead = ahead_retuned = math.nan
     if timing.policy == "blend":
         lifts = sampled_lifts(run)
@@ -113,10 +113,10 @@ def ahead_errors(lift: SampledLift, parameters: PredictorParameters | None = Non
     a prediction for one. Computed offline, with the shipped parameters by default.
     """
     period = lift.scenario.control_period
-    replayed = replay(lift.samples, period, parameters)
+    refiltered = refilter(lift.samples, period, parameters)
     further = HORIZON - period
     expected = (
-        replayed.height + replayed.velocity * further + replayed.acceleration * further**2 / 2
+        refiltered.height + refiltered.velocity * further + refiltered.acceleration * further**2 / 2
     )
     # What was expected of sample k, one step ahead, reaches to sample k + steps.
     steps = round(further / period)
@@ -125,7 +125,7 @@ def ahead_errors(lift: SampledLift, parameters: PredictorParameters | None = Non
     return wrong
 
 
-def timing_claims(runs: Mapping[Timing, Run]) -> list[Claim]:
+def timing_claims(runs: Mapping[TimingSetting, Run]) -> list[Claim]:
     """Return the claims about control period and latency."""
     results = timing_results(runs)
     blends, reactives = (at_papers_latency(results, policy) for policy in ("blend", "reactive"))
@@ -218,7 +218,7 @@ COLUMNS: Final = ("policy", "control_period_s", "latency_s", "rmse_mm", "one_ste
 COLUMNS_AHEAD: Final = ("one_step_ms", "ahead_mm", "ahead_retuned_mm")
 
 
-def timing_picture(results: Sequence[TimingResult]) -> Picture:
+def timing_exhibit(results: Sequence[TimingResult]) -> Exhibit:
     """Return errors over control period and latency."""
     figure, (row,) = panels(
         ["error [mm]"], [3.0], columns=3, x_label="control period [ms]", share_x=False
@@ -240,7 +240,7 @@ def timing_picture(results: Sequence[TimingResult]) -> Picture:
         axes.set_xticks(sorted({1000 * result.control_period_s for result in results}))
     row[0].legend(fontsize=8, labelcolor=INK, loc="lower right", ncols=2, edgecolor="none")
     row[2].legend(fontsize=8, labelcolor=INK, loc="upper right", edgecolor="none")
-    return Picture(
+    return Exhibit(
         name="timing",
         title="A faster robot, fresher samples",
         caption="Mean RMSE over the control period, for samples of different age (the latency), "

@@ -9,15 +9,15 @@ from colift.benchmark.bounds.causal import AnticipationSpec
 from colift.benchmark.bounds.held_out import held_out_suite
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import BEHAVIOURS, Suite
-from colift.benchmark.training.anticipation import WAYS, Lesson, learn_anticipation
-from colift.benchmark.training.experience import Experience, window_inputs
+from colift.benchmark.training.anticipation import CURRICULUM, Lesson, learn_anticipation
+from colift.benchmark.training.data import TrainingData, window_inputs
 
 
 def test_narrower_experience_is_what_a_narrower_window_sees():
     rng = np.random.default_rng(0)
     human = rng.normal(0.0, 0.1, 40)
     wide, narrow = FeatureWindow(), FeatureWindow(velocities=4)
-    data = Experience(
+    data = TrainingData(
         inputs=window_inputs(human, wide),
         outcomes=np.zeros((40, 2), np.float32),
         seeds=np.arange(40),
@@ -30,7 +30,7 @@ def test_narrower_experience_is_what_a_narrower_window_sees():
 def test_each_variant_lacks_one_part():
     for variant in VARIANTS:
         lacks = [bool(variant.window), bool(variant.parameters), variant.first_round]
-        lacks.append(variant.only != WAYS)
+        lacks.append(variant.only != CURRICULUM)
         assert sum(lacks) + (variant.hidden == ()) == 1, variant
         AnticipateParameters(**variant.parameters)
         dataclasses.replace(FeatureWindow(), **variant.window)

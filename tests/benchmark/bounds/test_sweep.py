@@ -7,7 +7,7 @@ from colift.benchmark.bounds.sweep import NAMES, Swept, lifts_to_play, sweep, te
 from colift.benchmark.bounds.sweep_picture import sweep_figure, sweep_json
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
-from colift.benchmark.training.experience import Timing
+from colift.benchmark.training.data import Timing
 
 SUITE = Suite(name="one", scenarios=(make_scenario("smooth", "draw-200004"),), seeds=(FIRST_SEED,))
 

@@ -4,7 +4,7 @@ import dataclasses
 import pickle
 
 import pytest
-from colift.benchmark.paper.evidence import Effort, amount, gather
+from colift.benchmark.paper.evidence import Effort, collect_evidence, lift_count
 from colift.benchmark.paper.report import make_report, write_report
 from colift.benchmark.suites.suite import make_suite
 
@@ -41,11 +41,11 @@ def suite():
 def made(suite, once):
     def make(place):
         counted = []
-        evidence = gather(suite, EFFORT, progress=counted.append)
+        evidence = collect_evidence(suite, EFFORT, progress=counted.append)
         write_report(make_report(evidence), place / "new" / "report")
         (place / "evidence").write_bytes(pickle.dumps((evidence, sum(counted))))
 
     place = once("paper", make)
     evidence, counted = pickle.loads((place / "evidence").read_bytes())
     folder = place / "new" / "report"
-    return Made(evidence, make_report(evidence), folder, counted, amount(suite, EFFORT))
+    return Made(evidence, make_report(evidence), folder, counted, lift_count(suite, EFFORT))

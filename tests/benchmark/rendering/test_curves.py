@@ -3,7 +3,7 @@ import dataclasses
 import numpy as np
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.rendering.caption import title
+from colift.benchmark.rendering.caption import title_strip
 from colift.benchmark.rendering.curves import Curves
 from colift.benchmark.rendering.style import HUMAN
 from numpy.typing import NDArray
@@ -49,12 +49,12 @@ def test_a_single_frame_can_be_drawn(episode: Episode) -> None:
 
 
 def test_a_long_name_does_not_reach_the_score(episode: Episode) -> None:
-    short = np.asarray(title(episode, "copy", 640, 36))
-    long = np.asarray(title(episode, "a" * 300, 640, 36))
+    short = np.asarray(title_strip(episode, "copy", 640, 36))
+    long = np.asarray(title_strip(episode, "a" * 300, 640, 36))
     assert np.array_equal(short[:, 490:], long[:, 490:])
     assert not np.array_equal(short[:, :490], long[:, :490])
 
 
 def test_the_title_tells_a_failure(episode: Episode, dropped: Episode) -> None:
-    fine, failed = (np.asarray(title(e, "copy", 640, 36)) for e in (episode, dropped))
+    fine, failed = (np.asarray(title_strip(e, "copy", 640, 36)) for e in (episode, dropped))
     assert not np.array_equal(fine, failed)

@@ -5,7 +5,7 @@ import pytest
 from colift.agents.errors import InputError
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.rendering.film import film_episode, frames, shown_frames, still
+from colift.benchmark.rendering.film import film_episode, frames, shown_frames, still_picture
 from colift.benchmark.suites.catalogue import make_scenario
 from PIL import Image
 
@@ -60,7 +60,7 @@ def test_still_is_written(dropped: Episode, tmp_path: Path) -> None:
 
 
 def test_still_has_three_moments_over_the_curves(episode: Episode, scenario: Scenario) -> None:
-    picture = still(episode, scenario, "copy")
+    picture = still_picture(episode, scenario, "copy")
     assert picture.shape == (890, 1290, 3)
     first, second, third = (picture[64:490, x : x + 426] for x in (0, 432, 864))
     assert not np.array_equal(first, third)

@@ -5,7 +5,7 @@ import pytest
 from colift.agents.errors import InputError
 from colift.benchmark.bounds import causal, held_out
 from colift.benchmark.training.anticipation import fit, learn_anticipation, window_for
-from colift.benchmark.training.experience import LEADS, Experience, Timing
+from colift.benchmark.training.data import LEADS, Timing, TrainingData
 
 NOISE = 0.05
 
@@ -17,7 +17,7 @@ def known(count, seed=0):
     straight = inputs @ np.array([[1.0], [0.5], [-2.0]], np.float32)
     bent = 3.0 * np.abs(inputs[:, :1]) + straight
     outcomes = np.hstack((straight, bent)) + rng.normal(0.0, NOISE, (count, 2)).astype(np.float32)
-    return Experience(inputs=inputs, outcomes=outcomes, seeds=np.arange(count))
+    return TrainingData(inputs=inputs, outcomes=outcomes, seeds=np.arange(count))
 
 
 def test_the_fit_finds_the_function_in_the_experience():
@@ -54,9 +54,9 @@ def test_it_is_learned_in_rounds_of_which_each_has_all_before():
     )
     first, last = lessons
     assert done == [1] * 8
-    assert len(last.experience.inputs) == last.model.provenance["samples"]
-    kept = last.experience.inputs[: len(first.experience.inputs)]
-    assert (kept == first.experience.inputs).all()
+    assert len(last.data.inputs) == last.model.provenance["samples"]
+    kept = last.data.inputs[: len(first.data.inputs)]
+    assert (kept == first.data.inputs).all()
     assert last.model.provenance["seeds"] == [100_100, 100_107]
     assert len(last.model.provenance["rms_error_mm"]) == len(LEADS)
 

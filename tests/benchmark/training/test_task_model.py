@@ -20,10 +20,10 @@ from colift.benchmark.training.demonstrations import (
 from colift.benchmark.training.task_model import (
     COMING,
     PAST,
-    PRACTICE_LIFTS,
-    PRACTICE_SEED,
+    TUNING_LIFTS,
+    TUNING_SEED,
+    fine_tune,
     learn_task,
-    practise,
     windows,
 )
 
@@ -103,8 +103,8 @@ def test_the_interval_is_that_of_the_samples():
 
 
 def test_learning_twice_gives_the_same_bytes(lifts, learned):
-    again = practise(learn_task(lifts, components=4), 2)
-    assert task_json(again) == task_json(practise(learned, 2))
+    again = fine_tune(learn_task(lifts, components=4), 2)
+    assert task_json(again) == task_json(fine_tune(learned, 2))
     assert task_json(again) != task_json(learned)
     assert again.provenance["fit"]["samples"] == sum(len(each.times) - COMING for each in lifts)
 
@@ -115,7 +115,7 @@ def test_practice_learns_the_arm_and_keeps_the_model():
     size = len(task.impedance.stiffness)
     ignorant = LearnedImpedance(stiffness=np.ones(size), lead=0.0, offset=0.0)
     told = []
-    found = practise(dataclasses.replace(task, impedance=ignorant), 24, progress=told.append)
+    found = fine_tune(dataclasses.replace(task, impedance=ignorant), 24, progress=told.append)
     assert found.mixture is task.mixture
     assert found.impedance.lead == pytest.approx(task.impedance.lead, abs=0.012)
     assert found.impedance.offset == pytest.approx(task.impedance.offset, abs=0.0005)
@@ -129,14 +129,14 @@ def test_practice_learns_the_arm_and_keeps_the_model():
 def test_effort_makes_it_stiffer():
     """Corrections that cost something are held back."""
     easy, costly = (
-        practise(load_task(), 8, gains=Gains(effort=effort)).impedance.stiffness
+        fine_tune(load_task(), 8, gains=Gains(effort=effort)).impedance.stiffness
         for effort in (0.0, 2.0)
     )
     assert costly.mean() > easy.mean() + 0.05
 
 
 def test_practice_is_on_seeds_of_its_own():
-    practice = set(range(PRACTICE_SEED, PRACTICE_SEED + PRACTICE_LIFTS))
+    practice = set(range(TUNING_SEED, TUNING_SEED + TUNING_LIFTS))
     assert practice.isdisjoint(range(FIRST_SEED, FIRST_SEED + LIFTS))
     assert practice.isdisjoint(range(*SEEDS))
     for name in own_entries(SUITES):
@@ -156,4 +156,4 @@ def test_too_little_to_learn_from_is_refused():
     with pytest.raises(InputError, match="got 0"):
         learn_task([moving(np.zeros(3))])
     with pytest.raises(InputError, match="practice must be at least 1 lift, got 0"):
-        practise(load_task(), 0)
+        fine_tune(load_task(), 0)

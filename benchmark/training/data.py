@@ -47,7 +47,7 @@ class Timing:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Experience:
+class TrainingData:
     """Observations and their outcomes; in single precision, as there is a lot of it."""
 
     inputs: NDArray[np.float32]
@@ -60,7 +60,7 @@ class Experience:
     """(n,) the lift that it was."""
 
     @classmethod
-    def join(cls, parts: Sequence["Experience"]) -> "Experience":
+    def join(cls, parts: Sequence["TrainingData"]) -> "TrainingData":
         """Return all of it in one."""
         return cls(
             inputs=np.concatenate([part.inputs for part in parts]),
@@ -94,7 +94,7 @@ def scenario(seed: int, behaviours: Sequence[str], timing: Timing) -> Scenario:
     )
 
 
-def experience(
+def training_data(
     seed: int,
     *,
     model: Anticipation | None,
@@ -102,7 +102,7 @@ def experience(
     behaviours: Sequence[str],
     timing: Timing,
     parameters: AnticipateParameters | None = None,
-) -> Experience:
+) -> TrainingData:
     """Return what the lift of a seed shows; without a model, the robot extrapolates.
 
     A lift of a few seconds holds some seventy decisions. It is looked at :data:`LOOKS` times as
@@ -141,13 +141,13 @@ def experience(
         outcomes = np.hstack((rises[:, :-1], doing[now], rises[:, -1:]))
         inputs = window_inputs(human_end, window)
         parts.append(
-            Experience(
+            TrainingData(
                 inputs=inputs.astype(np.float32),
                 outcomes=outcomes.astype(np.float32),
                 seeds=np.full(len(inputs), seed),
             )
         )
-    return Experience.join(parts)
+    return TrainingData.join(parts)
 
 
 def window_inputs(heights: Array, window: FeatureWindow) -> Array:

@@ -5,14 +5,14 @@ import pytest
 from colift.agents.control.anticipation import MODES, FeatureHistory, FeatureWindow
 from colift.agents.errors import InputError
 from colift.benchmark.suites.suite import BEHAVIOURS
-from colift.benchmark.training import experience as anticipation_experience
-from colift.benchmark.training.anticipation import gather
-from colift.benchmark.training.experience import (
+from colift.benchmark.training import data as module
+from colift.benchmark.training.anticipation import collect_training_data
+from colift.benchmark.training.data import (
     LEADS,
-    Experience,
     Timing,
-    experience,
+    TrainingData,
     scenario,
+    training_data,
     window_inputs,
 )
 
@@ -20,7 +20,7 @@ WINDOW = FeatureWindow(velocities=6)
 
 
 def lifted(seed, *, behaviours=BEHAVIOURS, timing=None, window=WINDOW):
-    return experience(
+    return training_data(
         seed, model=None, window=window, behaviours=behaviours, timing=timing or Timing()
     )
 
@@ -37,7 +37,7 @@ def test_inputs_are_those_of_a_robots_senses():
 
 def test_outcomes_are_what_came_of_the_inputs(monkeypatch):
     """The height 0.1 s ahead is the height now, one step later, whatever was seen of it."""
-    monkeypatch.setattr(anticipation_experience, "LOOKS", 1)
+    monkeypatch.setattr(module, "LOOKS", 1)
     found = lifted(100_001)
     now, ahead = LEADS.index(0.0), LEADS.index(0.1)
     height = found.inputs[:, :1] + found.outcomes[:, : len(LEADS)]
@@ -94,9 +94,9 @@ def test_seeds_of_suites_and_of_tests_are_not_learned_from():
     rest = {"model": None, "window": WINDOW, "behaviours": BEHAVIOURS, "timing": Timing()}
     for seeds in (range(5), range(199_999, 200_001)):
         with pytest.raises(InputError, match="seeds to learn from are 100000 to 199999"):
-            gather(seeds, **rest)
+            collect_training_data(seeds, **rest)
     with pytest.raises(InputError, match="at least 1 lift"):
-        gather(range(100_000, 100_000), **rest)
-    joined = gather(range(100_000, 100_002), **rest)
-    apart = Experience.join([lifted(100_000), lifted(100_001)])
+        collect_training_data(range(100_000, 100_000), **rest)
+    joined = collect_training_data(range(100_000, 100_002), **rest)
+    apart = TrainingData.join([lifted(100_000), lifted(100_001)])
     assert (joined.inputs == apart.inputs).all()

@@ -13,7 +13,7 @@ Series = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Replayed:
+class Refiltered:
     """What was expected of each sample before it was seen; n samples.
 
     Nothing is expected of the first one: it stands as its own prediction, at rest.
@@ -31,9 +31,9 @@ class Replayed:
     """(n,) likelihood of the sample (eq. 6)."""
 
 
-def replay(
+def refilter(
     samples: ArrayLike, period: float, parameters: PredictorParameters | None = None
-) -> Replayed:
+) -> Refiltered:
     """Run the Kalman filter over samples and compare each with what was predicted.
 
     Parameters
@@ -58,7 +58,7 @@ def replay(
         spread = expected.variance**0.5 / 1000
         rows.append((expected.height, expected.velocity, expected.acceleration, spread, chance))
         motion.update(sample)
-    return Replayed(
+    return Refiltered(
         **dict(
             zip(
                 ("height", "velocity", "acceleration", "spread", "likelihood"),
@@ -69,7 +69,7 @@ def replay(
     )
 
 
-def confidence_course(likelihoods: ArrayLike, forgetting: float) -> Series:
+def confidence_trajectory(likelihoods: ArrayLike, forgetting: float) -> Series:
     """Return the confidence after each likelihood (eq. 7), shape (n,).
 
     Parameters

@@ -5,7 +5,7 @@ import pytest
 from colift.agents.policies.blend import Blend
 from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
-from colift.benchmark.paper.replay import confidence_course, replay
+from colift.benchmark.paper.refilter import confidence_trajectory, refilter
 from colift.benchmark.paper.topics.timing import ahead_errors, retuned
 
 
@@ -20,10 +20,10 @@ def test_a_watched_blend_acts_as_the_blend(made, suite):
 
 def test_offline_equals_online(made):
     for lift in made.evidence.lifts:
-        replayed = replay(lift.samples, 0.1)
-        confidence = confidence_course(replayed.likelihood, 0.45)
+        refiltered = refilter(lift.samples, 0.1)
+        confidence = confidence_trajectory(refiltered.likelihood, 0.45)
         assert confidence == pytest.approx(lift.confidence, abs=1e-9)
-        assert replayed.height[1:] == pytest.approx(lift.predicted[1:], abs=1e-12)
+        assert refiltered.height[1:] == pytest.approx(lift.predicted[1:], abs=1e-12)
 
 
 def test_samples_are_the_traces_at_their_frames_but_for_the_sensor(made):
@@ -53,7 +53,7 @@ def test_retuning_changes_nothing_at_the_papers_period_and_doubles_at_half_of_it
 
 
 def test_a_constant_velocity_is_predicted_without_error_in_the_end():
-    replayed = replay(0.02 * np.arange(60), 0.1)
-    assert replayed.height[-1] == pytest.approx(0.02 * 59, abs=1e-6)
-    assert replayed.velocity[-1] == pytest.approx(0.2, abs=1e-5)
-    assert replayed.likelihood[-1] == pytest.approx(1.0)
+    refiltered = refilter(0.02 * np.arange(60), 0.1)
+    assert refiltered.height[-1] == pytest.approx(0.02 * 59, abs=1e-6)
+    assert refiltered.velocity[-1] == pytest.approx(0.2, abs=1e-5)
+    assert refiltered.likelihood[-1] == pytest.approx(1.0)
