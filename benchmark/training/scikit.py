@@ -19,6 +19,7 @@ def import_sklearn(module: str) -> Any:
         If scikit-learn is not installed.
     """
     try:
+        importlib.import_module("sklearn")
         return importlib.import_module(f"sklearn.{module}")
     except ImportError as error:
         raise InputError(f"learning needs scikit-learn: {how_to_install('learn')}") from error
