@@ -1,4 +1,4 @@
-"""One-step prediction of the human's end with its confidence: what proactive policies share."""
+"""One-step prediction of the human's end with its confidence, shared by proactive policies."""
 
 from dataclasses import dataclass, field
 from typing import Literal, get_args
@@ -10,7 +10,7 @@ from ..estimators.motion_filter import MotionFilter, MotionFilterParameters, Pre
 from ..estimators.residuals import ResidualConfidence
 
 ConfidenceForm = Literal["likelihood", "residuals"]
-"""What the confidence is: the paper's forgetting mean of likelihoods (eqs. 6 and 7), or the
+"""Form of the confidence: the paper's forgetting mean of likelihoods (eqs. 6 and 7), or the
 p-value of the latest residuals (:mod:`colift.agents.estimators.residuals`)."""
 
 DEFAULT_PERIOD = 0.1
@@ -24,13 +24,13 @@ class PredictorParameters:
     motion: MotionFilterParameters = field(default_factory=MotionFilterParameters)
     """The Kalman filter."""
     confidence: ConfidenceForm = "likelihood"
-    """What the confidence follows from: likelihoods (eqs. 6 and 7), or statistics of residuals."""
+    """Form of the confidence: likelihoods (eqs. 6 and 7), or statistics of residuals."""
     forgetting: float = 0.45
-    """phi of eq. 7, in (0, 1]; of the likelihood."""
+    """phi of eq. 7, in (0, 1]; for ``likelihood``."""
     reading: Reading = LITERAL
-    """What rho is in eq. 6; of the likelihood."""
+    """Meaning of rho in eq. 6; for ``likelihood``."""
     window: int = 5
-    """Number of residuals that are judged together; of the residuals."""
+    """Number of residuals tested together; for ``residuals``."""
 
     def __post_init__(self) -> None:
         """Check every value.
@@ -38,7 +38,7 @@ class PredictorParameters:
         Raises
         ------
         InputError
-            If there is no such confidence or reading of eq. 6, or a number is out of range.
+            If the form or the reading is unknown, or a number is out of range.
         """
         for name, kinds in (("confidence", ConfidenceForm), ("reading", Reading)):
             if getattr(self, name) not in get_args(kinds):
@@ -49,12 +49,12 @@ class PredictorParameters:
 
 
 class Predictor:
-    """Predicts the human's height one step ahead of the sample, and says how sure it is.
+    """Predicts the human's height one step ahead of the sample, with a confidence.
 
-    Literally the paper's: the sample's age is not compensated. The next step is taken to last as
-    long as the one before it. With the first sample there is no prediction to judge yet: it counts
-    as one of likelihood 1, so that eq. 7 begins at a confidence of 1 and the robot copies. So does
-    the confidence by residuals.
+    Literally the paper's: the sample's age is not compensated. The next step is assumed to last as
+    long as the last one. The first sample has no prediction to compare with and counts as one of
+    likelihood 1: eq. 7 begins at a confidence of 1, and the robot copies. The confidence by
+    residuals begins at 1 too.
     """
 
     def __init__(self, parameters: PredictorParameters | None = None) -> None:
@@ -69,7 +69,7 @@ class Predictor:
         self._period = DEFAULT_PERIOD
 
     def step(self, observation: Observation) -> tuple[Prediction, float]:
-        """Take the newest sample in.
+        """Add the newest sample.
 
         Returns
         -------
@@ -85,7 +85,7 @@ class Predictor:
         else:
             self._period = time - self._time
             expected = self._filter.predict(self._period)
-            confidence = self._judge(1000 * (height - expected.height), expected.variance)
+            confidence = self._compare(1000 * (height - expected.height), expected.variance)
             self._filter.update(height)
         self._time = time
         return self.ahead(self._period), confidence
@@ -96,18 +96,18 @@ class Predictor:
         return self._period
 
     def ahead(self, horizon: float) -> Prediction:
-        """Return what is expected ``horizon`` [s] after the newest sample; nothing changes by it.
+        """Return the prediction ``horizon`` [s] after the newest sample; no state changes.
 
         Raises
         ------
         ValueError
-            If there was no sample yet.
+            Before the first sample.
         """
         if self._filter is None:
-            raise ValueError("nothing can be predicted before the first sample")
+            raise ValueError("there is no prediction before the first sample")
         return self._filter.ahead(horizon)
 
-    def _judge(self, error: float, variance: float) -> float:
+    def _compare(self, error: float, variance: float) -> float:
         """Return the confidence after an error [mm] of a prediction of a variance [mm2]."""
         parameters = self._parameters
         if parameters.confidence == "residuals":

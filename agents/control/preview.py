@@ -1,4 +1,4 @@
-"""Preview control: the next command for a path that is foreseen."""
+"""Preview control: the next command for a forecast path."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -30,28 +30,27 @@ class PreviewGains:
 
 @lru_cache(maxsize=32)
 def preview_gains(frames: int, steps: int, smoothness: float) -> PreviewGains:
-    r"""Return the best next command for a foreseen path, as a linear law.
+    r"""Return the optimal next command for a forecast path, as a linear law.
 
-    A command ramps over its period, so that the commands u_1, u_2, ... at the ends of the coming
-    periods are the knots of a broken line u(t), which begins at the present command u_0. They
-    minimise
+    A command ramps over its period: the commands u_1, u_2, ... at the ends of the coming periods
+    are the knots of a piecewise linear u(t), which begins at the present command u_0. They minimise
 
     .. math:: \int (h(t) - u(t))^2 dt + T \rho \sum_i (u_{i+1} - 2 u_i + u_{i-1})^2
 
     over the coming ``steps`` periods of length T: least squares, of which the first command is
-    carried out and the rest is thought over again with the next sample (a receding horizon). What
-    is foreseen may be the mean of what is not certain: nothing else of it counts, as the cost is
-    quadratic and the commands do not change what is coming (certainty equivalence).
+    carried out and the rest is optimised again with the next sample (receding horizon). The path
+    may be the mean of an uncertain forecast: as the cost is quadratic and the commands do not
+    affect the path, no other moment matters (certainty equivalence).
 
     Parameters
     ----------
     frames
-        Frames of 10 ms in a period.
+        Frames of 10 ms per period.
     steps
-        Periods that are foreseen.
+        Periods of the forecast.
     smoothness
-        rho, what a bend of the broken line costs, relative to a height difference of its size that
-        lasts for a period.
+        rho, the cost of a bend of u(t), relative to a height difference of its size that lasts for
+        a period.
     """
     ramp = np.arange(1, frames + 1) / frames
     knots = np.zeros((steps * frames, steps + 1))

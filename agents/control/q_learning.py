@@ -54,7 +54,7 @@ def state_of(difference: float, parameters: QParameters = Q_PARAMETERS) -> int:
 def right_action(state: int, parameters: QParameters = Q_PARAMETERS) -> int:
     """Return the index of the action that levels the table best from the middle of a state.
 
-    This holds for states of one position step each, as many as there are actions, around level.
+    Valid for as many states as actions, each one position step wide, centred on level.
     """
     steps = state - parameters.states // 2
     return ACTIONS.index(steps)
@@ -66,7 +66,7 @@ class QLearner:
     Parameters
     ----------
     seed
-        Seed for breaking ties; the paper leaves open how.
+        Seed for breaking ties; the paper does not specify how.
     """
 
     def __init__(self, seed: int, parameters: QParameters = Q_PARAMETERS) -> None:
@@ -84,7 +84,7 @@ class QLearner:
         return action
 
     def update(self, state: int, action: int, reward: float, following: int) -> None:
-        """Take one experience in (eq. 1).
+        """Update the table by one experience (eq. 1).
 
         dQ(s, a) = alpha (r + gamma max_a' Q(s', a') - Q(s, a))
         """

@@ -6,7 +6,7 @@ from typing import Literal
 from ..errors import InputError
 
 Reading = Literal["variance as rho", "standard deviation as rho"]
-"""How eq. 6 is read. The paper calls rho "the 1-D variance" and squares it: literally the
+"""Reading of eq. 6. The paper calls rho "the 1-D variance" and squares it: literally the
 variance [mm2] stands where a Gaussian has its standard deviation. The other reading takes the
 root of the variance."""
 
@@ -16,7 +16,7 @@ LITERAL: Reading = "variance as rho"
 def likelihood(error: float, variance: float, reading: Reading = LITERAL) -> float:
     """Return the unnormalised likelihood of a measurement (eq. 6), in (0, 1].
 
-    Beyond 38 rho it is too small for a float and returned as 0.
+    Beyond 38 rho it underflows to 0.
 
         L = exp(-(z - s)^2 / (2 rho^2))
 
@@ -27,7 +27,7 @@ def likelihood(error: float, variance: float, reading: Reading = LITERAL) -> flo
     variance
         Variance of the predicted height [mm2], positive.
     reading
-        What rho is.
+        Meaning of rho.
     """
     rho = variance if reading == LITERAL else math.sqrt(variance)
     return math.exp(-0.5 * (error / rho) ** 2)
@@ -56,7 +56,7 @@ class Confidence:
         self._sum = self._weight = 0.0
 
     def update(self, likelihood: float) -> float:
-        """Take the newest likelihood in and return the confidence."""
+        """Add the newest likelihood and return the confidence."""
         self._sum = likelihood + self._forgetting * self._sum
         self._weight = 1.0 + self._forgetting * self._weight
         return self._sum / self._weight

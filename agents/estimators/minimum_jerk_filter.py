@@ -1,4 +1,4 @@
-"""An extended Kalman filter of a hand on its way by minimum jerk, goal and duration unknown."""
+"""Extended Kalman filter of a minimum-jerk movement with unknown goal and duration."""
 
 import math
 from dataclasses import dataclass, field
@@ -10,7 +10,7 @@ from ..errors import InputError
 from .minimum_jerk import Array
 from .minimum_jerk_process import MinimumJerkProcess
 
-REST_SPREAD: Final = (0.001, 0.01)
+REST_DEVIATIONS: Final = (0.001, 0.01)
 """Standard deviations of velocity [m/s] and acceleration [m/s2] of a hand at rest."""
 
 
@@ -19,16 +19,16 @@ class MinimumJerkFilterParameters:
     """Parameters of :class:`MinimumJerkFilter`."""
 
     measurement_noise: float = 0.0012
-    """Standard deviation of a measured height around the model [m]: that of the motion capture,
-    0.23 mm, and what a person does otherwise."""
+    """Standard deviation of a measured height around the model [m]: motion capture (0.23 mm) and
+    the person's deviation from the model."""
     duration: float = 2.0
     """Mean duration of a movement [s]."""
-    duration_spread: float = 0.2
+    duration_deviation: float = 0.2
     """Standard deviation of the duration [s]."""
-    way: float = 0.1
-    """Standard deviation of the way that a new movement goes, up or down [m]."""
+    displacement: float = 0.1
+    """Standard deviation of the displacement of a new movement, up or down [m]."""
     process: MinimumJerkProcess = field(default_factory=MinimumJerkProcess)
-    """How the hand moves."""
+    """Process model of the hand."""
 
     def __post_init__(self) -> None:
         """Check the ranges.
@@ -38,18 +38,18 @@ class MinimumJerkFilterParameters:
         InputError
             If a value is not a positive number.
         """
-        for name in ("measurement_noise", "duration", "duration_spread", "way"):
+        for name in ("measurement_noise", "duration", "duration_deviation", "displacement"):
             if not 0 < getattr(self, name) < math.inf:
                 raise InputError(f"{name} must be a positive number, got {getattr(self, name)}")
 
 
 class MinimumJerkFilter:
-    """Tracks a hand by the states of :class:`.MinimumJerkProcess`, from its heights.
+    """Estimates the states of :class:`.MinimumJerkProcess` from a hand's heights.
 
-    All but the time to go is linear: the movement of the rates in a step depends on it by the
-    fourth and fifth power of the step alone. With start, end, onset and duration as the state, the
-    model would be strongly nonlinear until the hand has gone far, and an extended Kalman filter
-    far too sure of itself; this one is consistent from the first sample on.
+    The process is linear but for the time to go, which enters only with the fourth and fifth power
+    of the step. With start, end, onset and duration as the state, the model would be strongly
+    nonlinear early in a movement, and an extended Kalman filter overconfident; this one is
+    consistent from the first sample on.
     """
 
     def __init__(self, parameters: MinimumJerkFilterParameters | None = None) -> None:
@@ -57,10 +57,10 @@ class MinimumJerkFilter:
         self._process = self._parameters.process
 
     def reset(self, height: float) -> None:
-        """Begin at rest at a height [m], with a movement about to begin.
+        """Begin at rest at a height [m], just before a movement.
 
-        Its goal is normal around the height; that makes the standard deviation of the jerk
-        60 way / D^3.
+        Its goal is normally distributed around the height; the standard deviation of the jerk is
+        60 displacement / D^3.
 
         Raises
         ------
@@ -70,14 +70,15 @@ class MinimumJerkFilter:
         _require_finite(height)
         given = self._parameters
         left, _ = given.process.time_to_go(given.duration)
-        jerk = 60 * given.way / left**3
-        spread = np.array([given.measurement_noise, *REST_SPREAD, jerk, given.duration_spread])
-        # It brings all of scipy.stats: only who filters waits for that, not every command.
+        jerk = 60 * given.displacement / left**3
+        rates = (*REST_DEVIATIONS, jerk)
+        deviations = np.array([given.measurement_noise, *rates, given.duration_deviation])
+        # filterpy imports scipy.stats, which is slow: not at the start of every command.
         from filterpy.kalman import ExtendedKalmanFilter
 
         self._filter = ExtendedKalmanFilter(dim_x=5, dim_z=1)
         self._filter.x = np.array([[height], [0.0], [0.0], [0.0], [given.duration]])
-        self._filter.P = np.diag(spread**2)
+        self._filter.P = np.diag(deviations**2)
         self._filter.R = np.array([[given.measurement_noise**2]])
 
     def predict(self, period: float) -> None:
@@ -92,7 +93,7 @@ class MinimumJerkFilter:
         moved, self._filter.F = self._process.advance(self.state, period)
         self._filter.Q = self._process.noise(period)
         self._filter.predict()
-        # filterpy moves the state by F, which is right for the covariance only.
+        # filterpy advances the state by F, which is right for the covariance only.
         self._filter.x = moved[:, None]
 
     def update(self, height: float) -> None:
@@ -107,7 +108,7 @@ class MinimumJerkFilter:
         self._filter.update(np.array([[height]]), HJacobian=_observe, Hx=_measure)
 
     def ahead(self, period: float) -> Array:
-        """Return the state expected ``period`` [s] from now; the own state stays as it is.
+        """Return the state expected ``period`` [s] from now, without advancing the filter.
 
         Raises
         ------
@@ -149,6 +150,6 @@ def _observe(state: Array) -> Array:
 
 
 def _measure(state: Array) -> Array:
-    """Return the measurement that a state gives."""
+    """Return the expected measurement of a state."""
     measured: Array = _H @ state
     return measured

@@ -1,4 +1,4 @@
-"""A fit of the minimum-jerk movement to the samples of a stroke so far."""
+"""Fit of a minimum-jerk stroke to the samples of its beginning."""
 
 import math
 from dataclasses import dataclass
@@ -8,17 +8,17 @@ from typing import Final
 import numpy as np
 
 from ..errors import InputError
-from .minimum_jerk import Array, MinimumJerkStroke, course
+from .minimum_jerk import Array, MinimumJerkStroke, profile
 from .minimum_jerk_search import Samples
 
 REFERENCE_PERIOD: Final = 0.1
-"""Spacing of the samples [s] to which the spread of :class:`MinimumJerkFit` refers."""
+"""Sample spacing to which the deviation of :class:`MinimumJerkFit` refers [s]."""
 
 FEWEST: Final = 3
 """Fewest samples of a fit."""
 
 SPAN: Final = 5.0
-"""A sample older than this many memories has next to no weight (e^-5 = 0.7 %) and is left out."""
+"""Age of the oldest sample of a fit, in memories: the weight there is e^-5 = 0.7 %."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,18 +26,16 @@ class MinimumJerkFitParameters:
     """Parameters of :class:`MinimumJerkFit`."""
 
     durations: tuple[float, float] = (0.6, 4.5)
-    """Shortest and longest stroke that is thought of [s]."""
+    """Shortest and longest stroke of the grid [s]."""
     elapsed: tuple[float, float] = (0.02, 1.5)
-    """Least and most of a stroke that may have gone by at the newest sample, in durations; beyond
-    1 it has ended."""
+    """Least and largest elapsed fraction of a stroke at the newest sample; it ends at 1."""
     rise: float = 0.3
-    """Standard deviation of how far a stroke goes, up or down [m]: the reach of the robot's
-    arms."""
+    """Standard deviation of a stroke's rise, up or down [m]: the reach of the robot's arms."""
     memory: float = 0.25
-    """Time in which the weight of a sample falls to 1/e [s]: people keep to the model for a while,
+    """Time in which the weight of a sample falls to 1/e [s]: people follow the model for a while,
     not for a whole stroke."""
     grid: tuple[int, int] = (12, 30)
-    """Number of durations, and of elapsed shares, that are compared."""
+    """Number of durations, and of elapsed fractions, in the grid."""
 
     def __post_init__(self) -> None:
         """Check the ranges.
@@ -60,29 +58,29 @@ class MinimumJerkFitParameters:
 
 
 class MinimumJerkFit:
-    """The minimum-jerk strokes that the samples so far may be the beginning of.
+    """Posterior of the minimum-jerk stroke that the samples are the beginning of.
 
-    Over a grid of durations and of shares gone by, the likelihood of a stroke is
+    Over a grid of durations and elapsed fractions, the likelihood of a stroke is
 
-        p ~ exp(-1/2 sum_i w_i (z_i - z(t_i))^2 / spread^2),
+        p ~ exp(-1/2 sum_i w_i (z_i - z(t_i))^2 / deviation^2),
         w_i = exp(-(t_n - t_i) / memory) (t_i - t_(i-1)) / 0.1 s
 
-    with start and end, in which the height is linear, integrated out: by a flat prior on the start
-    and on the grid, and a normal one of mean 0 on the rise. Samples at a higher rate weigh less
-    each, since what a person does otherwise than the model lasts longer than a sample.
+    with start and end, in which the height is linear, integrated out: with a flat prior on the
+    start and on the grid, and a normal one of mean 0 on the rise. At a higher rate each sample
+    weighs less, since a person's deviation from the model lasts longer than a sample.
 
-    Early in a stroke many durations fit alike, and the best one is a gamble. So :attr:`stroke` is
-    the best, but :meth:`height` is the mean over all, each as far as it is likely.
+    Early in a stroke many durations fit equally well. Therefore :attr:`stroke` is the most likely
+    one, but :meth:`height` is the mean over all, weighted by their probabilities.
 
     Parameters
     ----------
     times
-        (n,) when the samples were taken [s], increasing, n at least 3.
+        (n,) sample times [s], increasing, n at least 3.
     heights
-        (n,) what was seen [m]; the first few from the rest before the stroke, if there was one.
-    spread
-        Standard deviation of a sample around the model [m]: the sensor's noise, and what the
-        person does otherwise.
+        (n,) seen heights [m]; the first few from the rest before the stroke, if there was one.
+    deviation
+        Standard deviation of a sample around the model [m]: the sensor's noise and the person's
+        deviation from the model.
 
     Raises
     ------
@@ -94,7 +92,7 @@ class MinimumJerkFit:
         self,
         times: Array,
         heights: Array,
-        spread: float,
+        deviation: float,
         parameters: MinimumJerkFitParameters | None = None,
     ) -> None:
         parameters = parameters or MinimumJerkFitParameters()
@@ -110,22 +108,22 @@ class MinimumJerkFit:
         self._now = float(times[-1])
         weights = np.exp((self._times - self._now) / parameters.memory) * spacing
         self._weight = float(weights.sum()) / REFERENCE_PERIOD
-        self._shares = weights / weights.sum()
+        self._weights = weights / weights.sum()
         self._limits = parameters.durations
         self._durations, self._elapsed = _grid(parameters)
-        self._compare(spread, parameters.rise)
+        self._compare(deviation, parameters.rise)
 
-    def _compare(self, spread: float, rise: float) -> None:
-        """Find the best rise and the probability of each stroke of the grid."""
+    def _compare(self, deviation: float, rise: float) -> None:
+        """Compute the best rise and the probability of each stroke of the grid."""
         ages = self._now - self._times
-        done = course(self._elapsed[:, None] - ages / self._durations[:, None])
-        self._mean_done = done @ self._shares
-        self._mean_height = float(self._shares @ self._heights)
+        done = profile(self._elapsed[:, None] - ages / self._durations[:, None])
+        self._mean_done = done @ self._weights
+        self._mean_height = float(self._weights @ self._heights)
         done -= self._mean_done[:, None]
-        precision = self._weight / spread**2
-        moment = precision * (done @ (self._shares * (self._heights - self._mean_height)))
+        precision = self._weight / deviation**2
+        moment = precision * (done @ (self._weights * (self._heights - self._mean_height)))
         self._pull = 1 / (precision * rise**2)
-        information = precision * (np.square(done) @ self._shares + self._pull)
+        information = precision * (np.square(done) @ self._weights + self._pull)
         self._rises = moment / information
         evidence = 0.5 * (moment * self._rises - np.log(information))
         probability = np.exp(evidence - evidence.max())
@@ -134,25 +132,25 @@ class MinimumJerkFit:
     def height(self, time: float) -> float:
         """Return the expected height at a time [m]: the mean over all strokes of the grid."""
         tau = self._elapsed + (time - self._now) / self._durations
-        gone = course(tau) - self._mean_done
-        return self._mean_height + float(self._probability @ (self._rises * gone))
+        done = profile(tau) - self._mean_done
+        return self._mean_height + float(self._probability @ (self._rises * done))
 
     @cached_property
     def stroke(self) -> MinimumJerkStroke:
-        """The likeliest stroke: weighted least squares, with the prior on the rise.
+        """The most likely stroke: weighted least squares, with the prior on the rise.
 
-        Searched for from the likeliest stroke of the grid; its duration stays within the limits.
+        The search starts at the most likely stroke of the grid and clips the duration to its range.
         """
         best = int(np.argmax(self._probability))
         duration = float(self._durations[best])
         onset = self._now - float(self._elapsed[best]) * duration
-        samples = Samples(self._times, self._heights, self._shares, self._pull)
+        samples = Samples(self._times, self._heights, self._weights, self._pull)
         return samples.search(onset, duration, self._limits)
 
 
 @lru_cache(maxsize=4)
 def _grid(parameters: MinimumJerkFitParameters) -> tuple[Array, Array]:
-    """Return duration [s] and elapsed share of every stroke of the grid, flat and read-only."""
+    """Return duration [s] and elapsed fraction of every stroke of the grid, flat and read-only."""
     durations = np.geomspace(*parameters.durations, parameters.grid[0])
     elapsed = np.linspace(*parameters.elapsed, parameters.grid[1])
     grid = np.repeat(durations, len(elapsed)), np.tile(elapsed, len(durations))

@@ -1,4 +1,4 @@
-"""The least-jerk motion of a hand from any state, and its uncertainty."""
+"""Stochastic process of a hand that moves by minimum jerk from any state."""
 
 import math
 from dataclasses import dataclass
@@ -14,17 +14,17 @@ _BRAKING: Final = np.array([[-1.0, -0.75, -0.25], [0.6, 0.4, 0.1]])
 _POWERS: Final = np.array([[3.0, 2.0, 1.0], [4.0, 3.0, 2.0]])
 
 
-def transition(period: float, time_to_go: float) -> Array:
-    """Return what takes (height, velocity, acceleration, jerk) ``period`` [s] on, shape (4, 4).
+def minimum_jerk_transition(period: float, time_to_go: float) -> Array:
+    """Return the transition of (height, velocity, acceleration, jerk) over ``period`` [s], (4, 4).
 
-    From any state, the least jerk brings the hand to rest after the time to go D along a quintic
-    (Flash and Hogan 1985):
+    From any state, the minimum-jerk movement to rest after the time to go D is a quintic (Flash and
+    Hogan 1985):
 
         z(t) = s + v t + a t^2 / 2 + j t^3 / 6 + c4 t^4 + c5 t^5,  z'(D) = z''(D) = 0
         c4 = -v / D^3 - 3 a / (4 D^2) - j / (4 D)
         c5 = 3 v / (5 D^4) + 2 a / (5 D^3) + j / (10 D^2)
 
-    It holds for periods up to D.
+    Valid for periods up to D.
     """
     t = period
     moved = np.array(
@@ -41,27 +41,26 @@ def transition(period: float, time_to_go: float) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class MinimumJerkProcess:
-    """The motion of a hand to a goal it keeps to itself, as a process with five states.
+    """The motion of a hand to an unknown goal, as a process with five states.
 
-    The state is height s, velocity v, acceleration a, jerk j, and a clock C that runs down to the
-    end of the movement. The first four go on by :func:`transition` with the time to go D(C) of
-    :meth:`time_to_go`; the clock loses a second a second. Given D, the rates say where the movement
-    ends:
+    The state is height s, velocity v, acceleration a, jerk j, and a clock C that counts down to the
+    end of the movement. The first four advance by :func:`minimum_jerk_transition` with the time to
+    go D(C) of :meth:`time_to_go`; the clock decreases at the rate of time. Given D, the rates
+    determine the end of the movement:
 
         goal = s + 3/5 v D + 3/20 a D^2 + 1/60 j D^3
 
-    Noise enters the jerk, by a snap (its rate) that is constant in a step, and the clock.
+    Noise enters the clock and, by a snap (its rate) that is constant in a step, the jerk.
     """
 
     jerk_noise: float = 1.0
-    """Standard deviation by which the jerk leaves the model in a second [m/s3/s^0.5]: people change
-    their minds."""
+    """Noise density of the jerk [m/s3/s^0.5]: people change their minds."""
     clock_noise: float = 0.1
-    """Standard deviation by which a person's own clock goes astray in a second [s/s^0.5]."""
+    """Noise density of a person's own clock [s/s^0.5]."""
     shortest: float = 0.8
-    """Least time to go [s]: who is nearly there still corrects the rest of the way."""
+    """Least time to go [s]: near the goal, a person still makes corrections."""
     softness: float = 0.2
-    """Width of the bend with which the time to go ends at the least [s]."""
+    """Width of the transition of the time to go to its least value [s]."""
 
     def __post_init__(self) -> None:
         """Check the ranges.
@@ -76,9 +75,9 @@ class MinimumJerkProcess:
                 raise InputError(f"{name} must be a positive number, got {value}")
 
     def time_to_go(self, clock: float) -> tuple[float, float]:
-        """Return the time to go D [s] of a clock C [s] that runs down, and dD/dC.
+        """Return the time to go D [s] of a clock C [s], and dD/dC.
 
-        D is C while that is long, and bends to the shortest D0 with the softness b:
+        D equals C while C is large, and levels off at the shortest D0 with the softness b:
 
             D = D0 + b log(1 + exp((C - D0) / b))
         """
@@ -93,7 +92,7 @@ class MinimumJerkProcess:
         """
         left, slope = self.time_to_go(float(state[4]))
         t = min(period, left)
-        by_rates = transition(t, left)
+        by_rates = minimum_jerk_transition(t, left)
         jacobian = np.eye(5)
         jacobian[:4, :4] = by_rates
         by_left = -_BRAKING * _POWERS / left ** (_POWERS + 1)
@@ -101,9 +100,9 @@ class MinimumJerkProcess:
         return np.append(by_rates @ state[:4], state[4] - period), jacobian
 
     def noise(self, period: float) -> Array:
-        """Return the covariance Q of what a step of ``period`` [s] adds, shape (5, 5).
+        """Return the covariance Q of the process noise of a step of ``period`` [s], shape (5, 5).
 
-        The variance of the snap is jerk_noise^2 / period, so that what it does in a second does not
+        The variance of the snap is jerk_noise^2 / period; its effect over a given time does not
         depend on the period.
         """
         gain = np.array([period**4 / 24, period**3 / 6, period**2 / 2, period, 0.0])
@@ -112,7 +111,7 @@ class MinimumJerkProcess:
         return covariance
 
     def goal(self, state: Array) -> float:
-        """Return where the movement ends [m]."""
+        """Return the height at which the movement ends [m]."""
         left, _ = self.time_to_go(float(state[4]))
         return float(state[:4] @ [1.0, 0.6 * left, 0.15 * left**2, left**3 / 60])
 

@@ -30,10 +30,10 @@ class MotionFilterParameters:
     of the rms jerk of a 0.2 m minimum-jerk lift in 2 s, 671 mm/s3."""
 
     noise_enters: NoiseForm = "jerk"
-    """How Q is built: q g g' with g = [t3/6, t2/2, t] (a jerk that is constant over a step), or
+    """Form of Q: q g g' with g = [t3/6, t2/2, t] (a jerk that is constant over a step), or
     q t2 on the acceleration alone."""
 
-    initial_spread: tuple[float, float, float] = (0.7**0.5, 10.0, 100.0)
+    initial_deviation: tuple[float, float, float] = (0.7**0.5, 10.0, 100.0)
     """Standard deviations of height [mm], velocity [mm/s] and acceleration [mm/s2] at the start:
     the lift begins at rest."""
 
@@ -43,23 +43,23 @@ class MotionFilterParameters:
         Raises
         ------
         InputError
-            If a noise is not a positive number, the spread does not have three positive entries,
+            If a noise is not a positive number, the deviations are not three positive numbers,
             or there is no such form of the process noise.
         """
         for name in ("measurement_noise", "process_noise"):
             noise = getattr(self, name)
             if not 0 < noise < math.inf:
                 raise InputError(f"{name} must be a positive number, got {noise}")
-        spread = self.initial_spread
-        if len(spread) != 3 or not all(0 < entry < math.inf for entry in spread):
-            raise InputError(f"initial_spread must be three positive numbers, got {spread}")
+        deviation = self.initial_deviation
+        if len(deviation) != 3 or not all(0 < entry < math.inf for entry in deviation):
+            raise InputError(f"initial_deviation must be three positive numbers, got {deviation}")
         if self.noise_enters not in get_args(NoiseForm):
             known = ", ".join(get_args(NoiseForm))
             raise InputError(f"noise_enters must be one of {known}, got {self.noise_enters!r}")
 
 
 class Prediction(NamedTuple):
-    """What the filter expects of a sample, before it has seen it."""
+    """Expected sample, before it is measured."""
 
     height: float
     """Predicted height [m], eq. 5."""
@@ -86,10 +86,10 @@ def process_covariance(parameters: MotionFilterParameters, period: float) -> Mat
 
 
 class MotionFilter:
-    """Tracks height, velocity and acceleration of the human's end from its samples.
+    """Estimates height, velocity and acceleration of the human's end from its samples.
 
     The state x = (s, v, a) follows eq. 4, the measurement is z = s + v with v ~ N(0, R) (eq. 3).
-    Both are linear, so that the paper's extended Kalman filter is a Kalman filter.
+    Both are linear: the paper's extended Kalman filter reduces to a Kalman filter.
     """
 
     def __init__(self, parameters: MotionFilterParameters | None = None) -> None:
@@ -104,13 +104,13 @@ class MotionFilter:
             If the height is not a finite number.
         """
         _require_finite("a measured height", height)
-        spread = np.array(self._parameters.initial_spread)
-        # It brings all of scipy.stats: only who filters waits for that, not every command.
+        deviation = np.array(self._parameters.initial_deviation)
+        # filterpy imports scipy.stats, which is slow: not at the start of every command.
         from filterpy.kalman import ExtendedKalmanFilter
 
         self._filter = ExtendedKalmanFilter(dim_x=3, dim_z=1)
         self._filter.x = np.array([[1000 * height], [0.0], [0.0]])
-        self._filter.P = np.diag(spread**2)
+        self._filter.P = np.diag(deviation**2)
         self._filter.R = np.array([[self._parameters.measurement_noise]])
 
     def update(self, height: float) -> None:
@@ -126,7 +126,7 @@ class MotionFilter:
         self._filter.update(measured, HJacobian=_observe, Hx=_measure)
 
     def predict(self, period: float) -> Prediction:
-        """Advance the state by ``period`` [s] and return what is expected then (eqs. 4, 5).
+        """Advance the state by ``period`` [s] and return the expected sample (eqs. 4, 5).
 
         Raises
         ------
@@ -140,7 +140,7 @@ class MotionFilter:
         return _prediction(self._filter.x, self._filter.P)
 
     def ahead(self, period: float) -> Prediction:
-        """Return what is expected ``period`` [s] from now (eq. 5); the state stays as it is.
+        """Return the sample expected ``period`` [s] from now (eq. 5), without advancing the filter.
 
         Raises
         ------
@@ -178,6 +178,6 @@ def _observe(state: Matrix) -> Matrix:
 
 
 def _measure(state: Matrix) -> Matrix:
-    """Return the measurement that a state gives (eq. 3)."""
+    """Return the expected measurement of a state (eq. 3)."""
     measured: Matrix = _H @ state
     return measured

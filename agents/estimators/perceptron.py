@@ -1,4 +1,4 @@
-"""A multilayer perceptron that was trained elsewhere: plain NumPy, and a few kilobytes of JSON."""
+"""Inference of a trained multilayer perceptron in plain NumPy, with a JSON representation."""
 
 import itertools
 from dataclasses import dataclass
@@ -14,13 +14,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Perceptron:
-    """A function from n to m numbers, of layers of rectified linear units.
+    """A function from n to m numbers by layers of rectified linear units.
 
-        z_0 = (x - centre) / spread,  z_(i+1) = max(0, z_i W_i + b_i),
+        z_0 = (x - centre) / deviation,  z_(i+1) = max(0, z_i W_i + b_i),
         y = gain (z_last W_last + b_last)
 
-    Rectified units make it piecewise linear, so that it goes on as a straight line where nothing
-    was learned.
+    It is piecewise linear: outside the training data it extrapolates along straight lines.
 
     Raises
     ------
@@ -30,7 +29,7 @@ class Perceptron:
 
     centre: Array
     """(n,) mean of the inputs."""
-    spread: Array
+    deviation: Array
     """(n,) standard deviation of the inputs."""
     weights: tuple[Array, ...]
     """W of each layer, (n, k), (k, l), ..., (., m)."""
@@ -41,7 +40,7 @@ class Perceptron:
 
     def __post_init__(self) -> None:
         """Check the shapes."""
-        parts = [self.centre, self.spread, *self.weights, *self.biases, self.gain]
+        parts = [self.centre, self.deviation, *self.weights, *self.biases, self.gain]
         if not all(np.isfinite(part).all() for part in parts):
             raise InputError("a perceptron's numbers must be finite")
         sizes = [len(self.centre), *(len(bias) for bias in self.biases)]
@@ -49,22 +48,22 @@ class Perceptron:
         shapes = [weight.shape for weight in self.weights]
         if not shapes or shapes != wanted:
             raise InputError(f"a perceptron's layers must have the shapes {wanted}, got {shapes}")
-        if len(self.spread) != sizes[0] or len(self.gain) != sizes[-1]:
-            raise InputError("a perceptron needs a spread an input and a gain an output")
+        if len(self.deviation) != sizes[0] or len(self.gain) != sizes[-1]:
+            raise InputError("a perceptron needs one deviation per input and one gain per output")
 
     def __call__(self, inputs: ArrayLike) -> Array:
         """Return the outputs (..., m) for inputs (..., n)."""
-        values = (np.asarray(inputs, dtype=np.float64) - self.centre) / self.spread
+        values = (np.asarray(inputs, dtype=np.float64) - self.centre) / self.deviation
         for weight, bias in zip(self.weights[:-1], self.biases[:-1], strict=True):
             values = np.maximum(values @ weight + bias, 0.0)
         outputs: Array = (values @ self.weights[-1] + self.biases[-1]) * self.gain
         return outputs
 
     def plain(self) -> dict[str, Any]:
-        """Return the content for JSON, in five significant digits."""
+        """Return a JSON representation, with five significant digits."""
         return {
             "centre": _rounded(self.centre),
-            "spread": _rounded(self.spread),
+            "spread": _rounded(self.deviation),
             "weights": [_rounded(weight) for weight in self.weights],
             "biases": [_rounded(bias) for bias in self.biases],
             "gain": _rounded(self.gain),
@@ -75,7 +74,7 @@ class Perceptron:
         """Return the perceptron of :meth:`plain`."""
         return cls(
             centre=np.array(content["centre"], dtype=np.float64),
-            spread=np.array(content["spread"], dtype=np.float64),
+            deviation=np.array(content["spread"], dtype=np.float64),
             weights=tuple(np.array(each, dtype=np.float64) for each in content["weights"]),
             biases=tuple(np.array(each, dtype=np.float64) for each in content["biases"]),
             gain=np.array(content["gain"], dtype=np.float64),

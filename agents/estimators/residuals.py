@@ -1,8 +1,8 @@
-"""Confidence in a prediction, from the statistics of its residuals.
+"""Confidence in a prediction from the statistics of its residuals.
 
 The paper derives its confidence (eqs. 6 and 7) from an earlier one "based on the statistical
 properties of the residuals between the predicted measurements and the observed measurements"
-(section III.B, its reference 13). This is such a one: the standard test of a Kalman filter's
+(section III.B, its reference 13). This module is one such: the standard test of a Kalman filter's
 consistency by its time-average normalised innovation squared (Bar-Shalom, Li, Kirubarajan,
 *Estimation with Applications to Tracking and Navigation*, 2001, section 5.4), with the test's
 p-value as the confidence.
@@ -14,7 +14,7 @@ from collections import deque
 from ..errors import InputError
 
 LONGEST = 100
-"""Most residuals in a window."""
+"""Largest number of residuals in a window."""
 
 
 def chi_square_tail(value: float, degrees: int) -> float:
@@ -46,22 +46,22 @@ def chi_square_tail(value: float, degrees: int) -> float:
 
 
 class ResidualConfidence:
-    """The p-value of the latest residuals, were the filter's model true.
+    """The p-value of the latest residuals under the filter's model.
 
     Normalised innovations v^2 / S of a consistent filter are chi-square with one degree of
-    freedom and independent, so that their sum over a window of n has n of them:
+    freedom and independent; their sum over a window of n has n degrees of freedom:
 
         C = P(chi2_n >= v_1^2 / S_1 + ... + v_n^2 / S_n)
 
-    It is near 1 while the errors are smaller than the filter expects, even in [0, 1] for a
-    consistent filter, and near 0 when the motion is not the one that is modelled. Until the
-    window is full n counts the residuals that there are; with none, C = 1.
+    It is near 1 while the errors are smaller than the filter expects, uniform in [0, 1] for a
+    consistent filter, and near 0 when the motion does not follow the model. Until the window is
+    full, n is the number of residuals so far; with none, C = 1.
 
     Parameters
     ----------
     window
-        Number of residuals judged together, from 1 to :data:`LONGEST`: many reject a wrong model
-        more surely, few forget it sooner.
+        Number of residuals tested together, from 1 to :data:`LONGEST`: more reject a wrong model
+        with greater power, fewer forget it sooner.
 
     Raises
     ------
@@ -75,7 +75,7 @@ class ResidualConfidence:
         self._squares: deque[float] = deque(maxlen=window)
 
     def update(self, innovation: float, variance: float) -> float:
-        """Take the newest residual in and return the confidence.
+        """Add the newest residual and return the confidence.
 
         Parameters
         ----------

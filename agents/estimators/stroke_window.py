@@ -1,4 +1,4 @@
-"""The window of the present stroke: the samples since the last rest or turning point."""
+"""Segmentation into strokes: the samples of the movement in progress."""
 
 import math
 from dataclasses import dataclass
@@ -16,10 +16,10 @@ class StrokeWindowParameters:
     rest_speed: float = 0.008
     """Below this speed a hand rests [m/s]; a lift's highest is twenty times as much."""
     baseline: float = 0.1
-    """Time over which a speed is taken [s], or the time between two samples if that is longer: the
-    noise of 0.23 mm in a height makes 3 mm/s of noise in it."""
+    """Time over which a speed is taken [s], or the time between two samples if that is longer; the
+    height's noise of 0.23 mm becomes a noise of 3 mm/s."""
     rest: float = 0.3
-    """How much of a rest or of a turning point is kept [s]."""
+    """Duration of a rest or turning point that is kept [s]."""
 
     def __post_init__(self) -> None:
         """Check the ranges.
@@ -52,16 +52,16 @@ class StrokeWindow:
 
     @property
     def times(self) -> Array:
-        """When the samples were taken [s], oldest first."""
+        """Sample times [s], oldest first."""
         return np.array(self._times)
 
     @property
     def heights(self) -> Array:
-        """The samples [m], oldest first."""
+        """Sampled heights [m], oldest first."""
         return np.array(self._heights)
 
     def add(self, time: float, height: float) -> None:
-        """Take the newest sample in.
+        """Add the newest sample.
 
         Raises
         ------
@@ -83,21 +83,23 @@ class StrokeWindow:
         self._direction = direction
 
     def _directions(self) -> tuple[int, int]:
-        """Return which way the hand moves now and moved one baseline ago: up 1, down -1, rest 0."""
+        """Return the direction now and one baseline ago: 1 up, -1 down, 0 at rest."""
         newest = len(self._times) - 1
         middle = self._earlier(newest)
-        return self._way(middle, newest), self._way(self._earlier(middle), middle)
+        return self._direction_between(middle, newest), self._direction_between(
+            self._earlier(middle), middle
+        )
 
     def _earlier(self, index: int) -> int:
         """Return the newest sample at least a baseline before another, or the one before it."""
         limit = self._times[index] - self._parameters.baseline + 1e-6
         return max(int(np.searchsorted(self._times[:index], limit, side="right")) - 1, 0)
 
-    def _way(self, first: int, last: int) -> int:
+    def _direction_between(self, first: int, last: int) -> int:
         if first == last:
             return 0
         rise = self._heights[last] - self._heights[first]
-        # While there are samples of less than a baseline, their noise is no speed.
+        # Over less than a baseline, noise would look like speed.
         span = max(self._times[last] - self._times[first], self._parameters.baseline)
         if abs(rise) < self._parameters.rest_speed * span:
             return 0

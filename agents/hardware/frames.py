@@ -8,7 +8,7 @@ from .ports import MotionCapture, Sample
 from .stops import losses_stop
 
 UNDATED: Final = Sample(math.nan, math.nan, math.nan)
-"""What a record has for a frame whose time stamp cannot be: nothing is known of it."""
+"""What a log has for a frame whose time stamp cannot be: nothing is known of it."""
 
 
 class Drained(NamedTuple):

@@ -23,10 +23,10 @@ from .frames import UNDATED, drained
 from .holds import LIMIT, WINDOW, Holds
 from .plausibility import CaptureMonitor, at
 from .ports import ArmState, Clock, MotionCapture, RobotArm
-from .record import Record, Step
 from .safety import limited, motor_fault
 from .stops import HoldReason, Stop, StopTrialError, losses_stop
 from .trial_end import TrialEnd
+from .trial_log import Step, TrialLog
 
 DEAD_TIME: Final = 0.01
 """Mean time from a command to the hands' setting out [s]: half a cycle of ALMotion, which takes
@@ -74,10 +74,10 @@ def run_trial(
     *,
     settings: LoopSettings,
     end: TrialEnd,
-) -> Record:
+) -> TrialLog:
     """Play one trial, from the hands at rest to its end or to a stop.
 
-    Whatever happens, this returns: with the robot stopped if ``record.stop`` is set.
+    Whatever happens, this returns: with the robot stopped if ``log.stop`` is set.
 
     Parameters
     ----------
@@ -90,19 +90,19 @@ def run_trial(
     end
         Says when the trial is over.
     """
-    record = Record(period=settings.period, latency=settings.latency)
-    loop = _Loop(robot, capture, decider, clock, settings, record)
+    log = TrialLog(period=settings.period, latency=settings.latency)
+    loop = _Loop(robot, capture, decider, clock, settings, log)
     try:
         loop.begin()
-        while not end.over(record):
+        while not end.over(log):
             loop.step()
     except StopTrialError as stop:
         robot.stop()
-        record.stop, record.reason = stop.stop, stop.reason
+        log.stop, log.reason = stop.stop, stop.reason
     except BaseException:
         robot.stop()
         raise
-    return record
+    return log
 
 
 class _Loop:
@@ -115,10 +115,10 @@ class _Loop:
         decider: Decider,
         clock: Clock,
         settings: LoopSettings,
-        record: Record,
+        log: TrialLog,
     ) -> None:
         self._robot, self._capture, self._clock = robot, capture, clock
-        self._decider, self._settings, self._record = decider, settings, record
+        self._decider, self._settings, self._log = decider, settings, log
         self._watch, self._holds, self._conduct = (
             CaptureMonitor(),
             Holds(),
@@ -130,22 +130,22 @@ class _Loop:
 
     def begin(self) -> None:
         """Set the first deadline."""
-        self._record.begin = self._clock.now()
-        self._frames(self._record.begin)
+        self._log.begin = self._clock.now()
+        self._frames(self._log.begin)
 
     def step(self) -> None:
         """Wait for the deadline, decide and command."""
-        period, record, clock = self._settings.period, self._record, self._clock
-        deadline = record.start + self._number * period
+        period, log, clock = self._settings.period, self._log, self._clock
+        deadline = log.start + self._number * period
         pressed = clock.wait_until(deadline)
         if pressed is not None:
             raise StopTrialError(Stop.OPERATOR, f"stopped by the operator: {pressed}")
         now = clock.now()
         missed = int((now - deadline) / period)
         if missed > 0:
-            record.late_steps += missed
+            log.late_steps += missed
             self._number += missed
-            deadline = record.start + self._number * period
+            deadline = log.start + self._number * period
         number = self._number
         self._number += 1
         self._frames(now)
@@ -166,7 +166,7 @@ class _Loop:
             self._give(self._conduct.level(wanted, before, self._watch.samples[-1].human_end))
         self._speed = (self._command - before) / period
         commanded = clock.now()
-        record.events.append(
+        log.events.append(
             Step(
                 time=now,
                 deadline=deadline,
@@ -195,7 +195,7 @@ class _Loop:
     def _frames(self, now: float) -> None:
         """Take in what the motion capture has sent."""
         frames, misdated = drained(self._capture, now)
-        self._record.events.extend([*frames, *[UNDATED] * misdated])
+        self._log.events.extend([*frames, *[UNDATED] * misdated])
         self._watch.take(frames, misdated)
 
     def _give(self, height: float) -> None:
@@ -228,8 +228,8 @@ class _Loop:
         told = decision.reason
         if hold is HoldReason.NOT_SEEN:
             told = self._capture.unseen
-        if hold is HoldReason.STALE and self._record.misdated:
-            told = f"{self._record.misdated} frames had time stamps ahead of the clock, or none"
+        if hold is HoldReason.STALE and self._log.misdated:
+            told = f"{self._log.misdated} frames had time stamps ahead of the clock, or none"
         raise StopTrialError(
             Stop.after(hold),
             f"{hold.value}; the hands were held for {held:.1f} s of the last "

@@ -20,9 +20,9 @@ from .nao.naoqi import NaoqiArm
 from .operator import StopButton, key_stops
 from .plausibility import seen
 from .ports import Clock, HandLimits, RobotArm, RobotLostError, TableCapture
-from .record import Record
 from .stops import Stop, StopTrialError, losses_stop
 from .trial_end import TrialEnd
+from .trial_log import TrialLog
 
 READY: Final = 0.015
 """Largest height of an end at which a trial may begin [m]."""
@@ -116,7 +116,7 @@ class Session:
         number: int,
         settings: LoopSettings,
         end: TrialEnd,
-    ) -> Record:
+    ) -> TrialLog:
         """Play one trial with a new policy object; return also one that was stopped."""
         robot = self.robot
         with policy as agent:

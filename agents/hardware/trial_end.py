@@ -6,7 +6,7 @@ from typing import Final, Protocol
 
 from .plausibility import seen
 from .ports import Sample
-from .record import Record, Step
+from .trial_log import Step, TrialLog
 
 RISEN: Final = 0.05
 """Height of the human's end [m] from which a lift has begun."""
@@ -21,7 +21,7 @@ STILL: Final = 0.005
 class TrialEnd(Protocol):
     """Says when a trial is over."""
 
-    def over(self, record: Record) -> bool:
+    def over(self, log: TrialLog) -> bool:
         """Return whether the trial has reached its end; called before each step."""
 
 
@@ -32,12 +32,12 @@ class AfterDuration:
     duration: float
     """[s]"""
 
-    def over(self, record: Record) -> bool:
+    def over(self, log: TrialLog) -> bool:
         """Return whether the next deadline is at the duration or beyond."""
-        last = record.events[-1] if record.events else None
+        last = log.events[-1] if log.events else None
         if not isinstance(last, Step):
             return False
-        return last.deadline + record.period > record.start + self.duration - record.period / 2
+        return last.deadline + log.period > log.start + self.duration - log.period / 2
 
 
 @dataclass(kw_only=True)
@@ -52,13 +52,13 @@ class AfterLift:
     _read: int = 0
     _risen: bool = False
 
-    def over(self, record: Record) -> bool:
+    def over(self, log: TrialLog) -> bool:
         """Return whether the table is down and at rest after a lift."""
-        recent, newest = self._recent, record.events[self._read :]
-        self._read = len(record.events)
+        recent, newest = self._recent, log.events[self._read :]
+        self._read = len(log.events)
         for event in newest:
             if isinstance(event, Step):
-                if event.time - record.start > self.longest:
+                if event.time - log.start > self.longest:
                     return True
             elif seen(event):
                 self._risen |= event.human_end > RISEN

@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from ..agent import FRAME
-from .movement import Lift, between, natural_stroke
+from .movement import MovementDraw, interpolate, natural_stroke
 from .plan import Plan, assemble, move, still
 from .stroke import replan
 from .subject import GOAL_RANGE, Subject
@@ -22,37 +22,37 @@ LOWEST_TURN = 0.03
 
 @dataclass(frozen=True, kw_only=True)
 class ChangingGoal:
-    """Changes its mind on the way up: turns back, or stops lower or higher than first meant."""
+    """Changes the goal on the way up: turns back, or stops lower or higher than first intended."""
 
     changes: tuple[Change, ...] = ("reverse", "undershoot", "overshoot")
-    """What may happen, each as likely: turn back, a lower goal, a higher goal."""
+    """Possible changes, equally likely: turning back, a lower goal, a higher goal."""
     part: tuple[float, float] = (0.3, 0.7)
     """Earliest and latest change, relative to the duration of the upward stroke."""
     size: tuple[float, float] = (0.2, 0.6)
-    """Smallest and largest change of the goal, relative to the first goal. Turning back goes this
-    far down from where the hand is."""
+    """Smallest and largest change of the goal, relative to the first goal. Turning back descends by
+    this much from the hand's height."""
     reaction: tuple[float, float] = (0.1, 0.2)
     """Shortest and longest time from the change to the new movement [s]."""
 
     def plan(self, subject: Subject, seed: int) -> Plan:
         """Return the plan of one episode; pure in ``(self, subject, seed)``.
 
-        An overshoot ends at the height drawn for the lift and first aims lower, so that heights
-        are spread as in the other behaviours. Turning back happens only above the lowest goal of
-        ``GOAL_RANGE``, and an undershoot does not go below it.
+        An overshoot ends at the height drawn for the lift and first aims lower, for the same
+        distribution of heights as in the other behaviours. Turning back happens only above the
+        lowest goal of ``GOAL_RANGE``, and an undershoot does not go below it.
         """
         rng = np.random.default_rng(seed)
-        lift = Lift.draw(subject, rng)
+        lift = MovementDraw.sample(subject, rng)
         part, size, reaction = rng.random(3).tolist()
         change = self.changes[int(rng.integers(len(self.changes)))]
-        size = between(self.size, size)
+        size = interpolate(self.size, size)
         first = lift.height / (1.0 + size) if change == "overshoot" else lift.height
 
         up = natural_stroke(subject, first, lift.up, rng)
-        switch = round(lift.up * between(self.part, part) / FRAME)
+        switch = round(lift.up * interpolate(self.part, part) / FRAME)
         if change == "reverse":
             switch = max(switch, int(np.searchsorted(up[0], GOAL_RANGE[0])))
-        turn = min(switch + round(between(self.reaction, reaction) / FRAME), up.shape[1])
+        turn = min(switch + round(interpolate(self.reaction, reaction) / FRAME), up.shape[1])
         state = up[:, turn - 1]
         here = float(state[0])
         goal = {

@@ -1,10 +1,10 @@
-"""A lift in fits and starts."""
+"""A lift in irregular submovements."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from .movement import Lift, between
+from .movement import MovementDraw, interpolate
 from .plan import Plan, assemble, move, still
 from .stroke import Motion, Submovement, stroke
 from .subject import Subject
@@ -12,7 +12,7 @@ from .subject import Subject
 
 @dataclass(frozen=True, kw_only=True)
 class Jerky:
-    """Moves in fits and starts: two to three submovements a second."""
+    """Moves jerkily: two to three submovements per second."""
 
     frequency: tuple[float, float] = (2.0, 3.0)
     """Lowest and highest rate of submovements [Hz]; a choice, on the fast side of the 0.5 to 1.8 Hz
@@ -23,14 +23,14 @@ class Jerky:
     """Duration of a submovement, relative to the interval between two."""
     jitter: float = 0.1
     """Latest onset of a submovement after its regular time, relative to the interval."""
-    share: float = 0.9
+    total: float = 0.9
     """Highest displacement of all submovements together, relative to the stroke's."""
 
     def plan(self, subject: Subject, seed: int) -> Plan:
         """Return the plan of one episode; pure in ``(self, subject, seed)``."""
         rng = np.random.default_rng(seed)
-        lift = Lift.draw(subject, rng)
-        interval = 1.0 / between(self.frequency, float(rng.random()))
+        lift = MovementDraw.sample(subject, rng)
+        interval = 1.0 / interpolate(self.frequency, float(rng.random()))
         up = self._stroke(lift.height, lift.up, subject.skew_up, interval, rng)
         down = self._stroke(-lift.height, lift.down, subject.skew_down, interval, rng)
         return assemble(
@@ -54,7 +54,7 @@ class Jerky:
         count = int((duration - lasting - latest) / interval) + 1
         low, high = self.size
         surplus = rng.random(count)
-        surplus *= min(high - low, (self.share - count * low) / surplus.sum())
+        surplus *= min(high - low, (self.total - count * low) / surplus.sum())
         pieces = [
             Submovement(
                 start=index * interval + latest * delay, duration=lasting, rise=rise * (low + more)

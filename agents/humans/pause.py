@@ -1,10 +1,10 @@
-"""A lift that stops half way (figure 6 of the paper)."""
+"""A lift with a pause on the way (figure 6 of the paper)."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from .movement import Lift, between, natural_stroke
+from .movement import MovementDraw, interpolate, natural_stroke
 from .plan import Plan, Segment, assemble, move, still
 from .stroke import Motion, replan
 from .subject import Subject
@@ -12,7 +12,7 @@ from .subject import Subject
 
 @dataclass(frozen=True, kw_only=True)
 class Pause:
-    """Stops half way, stands still for a while, then goes on."""
+    """Stops on the way, stands still for a while, then continues."""
 
     height: tuple[float, float] = (0.3, 0.7)
     """Lowest and highest pause, relative to the lift's height."""
@@ -20,27 +20,27 @@ class Pause:
     """Shortest and longest standstill [s]; the paper's figure 6 shows about 2 s."""
     braking: tuple[float, float] = (0.4, 0.7)
     """Shortest and longest braking [s]."""
-    lowering_share: float = 0.25
-    """Share of the episodes that pause on the way down instead of on the way up."""
+    lowering_probability: float = 0.25
+    """Probability of a pause on the way down instead of on the way up."""
 
     def plan(self, subject: Subject, seed: int) -> Plan:
         """Return the plan of one episode; pure in ``(self, subject, seed)``."""
         rng = np.random.default_rng(seed)
-        lift = Lift.draw(subject, rng)
-        way, height, braking, length = rng.random(4).tolist()
+        lift = MovementDraw.sample(subject, rng)
+        direction, height, braking, length = rng.random(4).tolist()
         up = natural_stroke(subject, lift.height, lift.up, rng)
         down = natural_stroke(subject, -lift.height, lift.down, rng)
         down[0] += lift.height
         rise: tuple[Segment, ...] = (move("rise", up[0]),)
         lower: tuple[Segment, ...] = (move("lower", down[0]),)
 
-        stop = lift.height * between(self.height, height)
-        brake = between(self.braking, braking)
-        rest = still("pause", stop, between(self.length, length))
-        remaining = -stop if way < self.lowering_share else lift.height - stop
+        stop = lift.height * interpolate(self.height, height)
+        brake = interpolate(self.braking, braking)
+        rest = still("pause", stop, interpolate(self.length, length))
+        remaining = -stop if direction < self.lowering_probability else lift.height - stop
         onwards = natural_stroke(subject, remaining, lift.duration(remaining), rng)
         resume = move("resume", stop + onwards[0])
-        if way < self.lowering_share:
+        if direction < self.lowering_probability:
             lower = (*_brake("lower", down, stop, brake), rest, resume)
         else:
             rise = (*_brake("rise", up, stop, brake), rest, resume)
@@ -54,9 +54,9 @@ class Pause:
 
 
 def _brake(name: str, motion: Motion, stop: float, duration: float) -> tuple[Segment, Segment]:
-    """Return the motion up to where a brake of that duration [s] ends at ``stop`` [m].
+    """Return the motion and the brake of that duration [s] that ends at ``stop`` [m].
 
-    An even brake from velocity v covers ``v * duration / 2``.
+    A constant brake from velocity v covers ``v * duration / 2``.
     """
     direction = np.sign(motion[0, -1] - stop)
     reach = direction * (motion[0] + 0.5 * duration * motion[1] - stop)

@@ -1,4 +1,4 @@
-"""A person's recorded movement, fitted to the table."""
+"""A person's recorded movement, scaled to the table."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -8,32 +8,33 @@ from numpy.typing import NDArray
 
 from ..agent import FRAME
 from ..errors import InputError
-from .movement import REST_AFTER, REST_BEFORE, between
+from ..estimators.minimum_jerk import profile
+from .movement import REST_AFTER, REST_BEFORE, interpolate
 from .plan import Plan, Segment, assemble, move, still
 from .recordings import LEAST_MOVEMENT, Recording
-from .stroke import minimum_jerk, stroke
+from .stroke import stroke
 from .subject import Subject
 
 PEAK: Final = 0.20
 """Height [m] to which a recording is scaled."""
 
 ROOM_BELOW: Final = 0.03
-"""How far a recording may dip below its start [m]."""
+"""Largest dip of a recording below its start [m]."""
 
 FASTEST: Final = 0.20
 """Highest speed [m/s]; people coupled to a robot move three to five times slower than alone."""
 
 RETURN: Final = (0.8, 0.15)
-"""Shortest way back from the recording's last height [s], and highest speed on it [m/s]."""
+"""Shortest duration [s] and highest speed [m/s] of the return from the recording's last height."""
 
 KNOT: Final = 0.04
 """Interval of the smoothing spline's knots [s]: -3 dB at about 6 Hz, usual for motion capture."""
 
 EASE: Final = 0.4
-"""How long the recording takes to come up to full pace, and to slow down at its end [s]."""
+"""Time in which the recording accelerates to full pace, and slows down at its end [s]."""
 
 MOVING: Final = (0.008, 0.02)
-"""A stroke goes beyond the second speed [m/s] and lasts while the speed is above the first."""
+"""A stroke exceeds the second speed [m/s] and lasts while the speed is above the first."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,21 +46,21 @@ class Recorded:
     def plan(self, subject: Subject, seed: int) -> Plan:
         """Return the plan of one episode; pure in ``(self, seed)``.
 
-        The recording is turned so that it lifts, scaled to a peak of 0.20 m (less where its dip
+        The recording is inverted if it descends, scaled to a peak of 0.20 m (less where its dip
         below the start would not fit), slowed down to at most 0.20 m/s (never sped up), smoothed
-        and eased in and out. From its last height the hand goes back to the start. The seed draws
-        the rests before and after; the subject is only the body that carries the plan out.
+        and eased in and out. From its last height the hand returns to the start. The seed draws the
+        rests before and after; the subject has no effect on the plan.
 
         Raises
         ------
         InputError
-            When nothing is left to lift after smoothing, as of a lone outlier.
+            When no lift is left after smoothing, as for a lone outlier.
         """
         before, after = np.random.default_rng(seed).random(2).tolist()
         return assemble(
-            still("ready", 0.0, between(REST_BEFORE, before)),
+            still("ready", 0.0, interpolate(REST_BEFORE, before)),
             *_by_speed(_retarget(self.recording)),
-            still("rest", 0.0, between(REST_AFTER, after)),
+            still("rest", 0.0, interpolate(REST_AFTER, after)),
         )
 
 
@@ -90,7 +91,7 @@ def _retarget(recording: Recording) -> NDArray[np.float64]:
     steepest = scale * float(np.abs(np.diff(control)).max()) / knot
     full_pace = int(np.ceil(duration * max(steepest / FASTEST, 1.0) / FRAME))
     ease = min(round(EASE / FRAME), full_pace)
-    ramp = minimum_jerk(np.arange(1, ease + 1) / ease)
+    ramp = profile(np.arange(1, ease + 1) / ease)
     pace = np.ones(full_pace + ease)
     pace[:ease] = ramp
     pace[-ease:] = ramp[::-1]
@@ -98,7 +99,7 @@ def _retarget(recording: Recording) -> NDArray[np.float64]:
     time *= duration / (knot * time[-1])
     lift = scale * _spline(control, time)
 
-    # The way back sets in while the recording slows down, so that the hand does not halt.
+    # The return begins while the recording slows down: the hand does not halt.
     end = float(lift[-1])
     shortest, speed = RETURN
     back = stroke(-end, max(shortest, 1.875 * abs(end) / speed))[0]
@@ -129,7 +130,7 @@ def _spline(control: NDArray[np.float64], u: NDArray[np.float64]) -> NDArray[np.
 
 
 def _by_speed(heights: NDArray[np.float64]) -> list[Segment]:
-    """Return the movement cut into strokes and what lies between, by its speed with hysteresis."""
+    """Return the movement divided into strokes and rests, by its speed with hysteresis."""
     velocity = np.diff(heights, prepend=0.0) / FRAME
     speed = np.abs(velocity)
     lowest, highest = MOVING

@@ -1,4 +1,4 @@
-"""Read recorded lifts from a file."""
+"""Recorded lifts, read from a CSV file."""
 
 import csv
 import math
@@ -12,13 +12,13 @@ from ..errors import InputError
 COLUMNS: Final = ("trial", "t_s", "z_m")
 
 LEAST_MOVEMENT: Final = 0.01
-"""A recording whose heights span less than this [m] is no lift."""
+"""Least range of the heights of a lift [m]."""
 
 LARGEST_MOVEMENT: Final = 1e4
-"""A recording whose heights span more than this [m] is no lift, in whatever unit it is."""
+"""Largest range of the heights of a lift [m], in any plausible unit."""
 
 LONGEST: Final = 120.0
-"""A recording longer than this [s] is taken for a mistake in the unit of time."""
+"""Longest recording [s]; beyond it, the unit of time is wrong."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,8 +73,8 @@ def load_recordings(path: str | Path) -> tuple[Recording, ...]:
     Raises
     ------
     InputError
-        When the file cannot be read, a column is missing, a value is no number, or a trial is no
-        lift: time that does not increase, a single sample, less than 1 cm of movement.
+        When the file cannot be read, a column is missing, a value is not a number, or a trial is
+        not a lift: time that does not increase, a single sample, less than 1 cm of movement.
     """
     samples: dict[str, tuple[list[float], list[float]]] = {}
     for trial, time, height in _rows(Path(path)):

@@ -4,19 +4,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .movement import Lift, natural_stroke
+from .movement import MovementDraw, natural_stroke
 from .plan import Plan, assemble, move, still
 from .subject import Subject
 
 
 @dataclass(frozen=True, kw_only=True)
 class Smooth:
-    """Lifts to a random height and puts down again, smoothly."""
+    """Lifts to a random height and lowers again, smoothly."""
 
     def plan(self, subject: Subject, seed: int) -> Plan:
         """Return the plan of one episode; pure in ``(subject, seed)``."""
         rng = np.random.default_rng(seed)
-        lift = Lift.draw(subject, rng)
+        lift = MovementDraw.sample(subject, rng)
         up = natural_stroke(subject, lift.height, lift.up, rng)[0]
         down = natural_stroke(subject, -lift.height, lift.down, rng)[0]
         return assemble(

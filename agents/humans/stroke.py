@@ -1,8 +1,8 @@
-"""Point-to-point hand movement: minimum jerk, skewed strokes, submovements, re-planning.
+"""Point-to-point hand movements: skewed strokes, submovements, re-planning.
 
 A *motion* is an array ``(3, frames)``: displacement [m], velocity [m/s] and acceleration [m/s^2]
-at the ends of the motion's frames, that is at ``FRAME, 2 FRAME, ...``; its start, at time 0, is
-the last frame of whatever came before.
+at the ends of the motion's frames, at ``FRAME, 2 FRAME, ...``; its start, at time 0, is the last
+frame of the preceding motion.
 """
 
 from collections.abc import Sequence
@@ -16,28 +16,14 @@ from ..agent import FRAME
 Motion = NDArray[np.float64]
 
 
-def minimum_jerk(time: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the minimum-jerk position ``10 t^3 - 15 t^4 + 6 t^5``, 0 before and 1 after.
-
-    Parameters
-    ----------
-    time : (n,) relative time t, from 0 at the start to 1 at the end.
-
-    Notes
-    -----
-    Flash and Hogan, "The coordination of arm movements", J. Neurosci. 5 (1985).
-    """
-    t = np.minimum(np.maximum(time, 0.0), 1.0)
-    return np.asarray(t * t * t * (10.0 + t * (6.0 * t - 15.0)))
-
-
 @dataclass(frozen=True, kw_only=True)
 class Submovement:
     """One minimum-jerk piece of a movement.
 
-    With ``tau`` the relative time, the piece follows ``rise * minimum_jerk(w)`` in the warped
-    time ``w = tau / (r + (1 - r) tau)``. The speed is highest at ``tau = skew`` when
-    ``r = skew (2 - skew) / (1 - skew^2)``; ``skew = 0.5`` is the plain minimum-jerk movement.
+    With ``tau`` the relative time, the piece follows ``rise`` times the minimum-jerk
+    profile at the warped time ``w = tau / (r + (1 - r) tau)``. The speed is highest at
+    ``tau = skew`` when ``r = skew (2 - skew) / (1 - skew^2)``; ``skew = 0.5`` is the plain
+    minimum-jerk movement.
     """
 
     start: float
@@ -82,8 +68,8 @@ def stroke(
 ) -> Motion:
     """Return a movement from rest to rest over ``rise`` [m] in ``duration`` [s].
 
-    The base movement covers what the ``extra`` submovements leave, so that the sum ends at
-    ``rise``. The duration is rounded to whole frames; the extras must end within it.
+    The base movement covers the rest of the displacement: with the ``extra`` submovements, the
+    sum ends at ``rise``. The duration is rounded to whole frames; the extras must end within it.
     """
     frames = max(round(duration / FRAME), 1)
     rest = rise - sum(piece.rise for piece in extra)
@@ -92,7 +78,7 @@ def stroke(
 
 
 def replan(state: Sequence[float] | NDArray[np.float64], goal: float, duration: float) -> Motion:
-    """Return the movement from a state in full swing to rest at ``goal``.
+    """Return the movement from a moving state to rest at ``goal``.
 
     The quintic that matches position, velocity and acceleration at both ends is the
     minimum-jerk movement between them. Here the displacement is absolute: it starts at

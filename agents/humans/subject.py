@@ -1,4 +1,4 @@
-"""People: the five subjects of the study and the population they come from."""
+"""Subjects: the five people of the study and the population they represent."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -34,7 +34,7 @@ BOUNDS: Final[Mapping[str, tuple[float, float]]] = MappingProxyType(
         "pull": (0.0, 0.5),
     }
 )
-"""Limits of each parameter, in the parameter's unit: what a healthy person can be.
+"""Limits of each parameter, in its unit, for a healthy person.
 
 Hand tremor lies between 6 and 12 Hz (Wade et al. 1982; Lakie et al. 2015), and 2 mm is already an
 enhanced one. The delays span long-latency reflexes to voluntary answers, and visual corrections to
@@ -46,7 +46,7 @@ MOST_SUBMOVEMENTS: Final = 5
 
 @dataclass(frozen=True, kw_only=True)
 class Subject:
-    """One person: how they move, and the arm they move with.
+    """One person: parameters of motion, perception and arm.
 
     Raises
     ------
@@ -88,9 +88,9 @@ class Subject:
     mass: float
     """Mass M of the arm's endpoint [kg]."""
     pull: float
-    """Share of the height difference that the person gives in to; 0 ignores it."""
+    """Fraction of the height difference to which the person yields; 0 ignores it."""
     felt_share: float = 0.5
-    """Share of that pull which comes from the felt force; the rest comes from sight."""
+    """Fraction of that pull which comes from the felt force; the rest comes from sight."""
 
     def __post_init__(self) -> None:
         for name, (low, high) in BOUNDS.items():
@@ -108,7 +108,7 @@ class Subject:
 
     @classmethod
     def draw(cls, seed: int) -> Self:
-        """Return a new person of the population that S1 to S5 are a sample of.
+        """Return a new person of the population from which S1 to S5 are a sample.
 
         The parameters ``x = mean + sum_i g_i (x_i - mean) / sqrt(4)``, with ``x_i`` those of the
         five and ``g_i`` standard normal, have the mean and the covariance of the five: a stiff arm
@@ -225,8 +225,8 @@ SUBJECTS: Final[dict[str, Subject]] = {
         ),
     )
 }
-"""The five subjects by name; S1 is the practised one, S3 the fast and irregular one.
+"""The five subjects by name; S1 is practised, S3 fast and irregular.
 
-Amplitude and duration are fitted to the error level of the paper's Table I, which gives neither;
-the other rows are choices inside the ranges of the literature, spread on purpose.
+Amplitude and duration are fitted to the error level of the paper's Table I, which states neither;
+the other numbers are choices within the ranges of the literature, deliberately diverse.
 """

@@ -1,4 +1,4 @@
-"""The paper's framework: leader and follower mixed by confidence (section III.C)."""
+"""The paper's framework: a blend of leader and follower by confidence (section III.C)."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from .reactive import Reactive
 
 
 class Blend:
-    """Leads as far as its prediction can be trusted, follows otherwise (Thobbi, Gu, Sheng 2011).
+    """Leads in proportion to the confidence in its prediction (Thobbi, Gu, Sheng 2011).
 
     The action is A = C P + (1 - C) R (eq. 8), P of :class:`.Proactive`, R of :class:`.Reactive`
     and C the confidence of eq. 7.
@@ -38,7 +38,7 @@ class Blend:
         return np.array([gain_control(confidence, proactive, reactive)])
 
     def internals(self) -> dict[str, float]:
-        """Return what the last action was based on: prediction [m] with its rates, confidence.
+        """Return the quantities behind the last action: prediction [m] with its rates, confidence.
 
         The role is 1 for a leader and 0 for a follower: here it is the confidence.
         """

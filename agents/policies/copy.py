@@ -1,4 +1,4 @@
-"""The policy that goes to where the human was."""
+"""The policy that goes to the last seen height of the human."""
 
 import numpy as np
 
@@ -8,8 +8,8 @@ from ..agent import Action, Observation, RobotObservation
 class Copy:
     """Goes to the last seen height of the human's end.
 
-    The change of the command is the seen height of the human's end minus the own command; the
-    robot so lags by the age of what it sees and by the time of its own movement.
+    The change of the command is the seen height of the human's end minus the command; the robot
+    lags by the age of the observation and by the duration of its own movement.
     """
 
     def reset(self, seed: int) -> None:

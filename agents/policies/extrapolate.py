@@ -1,4 +1,4 @@
-"""The simplest prediction: the human goes on as in the last step."""
+"""Linear extrapolation: the human moves on as in the last step."""
 
 from dataclasses import dataclass
 
@@ -13,8 +13,8 @@ class ExtrapolateParameters:
     """Parameters of :class:`Extrapolate`."""
 
     steps: float = 2.0
-    """How far to look ahead, in control periods. With the paper's timing the sample is one period
-    old and the command takes another: two, which is not tuned."""
+    """Prediction horizon in control periods. With the paper's timing the sample is one period old
+    and the command takes another: two, which is not tuned."""
 
     def __post_init__(self) -> None:
         """Check the range.
@@ -25,27 +25,26 @@ class ExtrapolateParameters:
             If the number of steps is negative or not finite.
         """
         if not 0 <= self.steps < np.inf:
-            raise InputError(f"steps must be a number from 0 on, got {self.steps}")
+            raise InputError(f"steps must be a number of at least 0, got {self.steps}")
 
 
 class Extrapolate:
-    """Goes where the human will be if it moves on as in the last step: a straight line (ours).
+    """Goes to the linearly extrapolated height of the human (ours).
 
-    With z_k the height of the human's end as seen and d the ``steps`` to look ahead, the command
-    becomes
+    With z_k the seen height of the human's end and d the horizon in ``steps``, the command becomes
 
         u = z_k + d (z_k - z_(k-1)).
 
     The noise of u is sqrt((1 + d)^2 + d^2) times that of the motion capture: 0.8 mm for two steps.
-    There is no model to be wrong and nothing to trust or distrust: what every method of prediction
-    has to beat. It is no method of the literature that the paper cites.
+    It has no model and no confidence: the reference that every method of prediction should beat. It
+    is not one of the methods that the paper cites.
     """
 
     def __init__(self, *, parameters: ExtrapolateParameters | None = None) -> None:
         self._steps = (parameters or ExtrapolateParameters()).steps
 
     def reset(self, seed: int) -> None:
-        """Begin an episode: nothing was seen yet."""
+        """Begin an episode without any samples."""
         self._last: float | None = None
 
     def act(self, observation: Observation) -> Action:

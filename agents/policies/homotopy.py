@@ -1,4 +1,4 @@
-"""A leader and a follower, and a continuous way from one to the other."""
+"""A leader, a follower, and a continuous transition between them."""
 
 import itertools
 import math
@@ -17,21 +17,21 @@ class HomotopyParameters:
     """Parameters of :class:`Homotopy`.
 
     Rate and gain were chosen by the RMSE on the standard suite's scenarios with seeds of no suite
-    (5000 to 5002): it is flat around them, and worse at a rate of 0.25 or 5 and a gain of 5.
+    (5000 to 5002), which is flat around them and higher at a rate of 0.25 or 5 and a gain of 5.
     """
 
     times: tuple[float, ...] = ()
-    """Breakpoints of a given alpha [s since the episode began], increasing. With none, alpha
+    """Breakpoints of a given alpha [s since the start of the episode], increasing. If empty, alpha
     follows the confidence."""
     alphas: tuple[float, ...] = ()
     """The given alpha at each breakpoint, in [0, 1]: linear between two, constant outside."""
     rate: float = 1.0
-    """Largest rate of an alpha that follows the confidence [1/s]: it leads or follows entirely
-    after 1 / rate seconds at the earliest."""
+    """Largest rate of an alpha that follows the confidence [1/s]: the change from follower to
+    leader takes at least 1 / rate seconds."""
     gain: float = 20.0
-    """Rate at which the follower takes a height difference away [1/s]."""
+    """Rate at which the follower reduces a height difference [1/s]."""
     latency: float = 0.1
-    """Assumed age of the seen heights [s], which the leader makes up for."""
+    """Assumed age of the seen heights [s], for which the leader compensates."""
     predictor: PredictorParameters = field(default_factory=PredictorParameters)
     """Prediction of the human's motion, and the confidence in it."""
 
@@ -41,11 +41,12 @@ class HomotopyParameters:
         Raises
         ------
         InputError
-            If the schedule is not one, rate or gain is not positive, or the latency is negative.
+            If the schedule is invalid, rate or gain is not positive, or the latency is negative.
         """
         if len(self.times) != len(self.alphas):
             raise InputError(
-                f"times and alphas must be as many, got {len(self.times)} and {len(self.alphas)}"
+                f"times and alphas must have the same length, got {len(self.times)} and "
+                f"{len(self.alphas)}"
             )
         rising = all(before < after for before, after in itertools.pairwise(self.times))
         if not (rising and all(map(math.isfinite, self.times))):
@@ -60,24 +61,24 @@ class HomotopyParameters:
 
 
 class Homotopy:
-    """Turns from leader to follower and back, continuously (Evrard, Kheddar 2009).
+    """Changes between leader and follower continuously (Evrard, Kheddar 2009).
 
     The action is u = alpha(t) L + (1 - alpha(t)) F with a continuous alpha in [0, 1] (Evrard and
     Kheddar, "Homotopy switching model for dyad haptic interaction in physical collaborative tasks",
     World Haptics 2009, and "Homotopy-based controller for physical human-robot interaction",
-    RO-MAN 2009). L acts by a plan of its own, without regard to what the partner does at the
-    moment; F acts by the partner's intention alone. The authors give alpha as a function of time;
-    here it may be given (``times``, ``alphas``), or it follows the confidence of eq. 7, as Thobbi,
-    Gu and Sheng (2011) answer the question of its automatic adjustment, at a limited rate.
+    RO-MAN 2009). L acts by a plan of its own, independent of the partner's present motion;
+    F acts by the partner's intention alone. The authors give alpha as a function of time; here it
+    may be given (``times``, ``alphas``), or it follows the confidence of eq. 7, which is the answer
+    of Thobbi, Gu and Sheng (2011) to its automatic adjustment, at a limited rate.
 
     This follows the abstracts and the account of Thobbi, Gu and Sheng (section I). The authors'
-    controllers are not known here and would not fit: their robot feels forces, and its leader
-    knows where the object goes. The controllers here are of what a robot may see:
+    controllers were not available to us and would not apply: their robot measures forces, and its
+    leader knows the goal. The controllers here use what a robot policy observes:
 
-    * L goes to the plan: where the human is predicted to be when the command takes effect, at the
-      end of the coming period. It looks at the own command, not at the table.
-    * F takes the difference between the seen human's end and the felt own hand away at a rate
-      ``gain``, as a spring towards the human would against a damper.
+    * L goes to the plan: the predicted height of the human at the end of the coming period, when
+      the command is carried out. It uses its own command, not the table.
+    * F reduces the difference between the seen human's end and its own hand (encoders) at the rate
+      ``gain``, like a spring to the human with a damper.
     """
 
     def __init__(self, *, parameters: HomotopyParameters | None = None) -> None:
@@ -109,17 +110,17 @@ class Homotopy:
         return np.array([gain_control(self._alpha, leader, follower)])
 
     def internals(self) -> dict[str, float]:
-        """Return what the last action was based on: plan and both actions [m], confidence, alpha.
+        """Return the quantities behind the last action: plan, actions [m], confidence, alpha.
 
         The role is alpha: 1 for a leader and 0 for a follower.
         """
         return self._internals
 
     def _next_alpha(self, confidence: float, time: float) -> float:
-        """Return alpha at a time [s], as given or after the confidence."""
+        """Return alpha at a time [s], from the schedule or from the confidence."""
         parameters = self._parameters
         if parameters.times:
             return float(np.interp(time, parameters.times, parameters.alphas))
-        # A clock may be set back; alpha must not leave [0, 1] by it.
+        # A clock may be set back; alpha must stay in [0, 1] even then.
         change = parameters.rate * abs(self._predictor.period)
         return min(max(confidence, self._alpha - change), self._alpha + change)

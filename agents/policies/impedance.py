@@ -1,15 +1,15 @@
-"""A follower by variable impedance: the approach that the paper starts from (section I).
+"""Following by variable impedance: the approach that the paper starts from (section I).
 
-In this tradition the robot moves as a virtual mass would that the human drags, with a damping that
-changes with what the human does: K. Kosuge, H. Yoshida, T. Fukuda, "Dynamic control for robot-human
+In this tradition the robot moves like a virtual mass that the human drags, with a damping that
+depends on the human's motion: K. Kosuge, H. Yoshida, T. Fukuda, "Dynamic control for robot-human
 collaboration", RO-MAN 1993; R. Ikeura, H. Inooka, "Variable impedance control of a robot for
 cooperation with a human", ICRA 1995; V. Duchaine, C. Gosselin, "General model of human-robot
 cooperation using a novel velocity based variable impedance control", World Haptics 2007.
 
 This file follows the paper's description, and the abstracts of the last two; the full texts were
-not at hand. A follower of this kind measures the force between human and robot. The paper's set-up
-cannot: here a virtual spring makes a force of the height difference that is seen. The law of the
-damping is ours.
+not available to us. A follower of this kind measures the force between human and robot. The paper's
+set-up cannot: here a virtual spring turns the seen height difference into a force. The damping law
+is ours.
 """
 
 import cmath
@@ -25,11 +25,11 @@ from ..errors import InputError
 
 @dataclass(frozen=True, kw_only=True)
 class ImpedanceParameters:
-    """Parameters of :class:`Impedance`. Only ratios count, since the force is not a real one.
+    """Parameters of :class:`Impedance`. Only ratios matter, since the force is virtual.
 
-    Tuned by random search on seed 5000 of ``standard-v1``, then on a grid on 5000 to 5004, which no
-    suite has: the least RMSE among those whose motion is as smooth (SPARC) as that of ``copy``,
-    with the damping of stillness held at critical. ``colift run impedance --seeds 5000:5005``
+    Tuned by random search on seed 5000 of ``standard-v1``, then on a grid on 5000 to 5004 (seeds of
+    no suite): the least RMSE among those whose motion is as smooth (SPARC) as that of ``copy``,
+    with the still damping fixed at critical. ``colift run impedance --seeds 5000:5005``
     gives 18.9 mm and -1.80, ``copy`` 21.2 mm and -1.82.
     """
 
@@ -38,11 +38,11 @@ class ImpedanceParameters:
     stiffness: float = 64.0
     """K of the spring between the human's end and the mass [N/m]: 8 rad/s with the mass."""
     still_damping: float = 16.0
-    """D while the human is still [N s/m]: critical, so that the mass comes to rest."""
+    """D while the human is still [N s/m]: critical, which brings the mass to rest."""
     moving_damping: float = 0.5
-    """D while the human moves [N s/m]: a thirtieth of critical, so that the mass hardly drags."""
+    """D while the human moves [N s/m]: a thirtieth of critical, for little drag."""
     speed_scale: float = 0.02
-    """Speed of the human's end at which D has fallen by 1 - 1/e of the way [m/s]. The difference
+    """Speed of the human's end at which D has fallen by a fraction 1 - 1/e [m/s]. The difference
     of two samples 0.1 s apart has a noise of 0.003 m/s."""
 
     def __post_init__(self) -> None:
@@ -79,14 +79,14 @@ def advance(
 ) -> tuple[float, float]:
     """Return offset [m] and velocity [m/s] of the mass ``period`` [s] later.
 
-    The exact solution of M x'' + D x' + K x = 0, with x the offset from where the spring is
-    relaxed. With the roots r, s of M r^2 + D r + K = 0 and g = (exp(r t) - exp(s t)) / (r - s),
+    The exact solution of M x'' + D x' + K x = 0, with x the offset from the relaxed spring.
+    With the roots r, s of M r^2 + D r + K = 0 and g = (exp(r t) - exp(s t)) / (r - s),
     which is t exp(r t) for equal roots:
 
         x(t) = exp(r t) x + g (x' - r x)
         x'(t) = exp(r t) x' + g (x'' - r x')
 
-    Whatever the period, the mass and its spring lose energy, and never gain any.
+    For any period the energy of the mass and its spring decreases.
     """
     acceleration = -(parameters.stiffness * offset + damping * velocity) / parameters.mass
     middle = -damping / (2 * parameters.mass)
@@ -100,16 +100,16 @@ def advance(
 
 
 class Impedance:
-    """Follows as a mass on a spring, damped less as the human moves (after Ikeura, Inooka 1995).
+    """Follows like a mass on a spring, damped less as the human moves (after Ikeura, Inooka 1995).
 
     The command x moves by M x'' + D(v) x' = K (z1 - x), with the height z1 and the speed v of the
     human's end as last seen, held over the period. D >= D_moving > 0 makes it passive: with the
-    human still, it comes to rest. Behind a human of steady speed v it stays by
+    human still, it comes to rest. Behind a human of steady speed v it lags by
     v (latency + period / 2 + D(v) / K), once the onset is over.
 
-    The own end is the command, not the seen end: with an end as old as the human's, the loop
-    would have the latency in it, and would not be passive. What the hand sags under the table,
-    1 to 3 mm, so stays.
+    The robot's end is represented by the command, not by its seen height: with a height as old as
+    the human's, the loop would contain the latency and not be passive. The sag of the hand under
+    the table, 1 to 3 mm, therefore remains.
     """
 
     def __init__(self, *, parameters: ImpedanceParameters | None = None) -> None:
@@ -121,7 +121,7 @@ class Impedance:
         self._last: tuple[float, float] | None = None
 
     def act(self, observation: Observation) -> Action:
-        """Return the way of the mass in this period [m]."""
+        """Return the displacement of the mass in this period [m]."""
         human = float(observation[RobotObservation.HUMAN_END])
         time = float(observation[RobotObservation.TIME])
         before, since = self._last or (human, time - DEFAULT_PERIOD)

@@ -1,4 +1,4 @@
-"""The paper's proactive controller alone: a leader by prediction (section III.B)."""
+"""The paper's proactive controller alone: leading by prediction (section III.B)."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from ..control.predictor import Predictor, PredictorParameters
 
 
 class Proactive:
-    """Goes to where the human is predicted to be (Thobbi, Gu, Sheng 2011, section III.B).
+    """Goes to the predicted height of the human (Thobbi, Gu, Sheng 2011, section III.B).
 
     P = predicted height of the human's end - height of the own hand.
     """
@@ -32,5 +32,5 @@ class Proactive:
         return np.array([prediction.height - observation[RobotObservation.HAND_HEIGHT]])
 
     def internals(self) -> dict[str, float]:
-        """Return what the last action was based on: prediction [m], confidence, role."""
+        """Return the quantities behind the last action: prediction [m], confidence, role."""
         return self._internals

@@ -1,4 +1,4 @@
-"""Plain feedback: the control in comparisons, and a template for policies."""
+"""Proportional feedback: a reference in comparisons, and a template for policies."""
 
 import math
 from dataclasses import dataclass
@@ -14,12 +14,13 @@ class ProportionalParameters:
     """Parameter of :class:`Proportional`."""
 
     gain: float = 1.8
-    """Share of the seen difference that one step takes away.
+    """Fraction of the seen difference that one step removes.
 
-    A gain of 1 goes to where the human was; more goes beyond, which suits a human who is still
-    moving. The error alone would have the hand ring: with ``colift run proportional,gain=G --seeds
-    5000:5005``, which no suite has, it falls from 19.9 mm at 1 to 16.3 at 1.8 and 13.8 at 3.4, and
-    from 3.6 on the hand oscillates without end. The default is half of that, a gain margin of 2."""
+    A gain of 1 goes to the human's last height; a higher one goes beyond it, which suits a moving
+    human. Minimising the error alone would make the hand ring: with ``colift run
+    proportional,gain=G --seeds 5000:5005`` (seeds of no suite) it falls from 19.9 mm at 1 to 16.3
+    at 1.8 and 13.8 at 3.4, and from 3.6 on the hand oscillates without end. The default is half of
+    that, a gain margin of 2."""
 
     def __post_init__(self) -> None:
         """Check the range.
@@ -34,11 +35,11 @@ class ProportionalParameters:
 
 
 class Proportional:
-    """Takes away a fixed share of the height difference that it sees (proportional feedback).
+    """Removes a fixed fraction of the height difference that it sees (proportional feedback).
 
-    The change of the command is gain (human - hand), with the human's end as seen and the own hand
-    as felt, which makes up for its sag under the table. Behind a human of steady speed v it stays
-    by v (latency + period / gain). It predicts nothing.
+    The change of the command is gain (human - hand), with the human's end from motion capture and
+    the hand from its encoders, which compensates for its sag under the table. Behind a human of
+    steady speed v it lags by v (latency + period / gain). It predicts nothing.
     """
 
     def __init__(self, *, parameters: ProportionalParameters | None = None) -> None:

@@ -18,8 +18,8 @@ class RandomParameters:
 class Random:
     """Moves up or down at random, whatever the human does.
 
-    The seed that a policy gets is the same in every episode (it must not identify the
-    episode), so the first observation, which carries the sensors' noise, is mixed into it.
+    A policy's seed is the same in every episode (it must not identify the episode); therefore the
+    first observation, which carries the sensors' noise, is mixed into it.
     """
 
     def __init__(self, *, parameters: RandomParameters | None = None) -> None:
@@ -31,7 +31,7 @@ class Random:
         self._rng: np.random.Generator | None = None
 
     def act(self, observation: Observation) -> Action:
-        """Return a change drawn evenly from [-step, step] [m]."""
+        """Return a change drawn uniformly from [-step, step] [m]."""
         if self._rng is None:
             entropy = np.frombuffer(observation.tobytes(), dtype=np.uint32)
             self._rng = np.random.default_rng([self._seed, *entropy.tolist()])

@@ -1,4 +1,4 @@
-"""The paper's reactive controller: a follower that was learned (section III.A)."""
+"""The paper's reactive controller: a learned follower (section III.A)."""
 
 from collections.abc import Sequence
 
@@ -11,7 +11,7 @@ from ..control.q_learning import ACTIONS, Q_PARAMETERS, QParameters, learned_tab
 class Reactive:
     """Follows by steps of 2 cm, learned by Q-learning (Thobbi, Gu, Sheng 2011, section III.A).
 
-    The state is the human's end, as seen, minus the own hand, as felt by its encoders. With a hand
+    The state is the human's end from motion capture minus the hand from its encoders. With a hand
     height as old as the human's, the steps would overshoot and never come to rest.
     """
 

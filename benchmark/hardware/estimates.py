@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ...agents.errors import InputError
 from ...agents.hardware.loop import DEAD_TIME
 from ...agents.hardware.plausibility import seen
-from ...agents.hardware.recording import TrialRecording
+from ...agents.hardware.trial_log import LoggedTrial
 from ...robots.nao.kinematics import arm_path
 from ..world.table import WEIGHT_SHARE
 
@@ -47,7 +47,7 @@ class Estimates:
     """Standard deviation of an end's height [m]: ``MOCAP_NOISE``."""
 
 
-def estimate_setup(recordings: Sequence[TrialRecording]) -> Estimates:
+def estimate_setup(trials: Sequence[LoggedTrial]) -> Estimates:
     """Return the numbers that some trials give.
 
     Raises
@@ -55,47 +55,47 @@ def estimate_setup(recordings: Sequence[TrialRecording]) -> Estimates:
     InputError
         If they are too short, or the robot did not move.
     """
-    records = [recording.record for recording in recordings]
-    steps = [step for record in records for step in record.steps]
+    logs = [trial.log for trial in trials]
+    steps = [step for log in logs for step in log.steps]
     if len(steps) < FEWEST:
         raise InputError(f"{len(steps)} steps are too few to estimate from, {FEWEST} are needed")
     seen_steps = [
-        (step.sensing_age, record.latency)
-        for record in records
-        for step in record.steps
+        (step.sensing_age, log.latency)
+        for log in logs
+        for step in log.steps
         if math.isfinite(step.sensing_age)
     ]
     ages, wanted = np.array(seen_steps).T
-    stiffness, servo_time, sag = _servo(recordings)
+    stiffness, servo_time, sag = _servo(trials)
     return Estimates(
         capture_age=float(np.median(ages)),
         latency=float(np.median(np.maximum(ages + DEAD_TIME, wanted))),
-        follow_delay=float(np.median([_delay(recording) for recording in recordings])),
+        follow_delay=float(np.median([_delay(trial) for trial in trials])),
         servo_time=servo_time,
         stiffness=stiffness,
         sag=sag,
-        capture_noise=float(np.median([_noise(recording) for recording in recordings])),
+        capture_noise=float(np.median([_noise(trial) for trial in trials])),
     )
 
 
-def _noise(recording: TrialRecording) -> float:
+def _noise(trial: LoggedTrial) -> float:
     """Return the noise of a height from its third differences [m], which motion hardly enters.
 
     They have the variance 20 s^2 for white noise of the variance s^2; the median of their size is
     0.6745 standard deviations, whatever a few jumps do.
     """
-    frames = [sample for sample in recording.record.samples if seen(sample)]
+    frames = [sample for sample in trial.log.samples if seen(sample)]
     if len(frames) < FEWEST:
         raise InputError(f"{len(frames)} frames are too few to estimate from")
     differences = np.diff(np.array(frames)[:, 1:], n=3, axis=0)
     return float(np.median(np.abs(differences)) / 0.6745 / math.sqrt(20))
 
 
-def _ramps(recording: TrialRecording, times: NDArray[np.float64]) -> NDArray[np.float64]:
+def _ramps(trial: LoggedTrial, times: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the commanded height at some times [m]: each command a ramp over its period."""
-    period = recording.record.period
+    period = trial.log.period
     knots, heights = [], []
-    for step in recording.record.steps:
+    for step in trial.log.steps:
         given = step.time + step.state_time + step.policy_time
         knots += [given, given + period]
         heights += [step.hand_command, step.command]
@@ -104,25 +104,25 @@ def _ramps(recording: TrialRecording, times: NDArray[np.float64]) -> NDArray[np.
     return at
 
 
-def _delay(recording: TrialRecording) -> float:
+def _delay(trial: LoggedTrial) -> float:
     """Return the delay [s] at which the robot's end fits its commands best, up to an offset."""
-    frames = np.array([s for s in recording.record.samples if seen(s)])
-    commands = [step.command for step in recording.record.steps]
+    frames = np.array([s for s in trial.log.samples if seen(s)])
+    commands = [step.command for step in trial.log.steps]
     if not commands or np.ptp(commands) < LOWEST_MOTION:
         raise InputError(
             f"the hands were told to move by less than {1000 * LOWEST_MOTION:.0f} mm: "
             "nothing can be said of how they follow"
         )
-    first = recording.record.start + LONGEST_DELAY
+    first = trial.log.start + LONGEST_DELAY
     frames = frames[frames[:, 0] >= first]
     delays = np.arange(0.0, LONGEST_DELAY, 0.001)
     misfits = [
-        float(np.std(frames[:, 2] - _ramps(recording, frames[:, 0] - delay))) for delay in delays
+        float(np.std(frames[:, 2] - _ramps(trial, frames[:, 0] - delay))) for delay in delays
     ]
     return float(delays[int(np.argmin(misfits))])
 
 
-def _servo(recordings: Sequence[TrialRecording]) -> tuple[float, float, float]:
+def _servo(trials: Sequence[LoggedTrial]) -> tuple[float, float, float]:
     """Return stiffness [Nm/rad], time constant [s] and mean sag [m] of the arms.
 
     A set-point s at height h, moving at v, is ahead of the hands by
@@ -134,11 +134,11 @@ def _servo(recordings: Sequence[TrialRecording]) -> tuple[float, float, float]:
     """
     path = arm_path()
     rows, ahead = [], []
-    for recording in recordings:
-        steps = recording.record.steps
+    for trial in trials:
+        steps = trial.log.steps
         times = np.array([step.time for step in steps])
         heights = np.array([step.hand_height for step in steps])
-        set_points = np.array([step.set_point for step in steps]) + recording.weight_offset
+        set_points = np.array([step.set_point for step in steps]) + trial.weight_offset
         if len(steps) < FEWEST:
             continue
         speeds = np.gradient(heights, times)

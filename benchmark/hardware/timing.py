@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from ...agents.hardware.record import Record
+from ...agents.hardware.trial_log import TrialLog
 
 
-def timing_report(records: Sequence[Record]) -> dict[str, Any]:
+def timing_report(logs: Sequence[TrialLog]) -> dict[str, Any]:
     """Return percentiles over all steps of some trials, and counts.
 
     ================= ============================================================================
@@ -24,23 +24,23 @@ def timing_report(records: Sequence[Record]) -> dict[str, Any]:
     held              steps without a command, by their reason
     ================= ============================================================================
     """
-    steps = [step for record in records for step in record.steps]
+    steps = [step for log in logs for step in log.steps]
     acted = [step for step in steps if not np.isnan(step.action)]
     errors = [
         abs(error)
-        for record in records
-        for error in np.diff([step.time for step in record.steps]) - record.period
+        for log in logs
+        for error in np.diff([step.time for step in log.steps]) - log.period
     ]
     return {
         "steps": len(steps),
         "sensing_age_ms": percentiles([step.sensing_age for step in steps]),
         "lowest_rate_hz": min((s.rate for s in steps if np.isfinite(s.rate)), default=None),
-        "misdated": sum(record.misdated for record in records),
+        "misdated": sum(log.misdated for log in logs),
         "state_ms": percentiles([step.state_time for step in steps]),
         "policy_ms": percentiles([step.policy_time for step in acted]),
         "command_ms": percentiles([step.command_time for step in acted]),
         "period_error_ms": percentiles(errors),
-        "late_steps": sum(record.late_steps for record in records),
+        "late_steps": sum(log.late_steps for log in logs),
         "held": dict(Counter(step.hold for step in steps if step.hold)),
     }
 

@@ -19,7 +19,7 @@ from ...agents.agent import FRAME
 from ...agents.errors import InputError
 from ...agents.hardware.plausibility import seen
 from ...agents.hardware.ports import Sample
-from ...agents.hardware.record import Record
+from ...agents.hardware.trial_log import TrialLog
 from ...agents.humans import SUBJECTS, Plan, Subject
 from ..episode import metrics
 from ..episode.episode import Episode
@@ -78,12 +78,12 @@ def hardware_suite(name: str, person: str, trials: int, *, period: float, latenc
     return Suite(name=name, scenarios=(scenario,), seeds=tuple(range(trials)))
 
 
-def episode(record: Record, *, person: str, number: int) -> Episode:
+def episode(log: TrialLog, *, person: str, number: int) -> Episode:
     """Return a trial as an episode.
 
     Parameters
     ----------
-    record
+    log
         The trial. One that was stopped has failed, with the reason; as in simulation, the frames
         that it lacks (here: up to :data:`SHORTEST`) count as the worst.
     person
@@ -91,9 +91,9 @@ def episode(record: Record, *, person: str, number: int) -> Episode:
     number
         Number of the lift, from 0.
     """
-    trace = _trace(record)
-    failed = record.stop is not None
-    failure = f"{record.stop.name}: {record.reason}" if record.stop is not None else None
+    trace = _trace(log)
+    failed = log.stop is not None
+    failure = f"{log.stop.name}: {log.reason}" if log.stop is not None else None
     return Episode(
         behaviour=HARDWARE,
         subject=person,
@@ -102,7 +102,7 @@ def episode(record: Record, *, person: str, number: int) -> Episode:
         scores=_scores(trace, failed=failed),
         failure=failure,
         trace=trace,
-        step_times=tuple(step.policy_time for step in record.steps if not math.isnan(step.action)),
+        step_times=tuple(step.policy_time for step in log.steps if not math.isnan(step.action)),
     )
 
 
@@ -119,13 +119,13 @@ def hardware_run(
     )
 
 
-def _trace(record: Record) -> Trace:
+def _trace(log: TrialLog) -> Trace:
     """Return what the motion capture and the loop saw, at 100 Hz from the first step on."""
-    steps = record.steps
-    per_step = round(record.period / FRAME)
-    stop = steps[-1].deadline + record.period if steps else record.start
-    frames = round((stop - record.start) / FRAME)
-    human_end, robot_end = _resampled(record, frames)
+    steps = log.steps
+    per_step = round(log.period / FRAME)
+    stop = steps[-1].deadline + log.period if steps else log.start
+    frames = round((stop - log.start) / FRAME)
+    human_end, robot_end = _resampled(log, frames)
     nothing = np.full(frames, math.nan)
     return Trace(
         human_end=human_end,
@@ -152,13 +152,13 @@ def possible(sample: Sample) -> bool:
     return seen(sample) and abs(sample.human_end - sample.robot_end) <= TABLE_LENGTH
 
 
-def _resampled(record: Record, frames: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _resampled(log: TrialLog, frames: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return both ends' heights at the ends of frames, linear between those that were captured."""
-    samples = sorted(filter(possible, record.samples))
+    samples = sorted(filter(possible, log.samples))
     if not samples or not frames:
         return np.zeros(frames), np.zeros(frames)
     times, human, robot = np.array(samples).T
-    wanted = record.start + FRAME * np.arange(1, frames + 1)
+    wanted = log.start + FRAME * np.arange(1, frames + 1)
     return np.interp(wanted, times, human), np.interp(wanted, times, robot)
 
 

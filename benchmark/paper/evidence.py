@@ -18,10 +18,10 @@ from ..training.q_learning import LearningTrial, learning_trials
 from .table_one import FORGETTING_FACTORS
 from .watched import SampledLift, sampled_lifts, watched_blend
 
-PAUSE: Final = Pause(length=(2.0, 2.0), lowering_share=0.0)
+PAUSE: Final = Pause(length=(2.0, 2.0), lowering_probability=0.0)
 """Figure 6: a pause of 2 s on the way up."""
 
-LONG_PAUSE: Final = Pause(length=(8.0, 8.0), lowering_share=0.0)
+LONG_PAUSE: Final = Pause(length=(8.0, 8.0), lowering_probability=0.0)
 """Long enough for the slowest confidence of figure 7 to settle."""
 
 REACTIVE: Final = PolicySpec(text="reactive")

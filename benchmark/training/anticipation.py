@@ -71,8 +71,8 @@ def fit(
     """
     neural_network = import_sklearn("neural_network")
     centre = data.inputs.mean(axis=0, dtype=np.float64)
-    spread = data.inputs.std(axis=0, dtype=np.float64) + 1e-9
-    inputs = ((data.inputs - centre) / spread).astype(np.float32)
+    deviation = data.inputs.std(axis=0, dtype=np.float64) + 1e-9
+    inputs = ((data.inputs - centre) / deviation).astype(np.float32)
     with reproducible_fit():
         affine = np.hstack((inputs, np.ones((len(inputs), 1), np.float32)))
         normal = affine.T @ affine + np.eye(affine.shape[1])
@@ -93,7 +93,7 @@ def fit(
             weights, biases = network.coefs_, network.intercepts_
         perceptron = Perceptron(
             centre=centre,
-            spread=spread,
+            deviation=deviation,
             weights=tuple(weight.astype(np.float64) for weight in weights),
             biases=tuple(bias.astype(np.float64) for bias in biases),
             gain=gain,

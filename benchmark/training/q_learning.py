@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from ...agents.agent import FRAME, Observation, RobotObservation
 from ...agents.control.q_learning import ACTIONS, Q_PARAMETERS, QLearner, state_of
+from ...agents.estimators.minimum_jerk import profile
 from ...agents.humans import SUBJECTS, Plan, Subject
-from ...agents.humans.stroke import minimum_jerk
 from ..episode.lift import Lift
 from ..episode.scenario import Scenario
 from ..episode.seeding import derive_seed
@@ -46,7 +46,7 @@ class StandingHuman:
 
     def plan(self, subject: Subject, seed: int) -> Plan:
         """Return the plan; nothing of it is drawn."""
-        rise = HEIGHT * minimum_jerk(np.arange(FRAME, RISE, FRAME) / RISE)
+        rise = HEIGHT * profile(np.arange(FRAME, RISE, FRAME) / RISE)
         still = np.full(round(self.duration / FRAME), HEIGHT)
         target = np.concatenate((rise, still))
         return Plan(target=target, strokes=((0, len(rise)),), goal=HEIGHT, events=())

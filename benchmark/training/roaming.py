@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...agents.agent import FRAME
 from ...agents.humans import GOAL_RANGE, Plan, Subject
-from ...agents.humans.movement import REST_AFTER, REST_BEFORE, between
+from ...agents.humans.movement import REST_AFTER, REST_BEFORE, interpolate
 from ...agents.humans.plan import Segment, assemble, move, still
 from ...agents.humans.stroke import Motion, replan, stroke
 
@@ -43,16 +43,16 @@ class Roaming:
         """Return the plan of one episode; pure in ``(self, seed)``."""
         rng = np.random.default_rng(seed)
         slow, fast = (math.log(speed) for speed in self.peak_speed)
-        pace = math.exp(between((slow, fast), rng.random()))
-        segments: list[Segment] = [still("ready", 0.0, between(REST_BEFORE, rng.random()))]
+        pace = math.exp(interpolate((slow, fast), rng.random()))
+        segments: list[Segment] = [still("ready", 0.0, interpolate(REST_BEFORE, rng.random()))]
         state = np.zeros(3)
         fewest, most = self.goals
         for _ in range(int(rng.integers(fewest, most + 1))):
-            goal = between((0.0, GOAL_RANGE[1]), rng.random())
+            goal = interpolate((0.0, GOAL_RANGE[1]), rng.random())
             motion = self._motion(state, goal, pace, rng)
             if rng.random() < self.given_up:
                 motion = motion[
-                    :, : max(int(motion.shape[1] * between(self.progress, rng.random())), 1)
+                    :, : max(int(motion.shape[1] * interpolate(self.progress, rng.random())), 1)
                 ]
                 segments.append(move("go", motion[0]))
                 state = motion[:, -1]
@@ -60,9 +60,9 @@ class Roaming:
             segments.append(move("go", motion[0]))
             state = np.array([goal, 0.0, 0.0])
             if rng.random() < 0.5:
-                segments.append(still("hold", goal, between(self.hold, rng.random())))
+                segments.append(still("hold", goal, interpolate(self.hold, rng.random())))
         segments.append(move("lower", self._motion(state, 0.0, pace, rng)[0]))
-        segments.append(still("rest", 0.0, between(REST_AFTER, rng.random())))
+        segments.append(still("rest", 0.0, interpolate(REST_AFTER, rng.random())))
         return assemble(*segments)
 
     def _motion(
@@ -72,8 +72,8 @@ class Roaming:
         distance = goal - float(state[0])
         peak = pace * math.exp(0.3 * rng.standard_normal())
         # The peak speed of a minimum-jerk movement is 1.875 times its mean.
-        duration = max(1.875 * abs(distance) / peak, between(self.shortest, rng.random()))
-        skew = between(self.skew, rng.random())
+        duration = max(1.875 * abs(distance) / peak, interpolate(self.shortest, rng.random()))
+        skew = interpolate(self.skew, rng.random())
         if not state[1:].any():
             motion = stroke(distance, duration, skew=skew)
             motion[0] += state[0]

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
-from ...agents.hardware.recording import read_recording
+from ...agents.hardware.trial_log import read_trial
 from ...benchmark.episode.lift import MOCAP_NOISE
 from ...benchmark.episode.scenario import LATENCY
 from ...benchmark.hardware.estimates import Estimates, estimate_setup
@@ -24,7 +24,7 @@ def calibrate_setup(
     as_json: AsJson = False,
 ) -> None:
     """Estimate latency, sag and noise from trials, as numbers for the simulated world."""
-    found = estimate_setup([read_recording(path) for path in recordings])
+    found = estimate_setup([read_trial(path) for path in recordings])
     if as_json:
         plain = {
             name: value if math.isfinite(value) else None

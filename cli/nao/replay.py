@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
-from ...agents.hardware.csv_replay import recorded_commands, replay_trial
-from ...agents.hardware.recording import read_recording
+from ...agents.hardware.rerun import logged_commands, rerun_trial
+from ...agents.hardware.trial_log import read_trial
 from ...benchmark.episode.episode import policy_seed
 from ..options import PolicyIsolation
 from ..policies import AUTO, choose_policy
@@ -27,13 +27,13 @@ def replay_recording(
     Exit code 1 if a command differs. Another policy is shown the recorded observations: its
     commands do not change them.
     """
-    recorded = read_recording(recording)
+    recorded = read_trial(recording)
     spec = choose_policy(policy or recorded.policy, isolation)
     spec.check()
     with spec.agent() as agent:
         agent.reset(policy_seed())
-        played = replay_trial(recorded, agent)
-    there, here = recorded_commands(recorded.record), recorded_commands(played)
+        played = rerun_trial(recorded, agent)
+    there, here = logged_commands(recorded.log), logged_commands(played)
     differing = [k for k, (a, b) in enumerate(zip(there, here, strict=False)) if a != b]
     if not differing and len(there) == len(here):
         print(f"{len(here)} steps, every command equal to the bit")

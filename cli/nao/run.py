@@ -12,11 +12,10 @@ import typer
 from ...agents.hardware.claim import claimed
 from ...agents.hardware.loop import LoopSettings
 from ...agents.hardware.operator import StopButton, armed, await_enter
-from ...agents.hardware.record import Record
-from ...agents.hardware.recording import TrialRecording, write_recording
 from ...agents.hardware.session import Session
 from ...agents.hardware.stops import StopTrialError
 from ...agents.hardware.trial_end import AfterDuration, AfterLift
+from ...agents.hardware.trial_log import LoggedTrial, TrialLog, write_trial
 from ...agents.spec import AgentSpec
 from ...benchmark.bundle import check_bundle_folder, results, write_bundle
 from ...benchmark.episode.episode import policy_seed
@@ -124,7 +123,7 @@ def run_on_robot(
         dry=dry_run,
         asked_by=place.asked_by,
     )
-    records: list[Record] = []
+    records: list[TrialLog] = []
     ended: Exception | None = None
     try:
         with armed(button), _alone(place, dry_run):
@@ -170,7 +169,7 @@ def _trials(
     trials: int,
     settings: LoopSettings,
     duration: float | None,
-) -> Iterator[Record]:
+) -> Iterator[TrialLog]:
     """Set up, and yield one trial after the other; raise after one that was stopped."""
     session.set_up()
     for number in range(1, trials + 1):
@@ -184,21 +183,21 @@ def _trials(
         _report_line(f"lift {number} of {trials}: {len(played.steps)} steps")
 
 
-def _record(folder: Path, policy: str, session: Session, played: Record, *, number: int) -> None:
+def _record(folder: Path, policy: str, session: Session, played: TrialLog, *, number: int) -> None:
     """Write a trial as a CSV file."""
-    write_recording(
+    write_trial(
         folder / f"lift-{number:02}.csv",
-        TrialRecording(
+        LoggedTrial(
             policy=policy,
             limits=session.limits,
             weight_offset=session.arm.weight_offset,
             dry=session.dry,
-            record=played,
+            log=played,
         ),
     )
 
 
-def _scored(spec: AgentSpec, suite: Suite, records: Sequence[Record], person: str) -> Run:
+def _scored(spec: AgentSpec, suite: Suite, records: Sequence[TrialLog], person: str) -> Run:
     """Return the trials as a run."""
     episodes = [
         episode(played, person=person, number=number) for number, played in enumerate(records)
@@ -224,7 +223,7 @@ def _report_line(line: str) -> None:
 
 
 def _report(
-    done: Run, records: Sequence[Record], about: dict[str, Any], out: Path | None, as_json: bool
+    done: Run, records: Sequence[TrialLog], about: dict[str, Any], out: Path | None, as_json: bool
 ) -> None:
     """Write the result bundle, and print the results."""
     content, timing = results(done, {}), timing_report(records)

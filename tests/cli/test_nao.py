@@ -14,7 +14,7 @@ import time
 import numpy as np
 import pytest
 from colift.agents.extras import how_to_install
-from colift.agents.hardware.recording import read_recording
+from colift.agents.hardware.trial_log import read_trial
 
 COMMAND = [sys.executable, "-m", "colift.cli", "nao"]
 
@@ -111,8 +111,8 @@ def test_a_dry_run_sends_the_robot_no_motion(colift, laboratory, tmp_path):
         "lift 1 seed 0",
         "lift 1 is over",
     ]
-    trial = read_recording(tmp_path / "lift-01.csv")
-    assert max(step.command for step in trial.record.steps) > 0.05
+    trial = read_trial(tmp_path / "lift-01.csv")
+    assert max(step.command for step in trial.log.steps) > 0.05
     assert trial.dry
 
 
@@ -294,7 +294,7 @@ def test_a_lift_that_was_stopped_has_its_exit_code_and_its_report(colift, emulat
     assert "Traceback" not in done.stderr
     assert json.loads(done.stdout)["summary"]["failed"] == 1
     assert (tmp_path / "out" / "results.json").exists()
-    assert read_recording(tmp_path / "lift-01.csv").record.stop == 13
+    assert read_trial(tmp_path / "lift-01.csv").log.stop == 13
     assert done.stderr.splitlines()[-1] == "the arms are released, the robot is at rest"
 
 

@@ -36,10 +36,10 @@ def test_list_tells_a_policys_parameters_with_units(colift):
     code, out, err = colift("list", "blend")
     assert (code, err) == (0, "")
     for told in (
-        "Leads as far as",
+        "Leads in proportion to",
         "  forgetting=0.45  a number",
         "phi of eq. 7",
-        "  motion.initial_spread=0.83666/10/100  3 values",
+        "  motion.initial_deviation=0.83666/10/100  3 values",
         "the variance of a measured height [mm2]",
         "'standard deviation",
         "colift run blend,",

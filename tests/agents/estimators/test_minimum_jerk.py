@@ -4,27 +4,27 @@ import numpy as np
 import pytest
 from colift.agents.estimators.minimum_jerk import (
     MinimumJerkStroke,
-    course,
-    course_curvature,
-    course_rate,
+    profile,
+    profile_curvature,
+    profile_rate,
 )
 from numpy.polynomial import Polynomial
 
-COURSE = Polynomial([0, 0, 0, 10, -15, 6])
+PROFILE = Polynomial([0, 0, 0, 10, -15, 6])
 STROKE = MinimumJerkStroke(start=0.04, end=0.23, onset=0.63, duration=1.7)
 WIDTH = 1e-6
 
 
-@pytest.mark.parametrize(("function", "order"), [(course, 0), (course_rate, 1)])
+@pytest.mark.parametrize(("function", "order"), [(profile, 0), (profile_rate, 1)])
 def test_the_course_and_its_derivatives(function, order):
     tau = np.linspace(0, 1, 41)
-    assert function(tau) == pytest.approx(COURSE.deriv(order)(tau) if order else COURSE(tau))
-    assert course_curvature(tau) == pytest.approx(COURSE.deriv(2)(tau), abs=1e-12)
+    assert function(tau) == pytest.approx(PROFILE.deriv(order)(tau) if order else PROFILE(tau))
+    assert profile_curvature(tau) == pytest.approx(PROFILE.deriv(2)(tau), abs=1e-12)
 
 
 def test_before_and_after_it_rests():
-    assert course([-3.0, 0.0, 1.0, np.inf]).tolist() == [0, 0, 1, 1]
-    assert course_rate([-3.0, 0.0, 1.0, 5.0]).tolist() == [0, 0, 0, 0]
+    assert profile([-3.0, 0.0, 1.0, np.inf]).tolist() == [0, 0, 1, 1]
+    assert profile_rate([-3.0, 0.0, 1.0, 5.0]).tolist() == [0, 0, 0, 0]
     assert STROKE.height(np.array([0.0, 0.63, 2.33, 9.0])) == pytest.approx(
         [0.04, 0.04, 0.23, 0.23]
     )
@@ -34,7 +34,7 @@ def test_no_other_smooth_movement_has_less_jerk():
     """Any variation that leaves both ends at rest adds to the integral of squared jerk."""
     bump = Polynomial([0, 0, 0, 1, -3, 3, -1])
     jerks = [
-        ((COURSE + share * bump).deriv(3) ** 2).integ()(1.0) for share in (-0.3, -0.1, 0, 0.1, 0.3)
+        ((PROFILE + share * bump).deriv(3) ** 2).integ()(1.0) for share in (-0.3, -0.1, 0, 0.1, 0.3)
     ]
     assert min(jerks) == jerks[2] == pytest.approx(720.0)
 

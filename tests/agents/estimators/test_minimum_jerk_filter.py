@@ -24,10 +24,10 @@ def simulate(seed=1):
     rng = np.random.default_rng(seed)
     start = MinimumJerkFilter(TRUTH)
     start.reset(0.1)
-    spread, noise = np.sqrt(np.diag(start.covariance)), TRUTH.process.noise(0.1)
+    deviations, noise = np.sqrt(np.diag(start.covariance)), TRUTH.process.noise(0.1)
     states = np.empty((RUNS, TIMES[-1], 5))
     for run in states:
-        state = start.state + spread * rng.standard_normal(5)
+        state = start.state + deviations * rng.standard_normal(5)
         for step, disturbance in enumerate(
             rng.multivariate_normal(np.zeros(5), noise, TIMES[-1], method="eigh")
         ):
@@ -64,7 +64,9 @@ def test_errors_on_its_own_model_are_what_the_covariance_says(world):
 
 
 @pytest.mark.parametrize("factor", [0.75, 1.4])
-@pytest.mark.parametrize("name", ["jerk_noise", "measurement_noise", "duration_spread", "way"])
+@pytest.mark.parametrize(
+    "name", ["jerk_noise", "measurement_noise", "duration_deviation", "displacement"]
+)
 def test_a_wrong_noise_shows(world, name, factor):
     if name == "jerk_noise":
         process = replace(TRUTH.process, jerk_noise=factor * TRUTH.process.jerk_noise)
@@ -120,7 +122,7 @@ def test_at_rest_it_expects_rest_and_a_movement_up_or_down():
     assert TRUTH.process.goal(tracker.state) == pytest.approx(0.12)
     left, _ = TRUTH.process.time_to_go(TRUTH.duration)
     way = math.sqrt(tracker.covariance[3, 3]) * left**3 / 60
-    assert way == pytest.approx(TRUTH.way)
+    assert way == pytest.approx(TRUTH.displacement)
 
 
 def test_looking_ahead_changes_nothing():
@@ -153,7 +155,9 @@ def test_what_is_not_a_number_is_refused(value):
     assert tracker.state[0] == 0.1
 
 
-@pytest.mark.parametrize("name", ["measurement_noise", "duration", "duration_spread", "way"])
+@pytest.mark.parametrize(
+    "name", ["measurement_noise", "duration", "duration_deviation", "displacement"]
+)
 @pytest.mark.parametrize("value", [0.0, -1.0, math.inf, math.nan])
 def test_impossible_parameters_are_refused(name, value):
     with pytest.raises(InputError, match=f"{name} must be a positive number, got {value}"):

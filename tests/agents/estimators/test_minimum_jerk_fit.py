@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
-from colift.agents.estimators.minimum_jerk import MinimumJerkStroke, course
+from colift.agents.estimators.minimum_jerk import MinimumJerkStroke, profile
 from colift.agents.estimators.minimum_jerk_fit import MinimumJerkFit, MinimumJerkFitParameters
 
 NOISE_FREE = 1e-5
@@ -55,37 +55,37 @@ def test_with_noise_the_end_gets_better_as_the_stroke_goes_on():
 def test_the_best_stroke_has_no_better_neighbour():
     """Its onset and duration minimise the weighted squares plus the prior of the rise."""
     rng = np.random.default_rng(3)
-    true, spread, given = stroke(), 5e-4, MinimumJerkFitParameters()
+    true, deviation, given = stroke(), 5e-4, MinimumJerkFitParameters()
     times = prefix(true, 0.7)
-    heights = true.height(times) + rng.normal(0.0, spread, len(times))
+    heights = true.height(times) + rng.normal(0.0, deviation, len(times))
     weights = np.exp((times - times[-1]) / given.memory)
 
     def cost(start, end, onset, duration):
         at = MinimumJerkStroke(start=start, end=end, onset=onset, duration=duration)
-        missed = weights @ np.square(heights - at.height(times)) / spread**2
+        missed = weights @ np.square(heights - at.height(times)) / deviation**2
         return missed + ((end - start) / given.rise) ** 2
 
-    found = MinimumJerkFit(times, heights, spread).stroke
+    found = MinimumJerkFit(times, heights, deviation).stroke
     best = np.array([found.start, found.end, found.onset, found.duration])
     step = 1e-2 * np.array([0.01, 0.02, 0.1, 0.3])
     others = [cost(*(best + sign * side)) for side in np.diag(step) for sign in (-1, 1)]
     assert min(others) > cost(*best)
 
 
-def brute_force(times, heights, spread, given, at):
+def brute_force(times, heights, deviation, given, at):
     """Return the mean forecast by numerical integration over start, rise and the grid."""
     spacing = times[1] - times[0]
     weights = np.exp((times - times[-1]) / given.memory) * spacing / 0.1
-    inverse = np.diag(spread**2 / weights)
+    inverse = np.diag(deviation**2 / weights)
     total = mean = 0.0
     for duration in np.geomspace(*given.durations, given.grid[0]):
         for gone in np.linspace(*given.elapsed, given.grid[1]):
-            done = course(gone + (times - times[-1]) / duration)
+            done = profile(gone + (times - times[-1]) / duration)
             wide = 10.0
             covariance = inverse + wide**2 + given.rise**2 * np.outer(done, done)
             solved = np.linalg.solve(covariance, heights)
             likelihood = np.exp(-0.5 * heights @ solved) / np.sqrt(np.linalg.det(covariance / 1e-6))
-            there = course(gone + (at - times[-1]) / duration)
+            there = profile(gone + (at - times[-1]) / duration)
             expected = (wide**2 + given.rise**2 * there * done) @ solved
             total += likelihood
             mean += likelihood * expected
@@ -109,8 +109,8 @@ def test_less_trusted_samples_move_the_forecast_less():
     true = stroke()
     times = prefix(true, 0.5)
     rises = [
-        MinimumJerkFit(times, true.height(times), spread).height(times[-1] + 1.0) - 0.04
-        for spread in (1e-4, 1e-2, 1e-1)
+        MinimumJerkFit(times, true.height(times), deviation).height(times[-1] + 1.0) - 0.04
+        for deviation in (1e-4, 1e-2, 1e-1)
     ]
     assert rises[0] > 1.2 * rises[1] > 1.2 * rises[2] > 0
 

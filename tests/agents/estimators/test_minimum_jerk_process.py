@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.estimators.minimum_jerk import MinimumJerkStroke
-from colift.agents.estimators.minimum_jerk_process import MinimumJerkProcess, transition
+from colift.agents.estimators.minimum_jerk_process import (
+    MinimumJerkProcess,
+    minimum_jerk_transition,
+)
 
 STROKE = MinimumJerkStroke(start=0.04, end=0.23, onset=0.0, duration=2.0)
 SHARP = MinimumJerkProcess(shortest=0.1, softness=0.001)
@@ -39,8 +42,8 @@ def test_any_movement_ends_at_rest_at_its_goal():
 
 @pytest.mark.parametrize("to_go", [0.5, 1.3])
 def test_two_short_steps_are_a_long_one(to_go):
-    there = transition(0.25, to_go - 0.2) @ transition(0.2, to_go)
-    assert there == pytest.approx(transition(0.45, to_go), rel=1e-9, abs=1e-9)
+    there = minimum_jerk_transition(0.25, to_go - 0.2) @ minimum_jerk_transition(0.2, to_go)
+    assert there == pytest.approx(minimum_jerk_transition(0.45, to_go), rel=1e-9, abs=1e-9)
 
 
 @pytest.mark.parametrize("clock", [-3.0, 0.0, 0.6, 0.9, 1.6])

@@ -25,7 +25,7 @@ def parameters(form="jerk", **changes):
         measurement_noise=0.9,
         process_noise=2e4,
         noise_enters=form,
-        initial_spread=(1.0, 20.0, 150.0),
+        initial_deviation=(1.0, 20.0, 150.0),
         **changes,
     )
 
@@ -137,13 +137,13 @@ def test_innovations_on_its_own_model_are_white_with_the_told_variance(form):
     for run in range(runs):
         tracker = MotionFilter(given)
         tracker.reset(0.1)
-        x = np.array([100.0, 0.0, 0.0]) + rng.standard_normal(3) * given.initial_spread
+        x = np.array([100.0, 0.0, 0.0]) + rng.standard_normal(3) * given.initial_deviation
         for step in range(steps):
             x = f @ x + rng.multivariate_normal(np.zeros(3), q)
             measured = (x[0] + math.sqrt(given.measurement_noise) * rng.standard_normal()) / 1000
             prediction = tracker.predict(0.1)
-            spread = math.sqrt(prediction.variance + given.measurement_noise)
-            innovations[run, step] = 1000 * (measured - prediction.height) / spread
+            deviation = math.sqrt(prediction.variance + given.measurement_noise)
+            innovations[run, step] = 1000 * (measured - prediction.height) / deviation
             tracker.update(measured)
     low, high = chi2.interval(0.999, innovations.size)
     assert low < (innovations**2).sum() < high
@@ -223,12 +223,12 @@ def test_an_impossible_noise_is_refused(name, value):
 
 
 @pytest.mark.parametrize(
-    "spread",
+    "deviation",
     [(1.0, 1.0), (1.0, 0.0, 1.0), (1.0, 1.0, -1.0), (math.nan, 1.0, 1.0), (1, 1, math.inf)],
 )
-def test_an_impossible_spread_is_refused(spread):
-    with pytest.raises(InputError, match="initial_spread must be three positive numbers"):
-        dataclasses.replace(parameters(), initial_spread=spread)
+def test_an_impossible_deviation_is_refused(deviation):
+    with pytest.raises(InputError, match="initial_deviation must be three positive numbers"):
+        dataclasses.replace(parameters(), initial_deviation=deviation)
 
 
 def test_an_unknown_form_of_noise_is_refused():

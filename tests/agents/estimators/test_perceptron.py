@@ -11,7 +11,7 @@ def made(*sizes, seed=0):
     rng = np.random.default_rng(seed)
     return Perceptron(
         centre=rng.normal(size=sizes[0]),
-        spread=rng.uniform(0.5, 2.0, sizes[0]),
+        deviation=rng.uniform(0.5, 2.0, sizes[0]),
         weights=tuple(rng.normal(size=shape) for shape in itertools.pairwise(sizes)),
         biases=tuple(rng.normal(size=size) for size in sizes[1:]),
         gain=rng.uniform(0.5, 2.0, sizes[-1]),
@@ -22,7 +22,7 @@ def test_outputs_are_those_of_rectified_layers():
     """max(0, 3 * (5 - 1) / 2 - 4) = 2 and max(0, -3 * 2 + 1) = 0; 10 (7 * 2 + 11 * 0 - 5) = 90."""
     one = Perceptron(
         centre=np.array([1.0]),
-        spread=np.array([2.0]),
+        deviation=np.array([2.0]),
         weights=(np.array([[3.0, -3.0]]), np.array([[7.0], [11.0]])),
         biases=(np.array([-4.0, 1.0]), np.array([-5.0])),
         gain=np.array([10.0]),
@@ -50,8 +50,8 @@ def test_json_keeps_it_to_five_digits():
     [
         ({"weights": ([[1.0, 2.0]],)}, "layers must have the shapes"),
         ({"weights": ()}, "layers must have the shapes"),
-        ({"spread": [1.0, 1.0]}, "a spread an input"),
-        ({"gain": [1.0, 1.0]}, "a gain an output"),
+        ({"deviation": [1.0, 1.0]}, "one deviation per input"),
+        ({"gain": [1.0, 1.0]}, "one gain per output"),
         ({"gain": [np.inf]}, "finite"),
     ],
 )

@@ -62,8 +62,8 @@ def test_confidence_in_a_true_model_is_even(window):
     values = []
     for _ in range(2000):
         confidence = ResidualConfidence(window)
-        spreads = rng.uniform(0.1, 9.0, window)
-        told = [confidence.update(s * rng.standard_normal(), s**2) for s in spreads]
+        deviations = rng.uniform(0.1, 9.0, window)
+        told = [confidence.update(s * rng.standard_normal(), s**2) for s in deviations]
         values.append(told[-1])
     # The 0.1 % point of the Kolmogorov-Smirnov distance is 1.95 / sqrt(n).
     distance = np.abs(np.sort(values) - np.arange(1, 2001) / 2000).max()
@@ -71,7 +71,7 @@ def test_confidence_in_a_true_model_is_even(window):
 
 
 def test_confidence_in_a_filter_whose_model_is_true_is_even():
-    parameters = MotionFilterParameters(process_noise=1e6, initial_spread=(1e-3, 1e-3, 1e-3))
+    parameters = MotionFilterParameters(process_noise=1e6, initial_deviation=(1e-3, 1e-3, 1e-3))
     rng = np.random.default_rng(3)
     period, noise = 0.1, math.sqrt(parameters.measurement_noise)
     transition = np.array([[1, period, period**2 / 2], [0, 1, period], [0, 0, 1]])

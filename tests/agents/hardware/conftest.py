@@ -7,8 +7,8 @@ from colift.agents.hardware.dry_run import DryArm
 from colift.agents.hardware.loop import LoopSettings, run_trial
 from colift.agents.hardware.nao.naoqi import NAMES, NaoqiArm, hand_heights
 from colift.agents.hardware.operator import StopButton
-from colift.agents.hardware.recording import TrialRecording
 from colift.agents.hardware.trial_end import AfterDuration
+from colift.agents.hardware.trial_log import LoggedTrial
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.hardware.laboratory import Conditions
 from colift.benchmark.hardware.simulated import SimulatedLaboratory
@@ -50,20 +50,20 @@ class Faulty(AfterDuration):
         super().__init__(duration=duration)
         self.lab, self.faults, self.came = lab, faults, None
 
-    def over(self, record):
-        fault = self.faults.pop(len(record.steps), None)
+    def over(self, log):
+        fault = self.faults.pop(len(log.steps), None)
         if fault is not None:
             self.came = self.lab.now()
             fault(self.lab) if callable(fault) else self.lab.request(fault)
-        return super().over(record)
+        return super().over(log)
 
 
 class Trial:
     """A trial that was played in the simulated laboratory."""
 
-    def __init__(self, lab, arm, recording, end):
-        self.lab, self.arm, self.recording, self.came = lab, arm, recording, end.came
-        self.record = recording.record
+    def __init__(self, lab, arm, trial, end):
+        self.lab, self.arm, self.trial, self.came = lab, arm, trial, end.came
+        self.log = trial.log
 
     @property
     def ended(self):
@@ -72,7 +72,7 @@ class Trial:
 
     def held_since(self, reason):
         """Return how long after the fault a reason first held the hands [s]."""
-        return next(s.time for s in self.record.steps if s.hold == reason) - self.came
+        return next(s.time for s in self.log.steps if s.hold == reason) - self.came
 
     def last_command(self):
         """Return how long after the fault the last command was given [s]."""
@@ -105,7 +105,7 @@ def play():
         agent.reset(1)
         end = Faulty(lab, duration, dict(faults or {}))
         robot = DryArm(arm) if dry else arm
-        record = run_trial(
+        log = run_trial(
             robot,
             lab,
             (decider or Inline)(agent),
@@ -113,14 +113,14 @@ def play():
             settings=LoopSettings(**settings),
             end=end,
         )
-        recording = TrialRecording(
+        trial = LoggedTrial(
             policy=policy if isinstance(policy, str) else "",
             limits=robot.limits,
             weight_offset=arm.weight_offset,
             dry=dry,
-            record=record,
+            log=log,
         )
-        return Trial(lab, arm, recording, end)
+        return Trial(lab, arm, trial, end)
 
     yield trial
     for lab in labs:

@@ -39,7 +39,7 @@ def test_motion_capture_that_stays_bad_holds_the_hands_and_then_stops_them(
     play, fault, hold, detected, stop, stopped
 ):
     trial = play("copy", faults={AT: fault})
-    assert trial.record.stop is stop
+    assert trial.log.stop is stop
     assert trial.held_since(hold) <= detected + REACTION
     assert trial.last_command() <= detected + REACTION
     assert stopped - 1e-9 <= trial.ended <= stopped + REACTION
@@ -50,7 +50,7 @@ def test_ends_that_are_taken_for_each_other_hold_the_hands_and_then_stop_them(pl
     trial = play("hold", faults={25: "swap@0"})
     assert trial.held_since(HoldReason.JUMP) <= REACTION
     assert trial.held_since(HoldReason.DISAGREE) <= 0.1 + REACTION
-    assert trial.record.stop is Stop.CAPTURE_UNUSABLE
+    assert trial.log.stop is Stop.CAPTURE_UNUSABLE
     assert 1.0 <= trial.ended <= 1.0 + REACTION
     assert rests(trial)
 
@@ -69,7 +69,7 @@ def test_ends_that_are_taken_for_each_other_hold_the_hands_and_then_stop_them(pl
 )
 def test_what_cannot_be_waited_for_stops_at_once(play, fault, stop, within):
     trial = play("copy", faults={AT: fault})
-    assert trial.record.stop is stop
+    assert trial.log.stop is stop
     assert trial.ended <= within + REACTION
     assert trial.last_command() <= 0.0
     if stop is Stop.ROBOT_LOST:
@@ -97,9 +97,9 @@ def test_what_cannot_be_waited_for_stops_at_once(play, fault, stop, within):
 )
 def test_what_passes_is_waited_for_and_the_lift_goes_on(play, fault, held):
     trial = play("copy", faults={AT: fault}, duration=6.0)
-    assert trial.record.stop is None
-    assert {step.hold for step in trial.record.steps} == held
-    assert len(trial.record.steps) == 60
+    assert trial.log.stop is None
+    assert {step.hold for step in trial.log.steps} == held
+    assert len(trial.log.steps) == 60
     assert trial.last_command() > 4.0
 
 
@@ -113,10 +113,10 @@ def test_a_stopped_arm_takes_no_command_any_more(play):
 
 def test_bursts_that_each_pass_end_the_trial_together(play):
     trial = play("copy", faults=dict.fromkeys(range(10, 50, 10), "dropout@0:0.6"), duration=8.0)
-    assert trial.record.stop is Stop.CAPTURE_LOST
-    held = [step for step in trial.record.steps if step.hold]
+    assert trial.log.stop is Stop.CAPTURE_LOST
+    held = [step for step in trial.log.steps if step.hold]
     assert 10 <= len(held) <= 12
-    assert "held for 1.0 s of the last 5 s" in trial.record.reason
+    assert "held for 1.0 s of the last 5 s" in trial.log.reason
     assert rests(trial)
 
 
@@ -137,9 +137,9 @@ class Always:
 @pytest.mark.parametrize(("change", "turning"), [(0.5, True), (0.04, True), (1e300, False)])
 def test_a_policy_that_shakes_or_tilts_the_table_is_stopped_within_a_second(play, change, turning):
     trial = play(Always(change, turning), duration=5.0)
-    assert trial.record.stop is Stop.POLICY
-    assert len(trial.record.steps) <= 11
-    ends = np.array([sample[1:] for sample in trial.record.samples])
+    assert trial.log.stop is Stop.POLICY
+    assert len(trial.log.steps) <= 11
+    ends = np.array([sample[1:] for sample in trial.log.samples])
     assert np.abs(ends[:, 0] - ends[:, 1]).max() < 0.16
     assert rests(trial)
 
@@ -148,13 +148,13 @@ def test_a_policy_that_shakes_or_tilts_the_table_is_stopped_within_a_second(play
 @pytest.mark.parametrize("policy", ["blend", "anticipate", "proportional", "extrapolate"])
 def test_a_policy_that_follows_the_person_is_not_stopped(play, policy, behaviour):
     trial = play(policy, behaviour=behaviour, duration=6.5)
-    assert trial.record.stop is None
-    assert not any(step.hold for step in trial.record.steps)
-    assert max(step.astray for step in trial.record.steps) < 1e-9
+    assert trial.log.stop is None
+    assert not any(step.hold for step in trial.log.steps)
+    assert max(step.astray for step in trial.log.steps) < 1e-9
 
 
 def test_a_dry_run_is_not_stopped_for_the_tilt(play):
     trial = play("hold", duration=6.0, dry=True)
-    assert max(abs(s.human_end - s.robot_end) for s in trial.record.samples) > 0.15
-    assert trial.record.stop is None
-    assert play("hold", duration=6.0).record.stop is Stop.POLICY
+    assert max(abs(s.human_end - s.robot_end) for s in trial.log.samples) > 0.15
+    assert trial.log.stop is None
+    assert play("hold", duration=6.0).log.stop is Stop.POLICY

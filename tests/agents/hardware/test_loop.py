@@ -37,18 +37,18 @@ def fail():
 
 def test_one_command_a_period_on_time_to_the_end(play):
     trial = play("copy", duration=3.0)
-    assert trial.record.stop is None
+    assert trial.log.stop is None
     assert np.diff(trial.lab.times("setAngles")) == pytest.approx(np.full(29, 0.1))
-    assert [step.deadline for step in trial.record.steps] == pytest.approx(
-        trial.record.start + 0.1 * np.arange(30)
+    assert [step.deadline for step in trial.log.steps] == pytest.approx(
+        trial.log.start + 0.1 * np.arange(30)
     )
-    assert trial.record.late_steps == 0
+    assert trial.log.late_steps == 0
 
 
 def test_the_policy_sees_what_it_would_see_in_simulation(play):
     policy = Says([[0.01]] * 5)
     trial = play(policy, duration=3.0, latency=0.15)
-    seen, steps = np.array(policy.seen), trial.record.steps
+    seen, steps = np.array(policy.seen), trial.log.steps
     assert seen.shape == (30, 5)
     assert seen[:, 3] == pytest.approx([0.01 * min(k, 5) for k in range(30)])
     assert seen[:, 4] == pytest.approx(0.1 * np.arange(30))
@@ -57,7 +57,7 @@ def test_the_policy_sees_what_it_would_see_in_simulation(play):
     hands = [step.hand_height for step in steps]
     assert seen[:, 2] == pytest.approx(np.add(hands, ahead), abs=1e-12)
     # A sample of the age that was asked for, with the arms' dead time.
-    frames = {round(s.time, 3): s for s in trial.record.samples}
+    frames = {round(s.time, 3): s for s in trial.log.samples}
     for observation, step in zip(seen[2:], steps[2:], strict=True):
         frame = frames[round(step.time - 0.14, 3)]
         assert observation[:2] == pytest.approx([frame.human_end, frame.robot_end], abs=1e-9)
@@ -65,23 +65,23 @@ def test_the_policy_sees_what_it_would_see_in_simulation(play):
 
 def test_a_loop_that_is_held_up_skips_the_periods_and_never_catches_up(play):
     trial = play("copy", duration=3.0, faults={10: lambda lab: lab.wait_until(lab.now() + 0.37)})
-    assert trial.record.late_steps == 2
-    assert len(trial.record.steps) == 28
+    assert trial.log.late_steps == 2
+    assert len(trial.log.steps) == 28
     assert np.diff(trial.lab.times("setAngles")).min() > 0.02
-    late = [step.time - step.deadline for step in trial.record.steps]
+    late = [step.time - step.deadline for step in trial.log.steps]
     assert np.flatnonzero(np.array(late) > 0.005).tolist() == [10]
 
 
 @pytest.mark.parametrize("bad", [fail, lambda: [math.nan], lambda: [0.0, 0.0], lambda: "up"])
 def test_a_policy_that_fails_is_held_and_one_that_goes_on_failing_is_stopped(play, bad):
     once = play(Says([[0.01]] * 5 + [bad] + [[0.01]] * 5), duration=2.0)
-    assert once.record.stop is None
-    assert [step.hold for step in once.record.steps].count(HoldReason.POLICY_FAILED) == 1
-    assert once.record.steps[-1].command == pytest.approx(0.1)
+    assert once.log.stop is None
+    assert [step.hold for step in once.log.steps].count(HoldReason.POLICY_FAILED) == 1
+    assert once.log.steps[-1].command == pytest.approx(0.1)
     always = play(Says([[0.01]] * 5 + [bad] * 50), duration=4.0)
-    assert always.record.stop is Stop.POLICY
-    assert len(always.record.steps) <= 5 + 13
-    assert always.lab.times("setAngles")[-1] < always.record.start + 0.5
+    assert always.log.stop is Stop.POLICY
+    assert len(always.log.steps) <= 5 + 13
+    assert always.lab.times("setAngles")[-1] < always.log.start + 0.5
 
 
 def test_a_policy_that_does_not_answer_is_not_waited_for(play):
@@ -89,13 +89,13 @@ def test_a_policy_that_does_not_answer_is_not_waited_for(play):
     hangs = Says([[0.01]] * 5 + [lambda: [0.01] if answer.wait(60) else None])
     trial = play(hangs, duration=4.0, decider=Timed)
     answer.set()
-    assert [step.hold for step in trial.record.steps[5:8]] == [
+    assert [step.hold for step in trial.log.steps[5:8]] == [
         HoldReason.POLICY_LATE,
         HoldReason.POLICY_BUSY,
         HoldReason.POLICY_BUSY,
     ]
-    assert trial.record.stop is Stop.POLICY
-    assert trial.lab.times("setAngles")[-1] < trial.record.start + 0.5
+    assert trial.log.stop is Stop.POLICY
+    assert trial.lab.times("setAngles")[-1] < trial.log.start + 0.5
 
 
 WILD = st.one_of(

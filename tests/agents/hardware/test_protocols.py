@@ -63,14 +63,14 @@ class Faulty(AfterDuration):
         super().__init__(duration=duration)
         self.session, self.fault, self.came = session, fault, None
 
-    def over(self, record):
-        if len(record.steps) == AT and self.came is None:
+    def over(self, log):
+        if len(log.steps) == AT and self.came is None:
             self.came = time.monotonic()
             # A connection that closes may take the answer with it.
             with suppress(RobotLostError):
                 for text in self.fault.split():
                     self.came = self.session.call("ColiftFaults", "request", text)
-        return super().over(record)
+        return super().over(log)
 
 
 @pytest.fixture(scope="module")
@@ -112,16 +112,14 @@ def lift(laboratory, capture):
         arm.weight_offset = -arm.state().height
         end = Faulty(duration, session, fault)
         decider = Timed(policy())
-        record = run_trial(
-            arm, capture, decider, MonotonicClock(), settings=LoopSettings(), end=end
-        )
+        log = run_trial(arm, capture, decider, MonotonicClock(), settings=LoopSettings(), end=end)
         finished = time.monotonic()
         decider.close()
-        steps = record.steps
+        steps = log.steps
         # What the machine, not the loop, is late by.
-        slip = max(step.time - step.deadline for step in steps) + 0.1 * record.late_steps
+        slip = max(step.time - step.deadline for step in steps) + 0.1 * log.late_steps
         slip += steps[-1].policy_time + steps[-1].state_time
-        return record, end.came, finished - end.came - slip
+        return log, end.came, finished - end.came - slip
 
     yield play
     for session in sessions:
@@ -155,9 +153,9 @@ def still(laboratory, seconds=0.5):
 def test_motion_capture_that_stays_bad_holds_the_hands_and_then_stops_them(
     laboratory, lift, fault, detected, stop, stopped
 ):
-    record, came, ended = lift(fault, 5.0)
-    assert (record.stop, record.reason != "") == (stop, True)
-    late = [step for step in record.steps if step.time - came > detected + REACTION]
+    log, came, ended = lift(fault, 5.0)
+    assert (log.stop, log.reason != "") == (stop, True)
+    late = [step for step in log.steps if step.time - came > detected + REACTION]
     assert len(late) >= 3
     assert all(step.hold and step.command == step.hand_command for step in late)
     assert ended <= stopped + REACTION
@@ -168,10 +166,10 @@ def test_motion_capture_that_stays_bad_holds_the_hands_and_then_stops_them(
 
 def test_bursts_that_each_pass_end_the_trial_together(laboratory, lift):
     bursts = " ".join(f"dropout@{start}:0.6" for start in range(4))
-    record, came, ended = lift(bursts, 6.0)
-    assert record.stop is Stop.CAPTURE_LOST
-    assert "held for 1.0 s of the last 5 s" in record.reason
-    after = [step for step in record.steps if step.time > came]
+    log, came, ended = lift(bursts, 6.0)
+    assert log.stop is Stop.CAPTURE_LOST
+    assert "held for 1.0 s of the last 5 s" in log.reason
+    after = [step for step in log.steps if step.time > came]
     assert any(not step.hold for step in after[8:])
     assert 1.0 < ended <= 2.6 + REACTION
     assert still(laboratory)
@@ -182,47 +180,47 @@ def test_bursts_that_each_pass_end_the_trial_together(laboratory, lift):
     ("policy", "told", "within"), [(Shake, "shakes the table", 1.0), (Raise, "is tilted", 1.0)]
 )
 def test_a_policy_that_shakes_or_tilts_the_table_is_stopped(laboratory, lift, policy, told, within):
-    record, _, _ = lift("jitter@0:0.1:0", 5.0, policy)
-    assert record.stop is Stop.POLICY
-    assert told in record.reason
-    late = record.late_steps * record.period
-    assert record.steps[-1].deadline - record.start <= within + REACTION + late
+    log, _, _ = lift("jitter@0:0.1:0", 5.0, policy)
+    assert log.stop is Stop.POLICY
+    assert told in log.reason
+    late = log.late_steps * log.period
+    assert log.steps[-1].deadline - log.start <= within + REACTION + late
     # The hands of the person give way, by a quarter of what the table rises.
-    assert max(step.command for step in record.steps) <= 0.19
+    assert max(step.command for step in log.steps) <= 0.19
     assert still(laboratory)
 
 
 @pytest.mark.parametrize("fault", ["jitter@0:0.8:0.08", "dropout@0:0.1"])
 def test_what_can_be_lived_with_is(lift, fault):
-    record, came, _ = lift(fault, 1.6)
-    assert record.stop is None
-    after = [step for step in record.steps if step.time > came]
+    log, came, _ = lift(fault, 1.6)
+    assert log.stop is None
+    after = [step for step in log.steps if step.time > came]
     assert sum(not step.hold for step in after) > len(after) / 2
 
 
 def test_motors_without_stiffness_stop_the_trial(laboratory, lift):
-    record, _, ended = lift("motor-off@0:1.0", 3.0)
-    assert record.stop is Stop.MOTORS
-    assert "stiffness 0.00" in record.reason
+    log, _, ended = lift("motor-off@0:1.0", 3.0)
+    assert log.stop is Stop.MOTORS
+    assert "stiffness 0.00" in log.reason
     assert ended <= REACTION
     assert still(laboratory)
     time.sleep(1.0)
 
 
 def test_a_set_point_that_somebody_else_gave_stops_the_trial(laboratory, lift):
-    record, came, ended = lift("foreign-setpoint@0:0.6", 3.0)
-    assert record.stop is Stop.MOTORS
-    assert "something else commands the robot" in record.reason
+    log, came, ended = lift("foreign-setpoint@0:0.6", 3.0)
+    assert log.stop is Stop.MOTORS
+    assert "something else commands the robot" in log.reason
     assert ended <= REACTION
-    assert max(step.astray for step in record.steps if step.time < came) < 1e-6
+    assert max(step.astray for step in log.steps if step.time < came) < 1e-6
     time.sleep(0.6)
     assert still(laboratory)
 
 
 def test_a_robot_that_hangs_stops_the_trial(laboratory, lift):
-    record, came, ended = lift("hang@0:1.0", 3.0)
-    assert record.stop is Stop.ROBOT_LOST
-    assert "no answer within 0.15 s" in record.reason
+    log, came, ended = lift("hang@0:1.0", 3.0)
+    assert log.stop is Stop.ROBOT_LOST
+    assert "no answer within 0.15 s" in log.reason
     # The last call, which is to freeze the arms, is not answered either.
     assert ended <= 0.15 + 0.15 + REACTION
     time.sleep(max(0.0, came + 1.2 - time.monotonic()))
@@ -230,8 +228,8 @@ def test_a_robot_that_hangs_stops_the_trial(laboratory, lift):
 
 
 def test_a_robot_that_does_not_answer_stops_the_trial(laboratory, lift):
-    record, came, ended = lift("silence@0:1.0", 3.0)
-    assert record.stop is Stop.ROBOT_LOST
+    log, came, ended = lift("silence@0:1.0", 3.0)
+    assert log.stop is Stop.ROBOT_LOST
     assert ended <= 0.15 + REACTION
     time.sleep(max(0.0, came + 1.2 - time.monotonic()))
     assert still(laboratory)
@@ -241,8 +239,8 @@ def test_a_robot_that_does_not_answer_stops_the_trial(laboratory, lift):
 
 
 def test_a_stream_that_ends_stops_the_trial(laboratory, lift):
-    record, _, ended = lift("stream-end@0", 4.0)
-    assert record.stop is Stop.CAPTURE_LOST
+    log, _, ended = lift("stream-end@0", 4.0)
+    assert log.stop is Stop.CAPTURE_LOST
     assert ended <= 1.0 + REACTION
     assert still(laboratory)
 
@@ -255,13 +253,13 @@ def test_a_robot_whose_connection_closes_stops_the_trial(emulate):
     capture.set_rest(rest.human_end, rest.robot_end)
     end = Faulty(4.0, session, "disconnect@0")
     decider = Timed(Rise())
-    record = run_trial(
+    log = run_trial(
         NaoqiArm(session), capture, decider, MonotonicClock(), settings=LoopSettings(), end=end
     )
     decider.close()
     capture.close()
-    assert record.stop is Stop.ROBOT_LOST
-    assert record.steps[-1].time < end.came + 0.15 + REACTION
+    assert log.stop is Stop.ROBOT_LOST
+    assert log.steps[-1].time < end.came + 0.15 + REACTION
     # Nothing reaches the robot any more.
     laboratory.await_line("fault disconnect")
     after = laboratory.lines[laboratory.lines.index("fault disconnect") :]

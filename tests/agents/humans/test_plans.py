@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from colift.agents.agent import FRAME
+from colift.agents.estimators.minimum_jerk import profile
 from colift.agents.humans import (
     GOAL_RANGE,
     SUBJECTS,
@@ -14,7 +15,6 @@ from colift.agents.humans import (
     Smooth,
     Subject,
 )
-from colift.agents.humans.stroke import minimum_jerk
 from colift.testing import check_behaviour
 
 S2 = SUBJECTS["S2"]
@@ -22,7 +22,7 @@ S2 = SUBJECTS["S2"]
 
 def recording():
     t = np.arange(0.0, 4.0, 0.02)
-    z = 0.7 * (minimum_jerk(t / 1.5) - minimum_jerk((t - 2.2) / 1.5))
+    z = 0.7 * (profile(t / 1.5) - profile((t - 2.2) / 1.5))
     return Recording(name="one", times=tuple(t.tolist()), heights=tuple(z.tolist()))
 
 

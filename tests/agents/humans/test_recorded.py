@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from colift.agents.agent import FRAME
 from colift.agents.errors import InputError
+from colift.agents.estimators.minimum_jerk import profile
 from colift.agents.humans import SUBJECTS, Recorded, Recording
-from colift.agents.humans.stroke import minimum_jerk
 
 S1 = SUBJECTS["S1"]
 
@@ -15,7 +15,7 @@ def record(height, duration=3.0, rate=100.0):
 
 
 def lift(t):
-    return 0.7 * (minimum_jerk(t) - minimum_jerk(t - 1.8))
+    return 0.7 * (profile(t) - profile(t - 1.8))
 
 
 def plan(recording, seed=0):
@@ -38,7 +38,7 @@ def test_shape_survives():
     stretch = 0.20 * 1.875 / 0.20
     t = np.arange(len(result.target)) * FRAME / stretch
     middle = np.searchsorted(result.target[start:stop], 0.10) + start
-    expected = 0.20 * minimum_jerk(t - t[middle] + 0.5)[start:stop]
+    expected = 0.20 * profile(t - t[middle] + 0.5)[start:stop]
     assert np.abs(result.target[start:stop] - expected).max() < 0.008
 
 

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 from colift.agents.agent import FRAME
-from colift.agents.humans.stroke import Submovement, minimum_jerk, replan, stroke, superpose
+from colift.agents.estimators.minimum_jerk import profile
+from colift.agents.humans.stroke import Submovement, replan, stroke, superpose
 
 
 def with_start(motion, state=(0.0, 0.0, 0.0)):
@@ -10,7 +11,7 @@ def with_start(motion, state=(0.0, 0.0, 0.0)):
 
 def test_minimum_jerk_is_the_published_polynomial():
     t = np.array([-0.5, 0.0, 0.25, 0.5, 0.75, 1.0, 2.0])
-    assert minimum_jerk(t) == pytest.approx([0, 0, 0.103515625, 0.5, 0.896484375, 1, 1])
+    assert profile(t) == pytest.approx([0, 0, 0.103515625, 0.5, 0.896484375, 1, 1])
 
 
 def test_minimum_jerk_stroke_has_the_known_peaks():

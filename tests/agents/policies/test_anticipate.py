@@ -41,7 +41,7 @@ def steady(interval=0.1):
     return Anticipation(
         perceptron=Perceptron(
             centre=np.zeros(window.size),
-            spread=np.ones(window.size),
+            deviation=np.ones(window.size),
             weights=(weights,),
             biases=(biases,),
             gain=np.ones(outputs),

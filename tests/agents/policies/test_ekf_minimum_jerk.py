@@ -130,8 +130,8 @@ def test_more_assistance_is_more_level_than_little():
         ({"assistance": -0.1}, r"assistance must be in \[0, 1\], got -0.1"),
         ({"assistance": 1.01}, r"assistance must be in \[0, 1\], got 1.01"),
         ({"assistance": np.nan}, r"assistance must be in \[0, 1\], got nan"),
-        ({"latency": -0.1}, "latency must be a number from 0 on, got -0.1"),
-        ({"lag": np.inf}, "lag must be a number from 0 on, got inf"),
+        ({"latency": -0.1}, "latency must be a number of at least 0, got -0.1"),
+        ({"lag": np.inf}, "lag must be a number of at least 0, got inf"),
     ],
 )
 def test_impossible_parameters_are_refused(values, message):

@@ -39,5 +39,5 @@ def test_noise_is_amplified_as_the_docstring_says():
 
 @pytest.mark.parametrize("steps", [-1.0, np.inf, np.nan])
 def test_steps_must_make_sense(steps):
-    with pytest.raises(InputError, match=rf"steps must be a number from 0 on, got {steps}"):
+    with pytest.raises(InputError, match=rf"steps must be a number of at least 0, got {steps}"):
         ExtrapolateParameters(steps=steps)

@@ -41,7 +41,7 @@ def session(**conditions):
 
 
 def lift(made, policy, number):
-    """Play a lift and return its record."""
+    """Play a lift and return its log."""
     return made.play(
         PolicySpec(text=policy).agent(),
         policy_seed(),
@@ -55,13 +55,10 @@ def lift(made, policy, number):
 def test_the_error_is_that_of_pure_simulation(policy):
     made, _ = session()
     made.set_up()
-    records = [lift(made, policy, number + 1) for number in SEEDS]
+    logs = [lift(made, policy, number + 1) for number in SEEDS]
     made.finish(lambda: None)
-    assert all(record.stop is None for record in records)
-    there = [
-        episode(record, person="S1", number=k).scores
-        for k, record in zip(SEEDS, records, strict=True)
-    ]
+    assert all(log.stop is None for log in logs)
+    there = [episode(log, person="S1", number=k).scores for k, log in zip(SEEDS, logs, strict=True)]
     suite = Suite(name="here", scenarios=(SMOOTH,), seeds=SEEDS)
     here = [e.scores for e in run_suite(PolicySpec(text=policy), suite).episodes]
     for name in ("rmse_mm", "ldlj"):
@@ -115,6 +112,6 @@ def test_planned_faults_come_with_the_first_lift():
     fault = Fault(kind="dropout", start=1.0, duration=9.0, value=0.0)
     made, _ = session(faults=(fault,))
     made.set_up()
-    record = lift(made, "hold", 1)
-    assert record.stop is Stop.CAPTURE_LOST
-    assert record.steps[-1].time - record.begin == pytest.approx(2.1, abs=0.15)
+    log = lift(made, "hold", 1)
+    assert log.stop is Stop.CAPTURE_LOST
+    assert log.steps[-1].time - log.begin == pytest.approx(2.1, abs=0.15)

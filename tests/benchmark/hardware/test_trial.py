@@ -1,4 +1,4 @@
-"""From a record to an episode: scores of what motion capture saw, and of what was stopped."""
+"""From a log to an episode: scores of what motion capture saw, and of what was stopped."""
 
 import math
 
@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.hardware.ports import HandLimits, Sample
-from colift.agents.hardware.record import Record, Step
-from colift.agents.hardware.recording import TrialRecording
 from colift.agents.hardware.stops import Stop
+from colift.agents.hardware.trial_log import LoggedTrial, Step, TrialLog
 from colift.benchmark.hardware.estimates import estimate_setup
 from colift.benchmark.hardware.strokes import find_strokes, smoothed
 from colift.benchmark.hardware.timing import timing_report
@@ -26,9 +25,9 @@ def step(k, *, late=0.0, hold="", **values):
     )
 
 
-def record(seconds, human, robot, **settings):
+def log(seconds, human, robot, **settings):
     """Return a trial with frames at 100 Hz of these heights over time [m]."""
-    made = Record(period=T, latency=0.1, **settings)
+    made = TrialLog(period=T, latency=0.1, **settings)
     steps = round(seconds / T)
     frames = [Sample(0.01 * k, human(0.01 * k), robot(0.01 * k)) for k in range(10 * steps + 30)]
     made.events = [*frames, *(step(k, policy_time=0.002) for k in range(steps))]
@@ -47,7 +46,7 @@ def up_and_down(t):
 
 def test_the_error_is_that_of_the_heights_over_the_whole_trial():
     played = episode(
-        record(5.0, up_and_down, lambda t: up_and_down(t) - 0.01), person="Ann", number=3
+        log(5.0, up_and_down, lambda t: up_and_down(t) - 0.01), person="Ann", number=3
     )
     assert played.scores["rmse_mm"] == pytest.approx(10.0)
     assert played.scores["abs_error_mm"] == pytest.approx(10.0 * 500)
@@ -59,7 +58,7 @@ def test_the_error_is_that_of_the_heights_over_the_whole_trial():
 
 def test_the_lag_of_the_robots_end_is_found():
     played = episode(
-        record(5.0, up_and_down, lambda t: up_and_down(t - 0.15)), person="Ann", number=0
+        log(5.0, up_and_down, lambda t: up_and_down(t - 0.15)), person="Ann", number=0
     )
     assert played.scores["robot_lag_ms"] == pytest.approx(150, abs=10)
 
@@ -68,19 +67,19 @@ def test_smoothness_is_of_the_strokes_and_jerky_is_worse():
     def jerky(t):
         return up_and_down(t) + 0.004 * math.sin(30 * t)
 
-    smooth = episode(record(5.0, up_and_down, up_and_down), person="Ann", number=0).scores
-    rough = episode(record(5.0, up_and_down, jerky), person="Ann", number=0).scores
+    smooth = episode(log(5.0, up_and_down, up_and_down), person="Ann", number=0).scores
+    rough = episode(log(5.0, up_and_down, jerky), person="Ann", number=0).scores
     assert rough["sparc"] < smooth["sparc"] - 0.3
     assert rough["ldlj"] < smooth["ldlj"] - 0.5
 
 
 def test_a_stopped_trial_has_failed_and_a_stop_never_pays():
-    stopped = record(2.0, up_and_down, up_and_down, stop=Stop.OPERATOR, reason="the Enter key")
+    stopped = log(2.0, up_and_down, up_and_down, stop=Stop.OPERATOR, reason="the Enter key")
     played = episode(stopped, person="Ann", number=0)
     assert played.failure == "OPERATOR: the Enter key"
     # Four of six seconds at 250 mm.
     assert played.scores["rmse_mm"] == pytest.approx(250 * math.sqrt(4 / 6), rel=1e-3)
-    at_once = Record(period=T, latency=0.1, stop=Stop.ROBOT_LOST, reason="gone")
+    at_once = TrialLog(period=T, latency=0.1, stop=Stop.ROBOT_LOST, reason="gone")
     assert episode(at_once, person="Ann", number=0).scores["rmse_mm"] == pytest.approx(250)
 
 
@@ -101,7 +100,7 @@ def test_a_suite_of_the_laboratory_cannot_be_simulated():
 
 
 def test_the_latency_report_counts_and_measures():
-    made = Record(period=T, latency=0.1, late_steps=2)
+    made = TrialLog(period=T, latency=0.1, late_steps=2)
     made.events = [
         step(0, action=0.01, policy_time=0.001, sensing_age=0.02),
         step(1, action=0.01, policy_time=0.003, sensing_age=0.03, late=0.004),
@@ -114,7 +113,7 @@ def test_the_latency_report_counts_and_measures():
     assert report["sensing_age_ms"]["max"] == pytest.approx(30.0)
     assert report["period_error_ms"] == pytest.approx({"p50": 4.0, "p99": 4.0, "max": 4.0})
     assert (report["late_steps"], report["held"]) == (2, {"the policy was late": 1})
-    empty = timing_report([Record(period=T, latency=0.1)])
+    empty = timing_report([TrialLog(period=T, latency=0.1)])
     assert empty["period_error_ms"] == {"p50": None, "p99": None, "max": None}
 
 
@@ -122,9 +121,9 @@ def test_trials_that_say_nothing_are_refused_by_what_they_lack():
     limits = HandLimits(low=-0.03, high=0.29, speed=0.4, tilt=0.14)
 
     def recorded(made):
-        return TrialRecording(policy="hold", limits=limits, weight_offset=0.0, record=made)
+        return LoggedTrial(policy="hold", limits=limits, weight_offset=0.0, log=made)
 
     with pytest.raises(InputError, match="5 steps are too few"):
-        estimate_setup([recorded(record(0.5, up_and_down, up_and_down))])
+        estimate_setup([recorded(log(0.5, up_and_down, up_and_down))])
     with pytest.raises(InputError, match="told to move by less than 30 mm"):
-        estimate_setup([recorded(record(5.0, up_and_down, up_and_down))])
+        estimate_setup([recorded(log(5.0, up_and_down, up_and_down))])

@@ -5,18 +5,18 @@ import threading
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
-from colift.agents.hardware.csv_replay import recorded_commands, replay_trial
 from colift.agents.hardware.decisions import Timed
-from colift.agents.hardware.recording import read_recording, write_recording
+from colift.agents.hardware.rerun import logged_commands, rerun_trial
+from colift.agents.hardware.trial_log import read_trial, write_trial
 from colift.agents.loading.loading import PolicySpec
 
 
-def played_again(recording, path, policy):
-    """Return the recording as it comes from a file, and what comes of playing it."""
-    write_recording(path, recording)
-    back = read_recording(path)
+def played_again(trial, path, policy):
+    """Return the trial as it comes from a file, and what comes of playing it."""
+    write_trial(path, trial)
+    back = read_trial(path)
     policy.reset(1)
-    return back, replay_trial(back, policy)
+    return back, rerun_trial(back, policy)
 
 
 @pytest.mark.parametrize(
@@ -43,21 +43,19 @@ def played_again(recording, path, policy):
 )
 def test_the_file_is_exact_and_gives_the_same_commands(play, tmp_path, fault):
     trial = play("blend", faults={15: fault} if fault else None, duration=4.0)
-    back, again = played_again(
-        trial.recording, tmp_path / "trial.csv", PolicySpec(text="blend").make()
-    )
-    for there, here in zip(trial.record.steps, back.record.steps, strict=True):
+    back, again = played_again(trial.trial, tmp_path / "trial.csv", PolicySpec(text="blend").make())
+    for there, here in zip(trial.log.steps, back.log.steps, strict=True):
         np.testing.assert_array_equal(there[:8], here[:8])
-    np.testing.assert_array_equal(np.array(trial.record.samples), np.array(back.record.samples))
-    assert recorded_commands(again) == recorded_commands(trial.record)
-    assert (again.stop, len(again.steps)) == (trial.record.stop, len(trial.record.steps))
+    np.testing.assert_array_equal(np.array(trial.log.samples), np.array(back.log.samples))
+    assert logged_commands(again) == logged_commands(trial.log)
+    assert (again.stop, len(again.steps)) == (trial.log.stop, len(trial.log.steps))
 
 
 def test_another_policy_gives_other_commands(play, tmp_path):
     trial = play("copy", duration=3.0)
-    _, again = played_again(trial.recording, tmp_path / "t.csv", PolicySpec(text="hold").make())
+    _, again = played_again(trial.trial, tmp_path / "t.csv", PolicySpec(text="hold").make())
     assert [step.action for step in again.steps] == [0.0] * 30
-    assert recorded_commands(again) != recorded_commands(trial.record)
+    assert logged_commands(again) != logged_commands(trial.log)
 
 
 def test_a_policy_that_was_late_is_late_again(play, tmp_path):
@@ -83,29 +81,29 @@ def test_a_policy_that_was_late_is_late_again(play, tmp_path):
                 thread.join(0.2)
 
     trial = play(Late(waits=True), faults={8: answer}, duration=2.0, decider=Timed)
-    held = [step.hold for step in trial.record.steps]
+    held = [step.hold for step in trial.log.steps]
     assert held[4:8] == ["the policy was late", *["the policy is still at an earlier step"] * 3]
     assert not any(held[:4] + held[8:])
-    _, again = played_again(trial.recording, tmp_path / "t.csv", Late(waits=False))
-    assert recorded_commands(again) == recorded_commands(trial.record)
+    _, again = played_again(trial.trial, tmp_path / "t.csv", Late(waits=False))
+    assert logged_commands(again) == logged_commands(trial.log)
     assert [step.hold for step in again.steps] == held
 
 
 def test_a_dry_run_moves_nothing_and_replays_too(play, tmp_path):
     trial = play("copy", duration=3.0, dry=True)
-    assert max(recorded_commands(trial.record)) > 0.1
+    assert max(logged_commands(trial.log)) > 0.1
     assert trial.lab.times("setAngles") == []
     assert np.ptp(trial.lab.set_points()) == 0.0
-    back, again = played_again(trial.recording, tmp_path / "t.csv", PolicySpec(text="copy").make())
+    back, again = played_again(trial.trial, tmp_path / "t.csv", PolicySpec(text="copy").make())
     assert back.dry
-    assert recorded_commands(again) == recorded_commands(trial.record)
+    assert logged_commands(again) == logged_commands(trial.log)
 
 
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("", "no recording"),
-        ("a,b\n1,2\n", "no recording"),
+        ("", "no trial"),
+        ("a,b\n1,2\n", "no trial"),
         ("event,policy\nsample,\n", "begins with 'sample'"),
         (None, "cannot read"),
     ],
@@ -115,5 +113,5 @@ def test_what_is_no_recording_is_refused_by_name(tmp_path, text, told):
     if text is not None:
         path.write_text(text)
     with pytest.raises(InputError, match=told) as refused:
-        read_recording(path)
+        read_trial(path)
     assert "mine.csv" in str(refused.value)

@@ -1,0 +1,190 @@
+"""The log of a trial: every frame and step in order, as an object and as a CSV file.
+
+The file is exact to the last bit. It has one row per event, in the order in which they came: a
+``sample`` is a motion-capture frame, a ``step`` a control period, and the one ``trial`` row at the
+top holds the trial's settings and outcome.
+"""
+
+import csv
+import dataclasses
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Final, NamedTuple
+
+from ..errors import InputError
+from .ports import HandLimits, Sample
+from .stops import Stop
+
+
+class Step(NamedTuple):
+    """One control period."""
+
+    time: float
+    """When it began [s]."""
+    deadline: float
+    """When it should have begun [s]."""
+    hand_height: float
+    """Height of the hands by the encoders [m]."""
+    set_point: float
+    """Height of the hands by the robot's set-points [m]."""
+    stiffness: float
+    """Lowest stiffness of the arms' motors."""
+    astray: float
+    """How far a joint's set-point was from where the commands lead [rad], at most."""
+    hand_command: float
+    """The command before this step [m]."""
+    action: float
+    """The change of it that the policy wanted [m]; NaN if it was not heard."""
+    command: float
+    """The command of this step [m]: the same as before when the hands are held."""
+    hold: str
+    """Why the hands are held, empty if they are not."""
+    sensing_age: float
+    """Age of the newest motion-capture frame [s]."""
+    rate: float
+    """Motion-capture frames of the last second; infinite in the first."""
+    state_time: float
+    """What reading the robot took [s]."""
+    policy_time: float
+    """What the policy took [s], as far as it was waited for."""
+    command_time: float
+    """What giving the command took [s]."""
+
+
+@dataclass(kw_only=True)
+class TrialLog:
+    """A trial as it was played, also one that was stopped."""
+
+    period: float
+    """Control period [s]."""
+    latency: float
+    """Time from the frame that the policy was to be given to the hands' setting out [s]."""
+    begin: float = 0.0
+    """When the loop began [s], one period before the first step."""
+    events: list[Sample | Step] = field(default_factory=list)
+    """Frames and steps in the order in which the loop got and made them."""
+    late_steps: int = 0
+    """Periods that were skipped because the loop came too late for them."""
+    stop: Stop | None = None
+    """Why the trial was stopped, or None if it was played to its end."""
+    reason: str = ""
+    """What exactly stopped it."""
+
+    @property
+    def start(self) -> float:
+        """Time of the first deadline [s]."""
+        return self.begin + self.period
+
+    @property
+    def samples(self) -> list[Sample]:
+        """The motion-capture frames."""
+        return [event for event in self.events if isinstance(event, Sample)]
+
+    @property
+    def misdated(self) -> int:
+        """Number of frames whose time stamps were ahead of the clock, or no numbers."""
+        return sum(math.isnan(sample.time) for sample in self.samples)
+
+    @property
+    def steps(self) -> list[Step]:
+        """The steps."""
+        return [event for event in self.events if isinstance(event, Step)]
+
+
+_TRIAL: Final = (
+    "policy", "period", "latency", "begin", "late_steps", "low", "high", "speed",
+    "tilt", "weight_offset", "dry", "stop", "reason",
+)  # fmt: skip
+COLUMNS: Final = ("event", *dict.fromkeys((*_TRIAL, *Sample._fields, *Step._fields)))
+"""The columns; times in s, heights in m, speed in m/s."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LoggedTrial:
+    """A trial with what is needed to play it again."""
+
+    policy: str
+    """What was typed to name the policy."""
+    limits: HandLimits
+    """What the robot held its commands to."""
+    weight_offset: float
+    """What was added to every command for the sag under the table [m]."""
+    dry: bool = False
+    """Whether the commands went nowhere, and the set-points did not follow them."""
+    log: TrialLog
+    """The trial."""
+
+
+def write_trial(path: Path, trial: LoggedTrial) -> None:
+    """Write a trial; numbers are written so that they read back to the same bits."""
+    log = trial.log
+    head = {
+        "policy": trial.policy,
+        "weight_offset": trial.weight_offset,
+        "dry": int(trial.dry),
+        **dataclasses.asdict(trial.limits),
+        **{name: getattr(log, name) for name in ("period", "latency", "begin", "late_steps")},
+        "stop": "" if log.stop is None else log.stop.name,
+        "reason": log.reason,
+    }
+    with path.open("w", newline="") as file:
+        writer = csv.DictWriter(file, fieldnames=COLUMNS, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerow({"event": "trial", **head})
+        for event in log.events:
+            kind = "step" if isinstance(event, Step) else "sample"
+            writer.writerow({"event": kind, **event._asdict()})
+
+
+def read_trial(path: Path) -> LoggedTrial:
+    """Return the trial of a file.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or is none.
+    """
+    try:
+        with path.open(newline="") as file:
+            rows = list(csv.DictReader(file))
+        return _trial(rows)
+    except OSError as error:
+        raise InputError(f"cannot read {path}: {error.strerror}") from error
+    except (KeyError, ValueError, TypeError, IndexError) as error:
+        raise InputError(f"{path} is no trial of a trial: {error}") from error
+
+
+def _trial(rows: list[dict[str, str]]) -> LoggedTrial:
+    head, events = rows[0], rows[1:]
+    if head["event"] != "trial":
+        raise ValueError(f"it begins with {head['event']!r} instead of 'trial'")
+    log = TrialLog(
+        period=float(head["period"]),
+        latency=float(head["latency"]),
+        begin=float(head["begin"]),
+        late_steps=int(head["late_steps"]),
+        events=list(_events(events)),
+        stop=Stop[head["stop"]] if head["stop"] else None,
+        reason=head["reason"],
+    )
+    limits = HandLimits(**{name: float(head[name]) for name in ("low", "high", "speed", "tilt")})
+    return LoggedTrial(
+        policy=head["policy"],
+        limits=limits,
+        weight_offset=float(head["weight_offset"]),
+        dry=bool(int(head["dry"])),
+        log=log,
+    )
+
+
+def _events(rows: list[dict[str, str]]) -> Iterable[Sample | Step]:
+    for row in rows:
+        if row["event"] == "sample":
+            yield Sample(*(float(row[name]) for name in Sample._fields))
+        elif row["event"] == "step":
+            values = {name: float(row[name]) for name in Step._fields if name != "hold"}
+            yield Step(hold=row["hold"], **values)
+        else:
+            raise ValueError(f"unknown event {row['event']!r}")
