@@ -1,4 +1,4 @@
-"""The loop's time in the laboratory: the monotonic clock."""
+"""The loop's clock in the laboratory."""
 
 import time
 
@@ -16,7 +16,7 @@ class MonotonicClock:
         return time.monotonic()
 
     def wait_until(self, when: float) -> str | None:
-        """Wait until a time; return how the stop button was pressed, or None."""
+        """Wait until a time; return the reason if the stop button was pressed, or None."""
         while (left := when - time.monotonic()) > 0:
             if self._button.wait(left):
                 break

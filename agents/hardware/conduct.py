@@ -1,8 +1,8 @@
-"""Limits of tilt and shaking: what a policy may not do, although each command is allowed.
+"""Limits of tilt and shaking: misconduct of a policy whose single commands are all allowed.
 
-Both are far from what lifting takes. In 24 lifts of the four behaviours, the project's own
-policies let the ends be at most 81 mm apart, and took back at most 172 mm of way in a second;
-``hold`` and ``random``, which do not follow the person, let them be up to 296 mm apart.
+Both limits are far from normal lifting. In 24 lifts of the four behaviours, the built-in policies
+kept the ends within 81 mm and reversed at most 172 mm of path within a second; ``hold`` and
+``random``, which do not follow the person, let the ends be up to 296 mm apart.
 """
 
 from collections import deque
@@ -15,22 +15,22 @@ from .stops import Stop, StopTrialError
 
 LARGEST_TILT: Final = 0.14
 """Largest difference in height of the table's ends [m]: 10 degrees for a table of 0.8 m. With a
-friction of 0.2, that of smooth wood, things on it begin to slide at 11.3 degrees."""
+friction of 0.2, that of smooth wood, objects on it begin to slide at 11.3 degrees."""
 
 TILT_TIME: Final = 0.5
-"""How long the person may tilt the table further, and the policy want to [s]: as long as the hands
-take to see it and to make up for it at their highest speed, 0.35 s."""
+"""Longest time of a larger tilt, real or commanded [s]: more than the 0.35 s in which the hands can
+observe and level it at their highest speed."""
 
-WAY_BACK: Final = 0.25
-"""Way [m] that the commands of a second may take back. At the highest speed, a turn in each period
-of 0.1 s takes back 0.36 m, and going up and down once takes back 0.2 m."""
+LARGEST_REVERSAL: Final = 0.25
+"""Longest path [m] that the commands of one second may reverse. At the highest speed, a turn in
+each period of 0.1 s reverses 0.36 m, and going up and down once reverses 0.2 m."""
 
 WINDOW: Final = 1.0
-"""The second in question [s]."""
+"""Time over which reversals add up [s]."""
 
 
-def way_back(commands: Sequence[float]) -> float:
-    r"""Return how much of the way of some commands was taken back [m]: path less range.
+def reversed_path(commands: Sequence[float]) -> float:
+    r"""Return the reversed part of the path of some commands [m]: path less range.
 
     .. math:: b = \sum_k |c_k - c_{k-1}| - (\max_k c_k - \min_k c_k)
     """
@@ -39,7 +39,7 @@ def way_back(commands: Sequence[float]) -> float:
 
 
 class Conduct:
-    """Watches the table and the commands of a trial.
+    """Supervision of the table and the commands of a trial.
 
     Parameters
     ----------
@@ -54,17 +54,16 @@ class Conduct:
         self._commands: deque[tuple[float, float]] = deque()
 
     def level(self, wanted: float, command: float, human_end: float) -> float:
-        """Return the height to command [m]: one that tilts the table no further than it may be.
+        """Return the height to command [m], clipped to a tilt within the limit.
 
-        It never makes the hands move that would stay: a table that the person tilts is not made
-        up for here.
+        It never moves hands that would stay: a tilt caused by the person is not corrected here.
 
             clip(wanted, min(command, human_end - limit), max(command, human_end + limit))
 
         Parameters
         ----------
         wanted
-            What the policy wants, within the limits of the hands [m].
+            The policy's target, within the limits of the hands [m].
         command
             The last command [m].
         human_end
@@ -77,12 +76,12 @@ class Conduct:
         return height
 
     def tilts(self, now: float, ends: Sample) -> None:
-        """Take in the newest plausible heights of the ends, after a command.
+        """Check the newest plausible heights of the ends, after a command.
 
         Raises
         ------
         StopTrialError
-            If the table has been tilted too far for too long, or was only kept from it.
+            If the table has been tilted too far for too long, or only clipping prevented it.
         """
         apart = abs(ends.human_end - ends.robot_end)
         if apart <= self._tilt and not self._clipped:
@@ -93,12 +92,12 @@ class Conduct:
         if now - self._tilted_since > TILT_TIME - 1e-6:
             raise StopTrialError(
                 Stop.POLICY,
-                f"the table is tilted: for {TILT_TIME:g} s its ends were more than "
-                f"{1000 * self._tilt:.0f} mm apart, or were to be; now {1000 * apart:.0f} mm",
+                f"the table is tilted: for {TILT_TIME:g} s its ends were, or were commanded to be, "
+                f"more than {1000 * self._tilt:.0f} mm apart; now {1000 * apart:.0f} mm",
             )
 
     def commands(self, now: float, command: float) -> None:
-        """Take in the command of a step [m].
+        """Check the command of a step [m].
 
         Raises
         ------
@@ -108,10 +107,10 @@ class Conduct:
         self._commands.append((now, command))
         while self._commands[0][0] < now - WINDOW - 1e-6:
             self._commands.popleft()
-        back = way_back([command for _, command in self._commands])
-        if back > WAY_BACK:
+        reversal = reversed_path([command for _, command in self._commands])
+        if reversal > LARGEST_REVERSAL:
             raise StopTrialError(
                 Stop.POLICY,
-                f"the policy shakes the table: it took {1000 * back:.0f} mm of its way back within "
-                f"{WINDOW:g} s, more than {1000 * WAY_BACK:.0f} mm",
+                f"the policy shakes the table: it reversed {1000 * reversal:.0f} mm of its path "
+                f"within {WINDOW:g} s, more than {1000 * LARGEST_REVERSAL:.0f} mm",
             )

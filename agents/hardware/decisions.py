@@ -1,4 +1,4 @@
-"""Asking a policy for an action without ever waiting for it longer than it may take."""
+"""Requests to a policy for an action, with a time limit."""
 
 import queue
 import threading
@@ -11,34 +11,34 @@ from ..errors import error_text
 from .stops import HoldReason
 
 POLICY_SHARE: Final = 0.6
-"""Share of the control period that the policy may take: a later answer is thrown away. The rest
-is for reading the robot and for the command."""
+"""Fraction of the control period that the policy may take; a later answer is discarded. The rest is
+for reading the robot and for the command."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Decision:
-    """Outcome of asking the policy once."""
+    """Outcome of one request to the policy."""
 
     action: float | None = None
     """Its change of the hand command [m], or None."""
     hold: HoldReason | None = None
-    """Why there is none."""
+    """Reason for no action."""
     reason: str = ""
-    """What the policy said, if it failed."""
+    """The policy's error, if it failed."""
 
 
 class Decider(Protocol):
-    """Asks a policy."""
+    """Requests actions of a policy."""
 
     def decide(self, observation: Observation, budget: float) -> Decision:
-        """Return its action, or why there is none after ``budget`` [s]."""
+        """Return its action, or the reason for none after ``budget`` [s]."""
 
     def close(self) -> None:
-        """Ask no more."""
+        """End the requests."""
 
 
 def ask(policy: Agent, observation: Observation) -> Decision:
-    """Return the policy's action, or how it failed; only what ends the process is let through."""
+    """Return the policy's action or its failure; only KeyboardInterrupt passes."""
     try:
         return Decision(action=checked_action("robot", policy.act(observation), 1)[0])
     except (Exception, SystemExit) as error:
@@ -46,24 +46,24 @@ def ask(policy: Agent, observation: Observation) -> Decision:
 
 
 class Inline:
-    """Asks a policy in the caller's thread, however long it takes: for time that is not real."""
+    """Requests in the caller's thread, without a time limit: for simulated time."""
 
     def __init__(self, policy: Agent) -> None:
         self._policy = policy
 
     def decide(self, observation: Observation, budget: float) -> Decision:
-        """Return its action, or how it failed."""
+        """Return its action or its failure."""
         return ask(self._policy, observation)
 
     def close(self) -> None:
-        """Do nothing: no thread is to be ended."""
+        """Do nothing: there is no thread to end."""
 
 
 class Timed:
-    """Asks a policy in a thread of its own, so that a late one cannot hold the loop up.
+    """Requests in a separate thread: a late policy does not delay the loop.
 
-    An action that comes after its budget is thrown away, and the policy is not asked again before
-    it has answered. Python cannot end a thread: one that never answers ends with the process.
+    An action after its budget is discarded, and the policy gets no new request before it has
+    answered. Python cannot end a thread: one that never answers ends with the process.
     """
 
     def __init__(self, policy: Agent) -> None:
@@ -78,7 +78,7 @@ class Timed:
             self._answers.put(ask(self._policy, observation))
 
     def decide(self, observation: Observation, budget: float) -> Decision:
-        """Return its action, or that it failed, or was late."""
+        """Return its action, its failure, or that it was late."""
         if self._busy and self._answers.empty():
             return Decision(hold=HoldReason.POLICY_BUSY)
         if self._busy:

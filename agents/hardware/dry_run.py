@@ -1,4 +1,4 @@
-"""An arm that reads the robot and never moves it."""
+"""An arm for dry runs: it reads the robot and never moves it."""
 
 import dataclasses
 import math
@@ -17,11 +17,11 @@ class DryArm:
 
     @property
     def limits(self) -> HandLimits:
-        """Limits of the commands; the tilt of the table is not this policy's doing."""
+        """Limits of the commands, without one of tilt, which the policy cannot influence."""
         return dataclasses.replace(self._arm.limits, tilt=math.inf)
 
     def state(self) -> ArmState:
-        """Return where the robot's hands really are: motors off, or moved by anybody."""
+        """Return the real state of the hands; motors may be off, and anybody may move them."""
         return self._arm.state()._replace(stiffness=1.0, astray=0.0)
 
     def command(self, height: float, duration: float) -> float:

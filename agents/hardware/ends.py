@@ -1,9 +1,8 @@
-"""The heights of the table's ends, from the positions of markers: hidden and frozen ones included.
+"""Heights of the table's ends from marker positions, with detection of hidden and frozen markers.
 
 The height of an end is the mean over its markers, as in the paper (section II.A). An end is not
-seen if one of its markers is not: because it is hidden (NaN), or because it is frozen. Some clients
-repeat the last position of a marker that is lost; a hand or a table that is held never rests so
-still that a camera measures the same twice.
+seen if one of its markers is hidden (NaN) or frozen. Some clients repeat the last position of a
+lost marker; a held table never rests so still that a camera measures the same height repeatedly.
 """
 
 import math
@@ -13,19 +12,19 @@ from typing import Final, NamedTuple
 from .ports import Sample
 
 FROZEN_FRAMES: Final = 10
-"""Frames in a row with the same height of a marker, to the bit, from which it counts as frozen.
+"""Consecutive frames with bit-identical height after which a marker counts as frozen.
 
-Heights have a noise of 0.2 to 0.3 mm. Two in a row are the same with a probability of 1e-4 where
-they are sent as 32-bit floats, and ten in a row of a marker at rest with less than 1e-6 where they
-are rounded to 0.1 mm. A false alarm holds the hands for a period."""
+Heights have a noise of 0.2 to 0.3 mm. As 32-bit floats, two consecutive ones are equal with a
+probability of 1e-4; rounded to 0.1 mm, ten consecutive ones of a marker at rest with less than
+1e-6. A false alarm holds the hands for one period."""
 
 FROZEN_TIME: Final = 0.1
-"""How long these frames must last [s]: a client may send each frame of its cameras several times.
-At 100 Hz both limits mean the same; at the lowest rate, 50 Hz, ten frames take 0.2 s."""
+"""Shortest time spanned by these frames [s]: a client may send each camera frame several times.
+At 100 Hz both limits coincide; at the lowest rate, 50 Hz, ten frames take 0.2 s."""
 
 
 class Height(NamedTuple):
-    """Where in a row the height of a marker is."""
+    """Location of a marker's height in a row."""
 
     marker: str
     channel: int
@@ -34,13 +33,13 @@ class Height(NamedTuple):
 
 
 class _Repeated:
-    """How often, and for how long, a marker has been at the same height."""
+    """Number and duration of a marker's equal heights."""
 
     def __init__(self) -> None:
         self._value, self._since, self._count = math.nan, 0.0, 0
 
     def frozen(self, time: float, value: float) -> bool:
-        """Take in the height at a time; return whether it has been the same for too long."""
+        """Add the height at a time; return whether it has been the same for too long."""
         if value != self._value:
             self._value, self._since, self._count = value, time, 0
         self._count += 1
@@ -48,7 +47,7 @@ class _Repeated:
 
 
 class MarkerEnds:
-    """Turns rows of marker positions into samples of the table's ends.
+    """Conversion of rows of marker positions into samples of the table's ends.
 
     Parameters
     ----------
@@ -66,12 +65,12 @@ class MarkerEnds:
         self._frozen: list[str] = []
 
     def set_rest(self, human_end: float, robot_end: float) -> None:
-        """Take the present zero of the ends' heights [m] to be displaced by these."""
+        """Shift the zero of the ends' heights by these [m]."""
         self._human_rest += human_end
         self._robot_rest += robot_end
 
     def sample(self, time: float, row: Sequence[float]) -> Sample:
-        """Return the ends' heights in the next row, which was captured at a time [s]."""
+        """Return the ends' heights in the next row, captured at a time [s]."""
         self._hidden, self._frozen = [], []
         return Sample(
             time,
@@ -94,13 +93,13 @@ class MarkerEnds:
 
     @property
     def unseen(self) -> str:
-        """Which markers were not seen in the last row, and why; empty if all were."""
-        told = []
+        """Markers not seen in the last row, with the reason; empty if all were seen."""
+        parts = []
         if self._hidden:
-            told.append(f"{', '.join(self._hidden)} hidden")
+            parts.append(f"{', '.join(self._hidden)} hidden")
         if self._frozen:
-            told.append(
+            parts.append(
                 f"{', '.join(self._frozen)} frozen: the same height to the bit in "
                 f"{FROZEN_FRAMES} frames or more"
             )
-        return "; ".join(told)
+        return "; ".join(parts)

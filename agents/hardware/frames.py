@@ -1,4 +1,4 @@
-"""Taking in what the motion capture has sent: frames with a time stamp that can be."""
+"""Frames received from the motion capture, without those of impossible time stamps."""
 
 import math
 from typing import Final, NamedTuple
@@ -8,20 +8,20 @@ from .ports import MotionCapture, Sample
 from .stops import losses_stop
 
 UNDATED: Final = Sample(math.nan, math.nan, math.nan)
-"""What a log has for a frame whose time stamp cannot be: nothing is known of it."""
+"""Entry of a log for a frame with an impossible time stamp."""
 
 
 class Drained(NamedTuple):
-    """What has come in since the last time."""
+    """Frames received since the last call."""
 
     frames: list[Sample]
-    """Those whose time stamps can be, oldest first."""
+    """Frames with possible time stamps, oldest first."""
     misdated: int
-    """How many others there were: a stamp ahead of the clock, or none. They are as good as lost."""
+    """Number of other frames: stamp ahead of the clock, or not a number. They count as lost."""
 
 
 def drained(capture: MotionCapture, now: float) -> Drained:
-    """Return the newest frames; ``now`` is the time before they were asked for [s].
+    """Return the newest frames; ``now`` is the time before the request [s].
 
     Raises
     ------

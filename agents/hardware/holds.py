@@ -1,25 +1,25 @@
-"""The budget of holds: in one piece, or in all of the last seconds."""
+"""Total time for which the hands were held in the last seconds, and its limit."""
 
 from collections import deque
 from typing import Final
 
 LIMIT: Final = 1.0
-"""How long the hands may be held in any :data:`WINDOW` before the trial is stopped [s]."""
+"""Longest total hold in any :data:`WINDOW` before the trial is stopped [s]."""
 
 WINDOW: Final = 5.0
 """Time over which holds add up [s]: more than a fifth of a lift is too much."""
 
 
 class Holds:
-    """Adds up the periods in which the hands were held."""
+    """Sum of the periods in which the hands were held."""
 
     def __init__(self) -> None:
         self._steps: deque[tuple[float, bool]] = deque()
 
     def step(self, now: float, *, held: bool) -> float:
-        """Take in a step; return for how long the hands were held in the last seconds [s].
+        """Add a step; return the total hold of the last seconds [s].
 
-        A step that is held counts until the next one begins.
+        A held step counts until the next one begins.
         """
         self._steps.append((now, held))
         while self._steps[0][0] < now - WINDOW:

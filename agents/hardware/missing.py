@@ -1,4 +1,4 @@
-"""The packages that only hardware needs."""
+"""Import of packages that only the hardware needs."""
 
 import importlib
 from typing import Any
@@ -13,11 +13,11 @@ def import_optional(package: str) -> Any:
     Raises
     ------
     InputError
-        If it is not installed; the message says how to.
+        If it is not installed; the message has the command that installs it.
     """
     try:
         return importlib.import_module(package)
     except ImportError as error:
         raise InputError(
-            f"{package} is not installed ({error}); say: {how_to_install('nao')}"
+            f"{package} is not installed ({error}); install it with: {how_to_install('nao')}"
         ) from error

@@ -1,4 +1,4 @@
-"""The operator: confirms what must be done by hand, and may stop everything at any time."""
+"""The operator's controls: confirmation of manual steps, and a stop at any time."""
 
 import select
 import signal
@@ -12,7 +12,7 @@ from .stops import Stop, StopTrialError
 
 
 class StopButton:
-    """Pressed once, it stays pressed; whoever waits on it wakes up at once."""
+    """A latching stop button; pressing it wakes all waiting threads."""
 
     def __init__(self) -> None:
         self._event = threading.Event()
@@ -20,7 +20,7 @@ class StopButton:
 
     @property
     def reason(self) -> str | None:
-        """How it was pressed, or None."""
+        """Means by which it was pressed, or None."""
         return self._reason
 
     def press(self, reason: str) -> None:
@@ -36,7 +36,7 @@ class StopButton:
 
 @contextmanager
 def armed(button: StopButton) -> Iterator[None]:
-    """Let Ctrl-C and SIGTERM press the button instead of what else they do; main thread only."""
+    """Let Ctrl-C and SIGTERM press the button instead of their usual effect; main thread only."""
     before = {
         number: signal.signal(number, lambda number, _: button.press(signal.Signals(number).name))
         for number in (signal.SIGINT, signal.SIGTERM)
@@ -80,15 +80,15 @@ def await_enter(button: StopButton) -> None:
     StopTrialError
         If the button is pressed instead.
     InputError
-        If nobody can press a key, since the input is at its end.
+        If the input has ended, so that no key can be pressed.
     """
     while not _line_waits():
         if button.reason is not None:
             raise StopTrialError(Stop.OPERATOR, f"stopped by the operator: {button.reason}")
     if not sys.stdin.readline():
-        raise InputError("there is no terminal to confirm at; say --yes to confirm in advance")
+        raise InputError("there is no terminal for confirmation; use --yes to confirm in advance")
 
 
 def _line_waits() -> bool:
-    """Return whether there is something to read, after a tenth of a second at the latest."""
+    """Return whether there is a line to read, after at most a tenth of a second."""
     return bool(select.select([sys.stdin], [], [], 0.1)[0])

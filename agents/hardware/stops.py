@@ -1,4 +1,4 @@
-"""Reasons for holding a trial for a moment, and for stopping it for good."""
+"""Reasons for holding the hands in a period, and for stopping a trial."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -8,7 +8,7 @@ from .ports import CaptureLostError, RobotLostError, RobotTakenError
 
 
 class HoldReason(StrEnum):
-    """Why no new command was given in a period; the hands complete the last one and stay."""
+    """Reason for a period without a new command; the hands complete the last one and stay."""
 
     STALE = "stale motion capture"
     FEW = "too few motion-capture frames"
@@ -21,25 +21,25 @@ class HoldReason(StrEnum):
 
 
 class Stop(IntEnum):
-    """Why a trial was stopped; the value is the exit code of ``colift nao run``."""
+    """Kind of stop; the value is the exit code of ``colift nao run``."""
 
     OPERATOR = 10
     """Ctrl-C, or the operator's key."""
     ROBOT_LOST = 11
     """No connection to the robot, or no answer in time."""
     CAPTURE_LOST = 12
-    """No motion capture for longer than it may be lost."""
+    """No motion capture for longer than the limit of holds."""
     CAPTURE_UNUSABLE = 13
-    """Motion capture that is not plausible, for longer than it may be held."""
+    """Implausible motion capture for longer than the limit of holds."""
     POLICY = 14
-    """A policy that fails or is late, for longer than it may be held; that tilts the table, or
-    shakes it."""
+    """A policy that fails or is late for longer than the limit of holds, or tilts or shakes the
+    table."""
     MOTORS = 15
-    """Hands that do not follow their commands or follow another's, or motors without stiffness."""
+    """Hands that do not follow their commands or follow another client's, or limp motors."""
 
     @classmethod
     def after(cls, hold: HoldReason) -> "Stop":
-        """Return what a hold that lasts too long ends in."""
+        """Return the kind of stop after a hold that lasts too long."""
         if hold in (HoldReason.STALE, HoldReason.FEW):
             return cls.CAPTURE_LOST
         if hold in (HoldReason.POLICY_FAILED, HoldReason.POLICY_LATE, HoldReason.POLICY_BUSY):
@@ -58,7 +58,7 @@ class StopTrialError(Exception):
 
 @contextmanager
 def losses_stop() -> Iterator[None]:
-    """Turn a robot or a motion capture that is lost, or a robot that is taken, into a stop."""
+    """Turn the loss of the robot, of the motion capture or of control into a stop."""
     try:
         yield
     except RobotLostError as error:

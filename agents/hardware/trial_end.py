@@ -1,4 +1,4 @@
-"""The end of a trial."""
+"""Ends of a trial: after a fixed duration, or after a lift."""
 
 from collections import deque
 from dataclasses import dataclass, field
@@ -9,7 +9,7 @@ from .ports import Sample
 from .trial_log import Step, TrialLog
 
 RISEN: Final = 0.05
-"""Height of the human's end [m] from which a lift has begun."""
+"""Height of the human's end [m] above which a lift has begun."""
 
 DOWN: Final = 0.02
 """Height of the human's end [m] below which the table is down again."""
@@ -19,7 +19,7 @@ STILL: Final = 0.005
 
 
 class TrialEnd(Protocol):
-    """Says when a trial is over."""
+    """Criterion for the end of a trial."""
 
     def over(self, log: TrialLog) -> bool:
         """Return whether the trial has reached its end; called before each step."""
@@ -42,12 +42,12 @@ class AfterDuration:
 
 @dataclass(kw_only=True)
 class AfterLift:
-    """A trial that is over when the table has been up, is down again and rests there."""
+    """A trial that ends when the table has been lifted, lowered again and at rest for a while."""
 
     rest: float = 1.0
-    """How long it must rest [s]."""
+    """Duration of that rest [s]."""
     longest: float = 30.0
-    """The trial is over after this time, whatever the table does [s]."""
+    """Longest trial, whatever the table does [s]."""
     _recent: deque[Sample] = field(default_factory=deque)
     _read: int = 0
     _risen: bool = False

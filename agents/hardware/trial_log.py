@@ -22,9 +22,9 @@ class Step(NamedTuple):
     """One control period."""
 
     time: float
-    """When it began [s]."""
+    """Start time [s]."""
     deadline: float
-    """When it should have begun [s]."""
+    """Scheduled start time [s]."""
     hand_height: float
     """Height of the hands by the encoders [m]."""
     set_point: float
@@ -32,45 +32,45 @@ class Step(NamedTuple):
     stiffness: float
     """Lowest stiffness of the arms' motors."""
     astray: float
-    """How far a joint's set-point was from where the commands lead [rad], at most."""
+    """Largest distance of a joint's set-point from the path of the commands [rad]."""
     hand_command: float
     """The command before this step [m]."""
     action: float
-    """The change of it that the policy wanted [m]; NaN if it was not heard."""
+    """The policy's change of it [m]; NaN without an accepted action."""
     command: float
-    """The command of this step [m]: the same as before when the hands are held."""
+    """The command of this step [m]; unchanged when the hands are held."""
     hold: str
-    """Why the hands are held, empty if they are not."""
+    """Reason for holding the hands; empty if they are not held."""
     sensing_age: float
     """Age of the newest motion-capture frame [s]."""
     rate: float
-    """Motion-capture frames of the last second; infinite in the first."""
+    """Motion-capture frames in the last second; infinite in the first second."""
     state_time: float
-    """What reading the robot took [s]."""
+    """Time taken to read the robot [s]."""
     policy_time: float
-    """What the policy took [s], as far as it was waited for."""
+    """Time spent waiting for the policy [s]."""
     command_time: float
-    """What giving the command took [s]."""
+    """Time taken to send the command [s]."""
 
 
 @dataclass(kw_only=True)
 class TrialLog:
-    """A trial as it was played, also one that was stopped."""
+    """Frames, steps and outcome of a trial, also of one that was stopped."""
 
     period: float
     """Control period [s]."""
     latency: float
-    """Time from the frame that the policy was to be given to the hands' setting out [s]."""
+    """Wanted time from the policy's motion-capture frame to the start of the hands' motion [s]."""
     begin: float = 0.0
-    """When the loop began [s], one period before the first step."""
+    """Start of the loop [s], one period before the first step."""
     events: list[Sample | Step] = field(default_factory=list)
-    """Frames and steps in the order in which the loop got and made them."""
+    """Frames and steps in the order of the loop."""
     late_steps: int = 0
-    """Periods that were skipped because the loop came too late for them."""
+    """Periods skipped because the loop was late."""
     stop: Stop | None = None
-    """Why the trial was stopped, or None if it was played to its end."""
+    """Kind of stop, or None if the trial reached its end."""
     reason: str = ""
-    """What exactly stopped it."""
+    """Reason of the stop, in words."""
 
     @property
     def start(self) -> float:
@@ -84,7 +84,7 @@ class TrialLog:
 
     @property
     def misdated(self) -> int:
-        """Number of frames whose time stamps were ahead of the clock, or no numbers."""
+        """Number of frames whose time stamps were ahead of the clock, or not numbers."""
         return sum(math.isnan(sample.time) for sample in self.samples)
 
     @property
@@ -103,22 +103,22 @@ COLUMNS: Final = ("event", *dict.fromkeys((*_TRIAL, *Sample._fields, *Step._fiel
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LoggedTrial:
-    """A trial with what is needed to play it again."""
+    """A trial log with the settings needed to rerun it."""
 
     policy: str
-    """What was typed to name the policy."""
+    """The policy as the user named it."""
     limits: HandLimits
-    """What the robot held its commands to."""
+    """Limits to which the robot clipped its commands."""
     weight_offset: float
-    """What was added to every command for the sag under the table [m]."""
+    """Offset added to every command for the sag under the table [m]."""
     dry: bool = False
-    """Whether the commands went nowhere, and the set-points did not follow them."""
+    """Whether it was a dry run, without commands to the robot."""
     log: TrialLog
-    """The trial."""
+    """The log."""
 
 
 def write_trial(path: Path, trial: LoggedTrial) -> None:
-    """Write a trial; numbers are written so that they read back to the same bits."""
+    """Write a trial; numbers read back to the same bits."""
     log = trial.log
     head = {
         "policy": trial.policy,
@@ -144,7 +144,7 @@ def read_trial(path: Path) -> LoggedTrial:
     Raises
     ------
     InputError
-        If it cannot be read, or is none.
+        If it cannot be read, or is not a trial log.
     """
     try:
         with path.open(newline="") as file:
@@ -153,13 +153,13 @@ def read_trial(path: Path) -> LoggedTrial:
     except OSError as error:
         raise InputError(f"cannot read {path}: {error.strerror}") from error
     except (KeyError, ValueError, TypeError, IndexError) as error:
-        raise InputError(f"{path} is no trial of a trial: {error}") from error
+        raise InputError(f"{path} is not a trial log: {error}") from error
 
 
 def _trial(rows: list[dict[str, str]]) -> LoggedTrial:
     head, events = rows[0], rows[1:]
     if head["event"] != "trial":
-        raise ValueError(f"it begins with {head['event']!r} instead of 'trial'")
+        raise ValueError(f"the first row is {head['event']!r} instead of 'trial'")
     log = TrialLog(
         period=float(head["period"]),
         latency=float(head["latency"]),

@@ -116,7 +116,7 @@ class MinimumJerk:
             "prediction": prediction,
             "predicted_end": end,
             "predicted_duration": duration,
-            "deviation": deviation,
+            "spread": deviation,
             "role": role,
         }
         return prediction

@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from colift.agents.hardware.conduct import Conduct, way_back
+from colift.agents.hardware.conduct import Conduct, reversed_path
 from colift.agents.hardware.ports import Sample
 from colift.agents.hardware.stops import Stop, StopTrialError
 
@@ -20,7 +20,7 @@ TILT = 0.14
     ],
 )
 def test_the_way_back_is_the_path_less_the_range(commands, back):
-    assert way_back(commands) == pytest.approx(back)
+    assert reversed_path(commands) == pytest.approx(back)
 
 
 def shaken(swing, period=0.1, seconds=3.0, turn=1):

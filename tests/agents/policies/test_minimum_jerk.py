@@ -70,9 +70,9 @@ def test_surprises_widen_the_spread_and_are_forgotten():
         return 0.1 * min(max(time - 1.0, 0.0), 1.0)
 
     times, _, told = lead(height, 6.0)
-    assert told["deviation"][times < 1.0] == pytest.approx(0.0007)
-    assert told["deviation"][(times > 1.0) & (times < 2.5)].max() > 0.002
-    assert told["deviation"][-1] == pytest.approx(0.0007, rel=0.05)
+    assert told["spread"][times < 1.0] == pytest.approx(0.0007)
+    assert told["spread"][(times > 1.0) & (times < 2.5)].max() > 0.002
+    assert told["spread"][-1] == pytest.approx(0.0007, rel=0.05)
 
 
 def test_moving_from_the_first_sample_on_is_no_danger():
