@@ -102,13 +102,13 @@ def test_a_dry_run_moves_nothing_and_replays_too(play, tmp_path):
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("", "no trial"),
-        ("a,b\n1,2\n", "no trial"),
-        ("event,policy\nsample,\n", "begins with 'sample'"),
+        ("", "not a trial log"),
+        ("a,b\n1,2\n", "not a trial log"),
+        ("event,policy\nsample,\n", "the first row is 'sample'"),
         (None, "cannot read"),
     ],
 )
-def test_what_is_no_recording_is_refused_by_name(tmp_path, text, told):
+def test_a_file_that_is_not_a_trial_log_is_refused_by_name(tmp_path, text, told):
     path = tmp_path / "mine.csv"
     if text is not None:
         path.write_text(text)

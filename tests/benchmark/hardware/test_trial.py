@@ -45,9 +45,7 @@ def up_and_down(t):
 
 
 def test_the_error_is_that_of_the_heights_over_the_whole_trial():
-    played = episode(
-        log(5.0, up_and_down, lambda t: up_and_down(t) - 0.01), person="Ann", number=3
-    )
+    played = episode(log(5.0, up_and_down, lambda t: up_and_down(t) - 0.01), person="Ann", number=3)
     assert played.scores["rmse_mm"] == pytest.approx(10.0)
     assert played.scores["abs_error_mm"] == pytest.approx(10.0 * 500)
     assert (played.subject, played.seed, played.failure) == ("Ann", 3, None)
@@ -57,9 +55,7 @@ def test_the_error_is_that_of_the_heights_over_the_whole_trial():
 
 
 def test_the_lag_of_the_robots_end_is_found():
-    played = episode(
-        log(5.0, up_and_down, lambda t: up_and_down(t - 0.15)), person="Ann", number=0
-    )
+    played = episode(log(5.0, up_and_down, lambda t: up_and_down(t - 0.15)), person="Ann", number=0)
     assert played.scores["robot_lag_ms"] == pytest.approx(150, abs=10)
 
 
