@@ -9,7 +9,7 @@ import typer
 from ..agents.errors import InputError
 from ..benchmark.episode.episode import START, STEP, Episode
 from ..benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
-from ..benchmark.execution.tasks import play
+from ..benchmark.execution.batches import play
 from ..benchmark.suites.catalogue import make_scenario
 from .completion import behaviours, people
 from .options import LATENCY_OPTION, PERIOD_OPTION, PolicyName, check_output

@@ -73,7 +73,7 @@ def check_unfinished(folder: Path) -> None:
     raise InputError(f"{folder} holds a finished result bundle; name a new folder")
 
 
-def write_files(folder: Path, files: Mapping[str, bytes]) -> None:
+def replace_folder(folder: Path, files: Mapping[str, bytes]) -> None:
     """Write the files as the only ones of a folder: all of them, or none.
 
     Raises

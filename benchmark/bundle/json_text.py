@@ -71,10 +71,10 @@ def pick(content: Any, path: str, kind: type[T] | tuple[type[T], ...], file: str
         if not isinstance(value, dict) or name not in value:
             raise InputError(f"{file}: {path} is missing")
         value = value[name]
-    return checked(value, kind, f"{file}: {path}")
+    return of_type(value, kind, f"{file}: {path}")
 
 
-def checked(value: Any, kind: type[T] | tuple[type[T], ...], what: str) -> T:
+def of_type(value: Any, kind: type[T] | tuple[type[T], ...], what: str) -> T:
     """Return a value, of the type it must have.
 
     Raises

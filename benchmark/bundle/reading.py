@@ -12,7 +12,7 @@ from ..episode.episode import Episode
 from ..execution.runner import Run
 from .arrays import parse_arrays
 from .files import EPISODES, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, read_files
-from .json_text import checked, dump_json, parse_json, pick
+from .json_text import dump_json, of_type, parse_json, pick
 from .recipe import Recipe
 from .table import parse_table
 from .traces import LARGEST_LIFT, parse_traces
@@ -170,7 +170,7 @@ def _results(data: bytes, *, acted: bool) -> dict[str, Any]:
 
 def _line(value: object, what: str) -> str:
     """Return a text that may be printed in a line."""
-    text = checked(value, str, what)
+    text = of_type(value, str, what)
     if len(text) > LONGEST_LINE or not text.isprintable():
         raise InputError(f"{what} must be at most {LONGEST_LINE} printable characters")
     return text
@@ -187,5 +187,5 @@ def _logs(data: bytes, episodes: int) -> list[str]:
     for row, log in content.items():
         if row not in rows:
             raise InputError(f"{LOGS}: there is no episode {row!r:.80}")
-        rows[row] = checked(log, str, f"{LOGS}: {row}")
+        rows[row] = of_type(log, str, f"{LOGS}: {row}")
     return list(rows.values())

@@ -16,7 +16,7 @@ from ..episode.scenario import Scenario
 from ..suites.catalogue import RECORDED, make_scenario, make_subject, make_task
 from ..suites.suite import LONGEST_SUITE_NAME, Suite, plain_name
 from .files import MANIFEST, RECORDINGS
-from .json_text import checked, pick
+from .json_text import of_type, pick
 
 MOST_EPISODES: Final = 100_000
 """Episodes a bundle may have."""
@@ -137,11 +137,11 @@ class Recipe:
             If something is missing, of the wrong type or out of range.
         """
         scenarios = [
-            checked(names, str, f"{MANIFEST}: a scenario")
+            of_type(names, str, f"{MANIFEST}: a scenario")
             for names in pick(content, "scenarios", list, MANIFEST)
         ]
         seeds = [
-            checked(seed, int, f"{MANIFEST}: a seed")
+            of_type(seed, int, f"{MANIFEST}: a seed")
             for seed in pick(content, "seeds", list, MANIFEST)
         ]
         if not 0 < len(scenarios) * len(seeds) <= MOST_EPISODES:

@@ -9,7 +9,7 @@ from ..episode.episode import Episode
 from ..execution.provenance import fingerprint
 from ..execution.runner import Run
 from .arrays import dump_arrays
-from .files import EPISODES, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, write_files
+from .files import EPISODES, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, replace_folder
 from .json_text import dump_json
 from .recipe import Recipe
 from .table import dump_table
@@ -71,7 +71,7 @@ def write_bundle(
         "recipe": None if recipe is None else recipe.plain(),
         "sha256": {name: hashlib.sha256(data).hexdigest() for name, data in files.items()},
     }
-    write_files(folder, {**files, MANIFEST: dump_json(manifest)})
+    replace_folder(folder, {**files, MANIFEST: dump_json(manifest)})
 
 
 def places(run: Run) -> list[int]:

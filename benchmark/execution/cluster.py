@@ -50,7 +50,7 @@ def parcel(
 
 
 def call(data: bytes, large: Mapping[str, bytes], wanted: Mapping[str, str]) -> Any:
-    """Return what a call returns that :func:`parcel` has pickled: what a worker runs.
+    """Return the result of a call that :func:`parcel` has pickled; workers run this.
 
     Calls take turns: the engine and the policies may have state that belongs to their process, and
     a worker of Dask's can have many threads.
@@ -75,10 +75,10 @@ P = ParamSpec("P")
 T = TypeVar("T")
 
 LONELY_SECONDS: Final = 60.0
-"""How long a cluster may be without any worker during a run [s]: one that died is started anew."""
+"""Time that a cluster may be without any worker during a run [s]; a dead one is restarted."""
 
 WATCH_SECONDS: Final = 0.2
-"""How often it is looked whether the scheduler is still there [s]."""
+"""Period of the checks that the scheduler is alive [s]."""
 
 
 class Cluster(Executor):
@@ -107,7 +107,7 @@ class Cluster(Executor):
         self.origin = dict(origin)
         """What :func:`.origin` is on every worker."""
         self.idle_threads = sum(threads - 1 for threads in client.nthreads().values())
-        """Threads of the workers that get nothing to do: all but one of each worker."""
+        """Idle threads of the workers: all but one of each worker."""
         self._waiting: dict[str, tuple[Any, Future[Any]]] = {}
         self._large: dict[bytes, Any] = {}
         self._workers: set[str] = set()
@@ -149,7 +149,7 @@ class Cluster(Executor):
             self._watch.join()
 
     def _watch_scheduler(self) -> None:
-        """Let calls fail that the scheduler is lost with, or that no worker has come for."""
+        """Fail the waiting calls if the scheduler is lost, or if no worker has come."""
         lonely = 0.0
         while not self._ended.wait(WATCH_SECONDS):
             if self._client.status != "running":
@@ -184,7 +184,7 @@ class Cluster(Executor):
                     raise
 
     def _settle(self, key: str, outcome: Any = None, error: Exception | None = None) -> None:
-        """Give what waits for a key its outcome, if it still waits; the cluster forgets the key."""
+        """Settle the call that waits for a key, if any; the cluster then forgets the key."""
         _, waiting = self._waiting.pop(key, (None, None))
         if waiting is None or not waiting.set_running_or_notify_cancel():
             return

@@ -1,4 +1,4 @@
-"""Finds a Dask cluster, and refuses one on which results would be other ones."""
+"""Connection to a Dask cluster; one whose workers would give other results is refused."""
 
 import asyncio
 import logging
@@ -12,10 +12,10 @@ from .cluster import Cluster
 from .provenance import COLIFT, compare, origin
 
 CONNECT_SECONDS: Final = 10.0
-"""How long a scheduler may take to answer, and a first worker to be there [s]."""
+"""Time limit for the scheduler to answer, and for a first worker [s]."""
 
 LOGGER: Final = "distributed.client"
-"""What tells of a lost scheduler by tracebacks; here it is an error that says so."""
+"""Logger that prints a traceback for a lost scheduler; here an error is raised instead."""
 
 
 @contextmanager
@@ -31,7 +31,7 @@ def dask_pool(address: str) -> Iterator[Cluster]:
     ------
     InputError
         If Dask is not installed, there is no scheduler at the address, it has no worker, or
-        results would depend on who computes them: the workers' colift is not this one, or their
+        results would depend on the worker: the workers' colift is not this one, or their
         platforms are not all the same.
     """
     try:
@@ -80,7 +80,7 @@ async def _kind(address: str) -> str:
 
 @contextmanager
 def _quiet(logger: logging.Logger) -> Iterator[None]:
-    """Let a logger say nothing."""
+    """Silence a logger."""
     before = logger.level
     logger.setLevel(logging.CRITICAL + 1)
     try:
@@ -90,7 +90,7 @@ def _quiet(logger: logging.Logger) -> Iterator[None]:
 
 
 def _agreed(client: Any, address: str) -> dict[str, str]:
-    """Return what all workers come from, or raise an InputError that names a difference."""
+    """Return the provenance that all workers share, or raise an InputError for a difference."""
     found = client.run(origin, on_error="return")
     agreed: dict[str, str] | None = None
     for worker, said in found.items():

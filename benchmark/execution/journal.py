@@ -1,4 +1,4 @@
-"""The journal of a run: episodes outlive the process that played them, so that a run can resume.
+"""The journal of a run: it keeps finished episodes, and an interrupted run resumes from it.
 
 A record of the file is ``length of the payload (4 bytes) | CRC-32 of length and payload (4 bytes)
 | payload``, numbers little-endian, the payload msgpack. The file only grows: what was written
@@ -44,7 +44,7 @@ class Journal:
             If it cannot be written.
         """
         try:
-            append_record(self._handle, [place, packed(episode)])
+            append_record(self._handle, [place, record_of(episode)])
         except OSError as error:
             raise _unwritable(self._path, error) from error
 
@@ -54,7 +54,7 @@ class Journal:
 
 
 def journal_path(bundle: Path) -> Path:
-    """Return where a run's journal lies: beside the bundle that the run will write."""
+    """Return the path of a run's journal: beside the bundle that the run will write."""
     return Path(f"{bundle.resolve()}.journal")
 
 
@@ -109,7 +109,7 @@ def _begin(path: Path, handle: int, run: Mapping[str, str], resume: bool) -> dic
     if resume and found:
         _compare(path, found[0][0], run)
         os.truncate(handle, found[-1][1])
-        return {place: unpacked(episode) for (place, episode), _ in found[1:]}
+        return {place: episode_of(episode) for (place, episode), _ in found[1:]}
     if found[1:]:
         raise InputError(
             f"{path} holds {len(found) - 1} lifts of an interrupted run; resume it, name another "
@@ -139,7 +139,7 @@ def _unwritable(path: Path, error: OSError) -> InputError:
     return InputError(f"cannot write to {path}: {error.strerror}")
 
 
-def packed(episode: Episode) -> dict[str, Any]:
+def record_of(episode: Episode) -> dict[str, Any]:
     """Return an episode as numbers, texts and bytes."""
     trace = episode.trace
     return {
@@ -154,8 +154,8 @@ def packed(episode: Episode) -> dict[str, Any]:
     }
 
 
-def unpacked(content: dict[str, Any]) -> Episode:
-    """Return the episode that :func:`packed` was given."""
+def episode_of(content: dict[str, Any]) -> Episode:
+    """Return the episode that :func:`record_of` was given."""
     arrays = dict(content["trace"])
     added, internals = (
         {name: _unpacked(values) for name, values in arrays.pop(kind).items()}

@@ -18,8 +18,8 @@ from ...agents.errors import InputError
 from ...agents.identity import Root, code_hash
 from ...agents.sandbox.guest import forkserver
 from ..episode.identity import simulation_hash
+from .batches import Batch
 from .packaging import PackagedPolicy
-from .tasks import Task
 
 POLICIES_ONLY: Final = ("vector_extensions", "linear_algebra")
 """What only policies may use: no bit of a simulation or of a score depends on it."""
@@ -100,7 +100,7 @@ def _binaries(*names: str) -> str:
     return hashlib.sha256("\n".join(sorted(records)).encode()).hexdigest()[:16]
 
 
-PLAYS: Final[tuple[Root, ...]] = (Task, PackagedPolicy, forkserver.main)
+PLAYS: Final[tuple[Root, ...]] = (Batch, PackagedPolicy, forkserver.main)
 """What makes an episode of a policy: in this process, and in a sandbox."""
 
 COLIFT: Final = "colift"

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from ...agents.spec import AgentSpec
 from ..episode.episode import Episode
 from ..suites.suite import Suite
+from .batches import Faults, batches, run_batches, shuffled_batches
 from .packaging import packaged
-from .tasks import Faults, gather, shuffled_tasks, tasks
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -41,12 +41,12 @@ class InterruptedRunError(KeyboardInterrupt):
 
 
 def placed(policy: AgentSpec, executor: Executor | None) -> AgentSpec:
-    """Return the policy as an executor's machines can play it: on a cluster with its files inside.
+    """Return the policy as an executor needs it: packaged if its machines do not share files.
 
     Raises
     ------
     InputError
-        If there is no such policy, or its files are more than a submission may be.
+        If there is no such policy, or its files are larger than a submission may be.
     """
     return policy if getattr(executor, "shares_files", True) else packaged(policy)
 
@@ -81,7 +81,7 @@ def run_suite(
     keep
         Called with the place and the episode whenever one is finished.
     secret
-        What the order of the episodes follows from; see :func:`.shuffled_tasks`. None plays them in
+        Determines the order of the episodes; see :func:`.shuffled_batches`. None plays them in
         the suite's order.
 
     Returns
@@ -105,12 +105,12 @@ def run_suite(
         progress(len(found))
     faults = Faults()
     if secret is None:
-        wanted = tasks(policy, suite, found)
+        wanted = batches(policy, suite, found)
     else:
-        wanted = shuffled_tasks(policy, suite, secret, found)
+        wanted = shuffled_batches(policy, suite, secret, found)
     interrupted = False
     try:
-        for place, episode in gather(wanted, executor, faults):
+        for place, episode in run_batches(wanted, executor, faults):
             found[place] = episode
             keep(place, episode)
             progress(1)

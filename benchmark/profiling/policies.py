@@ -8,7 +8,7 @@ import numpy as np
 
 from ...agents.spec import AgentSpec
 from ..episode.scenario import Scenario
-from ..execution.tasks import play
+from ..execution.batches import play
 from ..suites.catalogue import make_scenario
 from ..suites.suite import BEHAVIOURS
 

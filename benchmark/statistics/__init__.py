@@ -1,8 +1,8 @@
 """Statistics of a sample of episodes: averages, intervals, tests and ranks.
 
-The cells of a suite (subject x behaviour) are fixed; only the seeds within a cell are a sample. So
-episodes are resampled within their cell, never across, and an interval says how far another draw
-of seeds would move the number, not how far other people or other behaviours would.
+The strata of a suite (subject x behaviour) are fixed; only the seeds within a stratum are a sample.
+So episodes are resampled within their stratum, never across, and an interval shows how far another
+draw of seeds would move the number, not how far other people or other behaviours would.
 
 Smoothness is missing (NaN) in episodes in which the robot did not move. Its summary is the mean of
 the episodes that have one *and* the count of those that do not: whoever ranks by smoothness ranks

@@ -1,4 +1,4 @@
-"""Confidence intervals, by a bootstrap within the cells of a suite."""
+"""Confidence intervals, by a bootstrap within the strata of a suite."""
 
 from collections.abc import Callable, Hashable, Iterable
 from statistics import NormalDist
@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...agents.errors import InputError
-from .samples import Cells, FloatArray, Interval, cells_of, expanded, resample, sample
+from .samples import FloatArray, Interval, Members, expanded, members_of, resample, sample
 
 
 def stratified_bootstrap(
@@ -22,32 +22,32 @@ def stratified_bootstrap(
 ) -> Interval:
     r"""Return a confidence interval of a statistic of the pooled values.
 
-    Each resample draws the episodes of every cell anew, with replacement, from that cell. The
+    Each resample draws the episodes of every stratum anew, with replacement, from that stratum. The
     interval is Hesterberg's expanded percentile interval: the quantiles :math:`q` and
     :math:`1 - q` of the resampled statistic with
 
     .. math:: q = \Phi\left(-\sqrt{\tfrac{n}{n - c}} \; t_{(1 + \text{confidence}) / 2, \, n - c}
         \right)
 
-    for n episodes in c cells of two or more. Resampling m episodes understates their variance by
-    (m - 1) / m; the factor corrects that exactly for the mean over cells of one size or one
-    variance. In simulations of 4 to 20 cells of 3 to 15 episodes, 95 % intervals of the mean
+    for n episodes in c strata of two or more. Resampling m episodes understates their variance by
+    (m - 1) / m; the factor corrects that exactly for the mean over strata of one size or one
+    variance. In simulations of 4 to 20 strata of 3 to 15 episodes, 95 % intervals of the mean
     covered 94 to 96 % for normal values. For moderately skewed ones (log-normal, sigma 0.5) they
-    covered 93 to 94 %, but 90 to 92 % in four or five cells of three; for strongly skewed ones
-    (sigma 1) 89 to 93 %, and 84 to 88 % in five cells of two. With the errors that the
+    covered 93 to 94 %, but 90 to 92 % in four or five strata of three; for strongly skewed ones
+    (sigma 1) 89 to 93 %, and 84 to 88 % in five strata of two. With the errors that the
     human-human team and ``copy`` make on the standard suite, 94 to 95 %; drawn as ``quick-v1``
-    has them, three in each of four cells of which one varies most, 89 to 93 %. The plain
-    percentile interval covers 86 to 88 % in cells of three.
+    has them, three in each of four strata of which one varies most, 89 to 93 %. The plain
+    percentile interval covers 86 to 88 % in strata of three.
 
-    A cell of one episode cannot vary: it is kept as it is and adds no width, so the interval of a
-    suite with one seed has no width and means nothing.
+    A stratum of one episode cannot vary: it is kept as it is and adds no width, so the interval of
+    a suite with one seed has no width and no meaning.
 
     Parameters
     ----------
     values
         One value an episode, shape (n,).
     strata
-        The cell of each episode, for example ``(subject, behaviour)``; n of them.
+        The stratum of each episode, for example ``(subject, behaviour)``; n of them.
     statistic
         Function of an array and ``axis=-1``, such as ``numpy.mean`` or
         :func:`.interquartile_mean`.
@@ -70,12 +70,12 @@ def stratified_bootstrap(
         not between 0 and 1.
     """
     x = sample("values", values)
-    cells = cells_of(strata, x.size)
-    drawn = resample(cells, resamples, seed)
-    return expanded_percentile(statistic(x[drawn], axis=-1), cells, confidence)
+    members = members_of(strata, x.size)
+    drawn = resample(members, resamples, seed)
+    return expanded_percentile(statistic(x[drawn], axis=-1), members, confidence)
 
 
-def expanded_percentile(resampled: FloatArray, cells: Cells, confidence: float) -> Interval:
+def expanded_percentile(resampled: FloatArray, members: Members, confidence: float) -> Interval:
     """Return Hesterberg's expanded percentile interval of a resampled statistic, shape (n,).
 
     Raises
@@ -86,6 +86,6 @@ def expanded_percentile(resampled: FloatArray, cells: Cells, confidence: float) 
     if not 0.0 < confidence < 1.0:
         raise InputError(f"confidence is {confidence}; it must lie between 0 and 1, such as 0.95")
     z = NormalDist().inv_cdf((1.0 + confidence) / 2.0)
-    tail = NormalDist().cdf(-expanded(z, cells))
+    tail = NormalDist().cdf(-expanded(z, members))
     low, high = np.quantile(resampled, (tail, 1.0 - tail))
     return float(low), float(high)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ...agents.errors import InputError
 from .bootstrap import expanded_percentile, stratified_bootstrap
-from .samples import Interval, cells_of, paired, resample, sample
+from .samples import Interval, members_of, paired, resample, sample
 from .superiority import share_better
 
 
@@ -87,11 +87,11 @@ def ratio_of_means(
     a, b = paired("numerator", numerator, "denominator", denominator)
     if b.min() <= 0.0:
         raise InputError(f"denominator {b.min()} of episode {b.argmin()} must be positive")
-    cells = cells_of(strata, a.size)
-    drawn = resample(cells, resamples, seed)
+    members = members_of(strata, a.size)
+    drawn = resample(members, resamples, seed)
     ratios = a[drawn].mean(axis=-1) / b[drawn].mean(axis=-1)
     return Estimate(
-        mean=float(a.mean() / b.mean()), ci95=expanded_percentile(ratios, cells, confidence)
+        mean=float(a.mean() / b.mean()), ci95=expanded_percentile(ratios, members, confidence)
     )
 
 
@@ -114,7 +114,7 @@ def difference_of_means(
     a, b
         Values of two sets of episodes, of shapes (n,) and (m,).
     strata_a, strata_b
-        The cell of each episode; a cell of one set is none of the other's.
+        The stratum of each episode; a stratum of one set is none of the other's.
     resamples, confidence, seed
         As for :func:`stratified_bootstrap`.
 
@@ -129,11 +129,11 @@ def difference_of_means(
         As :func:`stratified_bootstrap`.
     """
     x, y = sample("a", a), sample("b", b)
-    cells_a, cells_b = cells_of(strata_a, x.size), cells_of(strata_b, y.size)
-    cells = [*cells_a, *(cell + x.size for cell in cells_b)]
-    drawn = np.concatenate((x, y))[resample(cells, resamples, seed)]
+    members_a, members_b = members_of(strata_a, x.size), members_of(strata_b, y.size)
+    members = [*members_a, *(stratum + x.size for stratum in members_b)]
+    drawn = np.concatenate((x, y))[resample(members, resamples, seed)]
     differences = drawn[:, : x.size].mean(axis=-1) - drawn[:, x.size :].mean(axis=-1)
-    interval = expanded_percentile(differences, cells, confidence)
+    interval = expanded_percentile(differences, members, confidence)
     return Estimate(mean=float(x.mean() - y.mean()), ci95=interval)
 
 

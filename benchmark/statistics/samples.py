@@ -46,14 +46,14 @@ def paired(name_a: str, a: ArrayLike, name_b: str, b: ArrayLike) -> tuple[FloatA
     return x, y
 
 
-Cells = list[NDArray[np.intp]]
-"""The indices of the episodes of each cell."""
+Members = list[NDArray[np.intp]]
+"""The indices of the episodes of each stratum."""
 
 Deviate = TypeVar("Deviate", float, FloatArray)
 
 
-def cells_of(strata: Iterable[Hashable], episodes: int) -> Cells:
-    """Return the indices of the episodes of each cell, cells in order of appearance.
+def members_of(strata: Iterable[Hashable], episodes: int) -> Members:
+    """Return the indices of the episodes of each stratum, in order of appearance.
 
     Raises
     ------
@@ -61,30 +61,32 @@ def cells_of(strata: Iterable[Hashable], episodes: int) -> Cells:
         If there is not one label for each of the ``episodes``.
     """
     members: dict[Hashable, list[int]] = {}
-    for index, stratum in enumerate(strata):
-        members.setdefault(stratum, []).append(index)
-    labelled = sum(len(cell) for cell in members.values())
+    for index, label in enumerate(strata):
+        members.setdefault(label, []).append(index)
+    labelled = sum(len(stratum) for stratum in members.values())
     if labelled != episodes:
         raise InputError(f"strata has {labelled} labels; it must have one for each of {episodes}")
-    return [np.array(cell, dtype=np.intp) for cell in members.values()]
+    return [np.array(stratum, dtype=np.intp) for stratum in members.values()]
 
 
-def resample(cells: Cells, resamples: int, seed: int) -> NDArray[np.intp]:
-    """Return indices of resampled episodes, shape (resamples, n), drawn cell by cell."""
+def resample(members: Members, resamples: int, seed: int) -> NDArray[np.intp]:
+    """Return indices of resampled episodes, shape (resamples, n), drawn stratum by stratum."""
     rng = np.random.default_rng(seed)
-    return np.concatenate([rng.choice(cell, (resamples, cell.size)) for cell in cells], axis=1)
+    return np.concatenate(
+        [rng.choice(stratum, (resamples, stratum.size)) for stratum in members], axis=1
+    )
 
 
-def expanded(z: Deviate, cells: Cells) -> Deviate:
+def expanded(z: Deviate, members: Members) -> Deviate:
     r"""Return where the resampled distribution reaches as far as the normal deviate z should.
 
     .. math:: \sqrt{\tfrac{n}{n - c}} \; t_{\Phi(z), \, n - c}
 
-    for n episodes in c cells of two or more: the root corrects the variance of a resample, too
-    small by (m - 1) / m in a cell of m episodes, and Student's t the uncertainty of that variance
-    (Hesterberg 2015). If no cell has two episodes, z itself.
+    for n episodes in c strata of two or more: the root corrects the variance of a resample, too
+    small by (m - 1) / m in a stratum of m episodes, and Student's t the uncertainty of that
+    variance (Hesterberg 2015). If no stratum has two episodes, z itself.
     """
-    sizes = [cell.size for cell in cells if cell.size > 1]
+    sizes = [stratum.size for stratum in members if stratum.size > 1]
     dof = sum(sizes) - len(sizes)
     return _student_t(z, dof) * math.sqrt(sum(sizes) / dof) if dof else z
 

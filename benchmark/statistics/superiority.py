@@ -18,7 +18,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .samples import Cells, cells_of, expanded, paired, resample
+from .samples import Members, expanded, members_of, paired, resample
 
 DEVIATES: Final = np.linspace(-8.0, 8.0, 3201)
 """Normal deviates between which :func:`.expanded` is inverted; 8 lies beyond any resampling."""
@@ -42,7 +42,7 @@ def probability_better(
         {\text{resamples} + 1}\right)
 
     So it is above 0.975 where the 95 % interval of :func:`.paired_difference` lies below zero.
-    If the means are equal in truth, P is uniform between 0 and 1. For cells of one episode it
+    If the means are equal in truth, P is uniform between 0 and 1. For strata of one episode it
     means nothing, as the interval does.
 
     Parameters
@@ -63,16 +63,16 @@ def probability_better(
         If the values are empty, not finite or of unequal length.
     """
     x, y = paired("a", a, "b", b)
-    cells = cells_of(strata, x.size)
-    means = (x - y)[resample(cells, resamples, seed)].mean(axis=-1)
+    members = members_of(strata, x.size)
+    means = (x - y)[resample(members, resamples, seed)].mean(axis=-1)
     below = float((means < 0.0).sum() + 0.5 * (means == 0.0).sum())
     return NormalDist().cdf(
-        _unexpanded(NormalDist().inv_cdf((below + 0.5) / (resamples + 1)), cells)
+        _unexpanded(NormalDist().inv_cdf((below + 0.5) / (resamples + 1)), members)
     )
 
 
-def _unexpanded(z: float, cells: Cells) -> float:
-    return float(np.interp(z, expanded(DEVIATES, cells), DEVIATES))
+def _unexpanded(z: float, members: Members) -> float:
+    return float(np.interp(z, expanded(DEVIATES, members), DEVIATES))
 
 
 def share_better(a: ArrayLike, b: ArrayLike) -> float:

@@ -9,28 +9,28 @@ import numpy as np
 
 from ...agents.spec import AgentSpec
 from ..episode.episode import Episode
+from ..execution.batches import Batch, Faults, run_batches
 from ..execution.runner import Run, placed
-from ..execution.tasks import Faults, Task, gather
 from ..suites.hidden import keyed
 
 SAMPLES: Final = 10
-"""Episodes that are played again. Whoever is caught in a share q of them escapes all ten with
-(1 - q)^10: 0.1 % for a half."""
+"""Episodes that are played again. A policy that differs in a fraction q of all episodes passes
+with probability (1 - q)^10: 0.1 % for a half."""
 
 STATE: Final = "it kept something from one episode to the next"
 CHANCE: Final = "it is not deterministic: its actions must follow from the seed and what it sees"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Finding:
-    """An episode that went otherwise when it was played again."""
+class Deviation:
+    """An episode whose actions differed when it was played again."""
 
     place: int
     """Where in the suite the episode is, counted from 0."""
     step: int
     """The first step whose action differs, or that only one of the two has."""
     reason: str
-    """What the policy does that it may not."""
+    """The rule that the policy breaks."""
 
     def told(self, run: Run) -> str:
         """Return the finding in a line. It names the episode: not for one that is hidden."""
@@ -47,12 +47,11 @@ def audit(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
     keep: Callable[[int, Episode], None] = lambda place, episode: None,
-) -> Finding | None:
+) -> Deviation | None:
     """Play some of a run's episodes again, in another order; all actions must have equal bits.
 
-    A policy may not know which episodes will be looked at, nor when: the secret chooses them and
-    their order. An episode that
-    differs is played a third time. If that agrees with the second, the first was influenced by
+    The secret chooses the episodes and their order, so that no policy can know them. An episode
+    that differs is played a third time. If that agrees with the second, the first was influenced by
     other episodes; if not, the policy is left to chance.
 
     Parameters
@@ -68,26 +67,26 @@ def audit(
 
     Returns
     -------
-    Finding or None
-        The first episode of the suite that differs; nothing if all are equal.
+    Deviation or None
+        The first episode of the suite that differs; None if all are equal.
 
     Raises
     ------
     EvaluatorFault
-        If the machine failed; see :func:`.gather`.
+        If the machine failed; see :func:`.run_batches`.
     """
     places = sampled(run, secret)
     again = _again(policy, run, places, executor, keep, progress)
     for place in sorted(places):
         first, second = run.episodes[place], again[place]
-        step = first_difference(first, second)
+        step = first_differing_step(first, second)
         if step is None:
             continue
         third = _again(policy, run, [place], executor, keep)[place]
-        if second.failure is not None and first_difference(first, third) is None:
+        if second.failure is not None and first_differing_step(first, third) is None:
             continue  # The machine held the second up for so long that it ran out of time.
-        repeats = first_difference(second, third) is None
-        return Finding(place=place, step=step, reason=STATE if repeats else CHANCE)
+        repeats = first_differing_step(second, third) is None
+        return Deviation(place=place, step=step, reason=STATE if repeats else CHANCE)
     return None
 
 
@@ -107,11 +106,11 @@ def sampled(run: Run, secret: bytes) -> list[int]:
     return places[: audited(len(places))]
 
 
-def first_difference(episode: Episode, again: Episode) -> int | None:
+def first_differing_step(episode: Episode, again: Episode) -> int | None:
     """Return the first step in which two episodes' actions differ in a bit, or None.
 
-    An episode that failed counts as worst from there on, which nobody gains by: of it only the
-    steps that both have are compared.
+    A failed episode counts as worst from there on, which no policy gains by: only the steps that
+    both have are compared.
     """
     first, second = (np.ascontiguousarray(each.trace.action) for each in (episode, again))
     steps = min(len(first), len(second))
@@ -133,7 +132,7 @@ def _again(
     """Play the episodes at the places again, each as a task of its own, in that order."""
     suite, there, found = run.suite, placed(policy, executor), {}
     wanted = [
-        Task(
+        Batch(
             policy=there,
             scenario=suite.scenarios[place // len(suite.seeds)],
             seeds=(suite.seeds[place % len(suite.seeds)],),
@@ -141,7 +140,7 @@ def _again(
         )
         for place in places
     ]
-    for place, episode in gather(wanted, executor, Faults()):
+    for place, episode in run_batches(wanted, executor, Faults()):
         found[place] = episode
         keep(place, episode)
         progress(1)

@@ -12,14 +12,14 @@ from ..bundle import Results, results
 from ..episode.episode import START, Episode
 from ..episode.level_metrics import MOSTLY_CLIPPED
 from ..episode.scenario import CONTROL_PERIOD
+from ..execution.batches import play
 from ..execution.runner import Run
-from ..execution.tasks import play
 from ..results.baselines import HUMAN_HUMAN, SPECS, Baseline, shipped_baselines
 from ..results.headline import headline
 from ..results.summary import Summary
 from ..suites.catalogue import make_scenario
 from ..suites.suite import Suite, make_suite
-from .audit import first_difference
+from .audit import first_differing_step
 
 SUITE: Final = "quick-v1"
 """The suite of the score."""
@@ -142,7 +142,7 @@ def _lifts(episodes: Sequence[Episode]) -> Check:
 def _determinism(first: Sequence[Episode], again: Sequence[Episode]) -> Check:
     """Compare the lifts with the same lifts in another order."""
     for one, other in zip(first, again, strict=True):
-        step = first_difference(one, other)
+        step = first_differing_step(one, other)
         if step is not None:
             message = (
                 f"the same lift again ({_where(one)}) goes another way from step {step} on: "

@@ -14,7 +14,7 @@ from ..episode.metric import Scores
 from ..episode.replay import ReplayError, replay
 from ..episode.scenario import Scenario
 from ..episode.trace import Trace
-from ..execution.tasks import SEEDS_PER_TASK
+from ..execution.batches import SEEDS_PER_BATCH
 from ..suites.suite import Suite
 from .deviation import Place, beyond_tolerance, first_difference
 from .verdict import Finding
@@ -121,12 +121,12 @@ def simulate(
 
 
 def episode_checks(bundle: Bundle, suite: Suite, same_platform: bool) -> list[EpisodeCheck]:
-    """Return the work, cut as :func:`.tasks.tasks` cuts that of a run."""
+    """Return the work, cut as :func:`.batches.batches` cuts that of a run."""
     seeds = len(suite.seeds)
     members: dict[tuple[int, int], list[int]] = {}
     for i, place in enumerate(bundle.places):
         row, column = divmod(place, seeds)
-        members.setdefault((row, column // SEEDS_PER_TASK), []).append(i)
+        members.setdefault((row, column // SEEDS_PER_BATCH), []).append(i)
     return [
         EpisodeCheck(
             scenario=suite.scenarios[row],

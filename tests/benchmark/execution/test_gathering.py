@@ -10,9 +10,9 @@ import pytest
 from colift.agents.errors import EvaluatorFault, InputError
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle.table import table_row
+from colift.benchmark.execution.batches import Batch, Faults, batches, run_batches
 from colift.benchmark.execution.pool import process_pool
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.execution.tasks import Faults, Task, gather, tasks
 from colift.benchmark.suites.suite import make_suite
 
 SUITE = make_suite("quick-v1").with_seeds(0, 2)
@@ -126,7 +126,7 @@ def test_workers_that_are_killed_from_outside_change_nothing(failing, undisturbe
 
 
 @dataclass(frozen=True, kw_only=True)
-class Refused(Task):
+class Refused(Batch):
     """A task that its worker refuses."""
 
     def __call__(self):
@@ -135,8 +135,8 @@ class Refused(Task):
 
 def test_what_a_user_gave_wrong_is_not_tried_again():
     faults = Faults()
-    (first, *_) = tasks(PolicySpec(text="copy"), SUITE)
+    (first, *_) = batches(PolicySpec(text="copy"), SUITE)
     refused = Refused(**{each.name: getattr(first, each.name) for each in fields(first)})
     with process_pool(1) as pool, pytest.raises(InputError, match="another colift"):
-        list(gather([refused], pool, faults))
+        list(run_batches([refused], pool, faults))
     assert faults.count == 0

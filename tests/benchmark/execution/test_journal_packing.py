@@ -1,4 +1,4 @@
-"""An episode that was packed and unpacked is the same one, to the bit."""
+"""An episode that was record_of and episode_of is the same one, to the bit."""
 
 import dataclasses
 import math
@@ -11,7 +11,7 @@ from colift.agents.policies.blend import Blend
 from colift.agents.policies.copy import Copy
 from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
-from colift.benchmark.execution.journal import packed, unpacked
+from colift.benchmark.execution.journal import episode_of, record_of
 from colift.benchmark.suites.catalogue import make_scenario
 
 HIDDEN_SEED = 2**127 + 3
@@ -61,20 +61,20 @@ def plain(value):
 
 
 def test_all_bits_of_an_episode_come_back(episode):
-    data = msgpack.packb(packed(episode), unicode_errors="surrogatepass")
-    back = unpacked(msgpack.unpackb(data, unicode_errors="surrogatepass"))
+    data = msgpack.packb(record_of(episode), unicode_errors="surrogatepass")
+    back = episode_of(msgpack.unpackb(data, unicode_errors="surrogatepass"))
     assert plain(back) == plain(episode)
     assert back.trace.digest() == episode.trace.digest()
 
 
 def test_what_comes_back_can_be_changed(episode):
-    back = unpacked(packed(episode))
+    back = episode_of(record_of(episode))
     back.trace.human_end[:] = 0.0
 
 
 def test_every_field_is_packed(episode):
     names = {each.name for each in dataclasses.fields(type(episode))}
-    assert set(packed(episode)) == names
-    assert set(packed(episode)["trace"]) == {
+    assert set(record_of(episode)) == names
+    assert set(record_of(episode)["trace"]) == {
         each.name for each in dataclasses.fields(type(episode.trace))
     }

@@ -15,7 +15,7 @@ from colift.benchmark.verification.audit import (
     STATE,
     audit,
     audited,
-    first_difference,
+    first_differing_step,
     sampled,
 )
 
@@ -118,17 +118,17 @@ def test_an_episode_that_ends_earlier_differs_from_there_on(run):
     episode = run.episodes[0]
     trace = dataclasses.replace(episode.trace, action=episode.trace.action[:5])
     shorter = dataclasses.replace(episode, trace=trace)
-    assert first_difference(episode, shorter) == first_difference(shorter, episode) == 5
-    assert first_difference(episode, episode) is None
+    assert first_differing_step(episode, shorter) == first_differing_step(shorter, episode) == 5
+    assert first_differing_step(episode, episode) is None
 
 
 def test_of_an_episode_that_failed_the_steps_before_are_compared(run):
     episode = run.episodes[0]
     trace = dataclasses.replace(episode.trace, action=episode.trace.action[:5])
     failed = dataclasses.replace(episode, trace=trace, failure="step 5: no answer within 5 s")
-    assert first_difference(failed, episode) is None
-    assert first_difference(episode, failed) == 5
-    assert first_difference(failed, run.episodes[1]) is not None
+    assert first_differing_step(failed, episode) is None
+    assert first_differing_step(episode, failed) == 5
+    assert first_differing_step(failed, run.episodes[1]) is not None
 
 
 def test_a_zero_of_the_other_sign_differs(run):
@@ -138,7 +138,7 @@ def test_a_zero_of_the_other_sign_differs(run):
         dataclasses.replace(episode, trace=dataclasses.replace(episode.trace, action=action))
         for action in (zeros, -zeros)
     )
-    assert first_difference(plus, minus) == 0
+    assert first_differing_step(plus, minus) == 0
 
 
 def test_a_policy_that_uses_its_seed_passes():

@@ -12,8 +12,8 @@ from colift.agents.loading.loading import PolicySpec
 from colift.agents.spec import InProcess
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.episode.episode import policy_seed
+from colift.benchmark.execution.batches import play
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.execution.tasks import play
 from colift.benchmark.suites.hidden import commitment
 from colift.benchmark.verification.audit import CHANCE
 from colift.leaderboard.evaluation.evaluation import episode_count, evaluate_entrant, play_team

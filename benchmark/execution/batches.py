@@ -17,14 +17,14 @@ from ..episode.scenario import Scenario
 from ..suites.hidden import keyed
 from ..suites.suite import Suite
 
-SEEDS_PER_TASK: Final = 5
+SEEDS_PER_BATCH: Final = 5
 """Seeds of one scenario that a worker plays at a time: few enough that progress shows, many
 enough that building the world (some milliseconds) does not."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Task:
-    """What a worker plays at a time: some of a suite's episodes, all of one scenario."""
+class Batch:
+    """A worker's unit of work: some of a suite's episodes, all of one scenario."""
 
     policy: AgentSpec
     scenario: Scenario
@@ -38,11 +38,11 @@ class Task:
         return zip(self.places, episodes, strict=True)
 
     def __call__(self) -> list[tuple[int, Episode]]:
-        """Return all of :meth:`play`: what a worker process runs."""
+        """Return all of :meth:`play`; worker processes run this."""
         return list(self.play())
 
-    def without(self, done: Container[int]) -> "Task":
-        """Return the task without the places in ``done``."""
+    def without(self, done: Container[int]) -> "Batch":
+        """Return the batch without the places in ``done``."""
         left = [i for i, place in enumerate(self.places) if place not in done]
         return dataclasses.replace(
             self,
@@ -94,25 +94,25 @@ def _entered(stack: contextlib.ExitStack, policy: AgentSpec) -> Agent:
         return _Unmade(error)
 
 
-def tasks(policy: AgentSpec, suite: Suite, done: Container[int] = ()) -> list[Task]:
-    """Return what is left to play of a suite: no episode whose place is in ``done``."""
+def batches(policy: AgentSpec, suite: Suite, done: Container[int] = ()) -> list[Batch]:
+    """Return the rest of a suite: all episodes but those with a place in ``done``."""
     found = []
     size = len(suite.seeds)
     for row in range(len(suite.scenarios)):
-        for first in range(0, size, SEEDS_PER_TASK):
-            columns = range(first, min(first + SEEDS_PER_TASK, size))
-            task = _task(policy, suite, row, columns)
-            found.append(task.without(done))
-    return [task for task in found if task.places]
+        for first in range(0, size, SEEDS_PER_BATCH):
+            columns = range(first, min(first + SEEDS_PER_BATCH, size))
+            batch = _batch(policy, suite, row, columns)
+            found.append(batch.without(done))
+    return [batch for batch in found if batch.places]
 
 
-def shuffled_tasks(
+def shuffled_batches(
     policy: AgentSpec, suite: Suite, secret: bytes, done: Container[int] = ()
-) -> list[Task]:
-    """Return the same, each episode a task of its own, in an order that follows from a secret.
+) -> list[Batch]:
+    """Return the same, each episode a batch of its own, in an order that follows from a secret.
 
-    By the number of an episode nobody then knows which one it is, and from the order of one policy
-    nothing follows about that of another.
+    The number of an episode then does not reveal which one it is, and the order of one policy
+    reveals nothing about that of another.
     """
     labels = ("order", policy.name, policy.digest(), suite.digest)
 
@@ -121,12 +121,12 @@ def shuffled_tasks(
 
     size = len(suite.seeds)
     places = sorted((place for place in range(suite.size) if place not in done), key=lot)
-    return [_task(policy, suite, place // size, (place % size,)) for place in places]
+    return [_batch(policy, suite, place // size, (place % size,)) for place in places]
 
 
-def _task(policy: AgentSpec, suite: Suite, row: int, columns: Sequence[int]) -> Task:
-    """Return some episodes of a scenario as a task."""
-    return Task(
+def _batch(policy: AgentSpec, suite: Suite, row: int, columns: Sequence[int]) -> Batch:
+    """Return some episodes of a scenario as a batch."""
+    return Batch(
         policy=policy,
         scenario=suite.scenarios[row],
         seeds=tuple(suite.seeds[column] for column in columns),
@@ -135,7 +135,7 @@ def _task(policy: AgentSpec, suite: Suite, row: int, columns: Sequence[int]) -> 
 
 
 ATTEMPTS: Final = 3
-"""How often a task is tried before the machine is given up."""
+"""Attempts at a batch before the machine counts as broken."""
 
 
 @dataclass
@@ -145,7 +145,7 @@ class Faults:
     count: int = 0
 
     def add(self, attempt: int, error: BaseException) -> None:
-        """Count one, in the n-th attempt of a task.
+        """Count one, in the n-th attempt of a batch.
 
         Raises
         ------
@@ -157,38 +157,38 @@ class Faults:
             raise EvaluatorFault(f"tried {ATTEMPTS} times: {error_text(error)}") from error
 
 
-def gather(
-    tasks: Sequence[Task], executor: Executor | None, faults: Faults
+def run_batches(
+    batches: Sequence[Batch], executor: Executor | None, faults: Faults
 ) -> Iterator[tuple[int, Episode]]:
-    """Yield the place and the episode of everything that is played, as it is finished.
+    """Yield the place of each episode, and the episode, as it is finished.
 
     Parameters
     ----------
-    tasks
-        What to play.
+    batches
+        The episodes to play.
     executor
-        Plays the tasks; None plays them here, one after the other.
+        Plays the batches; None plays them here, one after the other.
     faults
-        Counts the tasks that had to be tried again.
+        Counts the failed attempts.
 
     Raises
     ------
     EvaluatorFault
-        If a task failed :data:`ATTEMPTS` times and it was not the policy's fault, or the executor
+        If a batch failed :data:`ATTEMPTS` times and it was not the policy's fault, or the executor
         takes no more.
     InputError
-        If a worker is of another origin; see :func:`.parcels.call`.
+        If a worker is of another origin; see :func:`.cluster.call`.
     """
-    return _alone(tasks, faults) if executor is None else _pooled(tasks, executor, faults)
+    return _alone(batches, faults) if executor is None else _pooled(batches, executor, faults)
 
 
-def _alone(tasks: Sequence[Task], faults: Faults) -> Iterator[tuple[int, Episode]]:
-    for task in tasks:
+def _alone(batches: Sequence[Batch], faults: Faults) -> Iterator[tuple[int, Episode]]:
+    for batch in batches:
         done: set[int] = set()
         attempt = 1
-        while len(done) < len(task.places):
+        while len(done) < len(batch.places):
             try:
-                for place, episode in task.without(done).play():
+                for place, episode in batch.without(done).play():
                     done.add(place)
                     yield place, episode
             except EvaluatorFault as error:
@@ -197,22 +197,22 @@ def _alone(tasks: Sequence[Task], faults: Faults) -> Iterator[tuple[int, Episode
 
 
 def _pooled(
-    tasks: Sequence[Task], executor: Executor, faults: Faults
+    batches: Sequence[Batch], executor: Executor, faults: Faults
 ) -> Iterator[tuple[int, Episode]]:
-    waiting: dict[Future[list[tuple[int, Episode]]], tuple[Task, int]] = {}
+    waiting: dict[Future[list[tuple[int, Episode]]], tuple[Batch, int]] = {}
     try:
-        for task in tasks:
-            waiting[_submitted(task, executor)] = task, 1
+        for batch in batches:
+            waiting[_submitted(batch, executor)] = batch, 1
         while waiting:
             for future in wait(waiting, return_when=FIRST_COMPLETED).done:
-                task, attempt = waiting.pop(future)
+                batch, attempt = waiting.pop(future)
                 try:
                     played = future.result()
                 except InputError:
                     raise
                 except Exception as error:
                     faults.add(attempt, error)
-                    waiting[_submitted(task, executor)] = task, attempt + 1
+                    waiting[_submitted(batch, executor)] = batch, attempt + 1
                 else:
                     yield from played
     finally:
@@ -220,9 +220,9 @@ def _pooled(
             future.cancel()
 
 
-def _submitted(task: Task, executor: Executor) -> Future[list[tuple[int, Episode]]]:
-    """Return the future of a task; an executor that does not take it is at its end."""
+def _submitted(batch: Batch, executor: Executor) -> Future[list[tuple[int, Episode]]]:
+    """Return the future of a batch; an executor that refuses it counts as broken."""
     try:
-        return executor.submit(task)
+        return executor.submit(batch)
     except Exception as error:
         raise EvaluatorFault(f"cannot go on: {error_text(error)}") from error
