@@ -9,26 +9,26 @@ from ...agents.agent import FRAME
 from ..episode.lift import Lift
 from ..episode.scenario import Scenario
 from ..world import SERVO, BodyParameters, FarEnd, Servo
-from .joint_arms import JointArms, JointFarEnd, JointWorld
+from .joint_arms import JointArms, JointWorld
 
 
 class EmulatedLift(Lift):
-    """A lift whose robot is moved by joint angles, for as many lifts as are asked for.
+    """Lifts in succession with a robot that is moved by joint angles.
 
-    The person waits at rest until told to lift, carries a plan out as in simulation, and waits
-    again. In between the world goes on: nothing is put back.
+    The person waits at rest for a request to lift, carries out a plan as in simulation, and waits
+    again. The world runs on between the lifts; nothing is put back.
 
     Parameters
     ----------
     scenario
-        Who lifts how; its control period is that of the person here, a frame.
+        The person and the lifts; its control period is replaced by one frame, the person's.
     servo
         The NAO's joint servos.
     """
 
     def __init__(self, scenario: Scenario, *, servo: Servo = SERVO) -> None:
         def world(human: BodyParameters, far_end: FarEnd) -> JointWorld:
-            self._world = JointWorld(human, JointFarEnd(servo))
+            self._world = JointWorld(human, servo)
             return self._world
 
         super().__init__(dataclasses.replace(scenario, control_period=FRAME), world=world)

@@ -4,8 +4,11 @@ A libqi server offers the NAOqi services, an outlet of the Lab Streaming Layer t
 them the simulated world runs in real time.
 """
 
+import functools
+import inspect
 import threading
 import time
+from collections.abc import Callable
 from typing import Any, Final
 
 from ...agents.agent import FRAME
@@ -13,9 +16,8 @@ from ...agents.errors import InputError
 from ...agents.hardware.missing import import_optional
 from ...agents.hardware.nao.session import first_line, quiet
 from ...agents.hardware.operator import StopButton
-from .gate import behind
 from .laboratory import FAULTS, Conditions, Laboratory
-from .outlet import Outlet
+from .markers import MARKERS, Row
 from .services import Log
 
 BEHIND: Final = 0.1
@@ -104,3 +106,70 @@ def _serve(url: str, services: dict[str, Any]) -> Any:
     for name, service in services.items():
         session.registerService(name, service)
     return session
+
+
+def behind(service: Any, gate: threading.Event) -> Any:
+    """Return a service whose public methods first wait until a gate is open: a robot that hangs."""
+
+    def waiting(method: Callable[..., Any]) -> Callable[..., Any]:
+        @functools.wraps(method)
+        def wait(self: Any, *arguments: Any) -> Any:
+            gate.wait()
+            return method(*arguments)
+
+        # libqi counts the arguments.
+        own = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
+        signature = inspect.signature(method)
+        wait.__signature__ = signature.replace(  # type: ignore[attr-defined]
+            parameters=[own, *signature.parameters.values()]
+        )
+        return wait
+
+    methods = {
+        name: waiting(method)
+        for name, method in inspect.getmembers(service, inspect.ismethod)
+        if not name.startswith("_")
+    }
+    # Called in several threads, or one that waits would keep the others from waiting.
+    return type(type(service).__name__, (), {"__qi_threading__": "multi", **methods})()
+
+
+class Outlet:
+    """Sends the table's markers over the Lab Streaming Layer.
+
+    Parameters
+    ----------
+    name
+        The stream's name.
+
+    Raises
+    ------
+    InputError
+        If pylsl is not installed.
+    """
+
+    def __init__(self, name: str) -> None:
+        self._lsl = lsl = import_optional("pylsl")
+        info = lsl.StreamInfo(
+            name, "MoCap", 3 * len(MARKERS), 1 / FRAME, lsl.cf_double64, f"colift-emulator-{name}"
+        )
+        channels = info.desc().append_child("channels")
+        for marker in MARKERS:
+            for axis in "XYZ":
+                channel = channels.append_child("channel")
+                channel.append_child_value("label", f"{marker}_{axis}")
+                channel.append_child_value("marker", marker)
+                channel.append_child_value("type", f"Position{axis}")
+                channel.append_child_value("unit", "meters")
+        self._outlet: Any = lsl.StreamOutlet(info)
+
+    def send(self, row: Row) -> None:
+        """Send a frame, stamped by the monotonic clock, unless the stream is closed."""
+        captured, values = row
+        if self._outlet is not None:
+            shift = self._lsl.local_clock() - time.monotonic()
+            self._outlet.push_sample(values, captured + shift)
+
+    def close(self) -> None:
+        """Close the stream."""
+        self._outlet = None

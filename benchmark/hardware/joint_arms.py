@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...robots.nao.kinematics import ARM_JOINTS, MIRROR, arm_path, gravity_torque, vertical_lever
-from ..world import BulletWorld, NaoFarEnd
+from ..world import BodyParameters, BulletWorld, NaoFarEnd
 from ..world.bullet import pybullet
 from ..world.nao_arms import NaoArms
 from ..world.physics import Physics
@@ -22,7 +22,7 @@ SAME_POSTURE: Final = 0.02
 millimetre at the hand, and half of a frame's computing time."""
 
 _KEPT: Final = 1000
-"""Frames that a world keeps that is never put back."""
+"""Frames of history that the world keeps."""
 
 
 class JointArms(NaoArms):
@@ -100,13 +100,18 @@ class JointFarEnd(NaoFarEnd):
 class JointWorld(BulletWorld):
     """A world that is never restored between two lifts."""
 
+    def __init__(self, human: BodyParameters, servo: Servo) -> None:
+        self._started = False
+        super().__init__(human, JointFarEnd(servo))
+        self._started = True
+
     def reset(self) -> None:
-        """Put everything to rest, once: what is real stays where it is."""
-        if not hasattr(self, "human_end"):
+        """Put everything to rest, once: real things stay where they are."""
+        if not self._started:
             super().reset()
 
     def advance(self, human_reference: Sequence[float], robot_reference: Sequence[float]) -> None:
-        """Advance, and forget what is long ago: a laboratory may run for days."""
+        """Advance, and drop the oldest frames: a laboratory may run for days."""
         super().advance(human_reference, robot_reference)
         if len(self.human_end) > 2 * _KEPT:
             for history in (
