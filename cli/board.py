@@ -11,7 +11,7 @@ from ..leaderboard.backup.backup import Backup, back_up
 from ..leaderboard.backup.restoring import restore
 from ..leaderboard.board.board import Board
 from ..leaderboard.pages.site import write_site
-from ..leaderboard.practice.shipped import open_to_read
+from ..leaderboard.practice.season_import import open_to_read
 from ..leaderboard.queue import Queue
 from ..leaderboard.records.season import SeasonInfo
 from .board_options import BOARD, BoardFolder, SeasonName, opened_board
@@ -66,7 +66,7 @@ def _report(backup: Backup, action: str) -> None:
 
 def _show(place: Board, season: str | None) -> None:
     console, info = Console(), place.season_info(season)
-    standings, team = place.standings(info.name), place.team(info.name)
+    standings, team = place.standings(info.name), place.human_human(info.name)
     show(board_table(info, standings, team, console.width), console=console)
     for each in place.events(info.name):
         if each.submission is not None:
@@ -89,7 +89,7 @@ def _waiting(place: Board) -> str:
 
 def _content(place: Board, season: str | None) -> dict[str, Any]:
     info: SeasonInfo = place.season_info(season)
-    team = place.team(info.name)
+    team = place.human_human(info.name)
     return {
         "season": {**vars(info), "began_at": info.began_at.isoformat()},
         "human_human": None

@@ -11,7 +11,7 @@ import typer
 from ..agents.sandbox.host.levels import VERIFIABLE
 from ..leaderboard.board.board import Board
 from ..leaderboard.evaluation.entrant import NoSandboxError, board_level
-from ..leaderboard.practice.shipped import open_stocked
+from ..leaderboard.practice.season_import import open_with_practice
 
 BOARD: Final = Path("board")
 """The default folder."""
@@ -36,8 +36,8 @@ BoardIsolation = Annotated[
 
 
 @contextmanager
-def opened_board(folder: Path, opening: Callable[[Path], Board] = open_stocked) -> Iterator[Board]:
-    """Open the board in a folder while the body runs; see :func:`.open_stocked`."""
+def opened_board(folder: Path, opening: Callable[[Path], Board] = open_with_practice) -> Iterator[Board]:
+    """Open the board in a folder while the body runs; see :func:`.open_with_practice`."""
     board = opening(folder)
     try:
         yield board

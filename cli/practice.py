@@ -12,10 +12,10 @@ from rich.table import Table
 
 from ..agents.errors import EvaluatorFault, InputError
 from ..leaderboard.evaluation.entrant import builtin_names
-from ..leaderboard.evaluation.evaluation import episode_count, play_team
+from ..leaderboard.evaluation.evaluation import episode_count, play_human_human
 from ..leaderboard.evaluation.progress import Callbacks
 from ..leaderboard.practice.practice import SUITES, is_current, play_policy, practice_season
-from ..leaderboard.practice.shipped import Shipped
+from ..leaderboard.practice.season_import import PlayedSeason
 from ..leaderboard.records.season import Season
 from .options import Dask, Jobs, executor
 from .printing import show, table
@@ -64,9 +64,9 @@ def practice(
 
 def _season(
     season: Season, names: list[str], out: Path, pool: Executor | None, fresh: bool
-) -> tuple[Shipped, list[EvaluatorFault]]:
+) -> tuple[PlayedSeason, list[EvaluatorFault]]:
     """Evaluate the missing entries; return all entries, and the faults of the machine."""
-    there = Shipped.read(season.suite.name, out)
+    there = PlayedSeason.read(season.suite.name, out)
     if there is None or there.suite_digest != season.suite.digest:
         there = None
     done = [] if there is None or fresh else [p for p in there.played if is_current(p, season)]
@@ -80,19 +80,19 @@ def _season(
 
         if there is None:
             watch = Callbacks(stage=partial(stage, "all"), progress=bar.advance)
-            team = play_team(season, executor=pool, watch=watch)
-            there = Shipped(
+            human_human = play_human_human(season, executor=pool, watch=watch)
+            there = PlayedSeason(
                 suite=season.suite.name,
                 suite_digest=season.suite.digest,
                 began_at=datetime.now(UTC),
-                team=team,
+                human_human=human_human,
                 played=(),
             )
         for name in todo:
             watch = Callbacks(stage=partial(stage, name), progress=bar.advance)
             try:
                 now = datetime.now(UTC)
-                new = play_policy(name, season, there.team, now, executor=pool, watch=watch)
+                new = play_policy(name, season, there.human_human, now, executor=pool, watch=watch)
             except EvaluatorFault as fault:
                 faults.append(fault)
                 continue
@@ -101,7 +101,7 @@ def _season(
     return there, faults
 
 
-def _table(season: Season, shipped: Shipped) -> Table:
+def _table(season: Season, shipped: PlayedSeason) -> Table:
     rows = [each.entry.row for each in shipped.played if each.entry.row is not None]
     return table(
         f"Season {season.name} on {season.suite.name}",

@@ -9,7 +9,7 @@ import typer
 
 from ..agents.errors import InputError
 from ..leaderboard.board.board import LOCAL, Board
-from ..leaderboard.practice.shipped import open_stocked, open_to_read
+from ..leaderboard.practice.season_import import open_with_practice, open_to_read
 from ..leaderboard.queue import Queue
 from ..leaderboard.records.job import STATES, Job
 from .board_options import BOARD, BoardFolder, Why, opened_board
@@ -82,7 +82,7 @@ def cancel_job(job: JobNumber, why: Why, board: BoardFolder = BOARD) -> None:
 
 @contextmanager
 def _found(
-    folder: Path, beginning: str, opening: Callable[[Path], Board] = open_stocked
+    folder: Path, beginning: str, opening: Callable[[Path], Board] = open_with_practice
 ) -> Iterator[tuple[Queue, Job]]:
     """Open the queue of a board, and find a job by its number or the start of it."""
     with opened_board(folder, opening) as place:

@@ -29,7 +29,7 @@ def begin(
         print(f"season {name} on {season.suite.name} takes submissions from now on")
         print(f"commitment to its secret: {season.commitment}")
         if own:
-            jobs = [Queue(place).enqueue_own(builtin_entrant(each)) for each in builtin_names()]
+            jobs = [Queue(place).enqueue_builtin(builtin_entrant(each)) for each in builtin_names()]
             print(f"{len(jobs)} policies of the project are queued")
             print(f"Next: colift worker --board {board} --once")
 

@@ -15,7 +15,7 @@ from ..leaderboard.board.board import Board
 from ..leaderboard.client import API, RemoteBoard
 from ..leaderboard.evaluation.progress import Callbacks
 from ..leaderboard.pages.links import ServiceLinks
-from ..leaderboard.practice.shipped import open_stocked
+from ..leaderboard.practice.season_import import open_with_practice
 from ..leaderboard.queue import NO_QUOTA, Queue, WorkerQueue
 from ..leaderboard.queue.worker import Worker
 from ..leaderboard.records.job import Job
@@ -66,7 +66,7 @@ def submit_policy(
     if board.startswith(("http://", "https://")):
         _submit_to_web(submission, folder, board, token, count)
     else:
-        with opened_board(Path(board), lambda path: open_stocked(path, suite)) as place:
+        with opened_board(Path(board), lambda path: open_with_practice(path, suite)) as place:
             _submit_to_folder(submission, folder, place, count)
 
 

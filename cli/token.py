@@ -6,7 +6,7 @@ import typer
 
 from ..leaderboard.board.board import Board
 from ..leaderboard.board.tokens import Tokens
-from ..leaderboard.practice.shipped import open_to_read
+from ..leaderboard.practice.season_import import open_to_read
 from .board_options import BOARD, BoardFolder, opened_board
 from .printing import show, table
 

@@ -18,18 +18,18 @@ TIMEOUT_S: Final = 120.0
 """How long the board may take to answer [s]."""
 
 PATIENCE: Final = 30
-"""How often a question is asked again that the board has no time for."""
+"""Number of attempts while the board is overloaded."""
 
 BUSY: Final = (429, 502, 503, 504)
-"""What a board, or a server before it, answers then."""
+"""Status codes of an overloaded board, or of a server before it."""
 
 
 QUOTA: Final = 429
-"""What it answers who has submitted too much: that is not waited for."""
+"""Status code for a submitter over quota: not worth waiting for."""
 
 
 class _NoRedirect(urllib.request.HTTPRedirectHandler):
-    """Goes nowhere else: the token is for this board alone."""
+    """Follows no redirect: the token is for this board alone."""
 
     def redirect_request(self, *arguments: Any) -> None:
         """Return nothing to go to."""
@@ -44,16 +44,16 @@ class RemoteBoard:
     token: str = field(default="", repr=False)
 
     def submitter(self) -> str:
-        """Return who the board takes the token for; :class:`.InputError` as :meth:`submit`."""
+        """Return the token's owner; :class:`.InputError` as :meth:`submit`."""
         answer = self._patiently("/me", self._identity)
         if not isinstance(answer, dict) or "submitter" not in answer:
             raise InputError(
-                f"{self.url} is not a board of colift: it does not say whose token it is"
+                f"{self.url} is not a board of colift: it does not name the token's owner"
             )
         return str(answer["submitter"])
 
     def submit(self, folder: Path) -> dict[str, Any]:
-        """Return the job of a submission, as the board's API tells it.
+        """Submit a folder; return its job as JSON of the API.
 
         Parameters
         ----------
@@ -93,7 +93,7 @@ class RemoteBoard:
     def _patiently(
         self, path: str, headers: dict[str, str] | None = None, body: IO[bytes] | None = None
     ) -> Any:
-        """Return an answer; wait a little when the board has no time."""
+        """Return an answer; wait a little while the board is overloaded."""
         for _ in range(PATIENCE):
             try:
                 if body is not None:
@@ -125,23 +125,23 @@ class RemoteBoard:
 
 
 class _BusyError(InputError):
-    """The board has no time now."""
+    """The board is overloaded."""
 
-    def __init__(self, told: str, code: int, seconds: float) -> None:
-        super().__init__(told)
+    def __init__(self, message: str, code: int, seconds: float) -> None:
+        super().__init__(message)
         self.code, self.seconds = code, seconds
 
 
 def _refusal(url: str, error: urllib.error.HTTPError) -> InputError:
-    """Return what the board says of a request that it does not fulfil."""
+    """Return the error of a request that the board refused."""
     with error:
         body = error.read(100_000)
         wait = error.headers.get("Retry-After", "")
     try:
-        told = str(json.loads(body)["error"])
+        message = str(json.loads(body)["error"])
     except (ValueError, KeyError, TypeError):
-        told = f"it answers {error.code} {error.reason}; is it a board of colift?"
-    told = f"board {url}: {told}"
+        message = f"it answers {error.code} {error.reason}; is it a board of colift?"
+    message = f"board {url}: {message}"
     if error.code in BUSY:
-        return _BusyError(told, error.code, min(float(wait), 60.0) if wait.isdecimal() else 2.0)
-    return InputError(told)
+        return _BusyError(message, error.code, min(float(wait), 60.0) if wait.isdecimal() else 2.0)
+    return InputError(message)

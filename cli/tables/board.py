@@ -6,7 +6,7 @@ from rich.table import Column, Table
 
 from ...benchmark.episode.metric import Metric
 from ...benchmark.statistics import Estimate
-from ...leaderboard.board.standings import HumanTeamScores, RankedRow
+from ...leaderboard.board.standings import HumanHumanScores, RankedRow
 from ...leaderboard.records.metrics import board_metrics
 from ...leaderboard.records.row import BoardRow
 from ...leaderboard.records.season import SeasonInfo
@@ -17,7 +17,7 @@ NARROW = 100
 
 
 def board_table(
-    season: SeasonInfo, standings: Sequence[RankedRow], team: HumanTeamScores | None, width: int
+    season: SeasonInfo, standings: Sequence[RankedRow], team: HumanHumanScores | None, width: int
 ) -> Table:
     """Return a season's table: who cannot be told from each other shares a rank.
 
@@ -55,7 +55,7 @@ def _room(titles: Sequence[str], lines: Sequence[Sequence[Cell]], place: int, wi
 
 
 def _lines(
-    standings: Sequence[RankedRow], team: HumanTeamScores | None, wide: bool
+    standings: Sequence[RankedRow], team: HumanHumanScores | None, wide: bool
 ) -> Iterator[Sequence[Cell]]:
     """Yield the cells of each line."""
     waiting = team
@@ -93,7 +93,7 @@ def _rank(each: RankedRow) -> str:
     return each.section
 
 
-def _team(team: HumanTeamScores, wide: bool) -> list[str]:
+def _team(team: HumanHumanScores, wide: bool) -> list[str]:
     cells: list[str] = [
         "",
         "human-human team",

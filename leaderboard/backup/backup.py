@@ -19,13 +19,12 @@ from typing import IO, Final
 import sqlalchemy as sa
 
 from ...agents.errors import InputError
-from ..board.board import OWN as BUILTIN_SUBMITTER
-from ..board.board import Board
+from ..board.board import BUILTIN, Board
 from ..database.database import FILE, Database
 from ..database.queries import copy_tables, read_entries, read_seasons
 from ..database.schema import jobs
 from ..storage.files import sync
-from ..storage.season_secrets import OWN
+from ..storage.season_secrets import PRIVATE_FILE
 from ..storage.store import FORMAT as LAYOUT
 from ..storage.store import Store
 
@@ -67,14 +66,12 @@ class BackupContents:
         return cls(
             seasons={each.name: each.commitment for each in read_seasons(connection)},
             entries=tuple((each.season, each.submission, each.row is not None) for each in found),
-            submissions=frozenset(
-                each.submission for each in queued if each.submitter != BUILTIN_SUBMITTER
-            ),
+            submissions=frozenset(each.submission for each in queued if each.submitter != BUILTIN),
             jobs=tuple(each.id for each in queued),
         )
 
-    def told(self, missing: list[str]) -> Backup:
-        """Return how much it is."""
+    def summary(self, missing: list[str]) -> Backup:
+        """Return the counts of a backup."""
         return Backup(
             seasons=len(self.seasons),
             entries=len(self.entries),
@@ -86,11 +83,11 @@ class BackupContents:
         """Yield files and folders that the board may have, and what each must be there for."""
         for season in self.seasons:
             yield f"private/{season}/secret", f"the secret of season {season}"
-            yield f"private/{season}/team.json", ""
+            yield f"private/{season}/human_human.json", ""
             yield f"private/{season}/logs", ""
         for season, digest, row in self.entries:
-            told = f"the bundle of {digest} in season {season}" if row else ""
-            yield f"public/{season}/entries/{digest}/bundle", told
+            needed = f"the bundle of {digest} in season {season}" if row else ""
+            yield f"public/{season}/entries/{digest}/bundle", needed
         for digest in sorted(self.submissions):
             yield f"submissions/{digest}", f"submission {digest}"
         for job in self.jobs:
@@ -128,22 +125,24 @@ def back_up(board: Board, file: Path) -> Backup:
                     copy_tables(source, target)
                 with copy.reading() as connection:
                     wanted = BackupContents.of(connection)
-            with os.fdopen(os.open(made, os.O_WRONLY | os.O_CREAT, OWN), "wb") as target_file:
+            with os.fdopen(
+                os.open(made, os.O_WRONLY | os.O_CREAT, PRIVATE_FILE), "wb"
+            ) as target_file:
                 missing = _write(board.store, tables / FILE, wanted, target_file)
             sync(made)
             made.rename(file)
             sync(file.absolute().parent)
     except OSError as error:
         raise InputError(f"cannot write {file}: {error.strerror or error}") from error
-    return wanted.told(missing)
+    return wanted.summary(missing)
 
 
 def _write(store: Store, tables: Path, wanted: BackupContents, file: IO[bytes]) -> list[str]:
     """Write the archive; return what is missing on the board."""
     missing = []
     with tarfile.open(fileobj=file, mode="w:gz", compresslevel=1) as archive:
-        told = {"format": FORMAT, "board": LAYOUT, "colift": version("colift")}
-        _add(archive, MARK, io.BytesIO(json.dumps(told).encode()))
+        mark = {"format": FORMAT, "board": LAYOUT, "colift": version("colift")}
+        _add(archive, MARK, io.BytesIO(json.dumps(mark).encode()))
         with tables.open("rb") as source:
             _add(archive, FILE, source)
         for place, needed in wanted.places():
@@ -168,6 +167,6 @@ def _files(place: Path) -> Iterator[Path]:
 
 def _add(archive: tarfile.TarFile, name: str, source: IO[bytes]) -> None:
     entry = tarfile.TarInfo(name)
-    entry.size, entry.mode = source.seek(0, os.SEEK_END), OWN
+    entry.size, entry.mode = source.seek(0, os.SEEK_END), PRIVATE_FILE
     source.seek(0)  # What a log grows by meanwhile is not part of it.
     archive.addfile(entry, source)

@@ -18,7 +18,7 @@ from ..database.database import FILE, URL, Database
 from ..database.queries import copy_tables
 from ..database.schema import metadata
 from ..storage.files import sync, sync_tree, write_json
-from ..storage.season_secrets import FOLDER, OWN
+from ..storage.season_secrets import FOLDER, PRIVATE_FILE
 from ..storage.store import FORMAT as LAYOUT
 from ..storage.store import Store
 from .backup import FORMAT, MARK, Backup, BackupContents, opened_tables
@@ -73,7 +73,7 @@ def restore(file: Path, folder: Path, url: str | None = None) -> Backup:
             sync(place.parent)
     except OSError as error:
         raise InputError(f"cannot restore {file} to {folder}: {error.strerror or error}") from error
-    return wanted.told(missing)
+    return wanted.summary(missing)
 
 
 def _unpack(file: Path, folder: Path) -> None:
@@ -82,8 +82,8 @@ def _unpack(file: Path, folder: Path) -> None:
         with gzip.open(file) as unpacked, tarfile.open(fileobj=unpacked, mode="r:") as archive:
             first = archive.next()
             content = first and first.name == MARK and archive.extractfile(first)
-            told = json.load(content) if content else {}
-            if (told.get("format"), told.get("board")) != (FORMAT, LAYOUT):
+            mark = json.load(content) if content else {}
+            if (mark.get("format"), mark.get("board")) != (FORMAT, LAYOUT):
                 raise InputError(f"{file} is no backup of a board, or one of another colift")
             folder.mkdir()
             for name in PRIVATE:
@@ -112,22 +112,22 @@ def _extract(archive: tarfile.TarFile, entry: tarfile.TarInfo, folder: Path) -> 
     source = archive.extractfile(entry) if entry.isreg() else None
     if source is None or not known or not all(map(_NAME.fullmatch, parts)):
         raise InputError(f"{entry.name!a} is nothing that a backup of a board holds")
-    own = parts[0] in ("private", FILE)
+    private = parts[0] in ("private", FILE)
     place = folder / entry.name
     above = folder
     for name in parts[:-1]:
         above /= name
-        above.mkdir(mode=FOLDER if own else 0o755, exist_ok=True)
+        above.mkdir(mode=FOLDER if private else 0o755, exist_ok=True)
     with source, place.open("xb") as target:
-        os.fchmod(target.fileno(), OWN if own else 0o644)
+        os.fchmod(target.fileno(), PRIVATE_FILE if private else 0o644)
         while data := source.read(2**20):
             target.write(data)
 
 
 def _check(store: Store, wanted: BackupContents) -> list[str]:
     """Return what is missing or damaged; without its secrets it is no board."""
-    for season, told in wanted.seasons.items():
-        if commitment(store.vault(season).secret()) != told:
+    for season, promised in wanted.seasons.items():
+        if commitment(store.secrets(season).secret()) != promised:
             raise InputError(f"the secret of season {season} is not the one that was committed to")
     missing = []
     for place, needed in wanted.places():

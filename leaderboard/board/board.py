@@ -1,6 +1,6 @@
-"""A board: its seasons, their entries, and what has happened to them.
+"""A board: its seasons, their entries and their events.
 
-What is where: :mod:`.store` for files, :mod:`.database.schema` for tables.
+Its files are described in :mod:`.store`, its tables in :mod:`.database.schema`.
 """
 
 import os
@@ -19,7 +19,7 @@ from ..records.row import BoardRow
 from ..records.season import BoardEntry, Event, Kind, Season, SeasonInfo
 from ..storage.store import Store
 from .seasons import Clock, ImportedSeason, SeasonBook, utc_now
-from .standings import HumanTeamScores, RankedRow, frame, human_team, standings
+from .standings import HumanHumanScores, RankedRow, frame, human_human_scores, standings
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -28,21 +28,21 @@ FIRST: Final = "1"
 """Name of a new board's season."""
 
 SUITE: Final = "standard-v1"
-"""What a new board evaluates on, if nothing else is said."""
+"""Default suite of a new board."""
 
-SHIPPED: Final = "shipped"
-"""Why a season from elsewhere is here, if nothing else is said."""
+IMPORTED: Final = "imported practice season"
+"""Default reason of a season import."""
 
 LOCAL: Final = "local"
-"""Who does something, if nobody says who: whoever can write to the folder."""
+"""Default actor: anybody who can write to the folder."""
 
-OWN: Final = "colift"
-"""Who submits the project's own policies: nobody's token has this name."""
+BUILTIN: Final = "colift"
+"""Submitter of the built-in policies; no token has this name."""
 
 
 @dataclass(frozen=True)
 class Board:
-    """A board that is there."""
+    """An open board."""
 
     folder: Path
     database: Database = field(repr=False)
@@ -58,28 +58,28 @@ class Board:
         clock: Clock = utc_now,
         practice: ImportedSeason | None = None,
     ) -> Self:
-        """Return the board in a folder; it is made if there is none.
+        """Open the board in a folder; create it if there is none.
 
         Parameters
         ----------
         folder
-            Where it is; or where it shall be, a new or empty folder.
+            The board's folder, or a new or empty one.
         suite
-            Name of the suite that it must have; None takes any, and ``standard-v1`` for a new one.
+            Name of the required suite; None accepts any, and is ``standard-v1`` for a new board.
         url
             A PostgreSQL database, ``postgresql://user@host/name``, instead of a file in the folder;
             by default that of the environment's ``COLIFT_DATABASE_URL``, if there is one.
         clock
-            What time it is.
+            Returns the time.
         practice
-            What a new board begins with, if it takes submissions and is of the wanted suite;
-            otherwise it begins with a season of its own.
+            First season of a new board, if it takes submissions and has the required suite;
+            otherwise the first season is a new one with its own secret.
 
         Raises
         ------
         InputError
-            If something else is there, it cannot be written, it has another suite, or its database
-            does not answer.
+            If the folder holds something else or cannot be written, the board has another suite, or
+            its database does not answer.
         """
         store, place = Store(folder.absolute()), url or os.environ.get(URL) or None
         try:
@@ -94,7 +94,7 @@ class Board:
 
     @classmethod
     def look(cls, folder: Path, url: str | None = None) -> Self:
-        """Return the board in a folder that cannot be written, to be read.
+        """Open the board in a read-only folder.
 
         Raises
         ------
@@ -119,17 +119,17 @@ class Board:
 
     @property
     def season(self) -> Season:
-        """The season that submissions are evaluated in now; see :meth:`season_of`."""
+        """The current season; see :meth:`season_of`."""
         return self.season_of(self._book.current().name)
 
     def season_of(self, name: str) -> Season:
-        """Return what submissions to a season are evaluated on.
+        """Return the suite and secret of a season.
 
         Raises
         ------
         InputError
-            If there is no such season, it is one of a colift of other rules, or its secret is not
-            the one that was committed to.
+            If there is no such season, its suite differs from this colift's, or its secret does not
+            match the commitment.
         """
         return self._book.playable(name)
 
@@ -143,16 +143,16 @@ class Board:
         Parameters
         ----------
         name
-            What it is called.
+            Its name.
         suite
-            Name of its suite; by default as so far.
+            Name of its suite; by default that of the current season.
         who
-            Who begins it.
+            The actor.
 
         Raises
         ------
         InputError
-            If there has been a season of that name, or it is no name.
+            If the name is taken or malformed.
         """
         with self.store.alone():
             self._book.begin(name, suite or self._book.current().suite, who)
@@ -168,16 +168,18 @@ class Board:
         """
         self._book.reveal(season, who, why)
 
-    def adopt(self, practice: ImportedSeason, who: str = LOCAL, why: str = SHIPPED) -> None:
-        """Take over a season that was played elsewhere, with its rows; nothing if it is there.
+    def import_season(
+        self, practice: ImportedSeason, who: str = LOCAL, why: str = IMPORTED
+    ) -> None:
+        """Import a season with its rows; without effect if the board has it.
 
         Raises
         ------
         InputError
-            If its secret is not the one it is committed to.
+            If its secret does not match the commitment.
         """
         with self.store.alone():
-            self._book.adopt(practice, who, why)
+            self._book.import_season(practice, who, why)
 
     def standings(self, season: str | None = None) -> tuple[RankedRow, ...]:
         """Return the table of a season, best first; rows out of the ranking are at the end.
@@ -200,8 +202,8 @@ class Board:
     def ranking(self, season: str | None = None) -> "DataFrame":
         """Return the ranked rows of a season as a data frame, best first.
 
-        Its columns are :data:`.standings.COLUMNS`: RMSE and ratio to the human-human team are those
-        of the hidden episodes.
+        Its columns are :data:`.standings.COLUMNS`: RMSE and its ratio to the human-human baseline
+        are those of the hidden episodes.
 
         Raises
         ------
@@ -210,13 +212,13 @@ class Board:
         """
         return frame(self.standings(season))
 
-    def team(self, season: str | None = None) -> HumanTeamScores | None:
-        """Return the human-human team on a season's hidden episodes; None before the first row."""
-        known = self.store.vault(self.season_info(season).name).known_team()
-        return None if known is None else human_team(known)
+    def human_human(self, season: str | None = None) -> HumanHumanScores | None:
+        """Return a season's human-human baseline on hidden episodes; None before the first row."""
+        known = self.store.secrets(self.season_info(season).name).known_human_human()
+        return None if known is None else human_human_scores(known)
 
     def entry(self, season: str, digest: str) -> BoardEntry | None:
-        """Return what the board said of a submission, or None if it has not been evaluated."""
+        """Return the entry of a submission, or None if it has not been evaluated."""
         this = (entries.c.season == season, entries.c.submission == digest)
         with self.database.reading() as connection:
             return next(iter(read_entries(connection, *this)), None)
@@ -227,7 +229,7 @@ class Board:
             return read_entries(connection, entries.c.name == name)
 
     def events(self, season: str | None = None, submission: str | None = None) -> tuple[Event, ...]:
-        """Return what has happened, oldest first: to a season, to a submission, or at all."""
+        """Return the events of a season, of a submission, or all, oldest first."""
         wanted = {events.c.season: season, events.c.submission: submission}
         conditions = [column == value for column, value in wanted.items() if value is not None]
         with self.database.reading() as connection:
@@ -254,18 +256,18 @@ class Board:
     def rescore(
         self, season: str, row: BoardRow, hidden_rmse_mm: tuple[float, ...], who: str, why: str
     ) -> None:
-        """Say what a row is after a mistake in its evaluation; the entry stays as it was.
+        """Replace a row after a mistake in its evaluation; the entry stays.
 
         Parameters
         ----------
         season
             Its season.
         row
-            The row as it is right, of the same submission.
+            The corrected row of the same submission.
         hidden_rmse_mm
-            RMSE of each hidden episode, as it is right.
+            Corrected RMSE of each hidden episode.
         who, why
-            Who says so, and for which reason.
+            The actor and the reason.
 
         Raises
         ------
@@ -281,12 +283,12 @@ class Board:
         return place if place.is_dir() else None
 
     def keep(self, folder: Path) -> Submission:
-        """Copy a submission into the board, under its digest; what is there is left as it is.
+        """Copy a submission into the board, under its digest, unless it is there.
 
         Raises
         ------
         InputError
-            If it is not what a submission must be.
+            If the submission is malformed.
         """
         return self.store.keep(folder)
 
@@ -295,13 +297,13 @@ class Board:
         if not self.seasons():
             wanted = suite or SUITE
             if practice and practice.info.current and practice.info.suite == wanted:
-                self._book.adopt(practice, LOCAL, SHIPPED)
+                self._book.import_season(practice, LOCAL, IMPORTED)
             else:
                 self._book.begin(FIRST, wanted, LOCAL)
         current = self._book.current()
         if suite not in (None, current.suite):
             raise InputError(f"{self.folder} is a board of {current.suite}, not of {suite}")
-        self.store.vault(current.name).secret()
+        self.store.secrets(current.name).secret()
 
     @contextmanager
     def _closed_on_error(self) -> Iterator[None]:

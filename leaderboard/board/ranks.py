@@ -22,15 +22,15 @@ LEAST: Final = 10_000
 
 FLIPS: Final = 40
 """Sign flips for each policy. Corrected for n tests (Holm), the smallest p value that m flips can
-give is n / (m + 1): with m = 40 n that is half of the level, with too few nobody could be told from
-anybody."""
+give is n / (m + 1): with m = 40 n that is half of the level, with fewer no two policies could be
+distinguished."""
 
 _computing: Final = threading.Lock()
-"""Whoever asks while another thread computes the same waits for it."""
+"""Held while ranks are computed: other threads wait for the result."""
 
 
 LEVEL: Final = 0.05
-"""Largest corrected p value at which two policies can be told apart."""
+"""Largest corrected p value at which two policies differ."""
 
 
 def ranks(
@@ -71,8 +71,8 @@ def ranks(
 
 
 Ranked = tuple[int, RankGroups]
-"""The rank of the first group, and all groups; there is one alone, of rank 0, if no group can be
-told from another."""
+"""The rank of the first group, and all groups; a single one of rank 0 if the lifts are too few for
+groups."""
 
 
 def _ranked(database: Database, season: str, numbers: Mapping[str, int]) -> Ranked:
@@ -81,11 +81,11 @@ def _ranked(database: Database, season: str, numbers: Mapping[str, int]) -> Rank
         errors = read_errors(connection, season, numbers)
     groups = grouped(errors, level=LEVEL, resamples=max(LEAST, FLIPS * len(errors)))
     lifts = min((len(each) for each in errors.values()), default=0)
-    return (1, groups) if can_tell(len(errors), lifts) else (0, groups)
+    return (1, groups) if can_distinguish(len(errors), lifts) else (0, groups)
 
 
-def can_tell(policies: int, lifts: int) -> bool:
-    """Return whether the test can tell the best of so many policies from any other.
+def can_distinguish(policies: int, lifts: int) -> bool:
+    """Return whether the test can distinguish the best of so many policies from any other.
 
     The smallest p value that the signs of n differences can give is 2 / 2^n, corrected for k tests
     (Holm) k times that. If it is above the level, all would share rank 1, however bad they are. One
@@ -101,7 +101,7 @@ def _known(database: Database, this: sa.ColumnElement[bool]) -> list[Ranked] | N
 
 
 def _keep(database: Database, content: Mapping[str, object]) -> None:
-    """Keep groups instead of those before; another process may have done the same."""
+    """Replace the stored groups; another process may have done the same."""
     with database.writing() as connection:
         old = rank_groups.c.season == content["season"]
         connection.execute(sa.delete(rank_groups).where(old))

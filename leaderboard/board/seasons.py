@@ -43,17 +43,17 @@ class ImportedEntry:
 
 @dataclass(frozen=True, kw_only=True)
 class ImportedSeason:
-    """A season whose secret is public, as it can be shipped."""
+    """A season with a public secret, to be imported."""
 
     info: SeasonInfo
     """With the secret. ``current``: whether submissions go there, too."""
     entries: Sequence[ImportedEntry]
-    team: Baseline
-    """The human-human team on the hidden episodes."""
+    human_human: Baseline
+    """The human-human baseline on the hidden episodes."""
 
 
 NAME: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
-"""What a season may be called."""
+"""Pattern of a season's name."""
 
 
 @dataclass(frozen=True)
@@ -89,16 +89,16 @@ class SeasonBook:
         raise InputError(f"{self.store.folder} has no season {name!r}; it has {known}")
 
     def playable(self, name: str) -> Season:
-        """Return what submissions to a season are evaluated on; see :meth:`.Board.season_of`."""
-        told = self.named(name)
-        suite = make_suite(told.suite)
-        if suite.digest != told.suite_digest:
+        """Return the suite and secret of a season; see :meth:`.Board.season_of`."""
+        info = self.named(name)
+        suite = make_suite(info.suite)
+        if suite.digest != info.suite_digest:
             raise InputError(
                 f"season {name} of {self.store.folder} is on {suite.name} of digest "
-                f"{told.suite_digest}, this colift plays {suite.digest}: begin a new season"
+                f"{info.suite_digest}, this colift plays {suite.digest}: begin a new season"
             )
-        season = Season(name=name, suite=suite, secret=self.store.vault(name).secret())
-        if season.commitment != told.commitment:
+        season = Season(name=name, suite=suite, secret=self.store.secrets(name).secret())
+        if season.commitment != info.commitment:
             raise InputError(f"the secret of season {name} is not the one that was committed to")
         return season
 
@@ -108,9 +108,9 @@ class SeasonBook:
             raise InputError(f"season {name!r} must be letters, digits, - and _, at most 40")
         if name in (each.name for each in self.read()):
             raise InputError(f"{self.store.folder} has had a season {name}")
-        made, vault, secret = make_suite(suite), self.store.vault(name), new_secret()
-        vault.forget_secret()  # Of a beginning that was killed.
-        vault.keep_secret(secret)
+        made, secrets, secret = make_suite(suite), self.store.secrets(name), new_secret()
+        secrets.forget_secret()  # Left by a process that was killed.
+        secrets.keep_secret(secret)
         info = SeasonInfo(
             name=name,
             suite=made.name,
@@ -125,26 +125,26 @@ class SeasonBook:
 
     def reveal(self, name: str, who: str, why: str) -> None:
         """Publish the secret of a frozen season; see :meth:`.Board.reveal`."""
-        told = self.named(name)
-        if told.current:
+        info = self.named(name)
+        if info.current:
             raise InputError(f"season {name} still takes submissions: begin another one first")
-        if told.revealed is None:
+        if info.revealed is None:
             secret = self.playable(name).secret.hex()
             with self.database.writing() as connection:
                 self._event(connection, "revelation", name, who, why, {"secret": secret})
 
-    def adopt(self, practice: ImportedSeason, who: str, why: str) -> None:
-        """Take over a season; see :meth:`.Board.adopt`. The board's lock is held."""
+    def import_season(self, practice: ImportedSeason, who: str, why: str) -> None:
+        """Import a season; see :meth:`.Board.import_season`. The board's lock is held."""
         info = practice.info
         if info.name in (each.name for each in self.read()):
             return
         secret = bytes.fromhex(info.revealed or "")
         if commitment(secret) != info.commitment:
             raise InputError(f"season {info.name}: its secret is not the one it is committed to")
-        vault = self.store.vault(info.name)
-        vault.forget_secret()
-        vault.keep_secret(secret)
-        vault.keep_team(practice.team)
+        secrets = self.store.secrets(info.name)
+        secrets.forget_secret()
+        secrets.keep_secret(secret)
+        secrets.keep_human_human(practice.human_human)
         for each in practice.entries:
             place = self.store.bundle(info.name, each.entry.submission)
             if each.bundle is not None:

@@ -23,47 +23,47 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 Section = Literal["ranking", "not real-time", "unverified", "out"]
-"""The ranking; a second one, of those that could not keep pace with a robot; and without ranks the
-rows that had no sandbox, and those that were withdrawn or removed."""
+"""The ranking; a second one of policies that are not real-time; and, without ranks, the unverified
+rows and those that were withdrawn or removed."""
 
 
 @dataclass(frozen=True)
 class RankedRow:
-    """Where a row stands in its season."""
+    """A row with its rank and its events."""
 
     group: int
-    """Rank group in its section, 1 the best; 0 is none: the section has no ranks, or the lifts are
-    too few to tell anybody from anybody."""
+    """Rank group in its section, 1 the best. 0 is none: the section has no ranks, or the lifts are
+    too few to distinguish any two policies."""
     row: BoardRow
-    """As it is now: of the last rescore, if there was one."""
+    """The row of the last rescore, or of the entry if there was none."""
     at: datetime
     """When it was put on the board."""
     events: tuple[Event, ...]
-    """What has happened to it since, oldest first."""
+    """Its events since, oldest first."""
     submitter: str
 
     @property
     def section(self) -> Section:
-        """Where in the table it is."""
+        """Its section of the table."""
         return section(self.row, self.events)
 
     @property
     def ranked(self) -> bool:
-        """Whether it is in the ranking; those that are not real-time have one of their own."""
+        """Whether it is in the ranking, rather than in that of policies that are not real-time."""
         return self.section == "ranking"
 
 
 @dataclass(frozen=True, kw_only=True)
-class HumanTeamScores:
-    """The human-human team on a season's hidden episodes: the line that a board is read against."""
+class HumanHumanScores:
+    """The human-human baseline on a season's hidden episodes."""
 
     rmse_mm: Estimate
     means: Mapping[str, float | None]
-    """Of the other metrics that boards show."""
+    """Means of the other metrics of a board, by name."""
 
 
 def section(row: BoardRow, events: tuple[Event, ...]) -> Section:
-    """Return where a row stands, after what has happened to it."""
+    """Return the section of a row after its events."""
     kinds = [event.kind for event in events if event.kind in (*OUT, "reinstatement")]
     if kinds and kinds[-1] in OUT:
         return "out"
@@ -76,27 +76,27 @@ ORDER: Final[tuple[Section, ...]] = ("ranking", "not real-time", "unverified", "
 """The sections of a table, in their order."""
 
 RANKED: Final[tuple[Section, ...]] = ORDER[:2]
-"""Those that have ranks."""
+"""The sections that have ranks."""
 
 
 def standings(database: Database, season: str) -> tuple[RankedRow, ...]:
     """Return the table of a season; see :meth:`.Board.standings`."""
     with database.reading() as connection:
         found = read_entries(connection, entries.c.season == season, entries.c.refusal.is_(None))
-        happened = read_events(
+        found_events = read_events(
             connection, events.c.season == season, events.c.submission.is_not(None)
         )
         numbers = read_error_numbers(connection, season)
     of: dict[str | None, list[Event]] = {}
-    for event in happened:
+    for event in found_events:
         of.setdefault(event.submission, []).append(event)
-    own = {entry.submission: tuple(of.get(entry.submission, ())) for entry in found}
+    histories = {entry.submission: tuple(of.get(entry.submission, ())) for entry in found}
     rows = {
-        entry.submission: _row_now(entry.row, own[entry.submission])
+        entry.submission: _row_now(entry.row, histories[entry.submission])
         for entry in found
         if entry.row is not None
     }
-    sections = {digest: section(row, own[digest]) for digest, row in rows.items()}
+    sections = {digest: section(row, histories[digest]) for digest, row in rows.items()}
     scored: dict[str, dict[str, int]] = {name: {} for name in RANKED}
     for digest, name in sections.items():
         if name in scored and digest in numbers:
@@ -116,26 +116,27 @@ def standings(database: Database, season: str) -> tuple[RankedRow, ...]:
             group=rank.get(entry.submission, 0),
             row=rows[entry.submission],
             at=entry.at,
-            events=own[entry.submission],
+            events=histories[entry.submission],
             submitter=entry.submitter,
         )
         for entry in shown
     )
 
 
-def _row_now(row: BoardRow, happened: tuple[Event, ...]) -> BoardRow:
-    """Return a row as it is after what has happened to it."""
-    scored = [event.content for event in happened if event.kind == "rescore"]
+def _row_now(row: BoardRow, found_events: tuple[Event, ...]) -> BoardRow:
+    """Return the row of the last rescore, or the row itself."""
+    scored = [event.content for event in found_events if event.kind == "rescore"]
     return BoardRow.read(scored[-1]["row"]) if scored and scored[-1] is not None else row
 
 
 @functools.lru_cache(maxsize=16)
-def human_team(team: Baseline) -> HumanTeamScores:
-    """Return what is published of the human-human team on hidden episodes: rounded, like a row."""
-    return HumanTeamScores(
-        rmse_mm=team.estimate.rounded(PLACES),
+def human_human_scores(human_human: Baseline) -> HumanHumanScores:
+    """Return the published part of the baseline on hidden episodes: rounded, like a row."""
+    return HumanHumanScores(
+        rmse_mm=human_human.estimate.rounded(PLACES),
         means={
-            name: None if mean is None else round(mean, PLACES) for name, mean in team.means.items()
+            name: None if mean is None else round(mean, PLACES)
+            for name, mean in human_human.means.items()
         },
     )
 
@@ -178,7 +179,7 @@ COLUMNS = (
     "at",
     "submission",
 )
-"""Of :meth:`.Board.ranking`. RMSE and ratio are those of the hidden episodes."""
+"""Columns of :meth:`.Board.ranking`. RMSE and ratio are those of the hidden episodes."""
 
 
 def _flat(each: RankedRow) -> tuple[object, ...]:

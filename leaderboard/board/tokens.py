@@ -11,7 +11,7 @@ import sqlalchemy as sa
 
 from ...agents.errors import InputError
 from ..database.schema import tokens
-from .board import LOCAL, OWN, Board
+from .board import BUILTIN, LOCAL, Board
 
 NAME: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.@+-]{0,63}")
 """What a submitter may be called."""
@@ -43,9 +43,9 @@ class Tokens:
         InputError
             If it is no name, or has a token that was not revoked.
         """
-        if not NAME.fullmatch(name) or name in (LOCAL, OWN):
+        if not NAME.fullmatch(name) or name in (LOCAL, BUILTIN):
             raise InputError(
-                f"{name!r} must be letters, digits and _.@+-, at most 64, not {LOCAL} or {OWN}"
+                f"{name!r} must be letters, digits and _.@+-, at most 64, not {LOCAL} or {BUILTIN}"
             )
         token = PREFIX + secrets.token_urlsafe(32)
         with self.board.database.writing() as connection:

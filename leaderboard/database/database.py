@@ -1,4 +1,4 @@
-"""The connection to a board's database: its own SQLite file, or a PostgreSQL server."""
+"""The connection to a board's database: a SQLite file in its folder, or a PostgreSQL server."""
 
 import shutil
 import tempfile
@@ -31,7 +31,7 @@ class Database:
 
     engine: sa.Engine
     copy: "tempfile.TemporaryDirectory[str] | None" = None
-    """Holds the file, if it is a copy for one who cannot write to the board."""
+    """Holds the file, if it is a copy of a read-only board's."""
 
     @classmethod
     def open(cls, folder: Path, url: str | None = None) -> Self:

@@ -1,6 +1,6 @@
 """The tables.
 
-What has been said is never unsaid: ``seasons``, ``entries``, ``hidden_errors`` and ``events`` only
+The record is append-only: ``seasons``, ``entries``, ``hidden_errors`` and ``events`` only
 grow, and triggers in the database refuse anything else (:mod:`.append_only`). ``jobs`` and
 ``tokens`` change state. ``rank_groups`` can be thrown away: it is computed from the others.
 """

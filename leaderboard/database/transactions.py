@@ -69,7 +69,7 @@ def _prepare_sqlite(connection: Any, record: object) -> None:
 
 
 def _begin_sqlite(connection: sa.Connection) -> None:
-    # Who reads first and writes later could find that another has written in between.
+    # Between a read and a later write another process could have written.
     wants = connection.get_execution_options().get("writing")
     connection.exec_driver_sql("BEGIN IMMEDIATE" if wants else "BEGIN")
 

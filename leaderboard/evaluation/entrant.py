@@ -36,7 +36,7 @@ LEARNED: Final[Mapping[str, str]] = {
 
 @dataclass(frozen=True, kw_only=True)
 class Entrant:
-    """Who is evaluated."""
+    """A submission or built-in policy to be evaluated."""
 
     name: str
     authors: tuple[str, ...]
@@ -45,7 +45,7 @@ class Entrant:
     licence: str
     trained_on: str
     digest: str
-    """Of all that was submitted."""
+    """Digest of all that was submitted."""
     policy: AgentSpec
     fresh: AgentSpec
     """The same, in a fresh process for every episode, nothing loaded beforehand: for the audit."""
@@ -68,23 +68,23 @@ class Entrant:
 
 
 def builtin_names() -> tuple[str, ...]:
-    """Return the names of the project's policies."""
+    """Return the names of the built-in policies."""
     return tuple(own_entries(POLICIES))
 
 
 def builtin_entrant(name: str, level: str = BUBBLEWRAP) -> Entrant:
-    """Return one of the project's policies as an entrant at an isolation level.
+    """Return one of the built-in policies as an entrant at an isolation level.
 
     Its digest is over its name, and the code and data that it uses.
 
     Raises
     ------
     InputError
-        If the project has no policy of that name.
+        If there is no built-in policy of that name.
     """
     entries = own_entries(POLICIES)
     if name not in entries:
-        raise InputError(f"colift has no policy {name!r} of its own; it has {', '.join(entries)}")
+        raise InputError(f"no built-in policy {name!r}; there are {', '.join(entries)}")
     source = PolicySpec(text=name).digest()
     policy = SandboxedPolicy(
         name=name,
@@ -107,7 +107,7 @@ def builtin_entrant(name: str, level: str = BUBBLEWRAP) -> Entrant:
 
 
 def trained_on(name: str) -> str:
-    """Return what one of the project's policies was trained on: the command that did it."""
+    """Return what one of the built-in policies was trained on: the command that did it."""
     if name not in LEARNED:
         return "nothing"
     file = files(control).joinpath("data", f"{LEARNED[name]}.json")
@@ -129,12 +129,12 @@ def board_level(isolation: str) -> Choice:
     Parameters
     ----------
     isolation
-        :data:`AUTO`, or the name of a level: only who names ``limits`` gets it.
+        :data:`AUTO`, or the name of a level: ``limits`` must be named explicitly.
 
     Raises
     ------
     NoSandboxError
-        If there is none; it says why.
+        If there is none; the message has the reason.
     InputError
         If there is no level of that name.
     """

@@ -39,7 +39,7 @@ LIBRARIES: Final = ("colift", "numpy", "pybullet")
 
 @dataclass(frozen=True, kw_only=True)
 class EntrantResult:
-    """What an evaluation has come to: a row, or why there is none."""
+    """Result of an evaluation: a row, or the reason for its refusal."""
 
     row: BoardRow | None
     refusal: str | None
@@ -50,7 +50,7 @@ class EntrantResult:
 def evaluate_entrant(
     entrant: Entrant,
     season: Season,
-    team: Baseline,
+    human_human: Baseline,
     bundle: Path,
     *,
     executor: Executor | None = None,
@@ -59,28 +59,28 @@ def evaluate_entrant(
 ) -> EntrantResult:
     """Evaluate a submission: check, public run, its audit and verification, hidden run and audit.
 
-    It depends on its arguments alone and keeps nothing, so that who was interrupted may begin anew.
+    It depends on its arguments alone and keeps no state: it can be repeated if interrupted.
 
     Parameters
     ----------
     entrant
-        Who is evaluated.
+        The submission or built-in policy.
     season
         Suite and secret.
-    team
-        The human-human team on the hidden episodes; see :func:`play_team`.
+    human_human
+        The human-human baseline on the hidden episodes; see :func:`play_human_human`.
     bundle
         Where the bundle of the public run is written.
     executor
         Runs the episodes; None runs all in this process.
     watch
-        Whom to tell how far it is.
+        Progress callbacks.
     budget
-        What the policy may take in all.
+        Time budget of the policy.
 
     Returns
     -------
-    Evaluation
+    EntrantResult
         The row; or the refusal, if the audit found that episodes cannot be repeated.
 
     Raises
@@ -121,7 +121,7 @@ def evaluate_entrant(
             entrant,
             season,
             public_scores(content),
-            hidden_scores(hidden, team),
+            hidden_scores(hidden, human_human),
             gap(hidden, public),
         ),
         refusal=None,
@@ -165,10 +165,10 @@ def episode_count(season: Season) -> int:
     return make_suite(SUITE).size + 2 * (size + audited(size)) + played + size
 
 
-def play_team(
+def play_human_human(
     season: Season, *, executor: Executor | None = None, watch: Callbacks | None = None
 ) -> Baseline:
-    """Return the human-human team on a season's hidden episodes: once a season.
+    """Return the human-human baseline on a season's hidden episodes: once a season.
 
     Raises
     ------
@@ -176,7 +176,7 @@ def play_team(
         As :func:`evaluate`.
     """
     watch = watch or Callbacks()
-    watch.stage("human-human team")
+    watch.stage("human-human baseline")
     return Baseline.of(human_team_run(season.hidden, executor=executor, progress=watch.progress))
 
 
@@ -189,11 +189,11 @@ def _baselines(season: Season, executor: Executor | None, watch: Callbacks) -> d
 
 
 def _verify(bundle: Path, executor: Executor | None, watch: Callbacks) -> None:
-    """Replay the bundle. We have just written it: if that fails, it is this machine."""
+    """Verify the bundle. It was just written, so a failure is a fault of this machine."""
     verdict = verify(bundle, executor=executor, progress=watch.progress)
     if not verdict.ok:
-        told = "; ".join(map(str, verdict.findings[:3]))
-        raise EvaluatorFault(f"the public run is not repeated by its replay: {told}")
+        message = "; ".join(map(str, verdict.findings[:3]))
+        raise EvaluatorFault(f"verification of the public run failed: {message}")
 
 
 def _row(

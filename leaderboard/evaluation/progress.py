@@ -8,12 +8,14 @@ from typing import Final, Literal
 from ...agents.errors import InputError
 from ...benchmark.episode.episode import Episode
 
-Stage = Literal["human-human team", "check", "public run", "audit", "verification", "hidden run"]
-"""What an evaluation is doing."""
+Stage = Literal[
+    "human-human baseline", "check", "public run", "audit", "verification", "hidden run"
+]
+"""Stage of an evaluation."""
 
 
 HIDDEN: Final[Stage] = "hidden run"
-"""The last stage: hidden lifts and their audit. Nothing is told of how far it is."""
+"""The last stage: hidden lifts and their audit. Its progress is not reported."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,12 +23,12 @@ class Callbacks:
     """Progress callbacks of an evaluation; each call also serves as a heartbeat."""
 
     stage: Callable[[Stage], None] = lambda stage: None
-    """Called with what begins."""
+    """Called at the beginning of a stage."""
     progress: Callable[[int], None] = lambda episodes: None
-    """Called with the number of episodes that were finished since the last call; see
+    """Called with the number of episodes finished since the last call; see
     :func:`.episode_count`."""
     total: Callable[[int], None] = lambda episodes: None
-    """Called with the number of episodes in all, by who knows it."""
+    """Called with the number of episodes in all, as soon as it is known."""
 
 
 SECONDS: Final = 7200.0

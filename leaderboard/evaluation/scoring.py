@@ -15,16 +15,16 @@ from ..records.metrics import board_metrics
 from ..records.row import HiddenScores, PublicScores
 
 PLACES: Final = 2
-"""Decimals of what is told of hidden episodes: 0.01 mm, well within any interval."""
+"""Decimals of published numbers of hidden episodes: 0.01 mm, well within any interval."""
 
 
 def public_scores(results: Results) -> PublicScores:
-    """Return what a row says of the public run.
+    """Return the scores of the public run.
 
     Parameters
     ----------
     results
-        Its results, the human-human team among the baselines.
+        Its results, the human-human baseline among the baselines.
     """
     summary = results.summary
     return PublicScores(
@@ -43,19 +43,19 @@ def public_scores(results: Results) -> PublicScores:
     )
 
 
-def hidden_scores(run: Run, team: Baseline) -> HiddenScores:
-    """Return what a row says of the hidden run.
+def hidden_scores(run: Run, human_human: Baseline) -> HiddenScores:
+    """Return the published scores of the hidden run.
 
     Parameters
     ----------
     run
         The policy's complete run.
-    team
-        The human-human team on the same episodes.
+    human_human
+        The human-human baseline on the same episodes.
     """
-    summary = summarise(run.episodes, run.suite.metrics, team.rmse_mm)
+    summary = summarise(run.episodes, run.suite.metrics, human_human.rmse_mm)
     failure_lines = _failures(run)
-    sure = probability_better(_rmse(run), team.rmse_mm, team.strata)
+    sure = probability_better(_rmse(run), human_human.rmse_mm, human_human.strata)
     return HiddenScores(
         episodes=summary.episodes,
         failed=summary.failed,
@@ -94,7 +94,7 @@ def _known(ratio: Estimate | None) -> Estimate:
 
 
 MOST: Final = 20
-"""Different errors that are told."""
+"""Maximum number of different errors in a report."""
 
 _STEP: Final = re.compile(r"(step \d+): (.*)", re.DOTALL)
 
@@ -105,7 +105,7 @@ def failure_lines(episodes: Sequence[Episode]) -> list[str]:
     Parameters
     ----------
     episodes
-        Lifts that may be told of.
+        Public lifts.
     """
     where: dict[str, list[str]] = {}
     for episode in episodes:

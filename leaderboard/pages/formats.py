@@ -8,7 +8,7 @@ from ..board.standings import RankedRow
 from ..records.metrics import sort_key
 
 NONE: Final = "\N{EN DASH}"
-"""Stands for a number that is not there."""
+"""Shown for a missing number."""
 
 MINUS: Final = "\N{MINUS SIGN}"
 
@@ -18,7 +18,7 @@ TEX: Final = {
     "^": r"\textasciicircum{}",
     **{letter: f"\\{letter}" for letter in "&%$#_{}"},
 }
-"""How TeX writes what it would take for a command."""
+"""Characters that TeX would take for a command, escaped."""
 
 
 def number(value: float | None, places: int = 1) -> str:
@@ -36,7 +36,7 @@ def signed(value: float | None, places: int = 1) -> str:
 
 
 def interval(estimate: Estimate, places: int = 1) -> str:
-    """Return a 95 % interval in words; nothing if it has no width."""
+    """Return a 95 % interval as text; empty if it has no width."""
     low, high = estimate.ci95
     return f"{number(low, places)} to {number(high, places)}" if high > low else ""
 
@@ -73,7 +73,7 @@ def mib(size: int) -> str:
 
 
 def badge_text(standing: RankedRow) -> str:
-    """Return what the badge of a row says."""
+    """Return the text of a row's badge."""
     mm = f"{number(standing.row.hidden.rmse_mm.mean)} mm"
     return (
         f"{mm} · rank {standing.group}"
@@ -83,7 +83,7 @@ def badge_text(standing: RankedRow) -> str:
 
 
 def tex(text: str) -> str:
-    """Return a text as TeX has it, whatever stands in it."""
+    """Return a text escaped for TeX."""
     return "".join(TEX.get(letter, letter) for letter in text)
 
 

@@ -35,7 +35,7 @@ Page = tuple[str, str]
 def write_site(board: Board, folder: Path) -> None:
     """Write the pages of a board into a folder; an older site there is replaced.
 
-    Whoever reads the folder meanwhile sees the older one, until the new one is complete.
+    Readers of the folder see the older one until the new one is complete.
 
     Raises
     ------
@@ -96,11 +96,11 @@ def _season(board: Board, info: SeasonInfo, links: SiteLinks) -> Iterator[Page]:
         found = [] if bundle is None else _replays(bundle, each.row.name)
         view = policy_view(board, season, digest)
         if isinstance(view, PolicyView):
-            told = render_page("policy.html", links, view=view, has_replays=bool(found))
-            yield links.policy(season, digest), told
+            page = render_page("policy.html", links, view=view, has_replays=bool(found))
+            yield links.policy(season, digest), page
             yield (
                 links.badge(season, digest),
-                render_page("badge.svg", links, told=badge_text(each)),
+                render_page("badge.svg", links, text=badge_text(each)),
             )
         if found:
             yield links.replays(season, digest), replay_page(found)
@@ -118,8 +118,11 @@ def _replays(bundle: Path, policy: str) -> list[dict[str, Any]]:
 def _scenarios(board: Board, info: SeasonInfo, links: SiteLinks) -> Iterator[Page]:
     view = scenarios_view(board, info.name)
     if view is None:
-        told = f"This colift does not play the suite of season {info.name}."
-        yield links.scenarios(info.name), render_page("missing.html", links, season=info, told=told)
+        message = f"This colift does not play the suite of season {info.name}."
+        yield (
+            links.scenarios(info.name),
+            render_page("missing.html", links, season=info, message=message),
+        )
         return
     yield links.scenarios(info.name), render_page("scenarios.html", links, view=view)
     for behaviour, subject in view.strata:

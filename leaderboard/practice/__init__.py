@@ -1,1 +1,1 @@
-"""The practice season that is shipped with colift."""
+"""The practice seasons that are distributed with colift, and their import."""

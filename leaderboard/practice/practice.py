@@ -1,8 +1,8 @@
-"""The practice season: a season whose secret everybody knows, with the project's policies in it.
+"""The practice season: a season with a public secret and rows of the built-in policies.
 
-Its rows are made as anybody's. But whoever reads this file can play its hidden episodes, so that
-they test nobody: it is there to see a full board at once, and to try a submission on it. A season
-that is to be won begins with a secret of its own; see :meth:`.Board.new_season`.
+Its rows are evaluated like submissions. But its secret follows from this file, so its hidden
+episodes prove nothing: it fills a new board, and serves to try a submission. A competitive season
+has a random secret; see :meth:`.Board.new_season`.
 """
 
 import hashlib
@@ -21,7 +21,7 @@ from ...benchmark.bundle import read_bundle
 from ...benchmark.bundle.files import EPISODES, RESULTS
 from ...benchmark.results.baselines import Baseline
 from ...benchmark.suites.suite import make_suite
-from ..board.board import OWN
+from ..board.board import BUILTIN
 from ..evaluation.entrant import builtin_entrant
 from ..evaluation.evaluation import evaluate_entrant, versions
 from ..evaluation.progress import Callbacks
@@ -34,18 +34,18 @@ NAME: Final = "practice"
 STANDARD: Final = "standard-v1"
 
 SUITES: Final = (STANDARD, "paper-v1")
-"""The suites on which the project ships a practice season."""
+"""The suites that have a practice season."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Played:
-    """What is shipped of a policy."""
+    """A built-in policy's evaluation in a practice season."""
 
     entry: BoardEntry
     hidden_rmse_mm: tuple[float, ...] = field(repr=False)
     """RMSE of each hidden episode: the ranks follow from it."""
     files: Mapping[str, bytes] = field(repr=False)
-    """Of the public run what pages show, by name: the bundle without its traces, and replays."""
+    """Files of the public run by name: results, episodes and replays."""
 
 
 def practice_season(suite: str) -> Season:
@@ -62,22 +62,22 @@ def practice_season(suite: str) -> Season:
 def play_policy(
     name: str,
     season: Season,
-    team: Baseline,
+    human_human: Baseline,
     at: datetime,
     *,
     executor: Executor | None = None,
     watch: Callbacks | None = None,
 ) -> Played:
-    """Evaluate one of the project's policies, by the very function that evaluates submissions.
+    """Evaluate a built-in policy like a submission.
 
     Parameters
     ----------
     name
         The policy.
-    season, team, executor, watch
+    season, human_human, executor, watch
         As for :func:`.evaluate_entrant`.
     at
-        What time it is.
+        The present time.
 
     Raises
     ------
@@ -89,7 +89,9 @@ def play_policy(
     entrant = builtin_entrant(name, choose(verifiable=True).level)
     with tempfile.TemporaryDirectory(prefix="colift-") as temporary:
         folder = Path(temporary, "bundle")
-        evaluation = evaluate_entrant(entrant, season, team, folder, executor=executor, watch=watch)
+        evaluation = evaluate_entrant(
+            entrant, season, human_human, folder, executor=executor, watch=watch
+        )
         if evaluation.row is None:
             raise EvaluatorFault(f"{name} is refused: {evaluation.refusal}")
         replays = {"replays": chosen_replays(read_bundle(folder), name)}
@@ -98,7 +100,7 @@ def play_policy(
         season=season.name,
         submission=entrant.digest,
         name=name,
-        submitter=OWN,
+        submitter=BUILTIN,
         at=at,
         row=evaluation.row,
         refusal=None,
@@ -111,7 +113,7 @@ def play_policy(
 
 
 def is_current(played: Played, season: Season) -> bool:
-    """Return whether an evaluation would say the same today: of policy, suite and versions."""
+    """Return whether policy, suite and versions are still those of an evaluation."""
     row = played.entry.row
     return (
         row is not None

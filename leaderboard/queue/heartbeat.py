@@ -11,20 +11,20 @@ from ..records.job import Job
 from . import LostError, WorkerQueue
 
 PERIOD_S: Final = 1.0
-"""Time between two signs of life [s], at most; a fifth of the lease if that is less."""
+"""Longest time between two heartbeats [s]; a fifth of the lease if that is less."""
 
 
 class Heartbeat:
-    """Tells the queue of a job for as long as it is entered.
+    """Context manager that reports a job's progress to the queue.
 
-    Episodes may take longer than a lease, so it is not they that count as signs of life.
+    Episodes may take longer than a lease, so the heartbeat does not wait for them.
 
     Parameters
     ----------
     work, job
-        What is told of what.
+        The queue and the job.
     watch
-        Whom else to tell.
+        Further progress callbacks.
     """
 
     def __init__(self, work: WorkerQueue, job: Job, watch: Callbacks | None = None) -> None:
@@ -47,13 +47,13 @@ class Heartbeat:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """End: no sign is given any more."""
+        """End the heartbeats."""
         self._end.set()
         self._news.set()
         self._thread.join()
 
     def watch(self) -> Callbacks:
-        """Return what an evaluation tells; it is stopped by a LostError if the job was lost."""
+        """Return the callbacks of an evaluation; they raise LostError if the job was lost."""
         return Callbacks(stage=self._on_stage, progress=self._on_progress, total=self._on_total)
 
     def _on_stage(self, stage: Stage) -> None:
@@ -63,7 +63,7 @@ class Heartbeat:
         self._check()
 
     def _on_progress(self, episodes: int) -> None:
-        if self.stage != HIDDEN:  # A policy could tell by it how long it takes for which lift.
+        if self.stage != HIDDEN:  # It would reveal the time a policy takes for each hidden lift.
             self._done += episodes
         self._also.progress(episodes)
         self._check()
@@ -79,11 +79,11 @@ class Heartbeat:
     def _beat(self) -> None:
         while not self._end.is_set():
             try:
-                self._work.told(self._job, self.stage, self._done, self._total)
+                self._work.report(self._job, self.stage, self._done, self._total)
             except LostError:
                 self._lost = True
                 return
             except sa.exc.DBAPIError:
-                pass  # The database is away or busy: the lease says how long that may last.
+                pass  # The database is away or busy: the lease limits how long.
             self._news.wait(self._period)
             self._news.clear()

@@ -12,19 +12,19 @@ from ..records.season import BoardEntry
 from ..storage.store import Store
 
 REASON: Final = 2000
-"""So many characters of a reason are kept."""
+"""Maximum length of a reason [characters]."""
 
 
 def read_job(found: Any, store: Store) -> Job:
-    """Return the job that a row of the table is, with its log, as everybody may read them."""
+    """Return the job of a row of the table, with its log, as it may be published."""
     own = {name: value for name, value in found.items() if name in Job.__dataclass_fields__}
     texts = {"reason": found["reason"], "log": store.log(found["id"])}
-    told = {name: text and store.placeless(text) for name, text in texts.items()}
-    return Job(**{**own, **told})
+    public = {name: text and store.placeless(text) for name, text in texts.items()}
+    return Job(**{**own, **public})
 
 
 def outcome(entry: BoardEntry, ended_at: datetime) -> dict[str, Any]:
-    """Return what a job is after its entry was made."""
+    """Return the changes of a job when its entry was made."""
     content: dict[str, Any] = {"state": "done", "reason": None, "ended_at": ended_at}
     if entry.row is None:
         content |= {"state": "failed", "reason": storable_reason(entry.refusal or "refused")}
@@ -47,7 +47,7 @@ def is_gone(worker: str) -> bool:
     """Return whether a worker was a process of this machine and is none any more."""
     parts = worker.split("/")
     if len(parts) != 4 or parts[1] != _machine() or not parts[2].isdecimal():
-        return False  # Elsewhere: only its silence tells.
+        return False  # On another machine: only its lease counts.
     return _started(int(parts[2])) != parts[3]
 
 
@@ -61,8 +61,8 @@ def _machine() -> str:
 def _started(pid: int) -> str | None:
     """Return when a process was started, in ticks of this boot; None if it runs no more."""
     try:
-        told = Path(f"/proc/{pid}/stat").read_text()
+        stat = Path(f"/proc/{pid}/stat").read_text()
     except OSError:
         return None
-    state, *fields = told.rpartition(")")[2].split()
+    state, *fields = stat.rpartition(")")[2].split()
     return None if state in "ZX" else fields[18]

@@ -10,7 +10,7 @@ import sqlalchemy as sa
 
 from ...agents.errors import InputError
 from ...agents.submissions.submission import Submission
-from ..board.board import LOCAL, OWN, Board
+from ..board.board import BUILTIN, LOCAL, Board
 from ..database.queries import read_entries, record_event
 from ..database.schema import entries, jobs
 from ..evaluation.entrant import Entrant
@@ -23,7 +23,7 @@ from .quota import Quota, admit, in_turn, last_served
 
 @dataclass(frozen=True)
 class Queue:
-    """The queue of a board, for those who submit and those who look."""
+    """The queue of a board, for submitters and readers."""
 
     board: Board
     quota: Quota = field(default_factory=Quota)
@@ -36,15 +36,15 @@ class Queue:
     ) -> Job:
         """Return the job of a submission in the current season; a new one if there is none.
 
-        The same content has one job a season. If that ended by a fault of the evaluator, it is
+        The same content has one job per season. If that ended by a fault of the evaluator, it is
         queued again.
 
         Parameters
         ----------
         submission
-            What is submitted.
+            The submission.
         submitter
-            Who submits it.
+            Name of the submitter.
         place
             Called as soon as the submitter may have the job, before it is there for workers: puts
             the files in their place, which those of :meth:`.Board.keep` have already.
@@ -59,9 +59,9 @@ class Queue:
         contents, name = submission.contents, submission.manifest.name
         return self._enqueue(contents.digest, name, submitter, contents.size, place)
 
-    def enqueue_own(self, entrant: Entrant) -> Job:
-        """Return the job of one of the project's own policies, likewise; see :mod:`.own`."""
-        return self._enqueue(entrant.digest, entrant.name, OWN)
+    def enqueue_builtin(self, entrant: Entrant) -> Job:
+        """Return the job of a built-in policy; as :meth:`enqueue`."""
+        return self._enqueue(entrant.digest, entrant.name, BUILTIN)
 
     def _enqueue(
         self,
@@ -77,7 +77,7 @@ class Queue:
         with self.board.database.writing() as connection:
             there = connection.execute(sa.select(jobs).where(this)).mappings().first()
             if there is None:
-                if submitter != OWN:
+                if submitter != BUILTIN:
                     admit(connection, submitter, self.quota, now, size)
                 known = read_entries(
                     connection, entries.c.season == season.name, entries.c.submission == digest
@@ -207,7 +207,7 @@ class Queue:
 
 
 def _event(job: Any, at: datetime, kind: Kind, who: str, why: str) -> Event:
-    """Return what happened to the submission of a job."""
+    """Return an event of a job's submission."""
     return Event(
         at=at,
         who=who,
@@ -220,7 +220,7 @@ def _event(job: Any, at: datetime, kind: Kind, who: str, why: str) -> Event:
 
 
 def _fresh(now: datetime) -> dict[str, Any]:
-    """Return what a job is that nobody has begun."""
+    """Return the state of a job that no worker has begun."""
     return {
         "state": "queued",
         "stage": None,

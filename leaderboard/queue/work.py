@@ -1,7 +1,7 @@
-"""A worker's side of the queue: taking a job, reporting its progress, and ending it.
+"""The worker's side of the queue: claims, progress reports and ends of jobs.
 
-A worker has a job for as long as it gives signs of life. Every change is one transaction that asks
-first whether the job is still its worker's; so whoever was given up and comes back changes nothing.
+A worker has a job as long as its heartbeats arrive. Every change is one transaction that first
+checks whether the job is still its worker's, so a worker that lost a job cannot change it.
 """
 
 from collections.abc import Mapping, Sequence
@@ -22,52 +22,52 @@ from .jobs import is_gone, outcome, read_job, storable_reason
 from .quota import in_turn, last_served
 
 LEASE: Final = timedelta(seconds=30)
-"""So long after its worker's last sign of life a job is another's."""
+"""Time after the last heartbeat at which another worker may take a job."""
 
 FAULTS: Final = 3
-"""How often a job is tried again after this machine failed it."""
+"""Maximum number of retries after faults of this machine."""
 
 LOST: Final = 50
 """Maximum number of times a job is reclaimed from a dead worker; stops jobs that crash every
 worker."""
 
 PAUSE: Final = timedelta(seconds=10)
-"""Before the first try after a fault; each further one waits twice as long."""
+"""Wait before the first retry after a fault; it doubles each time."""
 
 POSTPONED: Final = timedelta(minutes=1)
-"""Before the next try of what this machine cannot do at all, so that another may take it."""
+"""Wait before the next attempt at a job that this machine cannot run at all."""
 
 LONGEST: Final = max(PAUSE * 2**FAULTS, POSTPONED) + timedelta(seconds=30)
 """No job waits longer for its next try; clocks may differ by some seconds."""
 
 VERIFYING: Final[Stage] = "verification"
-"""The stage that is a state of its own."""
+"""The stage that has its own state."""
 
 
 class LostError(Exception):
-    """The job is no longer this worker's: it was given up, and another has it or had it."""
+    """The job is no longer this worker's: its lease has ended, and another worker took it."""
 
 
 @dataclass(frozen=True)
 class WorkerQueue:
-    """The jobs of a board, for whoever works on them."""
+    """The jobs of a board, for its workers."""
 
     board: Board
     lease: timedelta = LEASE
 
     def claim(self, worker: str, job: str | None = None) -> Job | None:
-        """Return the job that a worker has now to do, or None if nothing waits.
+        """Assign the next job to a worker and return it, or None if none waits.
 
-        Submitters take turns, see :func:`.in_turn`. What has a worker that gave no sign of life for
-        a lease, or was a process of this machine that is gone, waits again. A time that lies
-        further ahead than any can is of a clock that was wrong: it counts as passed.
+        Submitters take turns, see :func:`.in_turn`. A job waits again if its worker sent no
+        heartbeat for a lease, or was a process of this machine that has ended. A time too far ahead
+        comes from a wrong clock and counts as passed.
 
         Parameters
         ----------
         worker
-            Who takes it.
+            Name of the worker.
         job
-            Id of the only one that is wanted; None is any.
+            Id of the wanted job; None is any.
         """
         now = self.board.clock()
         passed = (jobs.c.ready_at <= now) | (jobs.c.ready_at > now + LONGEST)
@@ -81,8 +81,8 @@ class WorkerQueue:
             for each in in_turn(waiting, submitters, last_served(connection)):
                 this, lost = jobs.c.id == each["id"], each["lost"] + (each["state"] in HELD)
                 if lost > LOST:
-                    told = f"{lost} workers that had it gave no sign of life any more"
-                    ended = {"state": "evaluator fault", "reason": told, "ended_at": now}
+                    reason = f"{lost} workers that had it sent no more heartbeats"
+                    ended = {"state": "evaluator fault", "reason": reason, "ended_at": now}
                     connection.execute(sa.update(jobs).where(this).values(**ended))
                     continue
                 taken = {
@@ -99,19 +99,19 @@ class WorkerQueue:
                 return read_job({**each, **taken}, self.board.store)
         return None
 
-    def told(
+    def report(
         self, job: Job, stage: Stage | None = None, done: int = 0, total: int | None = None
     ) -> None:
-        """Give a sign of life, and say how far the job is.
+        """Send a heartbeat and report progress.
 
         Parameters
         ----------
         job
             What :meth:`claim` has returned.
         stage
-            What is done now.
+            The current stage.
         done, total
-            Episodes that are finished, of so many; None is as so far.
+            Finished episodes and their total; a total of None leaves it unchanged.
 
         Raises
         ------
@@ -130,10 +130,10 @@ class WorkerQueue:
         hidden_rmse_mm: Sequence[float] = (),
         bundle: Path | None = None,
     ) -> None:
-        """Put what has come of a job on the board: all of it or nothing.
+        """Publish the result of a job in one transaction.
 
-        The bundle is moved into its place before the transaction ends. Who is killed in between
-        leaves a bundle without an entry, and the next one puts its own there.
+        The bundle is moved into its place before the transaction ends. A worker killed in between
+        leaves a bundle without an entry, which the next attempt replaces.
 
         Parameters
         ----------
@@ -161,7 +161,7 @@ class WorkerQueue:
             record_entry(connection, entry, hidden_rmse_mm)
 
     def fail(self, job: Job, reason: str, log: str = "") -> None:
-        """End a job by the submission's own fault; :class:`LostError` as :meth:`told`."""
+        """End a job by the submission's own fault; :class:`LostError` as :meth:`report`."""
         ended = {
             "state": "failed",
             "reason": storable_reason(reason),
@@ -173,9 +173,9 @@ class WorkerQueue:
             self.board.store.add_to_log(job.id, log)
 
     def fault(self, job: Job, reason: str) -> None:
-        """Queue a job again that this machine has failed, or end it after :data:`FAULTS` times.
+        """Queue a job again after a fault of this machine, or end it after :data:`FAULTS` times.
 
-        It costs the submitter nothing. :class:`LostError` as :meth:`told`.
+        It does not count for the submitter's quota. :class:`LostError` as :meth:`report`.
         """
         now = self.board.clock()
         with self.board.database.writing() as connection:
@@ -192,7 +192,7 @@ class WorkerQueue:
             self._change(connection, job, content)
 
     def postpone(self, job: Job, reason: str) -> None:
-        """Let a job wait that no worker can do here for now, however often; as :meth:`fault`."""
+        """Postpone a job that no worker can run here for now, without a limit; as :meth:`fault`."""
         content = {
             "state": "evaluator fault",
             "reason": storable_reason(reason),
@@ -204,7 +204,7 @@ class WorkerQueue:
             self._change(connection, job, content)
 
     def release(self, job: Job) -> None:
-        """Give a job back that was interrupted; :class:`LostError` as :meth:`told`."""
+        """Return an interrupted job to the queue; :class:`LostError` as :meth:`report`."""
         content = {"state": "queued", "stage": None, "done": 0, "ready_at": self.board.clock()}
         with self.board.database.writing() as connection:
             self._change(connection, job, content)

@@ -15,9 +15,9 @@ import sqlalchemy as sa
 from ...agents.errors import EvaluatorFault, InputError, error_text
 from ...benchmark.bundle import read_bundle
 from ...benchmark.execution.runner import placed
-from ..board.board import LOCAL, OWN, Board
+from ..board.board import BUILTIN, LOCAL, Board
 from ..evaluation.entrant import AUTO, Entrant, NoSandboxError, board_level, builtin_entrant
-from ..evaluation.evaluation import EntrantResult, episode_count, evaluate_entrant, play_team
+from ..evaluation.evaluation import EntrantResult, episode_count, evaluate_entrant, play_human_human
 from ..evaluation.progress import HIDDEN, BudgetError, Callbacks, HiddenRunTimer, Stage
 from ..evaluation.scoring import failure_lines
 from ..records.job import Job
@@ -33,7 +33,7 @@ IDLE_S: Final = 1.0
 """Time between two looks into an empty queue [s]."""
 
 DETAILS: Final = "the details are for the maintainer of the board"
-"""What is told of a fault when the policy has met hidden lifts."""
+"""Published reason of a fault after the policy has met hidden lifts."""
 
 
 @dataclass(frozen=True)
@@ -45,14 +45,14 @@ class Worker:
     """Runs the episodes; None runs all in this process."""
     name: str = field(default_factory=this_worker)
     isolation: str = AUTO
-    """What keeps policies apart; see :func:`.board_level`."""
+    """Isolation level of policies; see :func:`.board_level`."""
 
     def run(
         self,
         stop: Callable[[], bool] = lambda: False,
         ended: Callable[[Job], None] = lambda j: None,
     ) -> None:
-        """Work until it is told to stop.
+        """Work until ``stop`` returns True.
 
         Parameters
         ----------
@@ -72,14 +72,14 @@ class Worker:
                 ended(job)
 
     def once(self, job: str | None = None, watch: Callbacks | None = None) -> Job | None:
-        """Return the job that was worked on, as it is now; None if nothing waits.
+        """Work on the next job and return it; None if none waits.
 
         Parameters
         ----------
         job
-            Id of the only one that is wanted.
+            Id of a job; None is the next one.
         watch
-            Whom else to tell how far it is.
+            Progress callbacks.
 
         Raises
         ------
@@ -95,7 +95,7 @@ class Worker:
             self._log(claimed, str(lost))
         now = Queue(self._board).job(claimed.id)
         if now is not None and now.state == "done":
-            self._board.standings(now.season)  # So that no reader waits for the ranks.
+            self._board.standings(now.season)  # Computes the ranks before a reader asks.
         return now
 
     def rescore(
@@ -136,13 +136,13 @@ class Worker:
         return result.row
 
     def _work(self, job: Job, watch: Callbacks) -> None:
-        """Take a job to its end, whatever that is."""
+        """Bring a job to its end."""
         self._log(job, f"attempt {job.attempt}")
-        pulse = Heartbeat(self.work, job, self._logged(job, watch))
+        heartbeat = Heartbeat(self.work, job, self._logged(job, watch))
         try:
             with self._board.store.workspace(job.id, job.attempt) as files:
-                with pulse:
-                    entry, evaluation = self._evaluate(job, files / "bundle", pulse.watch())
+                with heartbeat:
+                    entry, evaluation = self._evaluate(job, files / "bundle", heartbeat.watch())
                 self._log(job, *_failures(files / "bundle"))
                 self.work.finish(job, entry, evaluation.hidden_rmse_mm, files / "bundle")
             self._log(job, "done" if entry.refusal is None else f"refused: {entry.refusal}")
@@ -157,9 +157,9 @@ class Worker:
             self._log(job, f"evaluator fault, not the policy's: {error}")
             self.work.postpone(job, str(error))
         except InputError as error:
-            self._failed(job, pulse.stage, error)
+            self._failed(job, heartbeat.stage, error)
         except Exception as error:
-            self._faulty(job, pulse.stage, error)
+            self._faulty(job, heartbeat.stage, error)
 
     def _evaluate(
         self, job: Job | BoardEntry, bundle: Path, watch: Callbacks
@@ -172,15 +172,19 @@ class Worker:
             season = self._board.season_of(job.season)
         except InputError as error:
             raise EvaluatorFault(str(error)) from error  # It was good when it was submitted.
-        vault = self._board.store.vault(job.season)
-        watch.total(episode_count(season) + (0 if vault.known_team() else season.suite.size))
-        team = vault.team(lambda: play_team(season, executor=self.executor, watch=watch))
-        # Who writes to the folder has the secret, too: nothing has to be kept from them.
-        hold = HiddenRunTimer(0 if job.submitter in (LOCAL, OWN) else season.hidden.size)
+        secrets = self._board.store.secrets(job.season)
+        watch.total(
+            episode_count(season) + (0 if secrets.known_human_human() else season.suite.size)
+        )
+        human_human = secrets.human_human(
+            lambda: play_human_human(season, executor=self.executor, watch=watch)
+        )
+        # Whoever writes to the folder can read the secret: no need to hide the duration from them.
+        hold = HiddenRunTimer(0 if job.submitter in (LOCAL, BUILTIN) else season.hidden.size)
         watch = replace(watch, stage=_both(hold.stage, watch.stage))
         try:
             evaluation = evaluate_entrant(
-                entrant, season, team, bundle, executor=self.executor, watch=watch
+                entrant, season, human_human, bundle, executor=self.executor, watch=watch
             )
         except LostError:
             raise
@@ -200,23 +204,23 @@ class Worker:
         return entry, evaluation
 
     def _entrant(self, job: Job | BoardEntry, level: str) -> Entrant:
-        """Return who is evaluated: what was submitted, or a policy of the project's own."""
-        if job.submitter != OWN:
+        """Return the submission, or the built-in policy."""
+        if job.submitter != BUILTIN:
             return Entrant.of(self._board.store.submission(job.submission), level)
-        own = builtin_entrant(job.name, level)
-        if own.digest != job.submission:
-            raise InputError(f"colift's own {job.name} is not the one that was queued")
-        return own
+        builtin = builtin_entrant(job.name, level)
+        if builtin.digest != job.submission:
+            raise InputError(f"the built-in {job.name} differs from the one that was queued")
+        return builtin
 
     def _failed(self, job: Job, stage: Stage | None, error: InputError) -> None:
-        """End a job whose policy is to blame."""
-        told = stage != HIDDEN or isinstance(error, BudgetError)
-        reason = str(error) if told else "it cannot be loaded for the hidden lifts"
+        """End a job by a failure of its policy."""
+        shown = stage != HIDDEN or isinstance(error, BudgetError)
+        reason = str(error) if shown else "it cannot be loaded for the hidden lifts"
         self._log(job, f"failed: {reason}")
         self.work.fail(job, reason)
 
     def _faulty(self, job: Job, stage: Stage | None, error: Exception) -> None:
-        """Queue a job again that this machine has failed."""
+        """Queue a job again after a fault of this machine."""
         trace = "".join(traceback.format_exception(error))
         try:
             self._board.store.add_to_private_log(job.season, job.id, trace)
@@ -230,7 +234,7 @@ class Worker:
         self.work.fault(job, reason)
 
     def _logged(self, job: Job, watch: Callbacks) -> Callbacks:
-        """Return who is told of the stages, and writes them down."""
+        """Return callbacks that also log the stages."""
 
         def stage(name: Stage) -> None:
             self._log(job, name)
@@ -252,17 +256,17 @@ class Worker:
 
 
 def _failures(bundle: Path) -> list[str]:
-    """Return what a log says of the public episodes that failed."""
+    """Return the log lines on failed public episodes."""
     episodes = read_bundle(bundle).run().episodes
     failed = sum(episode.failure is not None for episode in episodes)
     return [f"{failed} of {len(episodes)} public lifts failed", *failure_lines(episodes)]
 
 
-def _both(*tell: Callable[[Stage], None]) -> Callable[[Stage], None]:
-    """Return what tells several of a stage, in their order."""
+def _both(*listeners: Callable[[Stage], None]) -> Callable[[Stage], None]:
+    """Return a callback that calls several in their order."""
 
     def each(stage: Stage) -> None:
-        for one in tell:
+        for one in listeners:
             one(stage)
 
     return each

@@ -23,7 +23,7 @@ HELD: Final[tuple[State, ...]] = ("running", "verifying")
 
 @dataclass(frozen=True, kw_only=True)
 class Job:
-    """What the queue says of a submission."""
+    """The job of a submission."""
 
     id: str
     """32 hexadecimal digits."""
@@ -31,14 +31,15 @@ class Job:
     submission: str
     """Digest of its content."""
     name: str
-    """What its policy is called."""
+    """Name of its policy."""
     submitter: str
     state: State
     stage: str | None
-    """What the worker does; see :data:`.evaluation.Stage`."""
+    """Stage of the evaluation; see :data:`.progress.Stage`."""
     done: int
+    """Episodes that are finished."""
     total: int
-    """Episodes that are finished, of so many."""
+    """Episodes in all."""
     submitted_at: datetime
     started_at: datetime | None
     heartbeat_at: datetime | None
@@ -49,7 +50,7 @@ class Job:
     reason: str | None
     """Why it failed, or is tried again."""
     log: str | None
-    """What the workers wrote of it."""
+    """What the workers wrote about it."""
 
     @property
     def ended(self) -> bool:

@@ -1,4 +1,4 @@
-"""A row of a board: all that is published of an evaluation, beside the public run's bundle."""
+"""A row of a board: the published results of an evaluation, apart from the public run's bundle."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -9,52 +9,52 @@ from ...benchmark.statistics import Estimate, MeanWithMissing
 from .metrics import read_means
 
 UNTRAINED: Final = ("nothing", "none", "no data")
-"""What authors write of a policy that was trained on nothing."""
+"""Entries of authors whose policy was not trained."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PublicScores:
-    """What a policy did on the public episodes."""
+    """Scores on the public episodes."""
 
     episodes: int
     failed: int
     """Episodes that failed; they count with the worst error."""
     rmse_mm: Estimate
     vs_human: Estimate
-    """RMSE over that of the human-human team: 1 is as good as a human partner, less is better."""
+    """Ratio of the RMSE to the human-human baseline's: 1 is as good as a human partner."""
     metrics: Mapping[str, MeanWithMissing]
     """The other metrics of a board by name; see :func:`.board_metrics`."""
     step_ms_p50: float | None
-    """Median time of a step of the policy [ms]; nothing if it never made one."""
+    """Median time of the policy's steps [ms]; None without a step."""
     step_ms_p99: float | None
     """The same, 99th percentile."""
     real_time: bool | None
-    """Whether that is within what a real robot waits for; nothing if it never made a step."""
+    """Whether that is within the time that a real robot waits; None without a step."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class HiddenScores:
-    """What a policy did on the hidden episodes: no more than this is told of them.
+    """Published scores on the hidden episodes.
 
-    Rounded, so that a policy cannot write what it has seen into the digits of its score.
+    They are rounded: a policy cannot encode what it has seen in the digits of its score.
     """
 
     episodes: int
     failed: int
     failures: Mapping[str, int]
-    """How many failed how: at the ``start``, in a ``step`` of its own, or the ``table`` was lost.
-    In no words of the policy's."""
+    """Failures by kind: at the ``start``, in a ``step`` of the policy, or the ``table`` was lost.
+    Messages of the policy are not published."""
     rmse_mm: Estimate
     vs_human: Estimate
     real_time: bool | None
-    """Whether it kept pace there as well."""
+    """The same as for the public episodes."""
     better_than_human: float
-    """Probability that its mean RMSE on such episodes is below the human-human team's."""
+    """Probability that its mean RMSE on such episodes is below the human-human baseline's."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class BoardRow:
-    """A policy's place in the table of a season."""
+    """A policy's results in a season."""
 
     season: str
     commitment: str
@@ -66,37 +66,34 @@ class BoardRow:
     description: str
     link: str
     licence: str
-    """What others may do with it, in its authors' words."""
+    """Licence, in its authors' words."""
     trained_on: str
-    """What data it was trained on, in its authors' words; ``nothing`` is an answer."""
+    """Training data, in its authors' words; may be ``nothing``."""
     submission: str
     """Digest of the submission's content."""
     public: PublicScores
     hidden: HiddenScores
     gap_mm: Estimate
     """Hidden minus public mean RMSE [mm]. Other people lift there, so the gap of an honest policy
-    is not zero, but like everybody's."""
+    is not zero, but similar for all policies."""
     isolation: str
-    """What kept the policy from the process that scored."""
+    """Isolation level of the policy."""
     verified: bool
     """Whether the policy was isolated, its sampled episodes were repeated bit for bit, and the
     public scores follow from the recorded actions."""
     scoring: int
     """Version of the metrics."""
     versions: Mapping[str, str]
-    """Of the packages that can change a number."""
+    """Versions of the packages that can change a number."""
 
     @property
     def learned(self) -> bool:
-        """Whether its authors say that it was trained on something."""
+        """Whether its authors name training data."""
         return self.trained_on.strip(" .").casefold() not in UNTRAINED
 
     @property
     def real_time(self) -> bool:
-        """Whether it kept pace with a robot, in public and in hidden episodes.
-
-        Who never made a step was not too slow.
-        """
+        """Whether it was real-time in public and hidden episodes; True without a step."""
         return False not in (self.public.real_time, self.hidden.real_time)
 
     def plain(self) -> dict[str, Any]:

@@ -12,13 +12,13 @@ from .row import BoardRow
 
 @dataclass(frozen=True, kw_only=True)
 class Season:
-    """What every submission of a season is evaluated on."""
+    """Suite and secret of a season, on which its submissions are evaluated."""
 
     name: str
     suite: Suite
     """The public episodes."""
     secret: bytes = field(repr=False)
-    """What the hidden episodes follow from."""
+    """The hidden episodes are derived from it."""
 
     @property
     def commitment(self) -> str:
@@ -46,8 +46,8 @@ class SeasonInfo:
     current: bool
     """Whether it takes submissions; all others are frozen."""
     revealed: str | None
-    """The secret, 64 hexadecimal digits, if it has been published: anybody can then play the
-    hidden episodes, and check the commitment."""
+    """The secret, 64 hexadecimal digits, if it has been published: anybody can then run the
+    hidden episodes and check the commitment."""
 
 
 Kind = Literal[
@@ -60,9 +60,8 @@ Kind = Literal[
     "retry",
     "cancellation",
 ]
-"""A season began or its secret was published; a submission was withdrawn by who made it, removed
-by who keeps the board, taken back into the ranking, scored anew, queued again, or
-taken out of the queue."""
+"""A season began or its secret was published; a submission was withdrawn by its submitter,
+removed by the maintainer, reinstated, rescored, queued again, or cancelled."""
 
 OUT: tuple[Kind, ...] = ("withdrawal", "removal")
 """After these a row is in no ranking, until a reinstatement."""
@@ -70,7 +69,7 @@ OUT: tuple[Kind, ...] = ("withdrawal", "removal")
 
 @dataclass(frozen=True, kw_only=True)
 class Event:
-    """Something that was done to a season, or to a submission in it."""
+    """An act on a season, or on a submission in it."""
 
     at: datetime
     who: str
@@ -79,7 +78,7 @@ class Event:
     season: str
     submission: str | None
     content: Mapping[str, Any] | None
-    """What belongs to it: a revealed ``secret``, a new ``row``."""
+    """Its data: a revealed ``secret``, a new ``row``."""
 
     def plain(self) -> dict[str, Any]:
         """Return the event as JSON has it."""
@@ -94,9 +93,9 @@ class BoardEntry:
     submission: str
     """Digest of its content."""
     name: str
-    """What its policy is called."""
+    """Name of its policy."""
     submitter: str
-    """Who put it on the board: the name of a token, or ``local``."""
+    """Name of the token it was submitted with, or ``local``."""
     at: datetime
     row: BoardRow | None
     refusal: str | None

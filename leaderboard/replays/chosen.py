@@ -27,7 +27,7 @@ class ReplayChoice:
 def choose_replays(episodes: Sequence[Episode]) -> tuple[ReplayChoice, ...]:
     """Return the lifts that are shown, behaviour by behaviour in order of appearance.
 
-    They are told apart by RMSE, equal ones by their place in the run; the median of an even number
+    They are ordered by RMSE, equal ones by their place in the run; the median of an even number
     is the better of the middle two. Of a behaviour with two lifts there is no median, of one with
     one lift there is only that.
     """
@@ -60,7 +60,7 @@ def chosen_replays(bundle: Bundle, policy: str) -> list[dict[str, Any]]:
     Parameters
     ----------
     bundle
-        Of a public run: whoever sees a replay knows its episode.
+        Of a public run: a replay reveals its episode.
     policy
         What the policy is called.
 
@@ -109,7 +109,7 @@ def made_replays(bundle: Path) -> list[dict[str, Any]]:
 def replays_of(bundle: Path, policy: str) -> list[dict[str, Any]]:
     """Return the replays of the bundle in a folder; they are made only once, in some seconds.
 
-    None are there if only a part of the bundle is, as of a shipped row without its replays.
+    None if the bundle is incomplete, as that of an imported row without replays.
 
     Raises
     ------

@@ -29,7 +29,7 @@ STYLE: Final = "replay.css"
 
 KEYS: Final = (
     "Keys: space plays and pauses, the arrows go by a decision of the robot, with shift by a "
-    "second, comma and full stop by a frame; G shows or hides the human-human team."
+    "second, comma and full stop by a frame; G shows or hides the human-human baseline."
 )
 """How the player is used without a mouse."""
 
@@ -40,7 +40,7 @@ def replay_data(replays: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 
 def script_json(content: Any) -> str:
-    """Return JSON that may stand in an HTML script element, whatever the strings in it say."""
+    """Return JSON that may stand in an HTML script element, whatever strings it has."""
     text = json.dumps(content, separators=(",", ":"), allow_nan=False)
     for character in "<>&":
         text = text.replace(character, f"\\u{ord(character):04x}")
@@ -59,14 +59,14 @@ def replay_page(replays: Sequence[Mapping[str, Any]]) -> str:
         raise ValueError("there must be a replay")
     first = replays[0]
     title = f"{first['policy']} lifts a table with a human"
-    told = f"Suite {first['suite']}, digest {first['suite_digest']}. " if first["suite"] else ""
+    suite = f"Suite {first['suite']}, digest {first['suite_digest']}. " if first["suite"] else ""
     return render(
         __package__,
         "replay.html",
         title=title,
         style=Markup(style() + _static(STYLE)),
         scripts=[Markup(_static(name)) for name in SCRIPTS],
-        footer=told + KEYS,
+        footer=suite + KEYS,
         data=Markup(script_json(replay_data(replays))),
     )
 

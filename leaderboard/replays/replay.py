@@ -18,7 +18,7 @@ human, robot, target     height of the human's end, of the robot's end and as in
                          the first, then the changes from frame to frame [0.1 mm]
 command                  where the policy sends the hands by the end of each step [0.1 mm]
 prediction               where it predicted the human's end to be, step by step [0.1 mm]; or null
-confidence, role         what else it says of itself, step by step [1/1000]; or null
+confidence, role         its other reports, step by step [1/1000]; or null
 events                   what the human meant to do, and from which frame on
 ghost                    ``human`` and ``robot`` as above, and ``rmse_mm``, of two people instead
 ======================== =========================================================================
@@ -98,7 +98,7 @@ def replay_content(
     scenario
         Its scenario.
     ghost
-        The human-human team in the same episode.
+        The human-human baseline in the same episode.
     policy
         The policy's name.
     suite, suite_digest
@@ -108,7 +108,7 @@ def replay_content(
     """
     trace = episode.trace
     internals = trace.internals
-    team = ghost.episode
+    human_human = ghost.episode
     return {
         "format": FORMAT,
         "policy": policy,
@@ -134,9 +134,9 @@ def replay_content(
         "role": _said(internals.get("role"), 1e-3),
         "events": [[name, frame] for name, frame in ghost.plan.events],
         "ghost": {
-            "human": changes(team.trace.human_end),
-            "robot": changes(team.trace.robot_end),
-            "rmse_mm": _score(team.scores["rmse_mm"]),
+            "human": changes(human_human.trace.human_end),
+            "robot": changes(human_human.trace.robot_end),
+            "rmse_mm": _score(human_human.scores["rmse_mm"]),
         },
     }
 
@@ -172,7 +172,7 @@ def _units(values: ArrayLike, unit: float) -> list[int]:
 
 
 def _said(values: Iterable[float] | None, unit: float) -> list[int | None] | None:
-    """Return what a policy says of itself: anything at all, so that some numbers may be none."""
+    """Return a policy's reports as numbers; None where it reported something else."""
     if values is None:
         return None
     found = [_units([value], unit)[0] if math.isfinite(value) else None for value in values]

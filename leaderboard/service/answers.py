@@ -132,7 +132,7 @@ class SubmissionAnswer(JobSummary):
 
 
 class RulesAnswer(Answer):
-    """What a submission may be, what becomes of it, and who answers for the board."""
+    """Limits of submissions, quotas, what is published, and the maintainer's contact."""
 
     season: str
     """The season that takes submissions."""

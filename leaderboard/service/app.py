@@ -13,7 +13,7 @@ from fastapi.middleware.gzip import GZipMiddleware
 from fastapi.staticfiles import StaticFiles
 
 from ..board.tokens import Tokens
-from ..practice.shipped import open_stocked
+from ..practice.season_import import open_with_practice
 from ..queue import Queue, Quota
 from . import page_routes as pages
 from . import published, reference, submitting
@@ -42,7 +42,7 @@ def create_app(
     Parameters
     ----------
     folder
-        The board's; see :func:`.open_stocked`.
+        The board's; see :func:`.open_with_practice`.
     rates
         How often a client may ask.
     contact
@@ -56,7 +56,7 @@ def create_app(
         If the board cannot be opened.
     """
     rates = rates or Rates()
-    board = open_stocked(folder)
+    board = open_with_practice(folder)
     remove_orphans(board)
 
     async def keep_clean() -> None:

@@ -89,7 +89,7 @@ BehaviourAsked = Annotated[
     str | None,
     Query(
         pattern=_WORD,
-        description="A way to lift, such as `jerky`: each row also tells its public lifts of that "
+        description="A way to lift, such as `jerky`: each row also has its public lifts of that "
         "behaviour, subject by subject.",
     ),
 ]
@@ -97,7 +97,7 @@ SubjectAsked = Annotated[
     str | None,
     Query(
         pattern=_WORD,
-        description="A person, such as `S1`: each row also tells its public lifts with them, "
+        description="A person, such as `S1`: each row also has its public lifts with them, "
         "behaviour by behaviour.",
     ),
 ]

@@ -1,4 +1,4 @@
-"""Error responses: one line that says what would be right, without a traceback."""
+"""Error responses: one line with what would be right, without a traceback."""
 
 import asyncio
 import contextlib
@@ -41,12 +41,12 @@ AWAY_S: Final = 10
 
 PAGE: Final = (
     '<!doctype html><html lang="en"><title>The board does not answer</title>'
-    "<h1>The board does not answer</h1><p>{told}.</p></html>"
+    "<h1>The board does not answer</h1><p>{message}.</p></html>"
 )
 """What a reader of pages sees then: nothing that would need the database."""
 
 FULL: Final = {errno.ENOSPC, errno.EDQUOT}
-"""What the system says when a disk is full."""
+"""Error numbers of a full disk."""
 
 
 class Problem(BaseModel):
@@ -61,18 +61,18 @@ def problem(status: int, error: str, headers: Mapping[str, str] | None = None) -
 
 
 def answer_errors(app: FastAPI) -> None:
-    """Have an application tell every error as a :class:`Problem`."""
+    """Answer every error of an application with a :class:`Problem`."""
 
     @app.exception_handler(HTTPException)
     async def refused(request: Request, error: HTTPException) -> JSONResponse:
-        told = error.detail
-        if told == "Not Found":
-            told = f"there is no {_shown(request.url.path)} here; the API is described at /api"
-        elif told == "Method Not Allowed":
+        message = error.detail
+        if message == "Not Found":
+            message = f"there is no {_shown(request.url.path)} here; the API is described at /api"
+        elif message == "Method Not Allowed":
             allowed = (error.headers or {}).get("Allow", "GET")
-            told = f"{request.method} is not possible here; {allowed} is"
+            message = f"{request.method} is not possible here; {allowed} is"
         kind = LastAnswer if CLOSE.items() <= (error.headers or {}).items() else JSONResponse
-        return kind({"error": told}, error.status_code, error.headers)
+        return kind({"error": message}, error.status_code, error.headers)
 
     @app.exception_handler(RequestValidationError)
     async def invalid(request: Request, error: RequestValidationError) -> JSONResponse:
@@ -80,11 +80,11 @@ def answer_errors(app: FastAPI) -> None:
 
     @app.exception_handler(InputError)
     async def wrong(request: Request, error: InputError) -> JSONResponse:
-        # What is wrong on our side is told with our paths; they are nobody's business.
-        told = str(error).replace(str(request.app.state.folder), "the board")
+        # Messages of the library may name paths of this machine, which are not published.
+        message = str(error).replace(str(request.app.state.folder), "the board")
         if isinstance(error, QuotaError):
-            return JSONResponse({"error": told}, 429, {"Retry-After": str(QUOTA_S)})
-        return JSONResponse({"error": told}, 422)
+            return JSONResponse({"error": message}, 429, {"Retry-After": str(QUOTA_S)})
+        return JSONResponse({"error": message}, 422)
 
 
 class LastAnswer(JSONResponse):
@@ -107,7 +107,7 @@ class LastAnswer(JSONResponse):
 
 
 class FaultHandler:
-    """ASGI middleware: names every request; what nobody expected is logged, and told as 500."""
+    """ASGI middleware: gives every request an id; logs unexpected errors and answers 500."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
@@ -144,11 +144,11 @@ class FaultHandler:
             )
             if started:
                 raise  # The answer has begun: all that can be done is to break it off.
-            status, told = _fault(error, name)
+            status, message = _fault(error, name)
             headers = {"Retry-After": str(AWAY_S)} if status == 503 else {}
-            answer: Response = JSONResponse({"error": told}, status, headers)
+            answer: Response = JSONResponse({"error": message}, status, headers)
             if not scope["path"].startswith(("/api/", "/healthz")):
-                answer = HTMLResponse(PAGE.format(told=told), status, headers)
+                answer = HTMLResponse(PAGE.format(message=message), status, headers)
             await answer(scope, receive, named)
 
 
@@ -156,19 +156,22 @@ def _fault(error: Exception, name: str) -> tuple[int, str]:
     """Return status and text of the answer to a request that ended by an error."""
     full = isinstance(error, OSError) and error.errno in FULL
     if full or getattr(getattr(error, "orig", None), "sqlite_errorname", "") == "SQLITE_FULL":
-        return 507, "the board has no room left; tell its maintainer"
+        return 507, "the board has no room left; please inform its maintainer"
     if isinstance(error, AWAY):
         return 503, f"the board's database does not answer; try again in {AWAY_S} s"
-    return 500, f"this is our fault; tell the maintainer that request {name} failed"
+    return (
+        500,
+        f"this is the board's fault; please inform the maintainer that request {name} failed",
+    )
 
 
 def _first(errors: Sequence[Any]) -> str:
     """Return the first of pydantic's errors as a line: where, what, and what was given."""
     error = errors[0]
     where = " ".join(map(str, error["loc"])) or "request"
-    told = f"{where}: {error['msg']}"
+    message = f"{where}: {error['msg']}"
     given = error.get("input")
-    return f"{told}; got {_shown(given)}" if isinstance(given, str | int | float) else told
+    return f"{message}; got {_shown(given)}" if isinstance(given, str | int | float) else message
 
 
 def _shown(value: object) -> str:

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Path, Query, Request
 from fastapi.responses import HTMLResponse, Response
 
 from ...agents.errors import InputError
-from ..pages.formats import badge_text as told_by_badge
+from ..pages.formats import badge_text
 from ..pages.links import ServiceLinks
 from ..pages.rendering import prose, render_page, template_archive
 from ..replays.chosen import has_replays, replays_of
@@ -64,7 +64,7 @@ def badge_svg(service: Service, request: Request, season: SeasonName, digest: Di
     found = [s for s in service.board.standings(season) if s.row.submission == digest]
     if not found:
         return _missing(service, request, f"Season {season} has no row {digest[:16]}.")
-    svg = render_page("badge.svg", _links(request), told=told_by_badge(found[0]))
+    svg = render_page("badge.svg", _links(request), text=badge_text(found[0]))
     headers = {"Cross-Origin-Resource-Policy": "cross-origin", "Cache-Control": "max-age=300"}
     return Response(svg, media_type="image/svg+xml", headers=headers)
 
@@ -108,9 +108,9 @@ def replay_file(
     found = replay_files(_replays(service, season, digest))
     if name not in found:
         return _missing(service, request, "There is no such replay.")
-    told = f'attachment; filename="{digest[:16]}-{name}.html"'
+    disposition = f'attachment; filename="{digest[:16]}-{name}.html"'
     page = replay_page([found[name]])
-    return HTMLResponse(page, headers={"Content-Disposition": told})
+    return HTMLResponse(page, headers={"Content-Disposition": disposition})
 
 
 @router.get("/seasons/{season}/compare")
@@ -154,7 +154,7 @@ def method(service: Service, request: Request) -> HTMLResponse:
 
 @router.get("/open")
 def open_questions(service: Service, request: Request) -> HTMLResponse:
-    """Show what nobody has solved."""
+    """Show the open questions."""
     info = find_season(ordered_seasons(service.board), None)
     return _page(request, "open.html", season=info, text=prose("open.md"))
 
@@ -188,7 +188,7 @@ def submit_page(service: Service, request: Request) -> HTMLResponse:
 def job_page(
     service: Service, request: Request, job: Annotated[str, Path(pattern="^[0-9a-f]{32}$")]
 ) -> HTMLResponse:
-    """Show how far a submission is; only who has its address knows of it."""
+    """Show how far a submission is; its address is known to its submitter alone."""
     view = job_view(service.board, service.queue, job)
     if view is None:
         return _missing(service, request, "There is no such job.")
@@ -213,9 +213,9 @@ def _board(service: State, request: Request, season: str | None) -> HTMLResponse
     return _page(request, "board.html", view=view)
 
 
-def _missing(service: State, request: Request, told: str) -> HTMLResponse:
+def _missing(service: State, request: Request, message: str) -> HTMLResponse:
     season = find_season(ordered_seasons(service.board), None)
-    return _page(request, "missing.html", status=404, season=season, told=told)
+    return _page(request, "missing.html", status=404, season=season, message=message)
 
 
 def _page(request: Request, template: str, *, status: int = 200, **content: Any) -> HTMLResponse:

@@ -84,7 +84,7 @@ def csv(service: Service, season: SeasonAsked = None) -> Response:
 
 @router.get("/entries/{season}/{digest}", responses=MISSING)
 def entry(service: Service, request: Request, season: SeasonName, digest: Digest) -> EntryAnswer:
-    """Return what the board says of a submission in a season."""
+    """Return the outcome of a submission in a season."""
     found = service.board.entry(season, digest)
     if found is None:
         raise problem(404, f"season {season} has no entry {digest}")
@@ -112,16 +112,16 @@ async def bundle(
 ) -> Response:
     """Return the bundle of the public run, as `colift verify` takes it.
 
-    Whoever has it already, by its `ETag`, is answered 304; parts can be asked for by `Range`.
+    `If-None-Match` with its `ETag` is answered 304; `Range` requests a part.
     """
     entry = await run_in_threadpool(service.board.entry, season, digest)
     async with service.packing:  # The first one to ask packs it, the others wait.
         packed = await run_in_threadpool(service.board.store.packed_bundle, season, digest)
     if entry is None or packed is None:
-        told = f"season {season} has no bundle of {digest}"
+        message = f"season {season} has no bundle of {digest}"
         if entry is not None:
-            told += ": the board has lost it; it can come back from a backup of the board"
-        raise problem(404, told)
+            message += ": the board has lost it; it can come back from a backup of the board"
+        raise problem(404, message)
     status = await run_in_threadpool(packed.stat)
     name = f"{season}-{digest[:16]}.zip"
     answer = FileResponse(packed, media_type=ZIP, filename=name, stat_result=status)
@@ -149,13 +149,13 @@ def _strata(service: State, standing: RankedRow) -> tuple[StratumScore, ...]:
 
 
 def _check_word(what: str, value: str | None, known: set[str]) -> None:
-    """Refuse what no lift has; a season without rows has no lifts to know them by."""
+    """Refuse a value that no lift has; without rows no values are known."""
     if value is not None and known and value not in known:
         raise problem(422, f"{what} {value} is not in this season; {', '.join(sorted(known))} are")
 
 
 PUBLISHED: Final = (
-    "what policy.toml says: name, authors, description, licence, training data, link",
+    "the content of policy.toml: name, authors, description, licence, training data, link",
     "the digest of the files, the submitter's name, and when it was submitted",
     "scores of the public and the hidden lifts, with their intervals",
     "the bundle of the public lifts: motions, actions, and failures with what the policy printed",
@@ -164,13 +164,13 @@ PUBLISHED: Final = (
 
 PRIVATE: Final = (
     "the files themselves: code and weights",
-    "the hidden lifts: only their scores are told",
+    "the hidden lifts: only their scores are published",
 )
 
 
 @router.get("/rules")
 def rules(service: Service) -> RulesAnswer:
-    """Return what a submission may be, what becomes of it, and who answers for the board."""
+    """Return limits of submissions, quotas, what is published, and the maintainer's contact."""
     return rules_of(service)
 
 

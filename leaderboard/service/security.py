@@ -88,14 +88,14 @@ class Guard:
         names = [name for name, _ in scope["headers"]]
         if b"content-length" in names and b"transfer-encoding" in names:
             # Servers on the way may read one, we the other, and take what follows for requests.
-            told = "a request has Content-Length or Transfer-Encoding, not both"
-            answer = JSONResponse({"error": told}, 400, {"Connection": "close"})
+            message = "a request has Content-Length or Transfer-Encoding, not both"
+            answer = JSONResponse({"error": message}, 400, {"Connection": "close"})
             await answer(scope, receive, guarded)
             return
         wait = self.limit.wait(client_of(HTTPConnection(scope)))
         if wait:
-            told = f"too many requests from your address; try again in {seconds(wait)} s"
-            answer = JSONResponse({"error": told}, 429, {"Retry-After": seconds(wait)})
+            message = f"too many requests from your address; try again in {seconds(wait)} s"
+            answer = JSONResponse({"error": message}, 429, {"Retry-After": seconds(wait)})
             await answer(scope, receive, guarded)
             return
         await self.app(scope, receive, guarded)

@@ -38,7 +38,7 @@ GRACE_S: Final = 3
 
 
 class _Server(uvicorn.Server):
-    """A server that ends once, however often it is told to: a second signal would not wait."""
+    """A server that ignores further signals while it ends: a second one would not wait."""
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         if not self.should_exit:

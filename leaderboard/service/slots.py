@@ -17,7 +17,7 @@ class Slots:
     """Places that clients share."""
 
     what: str
-    """What is done there, in the plural: for what is told."""
+    """What is done there, in the plural: for what is message."""
     each: int
     """Of one client."""
     total: int
@@ -42,11 +42,11 @@ class Slots:
         own = self._clients.setdefault(client, _Client(asyncio.Semaphore(self.each)))
         own.waiting += 1
         try:
-            told = f"{self.each} {self.what} of yours are under way; wait for one to end"
-            await _acquire(own.places, end, 429, told)
+            message = f"{self.each} {self.what} of yours are under way; wait for one to end"
+            await _acquire(own.places, end, 429, message)
             try:
-                told = f"{self.total} {self.what} are under way; try again later"
-                await _acquire(self._all, end, 503, told)
+                message = f"{self.total} {self.what} are under way; try again later"
+                await _acquire(self._all, end, 503, message)
                 try:
                     yield
                 finally:
@@ -84,9 +84,9 @@ class Slotted(Response):
                 log.warning("%s was read for %g s: broken off", scope["path"], self.longest_s)
 
 
-async def _acquire(places: asyncio.Semaphore, end: float, status: int, told: str) -> None:
+async def _acquire(places: asyncio.Semaphore, end: float, status: int, message: str) -> None:
     try:
         async with asyncio.timeout_at(end):
             await places.acquire()
     except TimeoutError:
-        raise problem(status, told, {**CLOSE, "Retry-After": seconds(10.0)}) from None
+        raise problem(status, message, {**CLOSE, "Retry-After": seconds(10.0)}) from None

@@ -43,7 +43,7 @@ async def events(
         Returns it as it is now, or raises that the database is away.
     """
     clock = asyncio.get_running_loop().time
-    began = told = clock()
+    began = reported = clock()
     job: JobAnswer | None = first
     yield _event(first)
     while job and job.ended_at is None and clock() - began < LONGEST_S:
@@ -54,10 +54,10 @@ async def events(
             now = job  # The database may come back.
         if now != job and now is not None:
             yield _event(now)
-            told = clock()
-        elif clock() - told > ALIVE_S:
+            reported = clock()
+        elif clock() - reported > ALIVE_S:
             yield b": still here\n\n"
-            told = clock()
+            reported = clock()
         job = now
 
 
@@ -69,11 +69,11 @@ router = APIRouter()
 
 REVOKED: Final = "this token does not count: it is mistyped or has been revoked"
 
-CANCELLED: Final = "its submitter wants so"
+CANCELLED: Final = "at the submitter's request"
 """Why a job is cancelled over the web."""
 
 MINE: Final = 50
-"""So many of somebody's submissions are listed."""
+"""Maximum number of listed submissions of a submitter."""
 
 _token: Final = HTTPBearer(
     auto_error=False, description="A token, made by: colift token add NAME --board PATH"
@@ -83,7 +83,7 @@ Credentials = Annotated[HTTPAuthorizationCredentials | None, Depends(_token)]
 
 @router.get("/me", responses=UNKNOWN)
 async def me(service: Service, credentials: Credentials) -> SubmitterAnswer:
-    """Return who the token belongs to: to know before an upload that it counts."""
+    """Return the token's owner, to check a token before an upload."""
     return SubmitterAnswer(submitter=await _submitter(service, credentials))
 
 
@@ -91,7 +91,7 @@ async def me(service: Service, credentials: Credentials) -> SubmitterAnswer:
 async def submissions(
     service: Service, request: Request, credentials: Credentials
 ) -> list[SubmissionAnswer]:
-    """Return the last submissions of who the token belongs to, the newest first."""
+    """Return the last submissions of the token's owner, the newest first."""
     submitter = await _submitter(service, credentials)
     found = await run_in_threadpool(service.queue.jobs, limit=MINE, submitter=submitter)
     return [SubmissionAnswer.of_job(each, api_root(request)) for each in found]
@@ -180,8 +180,8 @@ async def post_submission(
     check_headers(request)
     wait = service.uploads.wait(submitter)
     if wait:
-        told = f"{submitter} has submitted too often; try again in {seconds(wait)} s"
-        raise problem(429, told, {**CLOSE, "Retry-After": seconds(wait)})
+        message = f"{submitter} has submitted too often; try again in {seconds(wait)} s"
+        raise problem(429, message, {**CLOSE, "Retry-After": seconds(wait)})
     async with service.receiving.held(submitter), received(request, service) as incoming:
 
         def place() -> None:
@@ -197,9 +197,9 @@ async def post_submission(
 
 
 async def _submitter(service: State, credentials: HTTPAuthorizationCredentials | None) -> str:
-    """Return who a token belongs to."""
+    """Return a token's owner."""
     if credentials is None:
-        raise _nobody("say who you are: a header 'Authorization: Bearer TOKEN'")
+        raise _nobody("a header 'Authorization: Bearer TOKEN' is missing")
     known = await run_in_threadpool(_known, service, credentials)
     if known is None:
         raise _nobody(REVOKED)
@@ -210,9 +210,9 @@ def _known(service: State, credentials: HTTPAuthorizationCredentials | None) -> 
     return None if credentials is None else service.tokens.submitter(credentials.credentials)
 
 
-def _nobody(told: str) -> HTTPException:
-    told = f"{told}; the maintainer makes tokens by: colift token add NAME"
-    return problem(401, told, {**CLOSE, "WWW-Authenticate": "Bearer"})
+def _nobody(message: str) -> HTTPException:
+    message = f"{message}; the maintainer makes tokens by: colift token add NAME"
+    return problem(401, message, {**CLOSE, "WWW-Authenticate": "Bearer"})
 
 
 def _job(service: State, name: str) -> Job:

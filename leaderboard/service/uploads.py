@@ -25,7 +25,7 @@ from .dependencies import State
 from .errors import CLOSE, problem
 
 BODY: Final = 64 * MIB
-"""Largest body [bytes]. Whoever needs more can write to the board's folder itself."""
+"""Largest body [bytes]. For more, submit to the board's folder."""
 
 ZIP: Final = "application/zip"
 TYPES: Final = {ZIP, "application/x-zip-compressed", "application/octet-stream"}
@@ -42,7 +42,7 @@ LONGEST_S: Final = 900.0
 
 
 def check_headers(request: Request) -> None:
-    """Refuse at once what says itself that it is no upload or too large.
+    """Refuse at once an upload whose headers name another type or too large a size.
 
     Raises
     ------
@@ -51,8 +51,8 @@ def check_headers(request: Request) -> None:
     """
     kind = request.headers.get("Content-Type", "").partition(";")[0].strip().lower()
     if kind not in TYPES:
-        told = f"the body must be a zip archive, {ZIP}; this is {kind[:60] or 'of no type'!r}"
-        raise problem(415, told, CLOSE)
+        message = f"the body must be a zip archive, {ZIP}; this is {kind[:60] or 'of no type'!r}"
+        raise problem(415, message, CLOSE)
     length = request.headers.get("Content-Length", "0")
     if not length.isdecimal() or int(length[:20]) > BODY:
         raise _too_large()
@@ -80,7 +80,7 @@ async def received(request: Request, service: State) -> AsyncIterator[Incoming]:
 
 
 async def _receive(stream: AsyncIterator[bytes], file: IO[bytes]) -> None:
-    """Write a body into a file; the length that the client has told is not trusted."""
+    """Write a body into a file; the client's declared length is not trusted."""
     left, clock = BODY, asyncio.get_running_loop().time
     ends, patience = clock() + LONGEST_S, WINDOW_S
     try:
@@ -96,11 +96,11 @@ async def _receive(stream: AsyncIterator[bytes], file: IO[bytes]) -> None:
             file.write(data)
             patience = min(patience - (clock() - began) + len(data) / LEAST_RATE, WINDOW_S)
     except TimeoutError:
-        told = (
+        message = (
             f"the upload is too slow: it must bring {LEAST_RATE} bytes a second, over any "
             f"{WINDOW_S:g} s, and end within {LONGEST_S:g} s"
         )
-        raise problem(408, told, CLOSE) from None
+        raise problem(408, message, CLOSE) from None
     except ClientDisconnect:
         raise problem(400, "the upload broke off") from None
 
@@ -112,8 +112,8 @@ def _incoming(file: IO[bytes], folder: Path, board: Board) -> Incoming:
         return board.store.incoming(folder)
     except InputError as error:
         # The user knows nothing of our folders.
-        told = str(error).replace(f"{folder}/", "").replace(str(folder), "the zip archive")
-        raise InputError(told) from error
+        message = str(error).replace(f"{folder}/", "").replace(str(folder), "the zip archive")
+        raise InputError(message) from error
 
 
 def _too_large() -> Exception:

@@ -41,9 +41,9 @@
   const teams = lines("team"), bounds = lines("bound");
   const bands = [...document.querySelectorAll("#backdrop .band")];
   const field = (id) => document.getElementById(id);
-  const [query, behaviour, subject, choice, columns, told, more] =
-    ["q", "behaviour", "subject", "sort", "columns", "told", "more"].map(field);
-  const whole = told.textContent;
+  const [query, behaviour, subject, choice, columns, status, more] =
+    ["q", "behaviour", "subject", "sort", "columns", "status", "more"].map(field);
+  const whole = status.textContent;
   const filters = { q: query, behaviour, subject, columns };
   let sort = "rank", order = rows, limit = 200;  // So many rows are laid out at once.
 
@@ -202,12 +202,12 @@
     const chosen = behaviour.value || subject.value ? part() : (all(), null);
     arrange();
     const count = search();
-    if (chosen === null && count === rows.length) told.textContent = whole;
+    if (chosen === null && count === rows.length) status.textContent = whole;
     else {
       const where = chosen === null ? "scored on hidden lifts" :
         `means over the public lifts of ${behaviour.value ? behaviour.selectedOptions[0].text : "all behaviours"} ` +
         `with ${subject.value || "all subjects"}; ranks and gaps are over all hidden lifts`;
-      told.textContent = `${count} of ${rows.length} policies, ${where}.` +
+      status.textContent = `${count} of ${rows.length} policies, ${where}.` +
         (chosen && !chosen.length ? " The suite has no such lifts." : "");
     }
   }

@@ -2,17 +2,17 @@
 "use strict";
 (() => {
   const box = document.getElementById("job");
-  const bar = document.getElementById("bar"), told = document.getElementById("told");
+  const bar = document.getElementById("bar"), status = document.getElementById("status");
   const state = document.getElementById("state");
-  let pause = 1000, last = told.textContent;
+  let pause = 1000, last = status.textContent;
 
   function show(job) {
     state.textContent = job.state;
     if (job.total) bar.value = Math.min(job.done / job.total, 1);
-    // A screen reader is told when the stage changes, not each lift.
+    // A screen reader announces a change of the stage, not each lift.
     const text = job.state === "queued" ? "Waiting." : `${job.stage || job.state}: ${job.done} of ${job.total} lifts.`;
-    told.setAttribute("aria-live", text.split(":")[0] === last.split(":")[0] ? "off" : "polite");
-    if (job.state !== "queued" || last.split(/[.,]/)[0] !== "Waiting") told.textContent = text;
+    status.setAttribute("aria-live", text.split(":")[0] === last.split(":")[0] ? "off" : "polite");
+    if (job.state !== "queued" || last.split(/[.,]/)[0] !== "Waiting") status.textContent = text;
     last = text;
     for (const step of document.querySelectorAll("[data-stage]")) {
       if (step.dataset.stage === job.stage) step.setAttribute("aria-current", "step");

@@ -3,7 +3,7 @@
 (function () {
   const colift = (window.coliftReplay = window.coliftReplay || {});
 
-  // Options for colift.Chart: heights, error and, if the policy tells, what it says of itself.
+  // Options for colift.Chart: heights, error and, if the policy reports them, its own prediction and confidence.
   colift.chartsOf = function (now) {
     const times = (values) => values.map((_, i) => (i + 1) * now.frame_s);
     const steps = (values) => values.map((_, i) => i * now.period_s);
@@ -69,20 +69,20 @@
     if (now.confidence || now.role) {
       const same = now.confidence && now.role && now.confidence.every((c, i) => c === now.role[i]);
       const curves = [];
-      const told = [];
+      const keys = [];
       if (now.confidence) {
         curves.push(series("confidence", "line", steps, now.confidence));
-        told.push(["confidence", same ? "confidence, and so its role" : "confidence in its prediction"]);
+        keys.push(["confidence", same ? "confidence, and so its role" : "confidence in its prediction"]);
       }
       if (now.role && !same) {
         curves.push(series("role", "line", steps, now.role));
-        told.push(["role", "role"]);
+        keys.push(["role", "role"]);
       }
       charts.push({
         name: "confidence",
-        title: "What the policy says of itself",
+        title: "What the policy reports",
         summary: "Confidence and role of the policy, from 0 to 1",
-        keys: told,
+        keys,
         low: -0.06,
         high: 1.06,
         height: 110,

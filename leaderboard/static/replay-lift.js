@@ -36,17 +36,17 @@
       return values[i] + Math.min(place - i, 1) * (next - values[i]);
     };
     const step = Math.floor(time / now.period_s + 1e-9);
-    const said = (values) => (values && values.length ? values[Math.min(step, values.length - 1)] : null);
+    const reported = (values) => (values && values.length ? values[Math.min(step, values.length - 1)] : null);
     return {
       human: at(now.human),
       robot: at(now.robot),
       target: at(now.target),
       ghostHuman: at(now.ghost.human),
       ghostRobot: at(now.ghost.robot),
-      prediction: said(now.prediction),
-      confidence: said(now.confidence),
-      role: said(now.role),
-      command: said(now.command),
+      prediction: reported(now.prediction),
+      confidence: reported(now.confidence),
+      role: reported(now.role),
+      command: reported(now.command),
       over: now.human.length < now.horizon && time > now.human.length * now.frame_s,
     };
   };

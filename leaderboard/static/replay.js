@@ -189,8 +189,8 @@
         ["command", "robot's command", state.command === null ? "none" : `${number(1000 * state.command, 0)} mm`],
       ];
       if (now.prediction) {
-        const told = state.prediction === null ? "none" : `${number(1000 * state.prediction, 0)} mm`;
-        rows.push(["prediction", "robot's prediction", told]);
+        const text = state.prediction === null ? "none" : `${number(1000 * state.prediction, 0)} mm`;
+        rows.push(["prediction", "robot's prediction", text]);
       }
       if (now.confidence) {
         rows.push(["confidence", "confidence", state.confidence === null ? "none" : number(state.confidence, 2)]);

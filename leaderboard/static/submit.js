@@ -1,4 +1,4 @@
-// Uploads a zip file with a token; then shows its job. XMLHttpRequest, since fetch tells no progress.
+// Uploads a zip file with a token; then shows its job. XMLHttpRequest, since fetch reports no progress.
 // Shows what the token's owner has submitted. The token stays in this tab.
 "use strict";
 (() => {
@@ -13,7 +13,7 @@
     sent.hidden = true;
   }
 
-  function told(request) {
+  function parsed(request) {
     let content = null;
     try { content = JSON.parse(request.responseText); } catch { /* Not from the service: a proxy's page. */ }
     return content;
@@ -31,7 +31,7 @@
     request.setRequestHeader("Authorization", "Bearer " + token.value.trim());
     request.upload.addEventListener("progress", ({ loaded, total }) => { sent.value = total ? loaded / total : 0; });
     request.addEventListener("load", () => {
-      const content = told(request);
+      const content = parsed(request);
       if (request.status < 300 && content && /^[0-9a-f]{32}$/.test(content.id)) {
         location.assign(form.dataset.job.replace("ID", content.id));
       } else {

@@ -99,7 +99,7 @@ def _check_directory(file: BinaryIO) -> int:
 
 
 def _check_ratio(entries: Iterable[zipfile.ZipInfo], size: int) -> None:
-    """Refuse an archive that would become much larger, whatever it says of its entries."""
+    """Refuse an archive that would become much larger, whatever sizes it declares."""
     total = sum(entry.file_size for entry in entries)
     if total > max(LARGE, RATIO * size):
         raise InputError(
@@ -186,21 +186,21 @@ def _check_collisions(inside: dict[tuple[str, ...], zipfile.ZipInfo]) -> None:
             key = tuple(part.casefold() for part in path)
             other = seen.setdefault(key, (path, folder))
             if other[0] != path:
-                told = ascii("/".join(other[0]))
-                raise _refused(entry, f"it differs from {told} in upper and lower case only")
+                twin = ascii("/".join(other[0]))
+                raise _refused(entry, f"it differs from {twin} in upper and lower case only")
             if other[1] != folder:
                 raise _refused(entry, f"{'/'.join(path)!a} is a file and a folder")
 
 
 def _check_size(entry: zipfile.ZipInfo, limits: FolderLimits) -> None:
     if entry.file_size > limits.file_bytes:
-        told = f"a file may have {limits.file_bytes // MIB} MiB"
-        raise _refused(entry, f"{told}, it has {entry.file_size / MIB:.0f} MiB")
+        message = f"a file may have {limits.file_bytes // MIB} MiB"
+        raise _refused(entry, f"{message}, it has {entry.file_size / MIB:.0f} MiB")
 
 
 @contextmanager
 def _readable(what: str) -> Iterator[None]:
-    """Tell of a damaged archive as the user's error; zipfile has many ways to say so."""
+    """Raise the many errors of zipfile for damaged archives as an InputError."""
     try:
         yield
     except InputError:

@@ -11,7 +11,7 @@ from typing import Any
 def write_json(
     path: Path, content: Mapping[str, Any], *, mode: int = 0o644, indent: int | None = 2
 ) -> None:
-    """Write a JSON file; who reads it meanwhile sees the old one or the new one."""
+    """Write a JSON file; readers see the old or the new one, never a part."""
     separators = (",", ":") if indent is None else None
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}-")
     try:

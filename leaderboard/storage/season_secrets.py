@@ -12,7 +12,7 @@ from ...benchmark.results.baselines import Baseline
 from ...benchmark.suites.hidden import SECRET_BYTES
 from .files import read_json, sync, write_json
 
-OWN: Final = 0o600
+PRIVATE_FILE: Final = 0o600
 """A file that only its owner may read."""
 
 FOLDER: Final = 0o700
@@ -21,12 +21,12 @@ FOLDER: Final = 0o700
 
 @dataclass(frozen=True, kw_only=True)
 class SeasonSecrets:
-    """The private files of a season; nothing of them is published."""
+    """The private files of a season; none is published."""
 
     folder: Path
 
     def keep_secret(self, secret: bytes) -> None:
-        """Keep the season's secret, before anything follows from it.
+        """Write the season's secret, before anything is derived from it.
 
         Raises
         ------
@@ -34,7 +34,7 @@ class SeasonSecrets:
             If there is one.
         """
         self.folder.mkdir(mode=FOLDER, parents=True, exist_ok=True)
-        handle = os.open(self._secret, os.O_WRONLY | os.O_CREAT | os.O_EXCL, OWN)
+        handle = os.open(self._secret, os.O_WRONLY | os.O_CREAT | os.O_EXCL, PRIVATE_FILE)
         with os.fdopen(handle, "w") as file:
             file.write(f"{secret.hex()}\n")
             file.flush()
@@ -43,7 +43,7 @@ class SeasonSecrets:
         sync(self.folder.parent)
 
     def forget_secret(self) -> None:
-        """Remove a secret that nothing follows from: its season did not come to begin."""
+        """Remove a secret whose season did not begin."""
         self._secret.unlink(missing_ok=True)
 
     def secret(self) -> bytes:
@@ -52,14 +52,16 @@ class SeasonSecrets:
         Raises
         ------
         InputError
-            If there is none, others may read it, or it is no secret of ours.
+            If there is none, others may read it, or it is malformed.
         """
         path = self._secret
         if not path.exists():
             raise InputError(f"{path} is missing: is this the folder of the database's board?")
         mode = stat.S_IMODE(path.stat().st_mode)
         if mode & 0o077:
-            raise InputError(f"{path} has mode {mode:o}, others may read it; it must be {OWN:o}")
+            raise InputError(
+                f"{path} has mode {mode:o}, others may read it; it must be {PRIVATE_FILE:o}"
+            )
         try:
             secret = bytes.fromhex(path.read_text())
         except ValueError:
@@ -68,23 +70,23 @@ class SeasonSecrets:
             raise InputError(f"{path} must hold {2 * SECRET_BYTES} hexadecimal digits")
         return secret
 
-    def team(self, play: Callable[[], Baseline]) -> Baseline:
-        """Return the human-human team on the hidden episodes; it is played only once."""
-        known = self.known_team()
+    def human_human(self, play: Callable[[], Baseline]) -> Baseline:
+        """Return the human-human baseline on the hidden episodes; it is run only once."""
+        known = self.known_human_human()
         if known is None:
             known = play()
-            self.keep_team(known)
+            self.keep_human_human(known)
         return known
 
-    def known_team(self) -> Baseline | None:
-        """Return what :meth:`team` has kept, or None if it was not played yet."""
-        path = self.folder / "team.json"
+    def known_human_human(self) -> Baseline | None:
+        """Return what :meth:`human_human` has kept, or None if it has not been run."""
+        path = self.folder / "human_human.json"
         return Baseline.read(read_json(path)) if path.exists() else None
 
-    def keep_team(self, team: Baseline) -> None:
-        """Keep the human-human team that was played elsewhere."""
+    def keep_human_human(self, human_human: Baseline) -> None:
+        """Write the human-human baseline."""
         self.folder.mkdir(mode=FOLDER, parents=True, exist_ok=True)
-        write_json(self.folder / "team.json", team.plain(), mode=OWN)
+        write_json(self.folder / "human_human.json", human_human.plain(), mode=PRIVATE_FILE)
 
     @property
     def _secret(self) -> Path:

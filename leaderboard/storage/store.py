@@ -2,15 +2,15 @@
 
 ::
 
-    board.json                               that it is a board, and where its database is
-    submissions/DIGEST/                      what was submitted, by its content
+    board.json                               format, and kind of database
+    submissions/DIGEST/                      submitted files, by digest
     public/SEASON/entries/DIGEST/bundle/     the bundle of the public run
-    public/SEASON/entries/DIGEST/bundle.zip  the same in one file, since somebody asked for it
-    logs/JOB.txt                             what the workers wrote of a job
-    private/SEASON/                          the secret, the human-human team, faults in detail
-    private/work/                            what is being evaluated
+    public/SEASON/entries/DIGEST/bundle.zip  the same in one file, made at the first request
+    logs/JOB.txt                             what the workers wrote about a job
+    private/SEASON/                          the secret, the human-human baseline, faults in detail
+    private/work/                            evaluations in progress
 
-Only ``public`` may be shown to anybody, and of ``logs`` that of a job to who knows its id.
+Only ``public`` may be shown to everybody, and a log to those who know the id of its job.
 """
 
 import fcntl
@@ -27,7 +27,7 @@ from ...agents.submissions.folder import copy_folder
 from ...agents.submissions.submission import Submission, read_submission
 from .archive import pack
 from .files import read_json, sync, sync_tree, write_json
-from .season_secrets import FOLDER, OWN, SeasonSecrets
+from .season_secrets import FOLDER, PRIVATE_FILE, SeasonSecrets
 from .staging import Incoming, staging
 
 FORMAT: Final = 2
@@ -44,10 +44,10 @@ PARTS: Final = (
     "public",
     "submissions",
 )
-"""What is in a board that is being made; one that is there may hold anything else, too."""
+"""Names in the folder of a new board; an existing one may hold other files, too."""
 
 LOG_BYTES: Final = 100_000
-"""So much of a log's end is shown."""
+"""Maximum length of the shown end of a log [bytes]."""
 
 _FOLDERS: Final = re.compile(r"(?<![\w/.:])/(?:[^\s/'\"<>:,]+/)+")
 """The folders of an absolute path; no part of a URL, nor of a quotient."""
@@ -88,7 +88,7 @@ class Store:
             self._mark(database)
 
     def _mark(self, database: str) -> None:
-        """Write down where the tables are, or check that they are there."""
+        """Record the kind of database, or check it."""
         mark = self.folder / "board.json"
         if not mark.exists():
             write_json(mark, {"format": FORMAT, "database": database})
@@ -98,15 +98,15 @@ class Store:
         """Refuse another layout, and another database than the board's; as :meth:`prepare`."""
         mark = self.folder / "board.json"
         try:
-            told = read_json(mark)
+            content = read_json(mark)
         except ValueError as error:
             raise InputError(f"{mark} cannot be read: {error}") from error
-        if told.get("format") != FORMAT:
-            raise InputError(f"{mark}: format must be {FORMAT}, is {told.get('format')!r}")
-        if told.get("database") != database:
+        if content.get("format") != FORMAT:
+            raise InputError(f"{mark}: format must be {FORMAT}, is {content.get('format')!r}")
+        if content.get("database") != database:
             change = "set" if database == "SQLite" else "unset"
             raise InputError(
-                f"{self.folder} has its tables in {told.get('database')}, not in {database}: "
+                f"{self.folder} has its tables in {content.get('database')}, not in {database}: "
                 f"{change} COLIFT_DATABASE_URL"
             )
 
@@ -117,7 +117,7 @@ class Store:
             fcntl.flock(file, fcntl.LOCK_EX)
             yield
 
-    def vault(self, season: str) -> SeasonSecrets:
+    def secrets(self, season: str) -> SeasonSecrets:
         """Return the private files of a season."""
         return SeasonSecrets(folder=self.folder / "private" / season)
 
@@ -127,7 +127,7 @@ class Store:
         Raises
         ------
         InputError
-            If it is not what a submission must be.
+            If the submission is malformed.
         """
         with self.staging() as place:
             made = place / "submission"
@@ -149,7 +149,7 @@ class Store:
         Raises
         ------
         InputError
-            If they are not what a submission must be.
+            If the submission is malformed.
         """
         submission = read_submission(files)
         target = self.folder / "submissions" / submission.contents.digest
@@ -164,13 +164,13 @@ class Store:
             If it is not there, or has been changed.
         """
         place = self.folder / "submissions" / digest
-        told = f"submission {digest} is not as it was submitted: submit the same files again"
+        message = f"submission {digest} is not as it was submitted: submit the same files again"
         try:
             kept = read_submission(place)
         except InputError as error:
-            raise InputError(told) from error
+            raise InputError(message) from error
         if kept.contents.digest != digest:
-            raise InputError(told)
+            raise InputError(message)
         return kept
 
     def bundle(self, season: str, digest: str) -> Path:
@@ -178,14 +178,14 @@ class Store:
         return self.folder / "public" / season / "entries" / digest / "bundle"
 
     def place_bundle(self, season: str, digest: str, made: Path) -> None:
-        """Move a bundle to its place; what an attempt that was killed has left there gives way."""
+        """Move a bundle to its place, over the remains of an earlier attempt."""
         place = self.bundle(season, digest)
         shutil.rmtree(place, ignore_errors=True)
         place.with_name("bundle.zip").unlink(missing_ok=True)
         place.parent.mkdir(parents=True, exist_ok=True)
         sync_tree(made)
         made.rename(place)
-        for folder in place.parents[:4]:  # As far as they may be new: to the board's own.
+        for folder in place.parents[:4]:  # As far as they may be new: to the board's.
             sync(folder)
 
     def packed_bundle(self, season: str, digest: str) -> Path | None:
@@ -206,7 +206,7 @@ class Store:
 
     @contextmanager
     def workspace(self, job: str, attempt: int) -> Iterator[Path]:
-        """Yield an empty private folder for an attempt; what earlier ones have left is removed."""
+        """Yield an empty private folder for an attempt; remove those of earlier ones."""
         work = self.folder / "private" / "work"
         work.mkdir(mode=FOLDER, exist_ok=True)
         for old in work.glob(f"{job}-*"):
@@ -239,10 +239,10 @@ class Store:
 
     def add_to_private_log(self, season: str, job: str, text: str) -> None:
         """Append to the log that only the maintainer may read: it may reveal hidden lifts."""
-        folder = self.vault(season).folder / "logs"
+        folder = self.secrets(season).folder / "logs"
         folder.mkdir(mode=FOLDER, exist_ok=True)
         path = folder / f"{job}.txt"
-        path.touch(mode=OWN)
+        path.touch(mode=PRIVATE_FILE)
         with path.open("ab") as file:
             file.write(f"{text.rstrip()}\n".encode(errors="replace"))
 

@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import Any, Final
 
 from ..board.board import Board
-from ..board.standings import HumanTeamScores, RankedRow
+from ..board.standings import HumanHumanScores, RankedRow
 from ..records.metrics import board_metrics
 from ..records.season import Event, SeasonInfo
 from .axis import Axis, make_axis
 from .bounds import PublicBound, bounds_of
-from .lifts import Part, StratumScore, human_team_rmse, mean_rmse, stratum_scores
+from .lifts import Part, StratumScore, human_human_rmse, mean_rmse, stratum_scores
 from .picture import Picture, make_picture
 
 WIDE: Final = (920, 440)
@@ -48,8 +48,8 @@ class BoardView:
     """Not real-time: ranked among themselves."""
     out: tuple[RankedRow, ...]
     """Unverified, withdrawn or removed."""
-    team: HumanTeamScores | None
-    """The human-human team on the hidden lifts."""
+    human_human: HumanHumanScores | None
+    """The human-human baseline on the hidden lifts."""
     bounds: tuple[PublicBound, ...]
     """Those of the public lifts."""
     axis: Axis
@@ -65,9 +65,9 @@ class BoardView:
         """The RMSE [mm] that the best foresight reaches on the public lifts, if that is known."""
         return next((each.rmse_mm.mean for each in self.bounds if each.causal), None)
 
-    def team_mm(self, behaviour: str) -> float | None:
-        """Return the human-human team's mean RMSE [mm] on the public lifts of a behaviour."""
-        return human_team_rmse(self._strata, Part(behaviour=behaviour, subject=None))
+    def human_human_mm(self, behaviour: str) -> float | None:
+        """Return the human-human baseline's mean RMSE [mm] on the public lifts of a behaviour."""
+        return human_human_rmse(self._strata, Part(behaviour=behaviour, subject=None))
 
     @property
     def behaviours(self) -> tuple[str, ...]:
@@ -93,7 +93,9 @@ class BoardView:
                 {name: getattr(each, name) for name in ("name", "digits", "better", "missing")}
                 for each in board_metrics()
             ],
-            "strata": [[c.behaviour, c.subject, c.episodes, c.team_rmse_mm] for c in self._strata],
+            "strata": [
+                [c.behaviour, c.subject, c.episodes, c.human_human_rmse_mm] for c in self._strata
+            ],
             "rows": [[_numbers(stratum) for stratum in row.strata] for row in self.rows],
             "bounds": [
                 [
@@ -132,7 +134,7 @@ def board_view(board: Board, season: str | None = None) -> BoardView | None:
         )
         for i, each in enumerate(ranked)
     )
-    team = board.team(info.name)
+    human_human = board.human_human(info.name)
     hidden = [each.row.hidden.rmse_mm for each in ranked]
     bounds = bounds_of(info)
     pictured = [each.row for each in ranked]
@@ -142,13 +144,13 @@ def board_view(board: Board, season: str | None = None) -> BoardView | None:
         rows=rows,
         slow=tuple(each for each in standings if each.section == "not real-time"),
         out=tuple(each for each in standings if each.section in ("unverified", "out")),
-        team=team,
+        human_human=human_human,
         bounds=bounds,
-        axis=make_axis(hidden, () if team is None else (team.rmse_mm.ci95[1],)),
+        axis=make_axis(hidden, () if human_human is None else (human_human.rmse_mm.ci95[1],)),
         events=tuple(reversed(board.events(season=info.name))),
         names={each.row.submission: each.row.name for each in standings},
-        wide=make_picture(pictured, team, bounds, width=WIDE[0], height=WIDE[1]),
-        narrow=make_picture(pictured, team, bounds, width=NARROW[0], height=NARROW[1]),
+        wide=make_picture(pictured, human_human, bounds, width=WIDE[0], height=WIDE[1]),
+        narrow=make_picture(pictured, human_human, bounds, width=NARROW[0], height=NARROW[1]),
     )
 
 

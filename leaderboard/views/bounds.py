@@ -19,23 +19,23 @@ from ...benchmark.suites.suite import Suite
 from ..records.season import SeasonInfo
 from .suites import season_suite
 
-TOLD: Final[Mapping[str, str]] = {
+MEANINGS: Final[Mapping[str, str]] = {
     "causal_bound": "sees what a policy sees, foresees as well as has been learned so far, and "
     "spends nothing on smoothness",
     "oracle": "knows where the person is going, and rehearses the lift",
 }
-"""What each bound is, in the order in which they are shown."""
+"""Description of each bound, in display order."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PublicBound:
-    """What could be reached on the public lifts; no policy, and in no ranking."""
+    """A bound on the public lifts; it is not a policy and has no rank."""
 
     name: str
-    told: str
+    meaning: str
     rmse_mm: Estimate
     vs_human: float
-    """RMSE over that of the human-human team, on the same lifts."""
+    """RMSE over that of the human-human baseline, on the same lifts."""
     means: Mapping[str, float | None]
     """Of the other metrics that boards show."""
     strata: Mapping[Stratum, float]
@@ -52,7 +52,7 @@ class PublicBound:
 
 
 def bounds_of(info: SeasonInfo) -> tuple[PublicBound, ...]:
-    """Return the bounds of a season's public lifts; none if none are shipped for its suite."""
+    """Return the bounds of a season's public lifts; none if its suite has none."""
     suite = season_suite(info)
     return () if suite is None else _bounds(suite)
 
@@ -62,16 +62,16 @@ def _bounds(suite: Suite) -> tuple[PublicBound, ...]:
     baselines, found = shipped_baselines(suite), shipped_bounds(suite)
     if baselines is None or found is None:
         return ()
-    team = baselines[HUMAN_HUMAN]
-    return tuple(_bound(name, found[name], team) for name in TOLD if name in found)
+    human_human = baselines[HUMAN_HUMAN]
+    return tuple(_bound(name, found[name], human_human) for name in MEANINGS if name in found)
 
 
-def _bound(name: str, baseline: Baseline, team: Baseline) -> PublicBound:
+def _bound(name: str, baseline: Baseline, human_human: Baseline) -> PublicBound:
     return PublicBound(
         name=name.replace("_", " "),
-        told=TOLD[name],
+        meaning=MEANINGS[name],
         rmse_mm=baseline.estimate,
-        vs_human=baseline.mean / team.mean,
+        vs_human=baseline.mean / human_human.mean,
         means=baseline.means,
         strata=baseline.by_stratum(),
     )

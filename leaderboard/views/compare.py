@@ -21,7 +21,7 @@ from .lifts import (
     Part,
     PublicLift,
     StratumScore,
-    human_team_rmse,
+    human_human_rmse,
     part_estimate,
     parts_of,
     public_lifts,
@@ -67,8 +67,8 @@ class CompareView:
     """All that can be chosen: the ranking."""
     parts: tuple[Part, ...]
     columns: tuple[Column, ...]
-    team_mm: tuple[float | None, ...]
-    """The human-human team's mean RMSE on each part [mm]."""
+    human_human_mm: tuple[float | None, ...]
+    """The human-human baseline's mean RMSE on each part [mm]."""
     pairs: tuple[Pair, ...]
     axis: Axis
     lifts: tuple[PublicLift, ...]
@@ -131,7 +131,7 @@ def compare_view(
         Column(standing=ranked[digest], rmse_mm=tuple(part_estimate(path, part) for part in parts))
         for digest, path in runs.items()
     )
-    team = tuple(human_team_rmse(strata, part) for part in parts)
+    human_human = tuple(human_human_rmse(strata, part) for part in parts)
     pairs = _differences(tuple(runs.values()))
     names = itertools.combinations(runs, 2)
     return CompareView(
@@ -139,14 +139,14 @@ def compare_view(
         choice=tuple(ranked.values()),
         parts=parts,
         columns=columns,
-        team_mm=team,
+        human_human_mm=human_human,
         pairs=tuple(
             Pair(a=ranked[a], b=ranked[b], difference=each)
             for (a, b), each in zip(names, pairs, strict=True)
         ),
         axis=make_axis(
             [each for column in columns for each in column.rmse_mm],
-            [each for each in team if each is not None],
+            [each for each in human_human if each is not None],
         ),
         lifts=next(filter(None, map(public_lifts, runs.values())), ()),
         lift_rmse_mm=tuple(

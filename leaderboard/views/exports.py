@@ -66,7 +66,7 @@ class NewRow:
 
 @dataclass(frozen=True, kw_only=True)
 class News:
-    """What a feed tells of a season."""
+    """Content of a season's feed."""
 
     id: uuid.UUID
     season: SeasonInfo

@@ -25,8 +25,8 @@ class StratumScore:
     episodes: int
     failed: int
     rmse_mm: float
-    team_rmse_mm: float | None
-    """The human-human team's."""
+    human_human_rmse_mm: float | None
+    """The human-human baseline's."""
     metrics: Mapping[str, MeanWithMissing]
     """The other metrics of a board by name; see :func:`.board_metrics`."""
 
@@ -46,7 +46,7 @@ class PublicLift:
 @functools.lru_cache(maxsize=8192)
 def stratum_scores(bundle: Path) -> tuple[StratumScore, ...]:
     """Return the means of each stratum of a bundle, in the suite's order."""
-    return tuple(_cell(group) for group in read_json(bundle / RESULTS)["groups"])
+    return tuple(_stratum(group) for group in read_json(bundle / RESULTS)["groups"])
 
 
 @functools.lru_cache(maxsize=64)
@@ -68,18 +68,18 @@ def public_lifts(bundle: Path) -> tuple[PublicLift, ...]:
 
 
 def is_whole(bundle: Path | None) -> bool:
-    """Return whether all of a bundle is there, to be verified; of shipped ones some is not."""
+    """Return whether a bundle can be verified; those of practice rows are incomplete."""
     return bundle is not None and all((bundle / name).is_file() for name in FILES)
 
 
-def _cell(group: dict[str, Any]) -> StratumScore:
+def _stratum(group: dict[str, Any]) -> StratumScore:
     return StratumScore(
         behaviour=group["behaviour"],
         subject=group["subject"],
         episodes=group["episodes"],
         failed=group["failed"],
         rmse_mm=group["rmse_mm"]["mean"],
-        team_rmse_mm=group["human_human_rmse_mm"]["mean"],
+        human_human_rmse_mm=group["human_human_rmse_mm"]["mean"],
         metrics=read_means(group),
     )
 
@@ -144,14 +144,14 @@ def mean_rmse(strata: Sequence[StratumScore], part: Part) -> float | None:
     return sum(stratum.episodes * stratum.rmse_mm for stratum in some) / lifts if some else None
 
 
-def human_team_rmse(strata: Sequence[StratumScore], part: Part | None = None) -> float | None:
-    """Return the human-human team's mean RMSE [mm] over a part, if it is known in all of it."""
+def human_human_rmse(strata: Sequence[StratumScore], part: Part | None = None) -> float | None:
+    """Return the human-human baseline's mean RMSE [mm] over a part, if it is known in all of it."""
     some = [stratum for stratum in strata if part is None or part.has(stratum)]
-    told = [
-        (stratum.episodes, stratum.team_rmse_mm)
+    known = [
+        (stratum.episodes, stratum.human_human_rmse_mm)
         for stratum in some
-        if stratum.team_rmse_mm is not None
+        if stratum.human_human_rmse_mm is not None
     ]
-    if not told or len(told) < len(some):
+    if not known or len(known) < len(some):
         return None
-    return sum(episodes * rmse for episodes, rmse in told) / sum(episodes for episodes, _ in told)
+    return sum(episodes * rmse for episodes, rmse in known) / sum(episodes for episodes, _ in known)

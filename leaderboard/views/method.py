@@ -6,7 +6,7 @@ from ...agents.sandbox.host.levels import LEVELS, VERIFIABLE
 from ...agents.sandbox.protocol import LIMITS, Limits
 from ...benchmark.episode.metrics import FAILED_FRAME_MM
 from ..board.board import Board
-from ..board.standings import HumanTeamScores
+from ..board.standings import HumanHumanScores
 from ..records.season import SeasonInfo
 from .board import find_season, ordered_seasons
 
@@ -19,7 +19,7 @@ class MethodView:
     seasons: tuple[SeasonInfo, ...]
     lifts: int | None
     """Public lifts of an evaluation; as many are hidden. None as long as there is no row."""
-    team: HumanTeamScores | None
+    human_human: HumanHumanScores | None
     failed_frame_mm: float
     limits: Limits
     isolation: dict[str, str]
@@ -39,7 +39,7 @@ def method_view(board: Board) -> MethodView:
         season=info,
         seasons=seasons,
         lifts=standings[0].row.public.episodes if standings else None,
-        team=board.team(info.name),
+        human_human=board.human_human(info.name),
         failed_frame_mm=FAILED_FRAME_MM,
         limits=LIMITS,
         isolation=dict(LEVELS),

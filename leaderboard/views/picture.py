@@ -7,7 +7,7 @@ from typing import Final
 
 from ...benchmark.comparison.comparison import Point, pareto_front
 from ...benchmark.comparison.scale import Scale, Spot, make_scale
-from ..board.standings import HumanTeamScores
+from ..board.standings import HumanHumanScores
 from ..records.row import BoardRow
 from .bounds import PublicBound
 from .dots import LETTER, LINE, Box, Dot, Label, Place, labels_beside
@@ -62,7 +62,7 @@ class Picture:
 
 def make_picture(
     rows: Sequence[BoardRow],
-    team: HumanTeamScores | None,
+    team: HumanHumanScores | None,
     bounds: Sequence[PublicBound] = (),
     *,
     width: int,
@@ -156,7 +156,7 @@ def _spot(row: BoardRow) -> Spot:
     )
 
 
-def _mark(name: str, other: HumanTeamScores | PublicBound) -> Spot:
+def _mark(name: str, other: HumanHumanScores | PublicBound) -> Spot:
     return Spot(
         name=name,
         x=other.rmse_mm.mean,

@@ -14,7 +14,7 @@ from .board import find_season, ordered_seasons
 from .lifts import (
     Part,
     PublicLift,
-    human_team_rmse,
+    human_human_rmse,
     is_whole,
     mean_rmse,
     part_estimate,
@@ -35,8 +35,8 @@ class PartScore:
     episodes: int
     failed: int
     rmse_mm: Estimate
-    team_mm: float | None
-    """The human-human team's mean RMSE [mm]."""
+    human_human_mm: float | None
+    """The human-human baseline's mean RMSE [mm]."""
     blend_mm: float | None
     """The mean RMSE of ``blend`` [mm], if it is on the board."""
 
@@ -126,7 +126,9 @@ def policy_view(board: Board, season: str, digest: str) -> PolicyView | RefusalV
     blend = next((each.row.submission for each in standings if each.row.name == BLEND), None)
     other = None if blend in (None, digest) else board.bundle(season, str(blend))
     parts = () if bundle is None else _parts(bundle, other)
-    marks = [mark for each in parts for mark in (each.team_mm, each.blend_mm) if mark is not None]
+    marks = [
+        mark for each in parts for mark in (each.human_human_mm, each.blend_mm) if mark is not None
+    ]
     fellows = [each for each in standings if each.section == mine.section]
     neighbours = _neighbours([each for each in standings if each.ranked], digest)
     return PolicyView(
@@ -162,8 +164,8 @@ def _failures(bundle: Path | None) -> tuple[Failure, ...]:
     for lift in () if bundle is None else public_lifts(bundle):
         if lift.failure is not None:
             found.setdefault(lift.failure, []).append(lift)
-    told = [Failure(why=why, lifts=tuple(lifts)) for why, lifts in found.items()]
-    return tuple(sorted(told, key=lambda each: -len(each.lifts)))
+    failures = [Failure(why=why, lifts=tuple(lifts)) for why, lifts in found.items()]
+    return tuple(sorted(failures, key=lambda each: -len(each.lifts)))
 
 
 def _worst(bundle: Path | None) -> tuple[PublicLift, ...]:
@@ -189,7 +191,7 @@ def _parts(bundle: Path, other: Path | None) -> tuple[PartScore, ...]:
                 episodes=sum(stratum.episodes for stratum in some),
                 failed=sum(stratum.failed for stratum in some),
                 rmse_mm=part_estimate(bundle, part),
-                team_mm=human_team_rmse(some),
+                human_human_mm=human_human_rmse(some),
                 blend_mm=mean_rmse(others, part),
             )
         )

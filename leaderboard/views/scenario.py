@@ -1,4 +1,4 @@
-"""The page of a scenario, one behaviour with one subject: who lifts how, and who is good at it."""
+"""The pages of the scenarios: behaviour, subject, and the policies' scores."""
 
 import contextlib
 import functools
@@ -38,7 +38,7 @@ class Curve:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CellRow:
+class ScenarioRow:
     """A policy on the lifts of a scenario."""
 
     standing: RankedRow
@@ -52,13 +52,13 @@ class ScenarioView:
 
     season: SeasonInfo
     behaviour: str
-    told: str
+    description: str
     """What the behaviour is, in a line."""
     subject: Subject
     curves: tuple[Curve, ...]
-    rows: tuple[CellRow, ...]
+    rows: tuple[ScenarioRow, ...]
     """Best first."""
-    team_mm: float | None
+    human_human_mm: float | None
     axis: Axis
 
 
@@ -68,7 +68,7 @@ class StratumLine:
 
     behaviour: str
     subject: str
-    team_mm: float | None
+    human_human_mm: float | None
     best_mm: float | None
     """Mean RMSE [mm] of the policy that is best there."""
     best: RankedRow | None
@@ -90,7 +90,7 @@ class ScenariosView:
     season: SeasonInfo
     behaviours: tuple[str, ...]
     subjects: tuple[str, ...]
-    told: dict[str, str]
+    descriptions: dict[str, str]
     """What each behaviour is, in a line."""
     strata: dict[tuple[str, str], StratumLine]
     """By behaviour and subject, those that the suite has."""
@@ -121,7 +121,7 @@ def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | N
         strata[key] = StratumLine(
             behaviour=key[0],
             subject=key[1],
-            team_mm=None if best is None else best[0].team_rmse_mm,
+            human_human_mm=None if best is None else best[0].human_human_rmse_mm,
             best_mm=None if best is None else best[0].rmse_mm,
             best=None if best is None else best[1],
         )
@@ -129,7 +129,7 @@ def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | N
         season=info,
         behaviours=tuple(dict.fromkeys(behaviour for behaviour, _ in strata)),
         subjects=tuple(dict.fromkeys(subject for _, subject in strata)),
-        told={each.behaviour: _told(each) for each in suite.scenarios},
+        descriptions={each.behaviour: _described(each) for each in suite.scenarios},
         strata=strata,
         rows=tuple(
             HeatRow(
@@ -159,19 +159,23 @@ def scenario_view(board: Board, season: str, behaviour: str, subject: str) -> Sc
     scored.sort(key=lambda each: each[1].rmse_mm)
     part = Part(behaviour=behaviour, subject=subject)
     rows = tuple(
-        CellRow(standing=each, score=score, rmse_mm=_estimate(board, each, score, part, i < BEST))
+        ScenarioRow(
+            standing=each, score=score, rmse_mm=_estimate(board, each, score, part, i < BEST)
+        )
         for i, (each, score) in enumerate(scored)
     )
-    team = rows[0].score.team_rmse_mm if rows else None
+    human_human = rows[0].score.human_human_rmse_mm if rows else None
     return ScenarioView(
         season=info,
         behaviour=behaviour,
-        told=_told(scenario),
+        description=_described(scenario),
         subject=scenario.subject,
         curves=_curves(scenario, suite.seeds[:CURVES]),
         rows=rows,
-        team_mm=team,
-        axis=make_axis([row.rmse_mm for row in rows], () if team is None else (team,)),
+        human_human_mm=human_human,
+        axis=make_axis(
+            [row.rmse_mm for row in rows], () if human_human is None else (human_human,)
+        ),
     )
 
 
@@ -198,7 +202,7 @@ def _estimate(
     return part_estimate(bundle, part) if interval and bundle else known(score.rmse_mm)
 
 
-def _told(scenario: Scenario) -> str:
+def _described(scenario: Scenario) -> str:
     return (type(scenario.human).__doc__ or "").partition("\n")[0].strip()
 
 

@@ -29,14 +29,14 @@ def filled(board):
     team = Baseline(
         cells=cells, rmse_mm=(9.9, 10.5, 11.0, 10.8), means={"sparc": -2.79, "human_force_n": 0.37}
     )
-    board.store.vault("1").keep_team(team)
+    board.store.secrets("1").keep_human_human(team)
     return board
 
 
 def shown(board, width):
     console = Console(width=width, record=True, file=open(os.devnull, "w"))  # noqa: PTH123, SIM115
     with console.file:
-        table = board_table(board.season_info(), board.standings(), board.team(), width)
+        table = board_table(board.season_info(), board.standings(), board.human_human(), width)
         console.print(table)
     return console.export_text().splitlines()
 

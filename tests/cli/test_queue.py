@@ -16,7 +16,7 @@ def jobs(board, tmp_path):
         (tmp_path / name / "policy.py").write_text(f"# {name}\n")
         made.append(Queue(board).enqueue(board.keep(tmp_path / name), "Ada"))
     work.fail(work.claim("one", made[0].id), "numpy [b]is missing[/b]", "attempt 1\nImportError")
-    work.told(work.claim("one", made[1].id), "hidden run", 7, 40)
+    work.report(work.claim("one", made[1].id), "hidden run", 7, 40)
     return made
 
 

@@ -13,7 +13,7 @@ from colift.agents.submissions.new import write_template
 from colift.benchmark.results.baselines import Baseline
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.evaluation.entrant import Entrant
-from colift.leaderboard.evaluation.evaluation import play_team
+from colift.leaderboard.evaluation.evaluation import play_human_human
 from colift.leaderboard.records.season import Season
 from playwright.sync_api import Browser
 
@@ -81,7 +81,7 @@ def season() -> Season:
 
 @pytest.fixture(scope="session")
 def team(season: Season) -> Baseline:
-    return play_team(season)
+    return play_human_human(season)
 
 
 @pytest.fixture

@@ -46,7 +46,7 @@ def ranks(board, season=None):
 
 def test_an_empty_board_has_an_empty_table(board):
     assert board.standings() == ()
-    assert board.team() is None
+    assert board.human_human() is None
     assert list(board.ranking().columns) == list(COLUMNS)
     assert len(board.ranking()) == 0
 
@@ -251,21 +251,21 @@ def test_a_season_from_elsewhere_is_taken_over_with_its_rows(board, team, tmp_pa
     bundle.mkdir()
     (bundle / "results.json").write_text("{}")
     told = practice(board, team, bundle=bundle)
-    board.adopt(told)
-    board.adopt(told)
+    board.import_season(told)
+    board.import_season(told)
     assert ranks(board, "practice") == [(1, "proactive"), (2, "blend")]
     assert [(each.name, each.current) for each in board.seasons()] == [
         ("1", True),
         ("practice", False),
     ]
     assert board.seasons()[1] == told.info
-    assert board.team("practice").rmse_mm.mean == round(team.mean, 2)
+    assert board.human_human("practice").rmse_mm.mean == round(team.mean, 2)
     assert (board.bundle("practice", digest("blend")) / "results.json").read_text() == "{}"
     assert board.bundle("1", digest("blend")) is None
 
 
 def test_a_season_from_elsewhere_may_take_submissions(board, team):
-    board.adopt(practice(board, team, current=True))
+    board.import_season(practice(board, team, current=True))
     assert board.season.secret == SECRET
     board.new_season("2")
     assert board.season.secret != SECRET
@@ -277,5 +277,5 @@ def test_a_season_from_elsewhere_must_have_the_secret_that_it_is_committed_to(bo
 
     wrong = dataclasses.replace(told.info, commitment="0" * 64)
     with pytest.raises(InputError, match="practice: its secret is not the one"):
-        board.adopt(dataclasses.replace(told, info=wrong))
+        board.import_season(dataclasses.replace(told, info=wrong))
     assert len(board.seasons()) == 1

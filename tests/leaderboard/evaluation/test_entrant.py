@@ -4,7 +4,7 @@ import dataclasses
 
 import pytest
 from colift.agents.errors import InputError
-from colift.leaderboard.board.board import OWN
+from colift.leaderboard.board.board import BUILTIN
 from colift.leaderboard.board.tokens import Tokens
 from colift.leaderboard.evaluation.entrant import LEARNED, builtin_entrant, builtin_names
 from colift.leaderboard.queue import Queue, WorkerQueue
@@ -23,17 +23,17 @@ def board(open_board, tiny_suite):
 
 def test_an_own_policy_becomes_a_verified_row(board):
     queue = Queue(board)
-    job = queue.enqueue_own(builtin_entrant("copy"))
-    assert queue.enqueue_own(builtin_entrant("copy")).id == job.id
+    job = queue.enqueue_builtin(builtin_entrant("copy"))
+    assert queue.enqueue_builtin(builtin_entrant("copy")).id == job.id
     done = Worker(WorkerQueue(queue.board)).once()
     assert done.state == "done", done.reason
     (standing,) = board.standings()
-    assert (standing.row.name, standing.submitter, standing.row.verified) == ("copy", OWN, True)
+    assert (standing.row.name, standing.submitter, standing.row.verified) == ("copy", BUILTIN, True)
 
 
 def test_a_policy_that_has_changed_since_it_was_queued_is_not_evaluated(board):
     queue = Queue(board)
-    queue.enqueue_own(dataclasses.replace(builtin_entrant("copy"), digest="0" * 64))
+    queue.enqueue_builtin(dataclasses.replace(builtin_entrant("copy"), digest="0" * 64))
     done = Worker(WorkerQueue(queue.board)).once()
     assert done.state == "evaluator fault"
     assert "is not the one that was queued" in done.reason
@@ -42,7 +42,7 @@ def test_a_policy_that_has_changed_since_it_was_queued_is_not_evaluated(board):
 def test_all_of_them_fit_into_the_queue_whatever_the_quota_of_others(board):
     queue = Queue(board)
     for name in builtin_names():
-        queue.enqueue_own(builtin_entrant(name))
+        queue.enqueue_builtin(builtin_entrant(name))
     assert {job.name for job in queue.jobs("queued")} == set(builtin_names())
 
 
@@ -56,4 +56,4 @@ def test_what_was_learned_says_by_which_command_and_the_rest_from_nothing():
 
 def test_nobody_else_can_submit_under_their_name(board):
     with pytest.raises(InputError, match="not local or colift"):
-        Tokens(board).add(OWN)
+        Tokens(board).add(BUILTIN)

@@ -16,7 +16,11 @@ from colift.benchmark.execution.batches import play
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.hidden import commitment
 from colift.benchmark.verification.audit import CHANCE
-from colift.leaderboard.evaluation.evaluation import episode_count, evaluate_entrant, play_team
+from colift.leaderboard.evaluation.evaluation import (
+    episode_count,
+    evaluate_entrant,
+    play_human_human,
+)
 from colift.leaderboard.evaluation.progress import HIDDEN, Budget, BudgetError, Callbacks
 from colift.leaderboard.records.row import BoardRow
 
@@ -117,7 +121,7 @@ def test_the_same_secret_gives_the_same_row(evaluation, season, team, copy, tmp_
 
 def test_another_secret_gives_other_hidden_scores(evaluation, copy, tmp_path):
     other = make_season(bytes(range(1, 33)))
-    row = evaluate_entrant(copy, other, play_team(other), tmp_path / "other").row
+    row = evaluate_entrant(copy, other, play_human_human(other), tmp_path / "other").row
     assert row.hidden.rmse_mm != evaluation.row.hidden.rmse_mm
     assert row.public.rmse_mm == evaluation.row.public.rmse_mm
 

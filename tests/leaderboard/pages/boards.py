@@ -11,7 +11,7 @@ from colift.benchmark.results.baselines import Baseline, shipped_baselines
 from colift.benchmark.suites.hidden import commitment
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.board.seasons import ImportedEntry, ImportedSeason
-from colift.leaderboard.evaluation.evaluation import play_team
+from colift.leaderboard.evaluation.evaluation import play_human_human
 from colift.leaderboard.evaluation.scoring import gap, hidden_scores, public_scores
 from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.records.season import BoardEntry, Season, SeasonInfo
@@ -30,7 +30,7 @@ POLICIES = {
 def practice(folder: Path, season: str, names: tuple[str, ...] = tuple(POLICIES)) -> ImportedSeason:
     """Play some policies, and return them as a season that a board can take over."""
     played = Season(name=season, suite=make_suite("quick-v1"), secret=SECRET)
-    team = play_team(played)
+    team = play_human_human(played)
     info = SeasonInfo(
         name=season,
         suite=played.suite.name,

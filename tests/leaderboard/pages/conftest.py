@@ -56,8 +56,8 @@ def kept(played: ImportedSeason, once: Callable[..., Path]) -> Path:
 
     def make(place: Path) -> None:
         board = Board.open(place / "board", "quick-v1")
-        board.adopt(renamed(played, "2025", BEGAN - timedelta(days=300)))
-        board.adopt(played)
+        board.import_season(renamed(played, "2025", BEGAN - timedelta(days=300)))
+        board.import_season(played)
         board.withdraw("2025", digest("hold"), "Ada", "it <i>never</i> moved")
         write_site(board, place / "site")
         board.close()

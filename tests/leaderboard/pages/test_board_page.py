@@ -191,7 +191,7 @@ def test_two_people_and_the_bounds_stand_below_the_policies_and_follow_a_filter(
 ):
     page.goto(front)
     board = Board.open(folder)
-    team = board.team()
+    team = board.human_human()
     board.close()
     bounds = shipped_bounds(make_suite("quick-v1"))
     rows = page.locator(".baselines tr")

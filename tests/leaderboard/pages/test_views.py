@@ -7,7 +7,7 @@ import pytest
 from colift.benchmark.bundle.files import EPISODES, RESULTS
 from colift.benchmark.statistics import Estimate, MeanWithMissing
 from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.standings import HumanTeamScores
+from colift.leaderboard.board.standings import HumanHumanScores
 from colift.leaderboard.database.queries import record_entry
 from colift.leaderboard.pages.formats import interval, number, p_text, signed, tex
 from colift.leaderboard.pages.links import ServiceLinks
@@ -33,7 +33,7 @@ def shown(folder):
 
 
 def team(mean):
-    return HumanTeamScores(rmse_mm=around(mean), means={"sparc": -2.8, "human_force_n": 0.3})
+    return HumanHumanScores(rmse_mm=around(mean), means={"sparc": -2.8, "human_force_n": 0.3})
 
 
 def around(mean):
@@ -79,7 +79,7 @@ def test_a_policy_is_shown_part_by_part_beside_two_people_and_blend(shown):
     assert view.parts[0].rmse_mm.ci95 == pytest.approx(view.standing.row.public.rmse_mm.ci95)
     for mine, theirs in zip(view.parts, blend.parts, strict=True):
         assert mine.blend_mm == pytest.approx(theirs.rmse_mm.mean)
-    ratio = view.parts[0].rmse_mm.mean / view.parts[0].team_mm
+    ratio = view.parts[0].rmse_mm.mean / view.parts[0].human_human_mm
     assert ratio == pytest.approx(view.standing.row.public.vs_human.mean)
     assert [entry.season for entry in view.history] == ["2026", "2025"]
 

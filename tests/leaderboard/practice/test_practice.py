@@ -9,9 +9,9 @@ import pytest
 from colift.agents.errors import InputError
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.evaluation.entrant import builtin_entrant, builtin_names
-from colift.leaderboard.evaluation.evaluation import play_team
+from colift.leaderboard.evaluation.evaluation import play_human_human
 from colift.leaderboard.practice.practice import is_current, play_policy, practice_season
-from colift.leaderboard.practice.shipped import DATA, Shipped, shipped_practice
+from colift.leaderboard.practice.season_import import DATA, PlayedSeason, practice_import
 from colift.leaderboard.replays.chosen import replays_of
 
 SUITE = "tiny"
@@ -25,7 +25,7 @@ def season(tiny_suite):
 
 @pytest.fixture(scope="module")
 def played(season):
-    team = play_team(season)
+    team = play_human_human(season)
     return team, play_policy("copy", season, team, NOW)
 
 
@@ -33,7 +33,7 @@ def played(season):
 def shipped(season, played, tmp_path_factory):
     team, copy = played
     folder = tmp_path_factory.mktemp("data")
-    made = Shipped(
+    made = PlayedSeason(
         suite=SUITE, suite_digest=season.suite.digest, began_at=NOW, team=team, played=()
     )
     made.with_played(copy).write(folder)
@@ -60,15 +60,15 @@ def test_own_policies_have_digests_of_their_own():
 
 def test_what_is_written_is_read(shipped, played):
     team, copy = played
-    found = Shipped.read(SUITE, shipped)
+    found = PlayedSeason.read(SUITE, shipped)
     assert found.team == team
     assert found.began_at == NOW
     assert found.played == (copy,)
-    assert Shipped.read("paper-v1", shipped) is None
+    assert PlayedSeason.read("paper-v1", shipped) is None
 
 
 def test_equal_content_makes_equal_files(shipped, tmp_path):
-    Shipped.read(SUITE, shipped).write(tmp_path)
+    PlayedSeason.read(SUITE, shipped).write(tmp_path)
     for path in shipped.iterdir():
         assert (tmp_path / path.name).read_bytes() == path.read_bytes()
 
@@ -90,8 +90,8 @@ def test_what_is_no_longer_true_is_made_again(played, season):
 def test_a_board_adopts_what_is_shipped(shipped, played, tmp_path):
     _, copy = played
     board = Board.open(tmp_path / "board", SUITE)
-    with shipped_practice(SUITE, shipped) as practice:
-        board.adopt(practice)
+    with practice_import(SUITE, shipped) as practice:
+        board.import_season(practice)
     info = board.season_info()
     assert (info.name, info.current) == ("practice-tiny", True)
     assert board.season.secret == bytes.fromhex(info.revealed) == practice_season(SUITE).secret
@@ -109,8 +109,8 @@ def test_a_board_adopts_what_is_shipped(shipped, played, tmp_path):
 
 def test_a_shipped_season_can_be_one_to_look_at_only(shipped, tmp_path):
     board = Board.open(tmp_path / "board", SUITE)
-    with shipped_practice(SUITE, shipped, current=False) as practice:
-        board.adopt(practice)
+    with practice_import(SUITE, shipped, current=False) as practice:
+        board.import_season(practice)
     assert [(each.name, each.current) for each in board.seasons()] == [
         ("1", True),
         ("practice-tiny", False),
@@ -119,15 +119,15 @@ def test_a_shipped_season_can_be_one_to_look_at_only(shipped, tmp_path):
 
 
 def test_what_is_shipped_for_other_rules_is_left_alone(shipped, tmp_path, monkeypatch):
-    old = dataclasses.replace(Shipped.read(SUITE, shipped), suite_digest="0" * 16)
+    old = dataclasses.replace(PlayedSeason.read(SUITE, shipped), suite_digest="0" * 16)
     old.write(tmp_path)
-    with shipped_practice(SUITE, tmp_path) as found:
+    with practice_import(SUITE, tmp_path) as found:
         assert found is None
 
 
 @pytest.mark.parametrize("suite", ["standard-v1", "paper-v1"])
 def test_what_the_project_ships_is_of_its_suites(suite):
-    found = Shipped.read(suite, DATA)
+    found = PlayedSeason.read(suite, DATA)
     if found is None:
         pytest.skip("nothing is shipped yet")
     season = practice_season(suite)

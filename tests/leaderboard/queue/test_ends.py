@@ -159,7 +159,7 @@ def test_a_job_that_is_cancelled_is_lost_to_its_worker(submit, queue, work):
     job = work.claim("one")
     queue.cancel(job.id, "Ada", "it hangs", submitter="Ada")
     for late in (
-        lambda: work.told(job, "audit", 2),
+        lambda: work.report(job, "audit", 2),
         lambda: work.finish(job, outcome(job), make_errors(10.0)),
         lambda: work.fail(job, "no"),
         lambda: work.fault(job, "no"),

@@ -18,11 +18,11 @@ def test_a_worker_says_how_far_it_is(submit, queue, clock, work):
     submit()
     job = work.claim("one")
     clock.turn(seconds=3)
-    work.told(job, "hidden run", 30, 70)
+    work.report(job, "hidden run", 30, 70)
     now = queue.job(job.id)
     assert (now.state, now.stage, now.done, now.total) == ("running", "hidden run", 30, 70)
     assert now.heartbeat_at == clock.now
-    work.told(job, "verification", 60)
+    work.report(job, "verification", 60)
     assert (queue.job(job.id).state, queue.job(job.id).total) == ("verifying", 70)
 
 
@@ -30,7 +30,7 @@ def test_a_job_whose_worker_is_silent_for_a_lease_is_anothers(submit, queue, clo
     submit()
     first = work.claim("one")
     clock.turn(seconds=LEASE.total_seconds() - 1)
-    work.told(first, "public run", 1)
+    work.report(first, "public run", 1)
     clock.now += LEASE
     assert work.claim("two") is None
     clock.turn(seconds=1)
@@ -38,7 +38,7 @@ def test_a_job_whose_worker_is_silent_for_a_lease_is_anothers(submit, queue, clo
     assert (second.id, second.worker, second.attempt, second.done) == (first.id, "two", 2, 0)
     row = outcome(first)
     for late in (
-        lambda: work.told(first, "audit", 2),
+        lambda: work.report(first, "audit", 2),
         lambda: work.finish(first, row, make_errors(10.0)),
         lambda: work.fail(first, "no"),
         lambda: work.fault(first, "no"),
@@ -88,7 +88,7 @@ def test_a_clock_that_was_ahead_keeps_no_job_from_being_taken(submit, queue, clo
     first = work.claim("one")
     assert first.name == "a"
     clock.turn(days=1)
-    work.told(first, "public run", 1)
+    work.report(first, "public run", 1)
     clock.turn(days=-1)
     second = work.claim("two")
     assert (second.id, second.attempt) == (first.id, 2)

@@ -77,7 +77,13 @@ def contents(board):
     season = board.seasons()[0]
     (standing,), (entry,) = board.standings(), board.entries_of("telltale")
     (job,) = Queue(board).jobs()
-    told = [vars(season), standing.row.plain(), entry.plain(), job.plain(), vars(board.team())]
+    told = [
+        vars(season),
+        standing.row.plain(),
+        entry.plain(),
+        job.plain(),
+        vars(board.human_human()),
+    ]
     told += [event.plain() for event in board.events()]
     found = [repr(told).encode(), job.log.encode(), board.ranking().to_csv().encode()]
     for path in (*(board.folder / "public").rglob("*"), *(board.folder / "logs").iterdir()):

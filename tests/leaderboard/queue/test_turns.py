@@ -64,7 +64,7 @@ def test_who_has_more_at_work_waits(submit, clock, work):
     clock.turn(seconds=1)
     submit("a2", "Ada")
     submit("g1", "Grace")
-    work.told(first, "public run", 1)
+    work.report(first, "public run", 1)
     assert work.claim("two").name == "g1"
     assert work.claim("three").name == "a2"
 
@@ -107,7 +107,7 @@ def test_each_of_many_is_queued_once_and_taken_once_whoever_asks(board, write_su
         start.wait()
         while (job := work.claim(name)) is not None:
             taken.append(job.id)
-            work.told(job, "public run", 1)
+            work.report(job, "public run", 1)
             work.fail(job, "no")
 
     with ThreadPoolExecutor(8) as pool:

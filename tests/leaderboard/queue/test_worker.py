@@ -57,12 +57,12 @@ def test_a_submission_becomes_a_verified_row(board, queue, write_submission):
     done = Worker(WorkerQueue(queue.board), name="one").once(watch=watch)
     assert (done.id, done.state, done.attempt, done.worker) == (job.id, "done", 1, "one")
     assert done.done == done.total > 8
-    assert stages == ["human-human team", *STAGES]
+    assert stages == ["human-human baseline", *STAGES]
     assert "running" in states
     (standing,) = board.standings()
     assert (standing.row.name, standing.row.verified, standing.submitter) == ("mine", True, "Ada")
     assert (board.bundle("1", job.submission) / "traces.npz").is_file()
-    assert board.team().rmse_mm.mean > 0
+    assert board.human_human().rmse_mm.mean > 0
     for words in ("check", "public run", "hidden run", "0 of 2 public lifts failed", "done"):
         assert words in done.log
     assert list((board.folder / "private/work").iterdir()) == []

@@ -1,4 +1,4 @@
-"""Practice seasons as files, and boards that start with them.
+"""Practice seasons as files, and their import into new boards.
 
 ``practice-SUITE.json`` has secret, rows and errors; ``practice-SUITE.zip`` has a folder for each
 policy, with the parts of its public run that pages show.
@@ -24,30 +24,30 @@ from ..board.seasons import ImportedEntry, ImportedSeason
 from ..records.season import BoardEntry, SeasonInfo
 from .practice import SUITES, Played, practice_season
 
-FORMAT: Final = 1
+FORMAT: Final = 2
 
 DATA: Final = Path(__file__).parents[1] / "data"
-"""Where what is shipped lies."""
+"""Folder of the practice seasons."""
 
 _DATE: Final = (1980, 1, 1, 0, 0, 0)
 """Of all files in the archive, so that equal files make equal archives."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Shipped:
-    """A practice season with its rows."""
+class PlayedSeason:
+    """A practice season with its evaluated policies."""
 
     suite: str
     suite_digest: str
     began_at: datetime
-    team: Baseline
-    """The human-human team on the hidden episodes."""
+    human_human: Baseline
+    """The human-human baseline on the hidden episodes."""
     played: tuple[Played, ...]
     """In the order of their names."""
 
     @classmethod
     def read(cls, suite: str, folder: Path = DATA) -> Self | None:
-        """Return what is shipped for a suite, or None if there is nothing."""
+        """Read the practice season of a suite; None if there is none of this format."""
         path, archive = _files(folder, suite)
         if not (path.is_file() and archive.is_file()):
             return None
@@ -60,12 +60,12 @@ class Shipped:
             suite=content["suite"],
             suite_digest=content["suite_digest"],
             began_at=datetime.fromisoformat(content["began_at"]),
-            team=Baseline.read(content["team"]),
+            human_human=Baseline.read(content["human_human"]),
             played=played,
         )
 
     def write(self, folder: Path) -> None:
-        """Write the two files; the archive first, so that the other never names what is missing."""
+        """Write the two files; the archive first: the other refers to it."""
         path, archive = _files(folder, self.suite)
         content = {
             "format": FORMAT,
@@ -73,7 +73,7 @@ class Shipped:
             "suite_digest": self.suite_digest,
             "secret": practice_season(self.suite).secret.hex(),
             "began_at": self.began_at.isoformat(),
-            "team": self.team.plain(),
+            "human_human": self.human_human.plain(),
             "played": [
                 {"entry": each.entry.plain(), "hidden_rmse_mm": list(each.hidden_rmse_mm)}
                 for each in self.played
@@ -102,23 +102,23 @@ class Shipped:
 
 
 @contextmanager
-def shipped_practice(
+def practice_import(
     suite: str, folder: Path = DATA, *, current: bool = True
 ) -> Iterator[ImportedSeason | None]:
-    """Yield the practice season of a suite for a board to adopt; its files are there meanwhile.
+    """Yield the practice season of a suite for import into a board; its files exist meanwhile.
 
-    It is None if nothing is shipped for this suite, or what is shipped is of other rules.
+    It is None if there is none for this suite and its digest.
 
     Parameters
     ----------
     suite
         The suite's name.
     folder
-        Where the files are.
+        Folder of the files.
     current
         Whether it takes submissions.
     """
-    found = Shipped.read(suite, folder)
+    found = PlayedSeason.read(suite, folder)
     if found is None or found.suite_digest != make_suite(suite).digest:
         yield None
         return
@@ -142,7 +142,7 @@ def shipped_practice(
             current=current,
             revealed=season.secret.hex(),
         )
-        yield ImportedSeason(info=info, entries=entries, team=found.team)
+        yield ImportedSeason(info=info, entries=entries, human_human=found.human_human)
 
 
 def _played(content: dict[str, Any], packed: zipfile.ZipFile) -> Played:
@@ -160,17 +160,17 @@ def _files(folder: Path, suite: str) -> tuple[Path, Path]:
     return folder / f"practice-{suite}.json", folder / f"practice-{suite}.zip"
 
 
-def open_stocked(folder: Path, suite: str | None = None, data: Path = DATA) -> Board:
-    """Return the board in a folder; a new one begins with the season that the project ships.
+def open_with_practice(folder: Path, suite: str | None = None, data: Path = DATA) -> Board:
+    """Open the board in a folder; a new one begins with the practice season of its suite.
 
-    The practice seasons of other suites stand beside it, to be looked at.
+    The practice seasons of other suites are imported as frozen seasons.
 
     Parameters
     ----------
     folder, suite
         As for :meth:`.Board.open`.
     data
-        Where what is shipped lies.
+        Folder of the practice seasons.
 
     Raises
     ------
@@ -180,18 +180,18 @@ def open_stocked(folder: Path, suite: str | None = None, data: Path = DATA) -> B
     if folder.is_dir() and any(folder.iterdir()):
         return Board.open(folder, suite)
     wanted = suite or SUITE
-    with shipped_practice(wanted, data) as practice:
+    with practice_import(wanted, data) as practice:
         board = Board.open(folder, suite, practice=practice)
     for other in SUITES:
         if practice is not None and other != wanted:
-            with shipped_practice(other, data, current=False) as shown:
-                if shown is not None:
-                    board.adopt(shown)
+            with practice_import(other, data, current=False) as frozen:
+                if frozen is not None:
+                    board.import_season(frozen)
     return board
 
 
 def open_to_read(folder: Path) -> Board:
-    """Return the board in a folder to be looked at, also if the folder cannot be written.
+    """Open the board in a folder for reading, even if the folder is read-only.
 
     Raises
     ------
@@ -200,4 +200,4 @@ def open_to_read(folder: Path) -> Board:
     """
     if (folder / "board.json").is_file() and not os.access(folder, os.W_OK):
         return Board.look(folder)
-    return open_stocked(folder)
+    return open_with_practice(folder)

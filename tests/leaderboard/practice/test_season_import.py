@@ -7,7 +7,7 @@ import pytest
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.practice.practice import Played
-from colift.leaderboard.practice.shipped import Shipped, open_stocked
+from colift.leaderboard.practice.season_import import PlayedSeason, open_with_practice
 from colift.leaderboard.records.season import BoardEntry
 
 from ..rows import digest, make_errors, make_row
@@ -30,7 +30,7 @@ def data(tmp_path, team):
         refusal=None,
     )
     played = Played(entry=entry, hidden_rmse_mm=make_errors(10.0), files={"results.json": b"{}"})
-    shipped = Shipped(
+    shipped = PlayedSeason(
         suite=SUITE.name, suite_digest=SUITE.digest, began_at=at, team=team, played=(played,)
     )
     folder = tmp_path / "data"
@@ -45,7 +45,7 @@ def opened(tmp_path, data, monkeypatch):
     monkeypatch.delenv("COLIFT_DATABASE_URL", raising=False)
 
     def look():
-        board = open_stocked(tmp_path / "board", SUITE.name, data)
+        board = open_with_practice(tmp_path / "board", SUITE.name, data)
         try:
             return (
                 [(each.name, each.current) for each in board.seasons()],
@@ -69,7 +69,7 @@ def test_a_board_that_is_there_is_left_as_it_is(tmp_path, opened):
 
 
 def test_what_was_shipped_under_other_rules_is_not_shown(data, opened, team):
-    shipped = Shipped.read(SUITE.name, data)
+    shipped = PlayedSeason.read(SUITE.name, data)
     dataclasses.replace(shipped, suite_digest="0" * 16).write(data)
     assert opened() == ([("1", True)], [])
 
