@@ -146,7 +146,13 @@ def test_the_secret_of_a_season_is_published_when_nothing_can_be_won_by_it_any_m
 
 def test_an_unknown_season_is_named_with_those_that_there_are(board):
     board.new_season("2")
-    for ask in (board.standings, board.ranking, board.team, board.season_of, board.season_info):
+    for ask in (
+        board.standings,
+        board.ranking,
+        board.human_human,
+        board.season_of,
+        board.season_info,
+    ):
         with pytest.raises(InputError, match="no season '3'; it has 1, 2"):
             ask("3")
 

@@ -7,7 +7,7 @@ import pytest
 import sqlalchemy as sa
 from colift.agents.errors import InputError
 from colift.benchmark.suites.suite import make_suite
-from colift.leaderboard.board.ranks import can_tell
+from colift.leaderboard.board.ranks import can_distinguish
 from colift.leaderboard.board.seasons import ImportedEntry, ImportedSeason
 from colift.leaderboard.board.standings import COLUMNS
 from colift.leaderboard.records.season import Season, SeasonInfo
@@ -160,7 +160,7 @@ def test_lifts_that_are_too_few_to_tell_anybody_give_no_rank(board):
     [(1, 2, True), (2, 5, False), (2, 6, True), (3, 6, False), (103, 12, True), (104, 12, False)],
 )
 def test_whether_a_rank_can_be_told_follows_from_the_number_of_lifts(policies, lifts, told):
-    assert can_tell(policies, lifts) is told
+    assert can_distinguish(policies, lifts) is told
 
 
 def test_seasons_have_tables_of_their_own(board):
@@ -243,7 +243,7 @@ def practice(board, team, current=False, bundle=None):
         )
         for name, mean in (("blend", 16.0), ("proactive", 14.0))
     ]
-    return ImportedSeason(info=info, entries=entries, team=team)
+    return ImportedSeason(info=info, entries=entries, human_human=team)
 
 
 def test_a_season_from_elsewhere_is_taken_over_with_its_rows(board, team, tmp_path):

@@ -41,7 +41,7 @@ def practice(folder: Path, season: str, names: tuple[str, ...] = tuple(POLICIES)
         revealed=SECRET.hex(),
     )
     adopted = [_adopted(folder, played, team, name, i) for i, name in enumerate(names)]
-    return ImportedSeason(info=info, entries=adopted, team=team)
+    return ImportedSeason(info=info, entries=adopted, human_human=team)
 
 
 def renamed(season: ImportedSeason, name: str, began_at: datetime) -> ImportedSeason:

@@ -59,11 +59,11 @@ def test_a_filter_shows_the_means_of_the_public_lifts_of_that_part(page, front, 
         assert row.locator(".rmse").text_content() == f"{rmse:.1f}"
         ratio = rmse / group["human_human_rmse_mm"]["mean"]
         assert row.locator(".ratio").text_content() == f"{ratio:.2f}"
-    expect(page.locator("#told")).to_contain_text("public lifts of jerky")
+    expect(page.locator("#status")).to_contain_text("public lifts of jerky")
     before = page.locator("tbody .dot").first.get_attribute("cx")
     page.locator("#behaviour").select_option("")
     assert page.locator("tbody .dot").first.get_attribute("cx") != before
-    expect(page.locator("#told")).to_have_text("4 policies, scored on hidden lifts.")
+    expect(page.locator("#status")).to_have_text("4 policies, scored on hidden lifts.")
 
 
 def test_the_line_of_two_people_goes_where_they_are_on_the_part(page, front):
@@ -79,14 +79,14 @@ def test_a_part_that_the_suite_does_not_have_shows_no_numbers(page, front):
     page.locator("#behaviour").select_option("smooth")
     page.get_by_label("Subject").select_option("S3")
     assert set(page.locator("tr[data-row] .rmse").all_text_contents()) == {"\N{EN DASH}"}
-    expect(page.locator("#told")).to_contain_text("The suite has no such lifts.")
+    expect(page.locator("#status")).to_contain_text("The suite has no such lifts.")
 
 
 def test_search_finds_policies_and_authors(page, front, names):
     page.goto(front)
     page.get_by_label("Search").fill("GRACE co")
     assert names(page) == ["copy"]
-    expect(page.locator("#told")).to_contain_text("1 of 4 policies")
+    expect(page.locator("#status")).to_contain_text("1 of 4 policies")
 
 
 def test_the_state_is_in_the_address(page, front, names):
@@ -102,7 +102,7 @@ def test_the_state_is_in_the_address(page, front, names):
     assert page.locator("tbody .rmse").all_text_contents() == rmse
     assert page.locator("#behaviour").input_value() == "pause"
     page.evaluate("location.hash = '#behaviour=nonsense&sort=nonsense'")
-    expect(page.locator("#told")).to_have_text("4 policies, scored on hidden lifts.")
+    expect(page.locator("#status")).to_have_text("4 policies, scored on hidden lifts.")
 
 
 def test_a_keyboard_is_enough(page, front, names):

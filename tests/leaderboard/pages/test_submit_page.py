@@ -104,7 +104,7 @@ def test_an_uploaded_template_becomes_a_verified_row_before_ones_eyes(
 ):
     upload(page, url, zipped("template"), token)
     page.wait_for_url("**/jobs/*")
-    expect(page.locator("#told")).to_have_text("Waiting.")
+    expect(page.locator("#status")).to_have_text("Waiting.")
     page.evaluate("""() => {
         window.seen = [];
         const read = (id) => document.getElementById(id).textContent;
@@ -116,7 +116,7 @@ def test_an_uploaded_template_becomes_a_verified_row_before_ones_eyes(
     working.start()
     while working.is_alive():
         page.wait_for_timeout(100)
-        if page.locator("#told").count():
+        if page.locator("#status").count():
             seen += page.evaluate("window.seen || []")
     working.join()
     expect(page.get_by_text("Done: it is on the board")).to_be_visible()

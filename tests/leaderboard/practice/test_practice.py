@@ -34,7 +34,7 @@ def shipped(season, played, tmp_path_factory):
     team, copy = played
     folder = tmp_path_factory.mktemp("data")
     made = PlayedSeason(
-        suite=SUITE, suite_digest=season.suite.digest, began_at=NOW, team=team, played=()
+        suite=SUITE, suite_digest=season.suite.digest, began_at=NOW, human_human=team, played=()
     )
     made.with_played(copy).write(folder)
     return folder
@@ -61,7 +61,7 @@ def test_own_policies_have_digests_of_their_own():
 def test_what_is_written_is_read(shipped, played):
     team, copy = played
     found = PlayedSeason.read(SUITE, shipped)
-    assert found.team == team
+    assert found.human_human == team
     assert found.began_at == NOW
     assert found.played == (copy,)
     assert PlayedSeason.read("paper-v1", shipped) is None

@@ -31,7 +31,7 @@ def data(tmp_path, team):
     )
     played = Played(entry=entry, hidden_rmse_mm=make_errors(10.0), files={"results.json": b"{}"})
     shipped = PlayedSeason(
-        suite=SUITE.name, suite_digest=SUITE.digest, began_at=at, team=team, played=(played,)
+        suite=SUITE.name, suite_digest=SUITE.digest, began_at=at, human_human=team, played=(played,)
     )
     folder = tmp_path / "data"
     folder.mkdir()
