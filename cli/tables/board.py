@@ -21,7 +21,7 @@ def board_table(
 ) -> Table:
     """Return a season's table: who cannot be told from each other shares a rank.
 
-    The human-human team stands where it would come by its mean.
+    The human-human baseline stands where it would come by its mean.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def _rank(each: RankedRow) -> str:
 def _team(team: HumanHumanScores, wide: bool) -> list[str]:
     cells: list[str] = [
         "",
-        "human-human team",
+        "human-human baseline",
         f"{team.rmse_mm.mean:.2f}",
         _interval(team.rmse_mm),
         "1.00",
@@ -106,7 +106,7 @@ def _team(team: HumanHumanScores, wide: bool) -> list[str]:
 
 
 def _caption(wide: bool) -> str:
-    told = "Who shares a rank cannot be told apart. RMSE: hidden lifts. vs human: 1 is a human team"
+    told = "One rank: no significant difference. RMSE: hidden lifts. vs human: 1 is two people"
     if not wide:
         return f"{told}. SPARC: public lifts."
     return (

@@ -33,7 +33,7 @@ def row_table(row: BoardRow) -> Table:
             ("P(RMSE < two people's)", "", probability(row.hidden.better_than_human)),
         ),
         caption=f"season {row.season}, {row.suite}, suite digest {row.suite_digest}. P: how sure "
-        "it is that the mean RMSE on such lifts is below a human-human team's.",
+        "it is that the mean RMSE on such lifts is below the human-human baseline's.",
     )
 
 

@@ -161,7 +161,7 @@ def _fault(error: Exception, name: str) -> tuple[int, str]:
         return 503, f"the board's database does not answer; try again in {AWAY_S} s"
     return (
         500,
-        f"this is the board's fault; please inform the maintainer that request {name} failed",
+        f"the board has failed; please inform the maintainer that request {name} failed",
     )
 
 

@@ -36,7 +36,7 @@ def test_a_policy_that_has_changed_since_it_was_queued_is_not_evaluated(board):
     queue.enqueue_builtin(dataclasses.replace(builtin_entrant("copy"), digest="0" * 64))
     done = Worker(WorkerQueue(queue.board)).once()
     assert done.state == "evaluator fault"
-    assert "is not the one that was queued" in done.reason
+    assert "differs from the one that was queued" in done.reason
 
 
 def test_all_of_them_fit_into_the_queue_whatever_the_quota_of_others(board):

@@ -107,7 +107,7 @@ def test_a_job_that_takes_its_workers_with_it_ends(submit, queue, clock, work):
     assert work.claim("one") is None
     (job,) = queue.jobs("evaluator fault")
     assert job.ended
-    assert "gave no sign of life" in job.reason
+    assert "sent no more heartbeats" in job.reason
 
 
 def test_the_keeper_may_try_a_failed_job_again(submit, queue, board, work):

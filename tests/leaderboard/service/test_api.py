@@ -94,7 +94,7 @@ def test_a_fault_of_ours_is_logged_and_told_without_its_inside(client, monkeypat
     request = answer.headers["X-Request-ID"]
     assert answer.status_code == 500
     assert answer.json() == {
-        "error": f"this is our fault; tell the maintainer that request {request} failed"
+        "error": f"the board has failed; please inform the maintainer that request {request} failed"
     }
     assert f"request {request}: GET '/api/v1/standings' failed" in caplog.text
     assert "is broken" in caplog.text
@@ -108,7 +108,7 @@ def test_a_full_disk_is_told(client, monkeypatch):
     monkeypatch.setattr(Board, "standings", fail)
     answer = client.get("/api/v1/standings")
     assert answer.status_code == 507
-    assert answer.json() == {"error": "the board has no room left; tell its maintainer"}
+    assert answer.json() == {"error": "the board has no room left; please inform its maintainer"}
 
 
 def test_the_api_is_described_without_anything_from_elsewhere(client):
