@@ -36,7 +36,9 @@ BoardIsolation = Annotated[
 
 
 @contextmanager
-def opened_board(folder: Path, opening: Callable[[Path], Board] = open_with_practice) -> Iterator[Board]:
+def opened_board(
+    folder: Path, opening: Callable[[Path], Board] = open_with_practice
+) -> Iterator[Board]:
     """Open the board in a folder while the body runs; see :func:`.open_with_practice`."""
     board = opening(folder)
     try:

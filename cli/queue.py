@@ -9,7 +9,7 @@ import typer
 
 from ..agents.errors import InputError
 from ..leaderboard.board.board import LOCAL, Board
-from ..leaderboard.practice.season_import import open_with_practice, open_to_read
+from ..leaderboard.practice.season_import import open_to_read, open_with_practice
 from ..leaderboard.queue import Queue
 from ..leaderboard.records.job import STATES, Job
 from .board_options import BOARD, BoardFolder, Why, opened_board
