@@ -23,9 +23,9 @@ def how_to_install(extra: str) -> str:
 def _source() -> tuple[Path | None, bool]:
     """Return the folder that colift was installed from, if it is there, and whether editable."""
     found = (each.read_text("direct_url.json") for each in distributions(name="colift"))
-    told = json.loads(next(filter(None, found), "{}"))
-    address = urlsplit(told.get("url", ""))
+    origin = json.loads(next(filter(None, found), "{}"))
+    address = urlsplit(origin.get("url", ""))
     folder = Path(unquote(address.path))
     if address.scheme != "file" or not (folder / "pyproject.toml").is_file():
         return None, False
-    return folder, bool(told.get("dir_info", {}).get("editable"))
+    return folder, bool(origin.get("dir_info", {}).get("editable"))

@@ -60,8 +60,10 @@ def lookup(group: str, name: str) -> Any:
     try:
         return known[name].load()
     except Exception as error:
-        told = f"{type(error).__name__}: {error}"
-        raise InputError(f"{_KIND[group]} {name!r} ({known[name].value}) fails: {told}") from error
+        message = f"{type(error).__name__}: {error}"
+        raise InputError(
+            f"{_KIND[group]} {name!r} ({known[name].value}) fails: {message}"
+        ) from error
 
 
 def summary(registered: object) -> str:

@@ -1,11 +1,12 @@
-"""One who commands a robot at a time: a claim in its ALMemory, kept alive by a heartbeat.
+"""Exclusive control of a robot: a claim in its ALMemory, kept alive by a heartbeat.
 
-The key :data:`KEY` holds who commands, a token and the number of the heartbeat; without a name, it
-is nobody. Whether a claim is alive is seen by its heartbeat, on the clock of who looks: no two
-clocks are compared. Two who claim at once both write, wait, and read: the last one has it. Every
-heartbeat reads before it writes, so whoever has lost the claim learns of it and stops.
+The key :data:`KEY` holds the name of the holder, a token and the number of the heartbeat; without a
+name, the robot is free. A claim is alive while its heartbeat advances on the observer's clock: no
+two clocks are compared. Two clients that claim at once both write, wait, and read: the last writer
+has it. Every heartbeat reads before it writes; a client that has lost the claim notices and stops.
 
-NAOqi itself lets anybody command; what claims nothing is noticed by the set-points that it moves.
+NAOqi itself accepts commands of any client; one without a claim is detected by the set-points that
+it moves.
 """
 
 import os
@@ -36,12 +37,12 @@ SETTLED: Final = 0.3
 
 
 class Holder(NamedTuple):
-    """Who commands a robot."""
+    """Holder of the claim on a robot."""
 
     name: str
-    """Empty if it is nobody."""
+    """Empty if the robot is free."""
     token: str
-    """What no other claim has."""
+    """Unique to this claim."""
     beat: int
     """Number of the last heartbeat."""
 
@@ -50,7 +51,7 @@ NOBODY: Final = Holder("", "", 0)
 
 
 def holder(session: Naoqi) -> Holder:
-    """Return who has the claim on a robot, dead or alive.
+    """Return the holder of the claim on a robot, dead or alive.
 
     Raises
     ------
@@ -80,7 +81,7 @@ class RobotClaim:
         self._own = Holder(f"process {os.getpid()} on {socket.gethostname()}", uuid.uuid4().hex, 0)
 
     def take(self, clock: Clock) -> None:
-        """Take the claim; one that is dead is taken over.
+        """Take the claim; a dead one is taken over.
 
         Raises
         ------
@@ -97,7 +98,7 @@ class RobotClaim:
         self._refuse(holder(self._session))
 
     def _await_nobody(self, clock: Clock) -> None:
-        """Return when nobody has the claim, or whoever has it has been seen to be dead."""
+        """Return when the robot is free, or the present claim is dead."""
         first = holder(self._session)
         end = clock.now() + STALE
         while first.name and clock.now() < end:
@@ -116,7 +117,7 @@ class RobotClaim:
             )
 
     def beat(self) -> str:
-        """Show that the claim is alive; return who else has it, or nothing.
+        """Send a heartbeat; return the name of another holder, or an empty text.
 
         Raises
         ------
@@ -131,7 +132,7 @@ class RobotClaim:
         return ""
 
     def release(self) -> None:
-        """Give the claim up, if it is still this one's."""
+        """Release the claim, if it is still held."""
         with suppress(RobotLostError):
             if holder(self._session).token == self._own.token:
                 self._write(NOBODY)
@@ -166,7 +167,7 @@ def claimed(arm: NaoqiArm, clock: Clock) -> Iterator[None]:
 
 
 def _beat(claim: RobotClaim, arm: NaoqiArm, over: threading.Event) -> None:
-    """Beat until it is over; a robot that does not answer is for the loop to notice."""
+    """Send heartbeats until it is over; the loop detects a robot that does not answer."""
     while not over.wait(BEAT):
         with suppress(RobotLostError):
             other = claim.beat()

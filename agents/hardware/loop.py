@@ -5,7 +5,7 @@ whole periods have been missed, they are skipped and counted, and never caught u
 
 Each step reads the robot, judges the motion capture, asks the policy, and gives one command: the
 same as in simulation, up to what the clock makes of it. What cannot be acted on holds the hands
-where they were told to go last; what lasts longer than :data:`.holds.LIMIT`, or cannot be waited
+at the last command; what lasts longer than :data:`.holds.LIMIT`, or cannot be waited
 for, stops the trial.
 """
 
@@ -205,8 +205,8 @@ class _Loop:
     def _observation(self, now: float, time: float, state: ArmState) -> Observation:
         """Return what the policy sees, laid out as in simulation.
 
-        All of it is as at the time when the hands set out: until then they go on at the speed that
-        they were told to have.
+        It is extrapolated to the time when the hands begin to move: until then they continue at
+        their commanded speed.
         """
         sample = at(self._watch.samples, now - max(0.0, self._settings.latency - DEAD_TIME))
         observation = np.empty(len(RobotObservation))
@@ -225,13 +225,13 @@ class _Loop:
         lasted = held > LIMIT - self._settings.period / 2
         if hold is None or not (lasted or (hold is HoldReason.STALE and age > LIMIT)):
             return
-        told = decision.reason
+        detail = decision.reason
         if hold is HoldReason.NOT_SEEN:
-            told = self._capture.unseen
+            detail = self._capture.unseen
         if hold is HoldReason.STALE and self._log.misdated:
-            told = f"{self._log.misdated} frames had time stamps ahead of the clock, or none"
+            detail = f"{self._log.misdated} frames had time stamps ahead of the clock, or none"
         raise StopTrialError(
             Stop.after(hold),
             f"{hold.value}; the hands were held for {held:.1f} s of the last "
-            f"{WINDOW:g} s{told and ': '}{told}",
+            f"{WINDOW:g} s{detail and ': '}{detail}",
         )

@@ -15,7 +15,7 @@ from .missing import import_optional
 from .ports import CaptureLostError, Sample
 
 RESOLVE_TIME: Final = 3.0
-"""How long a stream is looked for [s]."""
+"""Longest search for a stream [s]."""
 
 UNITS: Final = {
     "m": 1.0, "meter": 1.0, "meters": 1.0, "metres": 1.0,
@@ -26,7 +26,7 @@ UNITS: Final = {
 
 @dataclass(frozen=True, kw_only=True)
 class Layout:
-    """Where in a stream the table is."""
+    """Markers and vertical axis of the table in a stream."""
 
     human: tuple[str, ...] = ("H1", "H2")
     """Markers at the human's end."""
@@ -46,7 +46,7 @@ class LslCapture:
     name
         The stream's name.
     layout
-        Where in it the table is.
+        Markers and vertical axis of the table.
 
     Raises
     ------
@@ -83,19 +83,19 @@ class LslCapture:
             "rate_hz": info.nominal_srate(),
             "clock_offset_s": self._inlet.time_correction(timeout=RESOLVE_TIME),
         }
-        """What the stream says of itself."""
+        """The stream's description of itself."""
 
     def set_rest(self, human_end: float, robot_end: float) -> None:
-        """Take the present zero of the ends' heights [m] to be displaced by these."""
+        """Shift the zero of the ends' heights by these [m]."""
         self._ends.set_rest(human_end, robot_end)
 
     @property
     def unseen(self) -> str:
-        """Which markers were not seen in the newest frame, and why; empty if all were."""
+        """Markers not seen in the newest frame, with the reason; empty if all were seen."""
         return self._ends.unseen
 
     def drain(self) -> list[Sample]:
-        """Return the frames that came in since the last call, oldest first."""
+        """Return the frames received since the last call, oldest first."""
         try:
             rows, stamps = self._inlet.pull_chunk(timeout=0.0, max_samples=1024)
         except self._lsl.util.LostError as error:

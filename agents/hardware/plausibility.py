@@ -19,7 +19,7 @@ FEWEST: Final = 25
 """Fewest new frames in a second with which the hands are moved: half of what a set-up asks for."""
 
 FASTEST: Final = 2.0
-"""Fastest that a table end can plausibly move [m/s]. Free hands peak at 1.84 +- 0.43 m/s in
+"""Highest plausible speed of a table end [m/s]. Free hands peak at 1.84 +- 0.43 m/s in
 vertical movements of 0.8 m; people who move with a robot at a fraction of it."""
 
 SLACK: Final = 0.005
@@ -34,7 +34,7 @@ SETTLED: Final = 0.1
 
 
 def stamped(sample: Sample, now: float) -> bool:
-    """Return whether a frame's time stamp can be: a number, and not ahead of the clock."""
+    """Return whether a frame's time stamp is possible: a number, and not ahead of the clock."""
     return -math.inf < sample.time <= now + AHEAD
 
 
@@ -76,7 +76,7 @@ def at(samples: Sequence[Sample], time: float) -> Sample:
 
 
 class CaptureMonitor:
-    """Watches the motion capture and keeps the last second of plausible frames."""
+    """Supervision of the motion capture, with the last second of plausible frames."""
 
     def __init__(self) -> None:
         self._kept: list[Sample] = []

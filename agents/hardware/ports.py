@@ -1,4 +1,4 @@
-"""The ports of the real-time loop: what it needs of a motion capture, a robot arm and a clock.
+"""Interfaces of the real-time loop: motion capture, robot arm and clock.
 
 Heights are displacements [m] from the table's rest height, z up; times are seconds of the clock.
 """
@@ -12,7 +12,7 @@ class Sample(NamedTuple):
     """One motion-capture frame."""
 
     time: float
-    """When it was captured [s], on the loop's clock."""
+    """Time of capture [s], on the loop's clock."""
     human_end: float
     """Height of the human's table end [m]; NaN if it was not seen."""
     robot_end: float
@@ -20,7 +20,7 @@ class Sample(NamedTuple):
 
 
 class ArmState(NamedTuple):
-    """What a robot says of its hands."""
+    """State of the hands as reported by the robot."""
 
     height: float
     """Mean height of the hands by the encoders [m]."""
@@ -29,7 +29,7 @@ class ArmState(NamedTuple):
     stiffness: float
     """Lowest stiffness of the arms' motors, 0 (off) to 1."""
     astray: float = 0.0
-    """How far the set-point of a joint is from where this client's commands lead [rad], at most."""
+    """Largest distance of a joint's set-point from the path of this client's commands [rad]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,11 +47,11 @@ class HandLimits:
 
 
 class RobotLostError(Exception):
-    """The connection to the robot is lost; the message says what was noticed."""
+    """The connection to the robot is lost; the message has the symptom."""
 
 
 class RobotTakenError(Exception):
-    """Somebody else commands the robot; the message says who."""
+    """Another client commands the robot; the message names it."""
 
 
 class CaptureLostError(Exception):
@@ -63,10 +63,10 @@ class MotionCapture(Protocol):
 
     @property
     def unseen(self) -> str:
-        """Which markers were not seen in the newest frame, and why; empty if all were."""
+        """Markers not seen in the newest frame, with the reason; empty if all were seen."""
 
     def drain(self) -> list[Sample]:
-        """Return the frames that came in since the last call, oldest first, without waiting.
+        """Return the frames received since the last call, oldest first, without waiting.
 
         Raises
         ------
@@ -79,20 +79,20 @@ class MotionCapture(Protocol):
 
 
 class TableCapture(MotionCapture, Protocol):
-    """Motion capture whose zero can be moved to where the table rests."""
+    """Motion capture whose zero can be set to the table's rest."""
 
     info: dict[str, object]
-    """What it says of itself."""
+    """Its description of itself."""
 
     def set_rest(self, human_end: float, robot_end: float) -> None:
-        """Take the present zero of the ends' heights [m] to be displaced by these."""
+        """Shift the zero of the ends' heights by these [m]."""
 
 
 class Naoqi(Protocol):
     """A NAOqi whose services can be called; each raises :class:`RobotLostError` on silence."""
 
     url: str
-    """Where it is."""
+    """Its address."""
 
     def has(self, service: str) -> bool:
         """Return whether it offers a service."""
@@ -114,7 +114,7 @@ class RobotArm(Protocol):
         """What the robot holds a command to."""
 
     def state(self) -> ArmState:
-        """Return where the hands are.
+        """Return the state of the hands.
 
         Raises
         ------
@@ -141,7 +141,7 @@ class RobotArm(Protocol):
         """
 
     def stop(self) -> None:
-        """Freeze the hands where they are; every later command is refused. Never raises."""
+        """Freeze the hands in place; every later command is refused. Never raises."""
 
 
 class Clock(Protocol):

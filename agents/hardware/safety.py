@@ -27,15 +27,15 @@ LOWEST_STIFFNESS: Final = 0.3
 """Stiffness below which a motor counts as switched off."""
 
 ASTRAY: Final = 0.02
-"""Distance of a joint's set-point from the way between this client's commands [rad] from which it
-counts as another's. Without another it is 0, up to the rounding of 32-bit floats; 0.02 rad are 3 mm
-at the hand."""
+"""Distance of a joint's set-point from the path of this client's commands [rad] beyond which
+another client is assumed to command it. Otherwise it is 0, up to the rounding of 32-bit floats;
+0.02 rad are 3 mm at the hand."""
 
 
 def limited(wanted: float, present: float, duration: float, limits: HandLimits) -> float:
     """Return the height to command [m], or the present one if the wanted is not a number.
 
-        h = clip(present + clip(wanted - present, -speed T, speed T), low, high)
+        h = clip(clip(wanted, low, high), present - speed T, present + speed T)
 
     Parameters
     ----------
@@ -44,9 +44,9 @@ def limited(wanted: float, present: float, duration: float, limits: HandLimits) 
     present
         Height of the command so far [m], finite.
     duration
-        The time T that the hands have [s].
+        Time T of the movement [s].
     limits
-        Heights and speed. From outside the heights, the way back is as fast as the speed allows.
+        Range of heights, and speed; from outside the range, the hands return at that speed.
     """
     if not math.isfinite(wanted):
         wanted = present
@@ -61,8 +61,8 @@ def next_command(
 ) -> float:
     """Return the height to command [m]: within reach of the last command and of the set-point.
 
-    The robot's set-point lags behind the command by a cycle or two. Without the second limit, it
-    would make up for that faster than the limit of the speed.
+    The robot's set-point lags behind the command by one or two cycles. Without the second limit, it
+    would catch up faster than the limit of the speed.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ def next_command(
     command
         The last command [m].
     set_point
-        Where the robot's own set-points are now [m].
+        Present height of the robot's own set-points [m].
     duration, limits
         As for :func:`limited`.
     """
@@ -80,12 +80,12 @@ def next_command(
 
 
 def hand_limits(joint_limits: Mapping[str, Sequence[float]]) -> HandLimits:
-    """Return the limits of the hands that follow from those that the robot states of its joints.
+    """Return the limits of the hands that follow from the robot's joint limits.
 
     Parameters
     ----------
     joint_limits
-        For each arm joint lowest and highest angle [rad].
+        Lowest and highest angle of each arm joint [rad].
 
     Raises
     ------
@@ -120,14 +120,14 @@ def hand_limits(joint_limits: Mapping[str, Sequence[float]]) -> HandLimits:
 
 
 def motor_fault(state: ArmState) -> str | None:
-    """Return what is wrong with the hands, or None if they do what they were told."""
+    """Return the fault of the hands, or None if they follow their commands."""
     if not state.stiffness >= LOWEST_STIFFNESS:
         return f"an arm motor has the stiffness {state.stiffness:.2f}"
     if not state.astray <= ASTRAY:
         return (
-            f"a joint has a set-point that is {state.astray:.3f} rad off the way between the "
-            "commands given here: something else commands the robot"
+            f"a joint has a set-point that is {state.astray:.3f} rad off the path of the commands "
+            "given here: something else commands the robot"
         )
     if not abs(state.height - state.set_point) <= TRACKING_ERROR:
-        return f"the hands are at {state.height:.3f} m, told to be at {state.set_point:.3f} m"
+        return f"the hands are at {state.height:.3f} m, commanded to {state.set_point:.3f} m"
     return None

@@ -141,7 +141,7 @@ def measure_sag(robot: RobotArm, clock: Clock, readings: int = 10) -> float:
     sag = float(np.mean(sags))
     if not abs(sag) < LARGEST_OFFSET:
         raise InputError(
-            f"the hands are {1000 * sag:.0f} mm below where they were told to be, more than "
+            f"the hands are {1000 * sag:.0f} mm below their command, more than "
             f"{1000 * LARGEST_OFFSET:.0f} mm: is the table too heavy, or a motor off?"
         )
     return sag
@@ -161,7 +161,7 @@ def move_to(robot: RobotArm, clock: Clock, height: float) -> list[tuple[float, f
             return seen_heights
         if len(seen_heights) > 200:
             raise InputError(
-                f"the hands do not get to {height:.3f} m, they are told to be at "
+                f"the hands do not get to {height:.3f} m, they are commanded to "
                 f"{state.set_point:.3f} m"
             )
 
@@ -202,11 +202,11 @@ def check_direction(direction: Direction) -> None:
     if 0.7 <= robot <= 1.3:
         return
     if 0.7 <= human <= 1.3:
-        told = "the ends are taken for each other: the human's end follows the robot's hands"
+        cause = "the ends are taken for each other: the human's end follows the robot's hands"
     elif -1.3 <= robot <= -0.7:
-        told = "the vertical axis points down"
+        cause = "the vertical axis points down"
     elif abs(robot) < 0.3:
-        told = "it stays where it is: do the hands hold the table, are its markers named right?"
+        cause = "it stays where it is: do the hands hold the table, are its markers named right?"
     else:
-        told = "is the unit right?"
-    raise InputError(f"the robot's end moves by {robot:.2f} m per m that its hands move; {told}")
+        cause = "is the unit right?"
+    raise InputError(f"the robot's end moves by {robot:.2f} m per m that its hands move; {cause}")

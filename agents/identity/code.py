@@ -140,18 +140,18 @@ class Code:
 
     def _sorted(self, references: Iterable[Reference]) -> list[Reference]:
         """Return definitions in an order that does not depend on their names and places."""
-        looks = dict.fromkeys(references, "")
+        signatures = dict.fromkeys(references, "")
         for _ in range(ROUNDS):
-            looks = {
+            signatures = {
                 each: _short(
                     "".join(
-                        piece if isinstance(piece, str) else looks.get(piece, "(definition)")
+                        piece if isinstance(piece, str) else signatures.get(piece, "(definition)")
                         for piece in self._pieces(each)
                     )
                 )
-                for each in looks
+                for each in signatures
             }
-        return sorted(looks, key=lambda each: looks[each])
+        return sorted(signatures, key=lambda each: signatures[each])
 
     def _has(self, reference: Reference) -> bool:
         module = self._module(reference.module)

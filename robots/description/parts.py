@@ -26,7 +26,7 @@ class Shape:
     at: Vector
     """Centre in the link's frame [m]."""
     colour: Colour = GREY
-    """What it looks like, if it is to be seen."""
+    """Its colour, if it is visible."""
     rpy: Vector = (0.0, 0.0, 0.0)
     """Roll, pitch, yaw in the link's frame [rad]."""
 

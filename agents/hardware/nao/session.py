@@ -90,10 +90,10 @@ class NaoqiSession:
             return [future.value(_milliseconds_to(deadline)) for future in futures]
         except (RuntimeError, AttributeError) as error:
             names = ", ".join(dict.fromkeys(f"{service}.{name}" for name, *_ in calls))
-            told = first_line(error)
-            if "timeout" in told:
-                told = f"no answer within {within:g} s"
-            raise RobotLostError(f"{names} at {self.url}: {told}") from error
+            message = first_line(error)
+            if "timeout" in message:
+                message = f"no answer within {within:g} s"
+            raise RobotLostError(f"{names} at {self.url}: {message}") from error
 
     def _await(self, futures: Sequence[Any], deadline: float) -> None:
         """Wait for calls that may take long, as long as the robot answers in between."""

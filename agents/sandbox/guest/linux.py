@@ -97,7 +97,7 @@ def change_root(place: str) -> None:
 
 
 def hide(hidden: bool) -> None:
-    """Say whether other processes of the same user may not trace this one, or look into it."""
+    """Set whether other processes of the same user are kept from tracing or reading this one."""
     prctl(_PR_SET_DUMPABLE, 0 if hidden else 1)
 
 

@@ -106,7 +106,7 @@ def _called(numbers: dict[str, int], *arguments: int | bytes) -> None:
 
 
 def _namespace() -> str:
-    """Return the name of the own process namespace; empty if it cannot be told."""
+    """Return the name of the own process namespace; empty if unknown."""
     try:
         return os.readlink("/proc/self/ns/pid")  # noqa: PTH115
     except OSError:

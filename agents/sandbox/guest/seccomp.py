@@ -134,7 +134,7 @@ def _when(number: int, *then: bytes) -> Iterator[bytes]:
 
 
 def _argument(number: int) -> bytes:
-    """Return code that loads the lower half of an argument: the kernel looks at no more."""
+    """Return code that loads the lower half of an argument: the kernel checks only that."""
     return instruction(_LOAD, _ARGUMENTS + 8 * number)
 
 

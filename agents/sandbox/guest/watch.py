@@ -13,7 +13,7 @@ from typing import Final
 from ..protocol import Limits
 
 PERIOD: Final = 0.02
-"""Time between two looks at memory, processes and processor time [s]."""
+"""Time between two checks of memory, processes and processor time [s]."""
 
 _PAGE: Final = os.sysconf("SC_PAGE_SIZE")
 _TICKS: Final = os.sysconf("SC_CLK_TCK")

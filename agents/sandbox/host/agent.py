@@ -135,14 +135,14 @@ class RemoteAgent:
         if self.failure is not None:
             raise self.failure
         try:
-            told, *content = self._connection.request(request, seconds, more)
+            answer, *content = self._connection.request(request, seconds, more)
         except PolicyError as error:
             self.failure = error
             raise
-        if told == "failed" and len(content) == 1 and type(content[0]) is str:
+        if answer == "failed" and len(content) == 1 and type(content[0]) is str:
             self._fail(content[0])
-        if told != kind:
-            self._fail(f"answered {told!r:.40} where {kind!r} was due")
+        if answer != kind:
+            self._fail(f"answered {answer!r:.40} where {kind!r} was due")
         return content
 
     def _fail(self, reason: str) -> NoReturn:

@@ -55,7 +55,7 @@ class ControlGroup:
 
 
 def _own() -> Path:
-    """Return the folder of the group that this process is in; OSError if it cannot be told."""
+    """Return the folder of this process's group; OSError if it cannot be determined."""
     for line in Path("/proc/self/cgroup").read_text().splitlines():
         _, controllers, path = line.split(":", 2)
         mounted = {"memory": ROOT / "memory", "": ROOT}.get(controllers)

@@ -71,7 +71,7 @@ def test_a_robot_that_cannot_hold_the_table_or_is_no_h25_is_refused():
     [
         (ArmState(0.1, 0.11, 1.0), None),
         (ArmState(0.1, 0.11, 0.2), "stiffness 0.20"),
-        (ArmState(0.1, 0.16, 1.0), "told to be at 0.160"),
+        (ArmState(0.1, 0.16, 1.0), "commanded to 0.160"),
         (ArmState(0.1, math.nan, 1.0), "nan"),
         (ArmState(0.1, 0.1, math.nan), "nan"),
     ],
