@@ -4,7 +4,7 @@
 file               content
 ================== ===============================================================================
 ``results.json``   the summary; see :func:`.results`
-``episodes.csv``   one row an episode: who lifts, seed, scores, why it failed
+``episodes.csv``   one row per episode: who lifts, seed, scores, why it failed
 ``traces.npz``     both agents' actions, a hash of each step's state, the heights and forces
 ``manifest.json``  what re-makes the episodes, the platform, the SHA-256 of every other file
 ``recordings.csv`` the recordings, if people's recorded lifts were played

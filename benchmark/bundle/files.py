@@ -115,7 +115,7 @@ def read_files(folder: Path) -> dict[str, bytes]:
 
 
 def _read(path: Path) -> bytes:
-    """Return the content of a plain file; of a link, a pipe or a device nothing is read."""
+    """Return the content of a plain file; a link, a pipe or a device is refused unread."""
     largest = LARGEST[path.name]
     try:
         handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
@@ -124,8 +124,8 @@ def _read(path: Path) -> bytes:
                 raise InputError(f"{path.name}: not a plain file")
             data = file.read(largest + 1)
     except OSError as error:
-        told = "it is a link" if path.is_symlink() else error.strerror
-        raise InputError(f"{path.name}: cannot be read: {told}") from None
+        reason = "it is a link" if path.is_symlink() else error.strerror
+        raise InputError(f"{path.name}: cannot be read: {reason}") from None
     if len(data) > largest:
         raise InputError(f"{path.name}: larger than {largest} bytes")
     return data

@@ -1,4 +1,4 @@
-"""Reading a bundle, whoever wrote it."""
+"""Strict reading of a bundle from any source."""
 
 import hashlib
 import math
@@ -30,7 +30,7 @@ MOST_PLATFORM: Final = 100
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Bundle:
-    """What a bundle says. It is well formed; whether it is true is for a verification."""
+    """The claims of a bundle. They are well formed; whether they are true is for a verification."""
 
     results: dict[str, Any]
     """The content of ``results.json``."""
@@ -62,7 +62,7 @@ class Bundle:
 
 
 def read_bundle(folder: Path) -> Bundle:
-    """Return what the bundle in a folder says.
+    """Return the claims of the bundle in a folder.
 
     Raises
     ------
@@ -105,7 +105,7 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
     Raises
     ------
     InputError
-        If one is not what it must be; the message says which and why.
+        If one is malformed; the message names it and the reason.
     """
     manifest = parse_json(files[MANIFEST], MANIFEST)
     form = pick(manifest, "format", int, MANIFEST)
@@ -144,7 +144,7 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
 
 
 def _results(data: bytes, *, acted: bool) -> dict[str, Any]:
-    """Return ``results.json``, with that checked which no simulation can tell.
+    """Return ``results.json`` after a check of the parts that no simulation can verify.
 
     ``acted`` is whether the policy acted in any lift.
     """

@@ -1,4 +1,4 @@
-"""``episodes.csv``: one row an episode."""
+"""``episodes.csv``: one row per episode."""
 
 import csv
 import io

@@ -84,9 +84,9 @@ WATCH_SECONDS: Final = 0.2
 class Cluster(Executor):
     """The workers of a Dask cluster; see :func:`.connecting.dask_pool`.
 
-    Dask would try a task whose worker died again by itself. Here its future fails, so that the run
-    knows of it and decides. Dask may also wait forever for what it has lost with its scheduler.
-    Here every future fails then, and no more is taken.
+    Dask would retry a call whose worker died. Here the future fails instead, and the run decides.
+    Dask may also wait forever for results that were lost with the scheduler. Here every future then
+    fails, and no more calls are accepted.
 
     Parameters
     ----------
@@ -195,13 +195,13 @@ class Cluster(Executor):
 
     def _heard(self, event: tuple[float, Mapping[str, Any]]) -> None:
         """Take note of an event of the scheduler's."""
-        _, said = event
-        if said.get("action") == "add-worker":
-            self._workers.add(said["worker"])
-        elif said.get("action") == "remove-worker":
-            worker = said["worker"]
+        _, message = event
+        if message.get("action") == "add-worker":
+            self._workers.add(message["worker"])
+        elif message.get("action") == "remove-worker":
+            worker = message["worker"]
             self._workers.discard(worker)
-            for key in said["processing-tasks"]:
+            for key in message["processing-tasks"]:
                 self._settle(key, error=EvaluatorFault(f"the worker {worker} died"))
 
     def _wait_for_workers(self) -> None:

@@ -93,14 +93,14 @@ def _agreed(client: Any, address: str) -> dict[str, str]:
     """Return the provenance that all workers share, or raise an InputError for a difference."""
     found = client.run(origin, on_error="return")
     agreed: dict[str, str] | None = None
-    for worker, said in found.items():
-        if isinstance(said, OSError):
+    for worker, answer in found.items():
+        if isinstance(answer, OSError):
             continue  # It has just died; the next one is looked at when it works.
-        if isinstance(said, BaseException):
-            raise InputError(f"Dask worker {worker} cannot run colift: {error_text(said)}")
-        compare(said, {COLIFT: origin()[COLIFT]}, f"on worker {worker}", "here")
-        agreed = agreed or said
-        compare(said, agreed, f"on worker {worker}", "on another worker")
+        if isinstance(answer, BaseException):
+            raise InputError(f"Dask worker {worker} cannot run colift: {error_text(answer)}")
+        compare(answer, {COLIFT: origin()[COLIFT]}, f"on worker {worker}", "here")
+        agreed = agreed or answer
+        compare(answer, agreed, f"on worker {worker}", "on another worker")
     if agreed is None:
         raise InputError(f"every worker of the Dask scheduler {address} has just died")
     return agreed

@@ -19,7 +19,7 @@ T = TypeVar("T")
 
 
 JOBS: Final = "COLIFT_JOBS"
-"""If this is set in the environment, it says how many worker processes there are by default."""
+"""Environment variable with the default number of worker processes."""
 
 MOST_JOBS: Final = 1024
 """Most worker processes on a machine; each takes some 100 MB."""
@@ -142,7 +142,7 @@ class _Worker:
         return self.process
 
     def kill(self) -> None:
-        """Kill the process, which nothing is wanted of any more; from any thread."""
+        """Kill the process, whose results are no longer needed; from any thread."""
         self._ended, process = True, self.process
         if process is not None:
             process.kill()
@@ -200,7 +200,7 @@ def process_pool(jobs: int) -> Iterator[LocalPool]:
 
 @contextmanager
 def local_pool(jobs: int | None) -> Iterator[Executor | None]:
-    """Yield a pool of ``jobs`` processes, or None for one job: then nothing needs a pool.
+    """Yield a pool of ``jobs`` processes, or None for one job, which needs no pool.
 
     None is :func:`default_jobs`.
 

@@ -5,8 +5,8 @@ So episodes are resampled within their stratum, never across, and an interval sh
 draw of seeds would move the number, not how far other people or other behaviours would.
 
 Smoothness is missing (NaN) in episodes in which the robot did not move. Its summary is the mean of
-the episodes that have one *and* the count of those that do not: whoever ranks by smoothness ranks
-by that count first, so that moving only when it is easy never helps. Intervals take no NaN: leave
+the episodes that have one *and* the count of those that do not: a ranking by smoothness ranks by
+that count first, and moving only when it is easy never helps. Intervals take no NaN: leave
 out the missing episodes, with their strata, first.
 
 References

@@ -118,8 +118,8 @@ def holm_correction(ps: ArrayLike) -> FloatArray:
     p = np.asarray(ps, dtype=np.float64)
     outside = ~((p >= 0.0) & (p <= 1.0))
     if p.ndim != 1 or outside.any():
-        told = f"shape {p.shape}" if p.ndim != 1 else f"{p[outside][0]}"
-        raise InputError(f"p values must be a list of numbers from 0 to 1, got {told}")
+        found = f"shape {p.shape}" if p.ndim != 1 else f"{p[outside][0]}"
+        raise InputError(f"p values must be a list of numbers from 0 to 1, got {found}")
     order = p.argsort(kind="stable")
     scaled = p[order] * np.arange(p.size, 0, -1)
     corrected = np.empty_like(p)

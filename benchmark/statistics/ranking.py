@@ -16,7 +16,7 @@ LEVEL: Final = 0.05
 
 
 def decisive(policies: int, episodes: int, *, level: float = LEVEL) -> bool:
-    """Return whether :func:`rank_groups` could tell the best from any other at all.
+    """Return whether :func:`rank_groups` can separate the best from any other at all.
 
     Of n episodes there are 2^n sign flips, and the smallest two-sided p value is 2^(1 - n): all
     differences have the same sign. With k policies behind the best, Holm's correction makes k times

@@ -34,7 +34,7 @@ SEED: Final = 7000
 """Their seed, which no suite has."""
 
 MACHINE: Final = "machine"
-"""Name of the check that says that this machine has failed, and not the policy."""
+"""Name of the check that reports a failure of this machine, not of the policy."""
 
 MUCH_PRINTED: Final = 5000
 """Characters printed in a lift that are worth a word: printing takes time."""

@@ -1,4 +1,4 @@
-"""Checks of what a bundle says: its suite, its episodes, and numbers that must follow from them."""
+"""Checks of a bundle's claims: its suite, its episodes, and the numbers that follow from them."""
 
 import json
 from collections.abc import Iterator
@@ -23,7 +23,7 @@ _FROM_BASELINES: Final = ("baselines", "summary.vs_human", "human_human_rmse_mm"
 
 
 def suite_label(suite: Suite) -> str:
-    """Return what may be said of a suite: the name of a shipped one, by its digest, or its size.
+    """Return a verified label of a suite: the name of a shipped one, by its digest, or its size.
 
     Any other has its name from who made the bundle.
     """
@@ -93,7 +93,7 @@ def _name(behaviour: str, subject: str, trial: str, seed: int) -> str:
 def rebuilt(bundle: Bundle, run: Run, executor: Executor | None) -> Results:
     """Return the results that follow from a run.
 
-    What no simulation can tell is as the bundle has it; so is which baselines there are.
+    What no simulation can verify is as the bundle claims; so is the choice of baselines.
 
     Raises
     ------

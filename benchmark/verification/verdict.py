@@ -31,7 +31,7 @@ class Finding:
     """Something in a bundle that is wrong."""
 
     file: str
-    """The file that says it."""
+    """The file with the claim."""
     message: str
     """What is wrong, in words."""
     episode: str = ""

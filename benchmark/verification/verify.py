@@ -62,7 +62,7 @@ def verify(
     findings: list[Finding] = []
     try:
         files = read_files(folder)
-        findings += [Finding(file=name, message=told) for name, told in wrong_hashes(files)]
+        findings += [Finding(file=name, message=reason) for name, reason in wrong_hashes(files)]
         bundle = parse(files)
         run = bundle.run()
         findings += [*suite_findings(bundle, run.suite), *episode_findings(bundle, run.suite)]
@@ -102,7 +102,7 @@ def verify(
 
 
 def _malformed(error: InputError) -> Finding:
-    """Return what a reader of a bundle said: mostly the file, a colon, and the reason."""
+    """Return an error of a bundle's reader as a finding: mostly the file, a colon, the reason."""
     text = one_line(str(error))
     file, _, message = text.partition(": ")
     known = file.partition(",")[0] in LARGEST
