@@ -12,9 +12,10 @@ from typing import Any
 from .comparison import Comparison
 from .contest import TEAM
 from .html import html_page
-from .picture import comparison_figure, png
+from .scatter.png import png
+from .scatter.scene import make_scene
 from .standing import Scope, Standing
-from .words import picture_title
+from .words import PICTURE_AXIS, picture_title
 
 
 def comparison_json(comparison: Comparison) -> dict[str, Any]:
@@ -129,9 +130,10 @@ def write_comparison(folder: Path, comparison: Comparison) -> None:
         If it cannot be written to.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    figure = comparison_figure(comparison, title=picture_title(comparison))
+    title = picture_title(comparison).splitlines()
+    scene = make_scene(comparison.points, axis=PICTURE_AXIS, title=title)
     content = json.dumps(comparison_json(comparison), indent=2, allow_nan=False) + "\n"
-    (folder / "compare.png").write_bytes(png(figure))
+    (folder / "compare.png").write_bytes(png(scene))
     (folder / "compare.json").write_text(content, encoding="utf-8")
     (folder / "compare.csv").write_text(comparison_csv(comparison), encoding="utf-8")
     (folder / "compare.html").write_text(html_page(comparison), encoding="utf-8")

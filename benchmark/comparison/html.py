@@ -4,32 +4,16 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from typing import Final
 
-from markupsafe import Markup, escape
-
 from ..episode.metric import Metric
 from ..rendering.page import Cell, Row, render
-from ..rendering.style import FAINT, HUMAN, INK, LINE, PAPER, ROBOT, SKY
 from ..statistics import Estimate
 from . import words
 from .comparison import Comparison
 from .contest import Entry
-from .picture import comparison_figure, svg
+from .scatter.scene import NARROW, WIDE, make_scene
+from .scatter.svg import svg
 from .standing import MetricMean, Scope, Standing
 from .words import between, digits, p_value, probability
-
-COLOURS: Final = {
-    INK: "--ink",
-    FAINT: "--faint",
-    LINE: "--line",
-    PAPER: "--paper",
-    SKY: "--sky",
-    HUMAN: "--human",
-    ROBOT: "--robot",
-}
-"""The page's name for each colour of a picture: it is another in the dark."""
-
-SIZES: Final = (("wide", 8.4, 5.6), ("narrow", 4.0, 5.2))
-"""The picture on wide and on narrow pages: width and height [inches]."""
 
 AGAINST: Final = ("policy", "behind the best mm", "p", "better than the best", "better than humans")
 
@@ -44,7 +28,10 @@ def html_page(comparison: Comparison) -> str:
         words=words,
         verdict=words.verdict(comparison),
         odd=(*words.failures(comparison), *words.oddities(comparison)),
-        pictures=[_picture(comparison, *size) for size in SIZES],
+        pictures=[
+            svg(make_scene(comparison.points, axis=words.PICTURE_AXIS, size=size), kind)
+            for kind, size in (("wide", WIDE), ("narrow", NARROW))
+        ],
         ranks_header=(
             "policy",
             "rank",
@@ -67,15 +54,6 @@ def html_page(comparison: Comparison) -> str:
         ],
         provenance=words.provenance(comparison, version("colift")),
     )
-
-
-def _picture(comparison: Comparison, kind: str, width: float, height: float) -> Markup:
-    """Return the picture for wide or for narrow pages; the page shows one of them."""
-    text = svg(comparison_figure(comparison, width=width, height=height), kind)
-    for colour, name in COLOURS.items():
-        text = text.replace(colour.lower(), f"var({name})")
-    label = f'<svg class="{kind}" role="img" aria-label="{escape(words.PICTURE_CAPTION)}"'
-    return Markup(text.replace("<svg", label, 1))
 
 
 def _ranks(comparison: Comparison) -> list[Row]:

@@ -26,6 +26,8 @@ HOW_TO_READ: Final = (
 )
 
 
+PICTURE_AXIS: Final = "← more level · RMSE of the height difference, mm"
+
 PICTURE_CAPTION: Final = (
     "The higher and the further left, the better. Bars are 95 % intervals. The line joins the "
     "policies than which no other is, by its means, both more level and smoother; the diamond is "

@@ -1,114 +1,98 @@
-"""Label placement in a scatter plot: near their points, and over nothing else.
+"""Positions of the labels of a scatter plot: near their points, and over nothing.
 
-Each label has some hundred places around its point. In turn, each moves to its cheapest place while
-the others stay, until none moves: a discrete gradient descent, as compared with others by
+Each label has some hundred candidate boxes around its point. In turn, each takes its cheapest free
+box while the others stay, until none moves: a discrete gradient descent, as compared with others by
 J. Christensen, J. Marks, S. Shieber (1995), An empirical study of algorithms for point-feature
 label placement, ACM Transactions on Graphics 14(3):203-232.
 """
 
-import math
 from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
-"""Boxes have shape (k, 4): left, bottom, right, top. Lengths are in one unit, such as pixels."""
+"""Boxes have shape (k, 4): left, top, right, bottom. Lengths are in one unit, such as pixels."""
 
-DIRECTIONS: Final = 24
-DISTANCES: Final = (0.6, 0.8, 1.0, 1.6, 2.4, 3.4, 4.6, 6.0, 8.0, 10.0, 13.0)
+DIRECTIONS: Final = 16
+DISTANCES: Final = (0.6, 0.8, 1.2, 1.8, 2.6, 3.6, 5.0, 7.0, 9.5)
 """Distances between a point and its label, in heights of the lowest label."""
 
-OVER_LABEL: Final = 1000.0
-OVER_OBSTACLE: Final = 100.0
+COVERED: Final = 6.0
+"""Cost of covering a line, in units of distance."""
 CROSSED: Final = 30.0
-"""What a label costs for lying over another or over an obstacle, and what its line to its point
-costs for each label or point it crosses; to compare with its distance."""
+"""Cost of a leader that crosses an obstacle or another label."""
 
-STARTS: Final = 8
-"""Descents, each with the labels in another order; the cheapest counts."""
-
-PASSES: Final = 30
-"""Longest descent: so many turns of each label."""
+PASSES: Final = 4
+"""Turns of each label, at most."""
 
 
 def place_labels(
-    points: ArrayLike, sizes: ArrayLike, *, obstacles: ArrayLike = (), bounds: ArrayLike
-) -> Array:
-    """Return a box for each label.
+    points: ArrayLike,
+    sizes: ArrayLike,
+    *,
+    obstacles: ArrayLike = (),
+    lines: ArrayLike = (),
+    bounds: ArrayLike,
+) -> list[Array | None]:
+    """Return a box for each label; None for one that has no free box.
 
     Parameters
     ----------
     points
-        The points that the labels belong to, shape (n, 2).
+        The points that the labels belong to, shape (n, 2); the first have the first choice.
     sizes
         Width and height of each label, shape (n, 2).
     obstacles
-        Boxes that should stay free, such as markers, shape (m, 4).
+        Boxes that no label covers, such as markers, shape (m, 4).
+    lines
+        Boxes that labels cover only if they would have to go far, shape (l, 4).
     bounds
         Box that the labels stay within, shape (4,).
-
-    Returns
-    -------
-    array
-        Boxes of the labels, shape (n, 4). They overlap only if there is no room to avoid it.
     """
     anchors = np.asarray(points, dtype=np.float64).reshape(-1, 2)
     extents = np.asarray(sizes, dtype=np.float64).reshape(-1, 2)
     fixed = np.asarray(obstacles, dtype=np.float64).reshape(-1, 4)
+    thin = np.asarray(lines, dtype=np.float64).reshape(-1, 4)
     limits = np.asarray(bounds, dtype=np.float64)
     unit = float(extents[:, 1].min(initial=np.inf))
-    places, alone = [], []
+    candidates, alone = [], []
     for anchor, extent in zip(anchors, extents, strict=True):
-        boxes, gaps = _places(anchor, extent, unit, limits)
-        places.append(boxes)
-        alone.append(_cost_alone(anchor, boxes, gaps, fixed, anchors, unit))
-    best, least = [], math.inf
-    for order in _orders(len(anchors)):
-        chosen, cost = _descend(anchors, places, alone, order)
-        if cost < least:
-            best, least = chosen, cost
-    return np.array([boxes[i] for boxes, i in zip(places, best, strict=True)]).reshape(-1, 4)
-
-
-def _orders(labels: int) -> list[list[int]]:
-    """Return the orders in which the labels take their turns: always the same ones."""
-    rng = np.random.default_rng(0)
-    return [list(range(labels))] + [rng.permutation(labels).tolist() for _ in range(STARTS - 1)]
-
-
-def _descend(
-    anchors: Array, places: list[Array], alone: list[Array], order: list[int]
-) -> tuple[list[int], float]:
-    """Return the place of each label that the descent ends in, and what they cost together."""
-    chosen = [int(cost.argmin()) for cost in alone]
+        boxes, gaps = _candidates(anchor, extent, unit, limits)
+        free = ~_covers(boxes, fixed).any(axis=1)
+        boxes, gaps = boxes[free], gaps[free]
+        others = fixed[~_covers(anchor[[0, 1, 0, 1]][None], fixed)[0]]
+        crossed = _crossings(anchor, boxes, others)
+        candidates.append(boxes)
+        alone.append(gaps + COVERED * _covers(boxes, thin).sum(axis=1) + CROSSED * crossed)
+    chosen: list[int | None] = [None] * len(anchors)
     for _ in range(PASSES):
         before = list(chosen)
-        cost = 0.0
-        for i in order:
-            others = np.array([places[j][chosen[j]] for j in order if j != i]).reshape(-1, 4)
-            lines = _crossings(anchors[i], places[i], others)
-            over = (_overlaps(places[i], others) > 0).sum(axis=1)
-            costs = alone[i] + OVER_LABEL * over + CROSSED * lines
-            chosen[i] = int(costs.argmin())
-            cost += float(costs[chosen[i]])
+        for i, anchor in enumerate(anchors):
+            others = np.array(
+                [candidates[j][k] for j, k in enumerate(chosen) if k is not None and j != i]
+            ).reshape(-1, 4)
+            left = np.flatnonzero(~_covers(candidates[i], others).any(axis=1))
+            crossed = _crossings(anchor, candidates[i][left], others)
+            cost = alone[i][left] + CROSSED * crossed
+            chosen[i] = int(left[cost.argmin()]) if len(left) else None
         if chosen == before:
             break
-    return chosen, cost
+    return [None if k is None else boxes[k] for boxes, k in zip(candidates, chosen, strict=True)]
 
 
-def nearest(box: Array, point: Array) -> Array:
-    """Return the place in a box that is nearest to a point: where its line ends."""
+def nearest(box: Array, point: ArrayLike) -> Array:
+    """Return the place in a box that is nearest to a point: the end of a leader."""
     end: Array = np.clip(point, box[:2], box[2:])
     return end
 
 
-def _places(point: Array, size: Array, unit: float, bounds: Array) -> tuple[Array, Array]:
+def _candidates(point: Array, size: Array, unit: float, bounds: Array) -> tuple[Array, Array]:
     """Return the boxes a label may take, shape (k, 4), and how far off each is, shape (k,).
 
     The near ones come first, and among them those at the right, where one reads on.
     """
-    angles = 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
+    angles = -2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
     ways = np.column_stack([np.cos(angles), np.sin(angles)])
     # From the middle of the box to its edge, in each direction.
     edges = ways / np.abs(ways).max(axis=1, keepdims=True) * size / 2
@@ -116,37 +100,29 @@ def _places(point: Array, size: Array, unit: float, bounds: Array) -> tuple[Arra
     boxes = np.concatenate([centres - size / 2, centres + size / 2], axis=1)
     gaps = np.repeat(DISTANCES, DIRECTIONS)
     inside = np.all((boxes[:, :2] >= bounds[:2]) & (boxes[:, 2:] <= bounds[2:]), axis=1)
-    return (boxes[inside], gaps[inside]) if inside.any() else (boxes, gaps)
+    return boxes[inside], gaps[inside]
 
 
-def _cost_alone(
-    point: Array, boxes: Array, gaps: Array, obstacles: Array, points: Array, unit: float
-) -> Array:
-    """Return what each place costs before the other labels are counted, shape (k,)."""
-    covered = _overlaps(boxes, obstacles).sum(axis=1)
-    others = points[np.any(points != point, axis=1)]
-    dots = np.concatenate([others - unit / 4, others + unit / 4], axis=1)
-    crossed = _crossings(point, boxes, dots)
-    cost: Array = gaps + OVER_OBSTACLE * covered + CROSSED * crossed
-    return cost
-
-
-def _overlaps(boxes: Array, others: Array) -> Array:
-    """Return the share of each box that each of the others covers, shape (k, m)."""
-    low = np.maximum(boxes[:, None, :2], others[None, :, :2])
-    high = np.minimum(boxes[:, None, 2:], others[None, :, 2:])
-    area = np.prod(boxes[:, 2:] - boxes[:, :2], axis=1)
-    shared: Array = np.prod(np.clip(high - low, 0.0, None), axis=2) / area[:, None]
-    return shared
+def _covers(boxes: Array, others: Array) -> NDArray[np.bool_]:
+    """Return whether each box shares room with each of the others, shape (k, m)."""
+    left, top, right, bottom = boxes.T[:, :, None]
+    covers: NDArray[np.bool_] = (
+        (left < others[:, 2])
+        & (others[:, 0] < right)
+        & (top < others[:, 3])
+        & (others[:, 1] < bottom)
+    )
+    return covers
 
 
 def _crossings(point: Array, boxes: Array, others: Array) -> Array:
-    """Return how many of the other boxes the line from the point to each box meets, shape (k,)."""
-    way = np.clip(point, boxes[:, :2], boxes[:, 2:]) - point
+    """Return how many other boxes the leader from the point to each box meets, shape (k,)."""
+    way = nearest(boxes.T, point[:, None]).T - point
     way[np.abs(way) < 1e-9] = 1e-9
-    # The parts of the line, from 0 to 1, that lie between the sides of a box.
-    sides = (others.reshape(-1, 2, 2) - point) / way[:, None, None, :]
-    enters = sides.min(axis=2).max(axis=2)
-    leaves = sides.max(axis=2).min(axis=2)
-    met: Array = (np.maximum(enters, 0.0) <= np.minimum(leaves, 1.0)).sum(axis=1)
+    # The parts of the leader, from 0 to 1, that lie between the sides of a box.
+    low, high = ((others[:, i : i + 2] - point) / way[:, None, :] for i in (0, 2))
+    enters, leaves = np.minimum(low, high), np.maximum(low, high)
+    first = np.maximum(enters[..., 0], enters[..., 1])
+    last = np.minimum(leaves[..., 0], leaves[..., 1])
+    met: Array = (np.maximum(first, 0.0) <= np.minimum(last, 1.0)).sum(axis=1)
     return met

@@ -13,6 +13,7 @@ from markupsafe import Markup
 from ...agents.errors import InputError
 from ...agents.extras import how_to_install
 from ...agents.submissions.new import PLACEHOLDER, write_template
+from ...benchmark.comparison.scatter.svg import svg
 from ...benchmark.rendering.page import templates
 from ..records.metrics import board_metrics
 from ..replays.html import script_json
@@ -57,7 +58,7 @@ def prose(name: str) -> Markup:
 @functools.cache
 def _environment() -> Environment:
     made = templates(__package__)
-    made.filters.update(FILTERS, data=lambda content: Markup(script_json(content)))
+    made.filters.update(FILTERS, svg=svg, data=lambda content: Markup(script_json(content)))
     made.globals["metrics"] = board_metrics()
     return made
 

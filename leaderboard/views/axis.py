@@ -5,13 +5,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-import numpy as np
-
-from ...benchmark.comparison.scale import FAR
+from ...benchmark.rendering.ticks import far_limit, round_step, round_ticks
 from ...benchmark.statistics import Estimate
-
-STEPS: Final = (1.0, 2.0, 5.0, 10.0)
-"""Distances of ticks, up to a power of ten."""
 
 MOST: Final = 5
 """Intervals between ticks, at most."""
@@ -40,13 +35,12 @@ def make_axis(estimates: Sequence[Estimate], marks: Sequence[float] = ()) -> Axi
     Parameters
     ----------
     estimates
-        What is drawn, in millimetres. Means above :data:`.FAR` times the median do not count.
+        What is drawn, in millimetres. Means beyond :func:`.far_limit` do not count.
     marks
         Other values that must be on the scale.
     """
-    far = FAR * float(np.median([each.mean for each in estimates])) if estimates else 0.0
+    far = far_limit([each.mean for each in estimates])
     highest = max([each.ci95[1] for each in estimates if each.mean <= far] + [*marks, 1.0])
-    power = 10.0 ** math.floor(math.log10(highest / MOST))
-    step = next(power * each for each in STEPS if power * each * MOST >= highest)
-    count = math.ceil(highest / step - 1e-9)
-    return Axis(top=step * count, ticks=tuple(step * i for i in range(count + 1)))
+    step = round_step(highest, MOST)
+    top = step * math.ceil(highest / step - 1e-9)
+    return Axis(top=top, ticks=round_ticks(0.0, top, MOST))

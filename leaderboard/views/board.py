@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
+from ...benchmark.comparison.scatter.scene import NARROW, WIDE, Scene
 from ..board.board import Board
 from ..board.standings import HumanHumanScores, RankedRow
 from ..records.metrics import board_metrics
@@ -12,11 +13,7 @@ from ..records.season import Event, SeasonInfo
 from .axis import Axis, make_axis
 from .bounds import PublicBound, bounds_of
 from .lifts import Part, StratumScore, human_human_rmse, mean_rmse, stratum_scores
-from .picture import Picture, make_picture
-
-WIDE: Final = (920, 440)
-NARROW: Final = (390, 380)
-"""Sizes of the picture [px], for a screen and for a telephone."""
+from .picture import make_picture
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,8 +54,8 @@ class BoardView:
     """What has been done to the season and its rows, newest first."""
     names: dict[str, str]
     """What the submissions of the events are called."""
-    wide: Picture | None
-    narrow: Picture | None
+    wide: Scene | None
+    narrow: Scene | None
 
     @property
     def causal(self) -> float | None:
@@ -149,8 +146,8 @@ def board_view(board: Board, season: str | None = None) -> BoardView | None:
         axis=make_axis(hidden, () if human_human is None else (human_human.rmse_mm.ci95[1],)),
         events=tuple(reversed(board.events(season=info.name))),
         names={each.row.submission: each.row.name for each in standings},
-        wide=make_picture(pictured, human_human, bounds, width=WIDE[0], height=WIDE[1]),
-        narrow=make_picture(pictured, human_human, bounds, width=NARROW[0], height=NARROW[1]),
+        wide=make_picture(pictured, human_human, bounds, size=WIDE),
+        narrow=make_picture(pictured, human_human, bounds, size=NARROW),
     )
 
 

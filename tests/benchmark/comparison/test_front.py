@@ -1,48 +1,57 @@
 import numpy as np
 import pytest
-from colift.benchmark.comparison.comparison import Point, pareto_front
+from colift.benchmark.comparison.front import Point, exact, pareto_front
+from colift.benchmark.statistics import Estimate
 
-LEVEL = Point(rmse_mm=10.0, sparc=-3.0)
-SMOOTH = Point(rmse_mm=20.0, sparc=-1.5)
-STILL = Point(rmse_mm=120.0, sparc=None, missing=10)
+
+def point(name: str, rmse_mm: float, sparc: float | None, missing: int = 0) -> Point:
+    rmse = Estimate(mean=rmse_mm, ci95=(rmse_mm, rmse_mm))
+    return Point(name=name, rmse_mm=rmse, sparc=exact(sparc), missing=missing)
+
+
+def front(*points: Point) -> list[str]:
+    return [each.name for each in pareto_front(points)]
+
+
+LEVEL = point("level", 10.0, -3.0)
+SMOOTH = point("smooth", 20.0, -1.5)
+STILL = point("still", 120.0, None, missing=10)
 
 
 def test_a_point_worse_in_both_is_not_on_the_front() -> None:
-    worse = Point(rmse_mm=21.0, sparc=-1.6)
-    assert pareto_front({"worse": worse, "smooth": SMOOTH, "level": LEVEL}) == ("level", "smooth")
+    assert front(point("worse", 21.0, -1.6), SMOOTH, LEVEL) == ["level", "smooth"]
 
 
 def test_equal_points_are_both_on_it_and_a_tie_in_one_is_decided_by_the_other() -> None:
-    assert pareto_front({"b": LEVEL, "a": LEVEL}) == ("a", "b")
-    tie = Point(rmse_mm=10.0, sparc=-3.1)
-    assert pareto_front({"tie": tie, "level": LEVEL}) == ("level",)
+    assert front(point("b", 10.0, -3.0), point("a", 10.0, -3.0)) == ["a", "b"]
+    assert front(point("tie", 10.0, -3.1), LEVEL) == ["level"]
 
 
 def test_a_robot_that_does_not_move_is_never_on_it_even_alone_or_the_most_level() -> None:
-    assert pareto_front({"still": STILL}) == ()
-    failing = Point(rmse_mm=250.0, sparc=-9.0)
-    assert pareto_front({"still": STILL, "failing": failing}) == ("failing",)
+    assert front(STILL) == []
+    assert front(STILL, point("failing", 250.0, -9.0)) == ["failing"]
 
 
 def test_moving_only_when_it_is_easy_does_not_make_a_point_smooth() -> None:
-    easy = Point(rmse_mm=20.0, sparc=-0.5, missing=1)
+    easy = point("easy", 20.0, -0.5, missing=1)
     assert not easy.dominates(SMOOTH)
     assert SMOOTH.dominates(easy)
+
+
+def test_a_bound_neither_is_on_it_nor_keeps_a_policy_off_it() -> None:
+    rmse = Estimate(mean=0.1, ci95=(0.0, 0.2))
+    assert front(LEVEL, Point(name="oracle", rmse_mm=rmse, sparc=exact(-1.0), kind="bound")) == [
+        "level"
+    ]
 
 
 @pytest.mark.parametrize("seed", range(10))
 def test_of_many_points_it_is_those_that_none_dominates(seed: int) -> None:
     rng = np.random.default_rng(seed)
-    points = {
-        str(i): Point(rmse_mm=x, sparc=y) for i, (x, y) in enumerate(rng.uniform(-2, 0, (30, 2)))
-    }
-    front = pareto_front(points)
-    for name, point in points.items():
-        beaten = [
-            other
-            for other in points.values()
-            if other.rmse_mm < point.rmse_mm and other.sparc > point.sparc
-        ]
-        assert (name in front) == (not beaten)
-    smooth = [points[name].sparc for name in front]
+    points = [point(str(i), x, y) for i, (x, y) in enumerate(rng.uniform(-2, 0, (30, 2)))]
+    best = pareto_front(points)
+    for one in points:
+        assert (one in best) == (not any(other.dominates(one) for other in points))
+    smooth = [each.sparc.mean for each in best if each.sparc]
+    assert len(smooth) == len(best)
     assert smooth == sorted(smooth)

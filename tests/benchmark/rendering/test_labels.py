@@ -1,8 +1,16 @@
 import numpy as np
 import pytest
-from colift.benchmark.rendering.labels import nearest, place_labels
+from colift.benchmark.rendering import labels
+from colift.benchmark.rendering.labels import nearest
 
 BOUNDS = (0.0, 0.0, 800.0, 500.0)
+
+
+def place_labels(*args: object, **rest: object) -> np.ndarray:
+    """Return the boxes of labels that all have a place."""
+    boxes = labels.place_labels(*args, **rest)  # type: ignore[arg-type]
+    assert all(box is not None for box in boxes)
+    return np.reshape(np.array(boxes), (-1, 4))
 
 
 def overlap(one: np.ndarray, other: np.ndarray) -> float:
@@ -70,6 +78,22 @@ def test_the_same_points_give_the_same_places() -> None:
 
 def test_no_labels_are_no_boxes() -> None:
     assert place_labels([], [], bounds=BOUNDS).shape == (0, 4)
+
+
+def test_it_covers_a_line_only_where_there_is_no_room_near() -> None:
+    line = (405.0, 0.0, 407.0, 500.0)
+    (box,) = place_labels([(400, 250)], [(60, 12)], lines=[line], bounds=BOUNDS)
+    assert box[2] <= 405.0
+    narrow = (390.0, 0.0, 500.0, 500.0)
+    (box,) = place_labels([(400, 250)], [(60, 12)], lines=[line], bounds=narrow)
+    assert box[0] < 405.0 < box[2]
+
+
+def test_a_label_without_a_free_place_has_none_and_the_first_come_first() -> None:
+    points, sizes = [(50, 6), (50, 6)], [(60, 12), (60, 12)]
+    first, second = labels.place_labels(points, sizes, bounds=(0.0, 0.0, 150.0, 13.0))
+    assert first is not None
+    assert second is None
 
 
 def test_a_line_ends_at_the_near_side_of_its_label() -> None:

@@ -235,7 +235,7 @@ def test_on_a_telephone_a_row_is_two_lines_and_unfolds(page, front):
 def test_the_picture_has_the_table_s_line_of_two_people_and_the_bounds(page, front):
     page.goto(front)
     table = page.locator(".baselines tr").first.locator(".rmse b").text_content()
-    told = page.locator("svg.wide path.team title").text_content()
+    told = page.locator("svg.wide path.baseline title").text_content()
     assert told.startswith(f"two people: RMSE {table} mm")
     expect(page.locator("svg.wide path.bound")).to_have_count(2)
 
@@ -245,6 +245,6 @@ def test_the_picture_names_the_front(page, front):
     told = page.locator("svg.wide").get_attribute("aria-label")
     assert told.startswith("4 policies")
     best = told.rpartition(": ")[2].rstrip(".").split(", ")
-    assert page.locator("svg.wide text.best").all_text_contents() == best
-    expect(page.locator("svg.wide .dot.best")).to_have_count(len(best))
+    assert page.locator("svg.wide text[font-weight][fill='var(--ink)']").all_text_contents() == best
+    expect(page.locator("svg.wide path.best")).to_have_count(len(best))
     assert "hold" not in best

@@ -1,10 +1,10 @@
 """What pages show, without a browser."""
 
 import dataclasses
-from itertools import pairwise
 
 import pytest
 from colift.benchmark.bundle.files import EPISODES, RESULTS
+from colift.benchmark.comparison.scatter.scene import NARROW, WIDE
 from colift.benchmark.statistics import Estimate, MeanWithMissing
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import HumanHumanScores
@@ -113,59 +113,27 @@ def test_the_best_of_each_scenario_is_named(shown):
     assert all(stratum.best.row.name != "hold" for stratum in view.strata.values())
 
 
-def test_names_in_the_picture_do_not_cover_each_other():
-    rows = [make_row(f"a-policy-{i}", 10.0 + 0.01 * i) for i in range(30)]
-    picture = make_picture(rows, team(9.0), width=600, height=400)
-    assert len(picture.dots) == 31
-    assert len(picture.labels) > 6
-    boxes = [label.box for label in picture.labels]
-    boxes += [(dot.x - 5, dot.y - 5, dot.x + 5, dot.y + 5) for dot in picture.dots]
-    for i, a in enumerate(boxes[: len(picture.labels)]):
-        for b in boxes[i + 1 :]:
-            assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
+def test_the_picture_has_hidden_errors_and_public_smoothness():
+    row = make_row("a", 10.0, sparc=-2.5)
+    picture = make_picture([row], team(9.7), size=WIDE)
+    policy, people = picture.dots
+    assert policy.tip == "a: RMSE 10.0 mm, SPARC \N{MINUS SIGN}2.50"
+    assert people.tip.startswith("two people: RMSE 9.7 mm")
+    assert people.at[0] == picture.baseline
 
 
-def test_what_is_off_the_scale_stands_at_the_edge_with_its_value():
-    rows = [make_row(f"p{i}", 10.0 + i, sparc=-2.0 - i / 10) for i in range(3)]
-    rows.append(make_row("wild", 111.7, sparc=-3.66))
-    picture = make_picture(rows, team(9.0), width=920, height=440)
-    wild = next(dot for dot in picture.dots if dot.name.startswith("wild"))
-    assert wild.name == "wild (112 mm, SPARC \N{MINUS SIGN}3.7)"
-    assert picture.beyond[0] < wild.x < picture.plot[2]
-    assert wild.name in {label.text for label in picture.labels}
-
-
-def test_the_line_of_the_picture_is_two_people_on_the_hidden_lifts():
-    picture = make_picture([make_row("a", 10.0)], team(9.7), width=920, height=440)
-    people = next(dot for dot in picture.dots if dot.kind == "team")
-    assert people.x == picture.team
-    assert people.told.startswith("two people: RMSE 9.7 mm")
-
-
-@pytest.mark.parametrize(("width", "height"), [(920, 440), (390, 380)])
-def test_the_names_of_the_front_stand_clear_of_its_line(width, height):
-    rows = [make_row("anticipate", 3.8, sparc=-2.09), make_row("task_model", 5.6, sparc=-2.13)]
-    rows += [make_row("proactive", 11.8, sparc=-2.01), make_row("impedance", 19.1, sparc=-1.8)]
-    picture = make_picture(rows, team(10.3), width=width, height=height)
-    labels = {label.text: label for label in picture.labels}
-    places = [tuple(map(float, corner.split(","))) for corner in picture.stair.split()]
-    for dot in picture.dots:
-        if dot.front:
-            label = labels[dot.name]
-            assert not any(
-                left <= label.x <= right and label.y - 10 < y < label.y
-                for (left, y), (right, _) in pairwise(places)
-            )
-
-
-def test_who_never_moves_along_is_in_the_strip_and_not_on_the_front():
-    still = make_row("still", 5.0)
+def test_a_policy_that_never_moves_along_is_in_the_strip_and_not_on_the_front():
+    still = make_row("still", 20.0)
     metrics = {**still.public.metrics, "sparc": MeanWithMissing(mean=None, missing=12)}
     still = dataclasses.replace(still, public=dataclasses.replace(still.public, metrics=metrics))
-    picture = make_picture([still, make_row("moving", 10.0)], None, width=600, height=400)
-    dots = {dot.name: dot for dot in picture.dots}
-    assert dots["still"].y > picture.still[0] > dots["moving"].y
-    assert [dot.name for dot in picture.dots if dot.front] == ["moving"]
+    picture = make_picture([still, make_row("moving", 10.0)], None, size=NARROW)
+    dots = {dot.point.name: dot for dot in picture.dots}
+    assert dots["still"].at[1] > picture.scale.inner[3] > dots["moving"].at[1]
+    assert [name for name, dot in dots.items() if dot.best] == ["moving"]
+
+
+def test_a_board_without_policies_has_no_picture():
+    assert make_picture([], team(9.7), size=WIDE) is None
 
 
 def test_a_policy_that_failed_in_every_lift_says_why_once(tmp_path):

@@ -1,0 +1,108 @@
+"""Map from millimetres and SPARC to pixels, with strips for points off the scale."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from ...rendering.ticks import far_limit
+from ...statistics import Interval
+from ..front import Point
+
+STRIP: Final = 0.115
+"""Breadth of a strip for points off the scale, over that of the plot."""
+
+MARGIN: Final = 0.09
+"""Room around the points, over the breadth of the scale."""
+
+Place = tuple[float, float]
+"""Pixels from the left and from the top."""
+
+Box = tuple[float, float, float, float]
+"""Left, top, right and bottom [px]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scale:
+    """The part of the plot that is drawn to scale, and the strips at its right and below."""
+
+    plot: Box
+    """Scale and strips."""
+    x: Interval
+    """RMSE at the left and at the right end of the scale [mm]."""
+    y: Interval
+    """SPARC at the lower and at the upper end of the scale."""
+    beyond: bool
+    """Whether some error is off the scale: its point is in the strip at the right."""
+    still: bool
+    """Whether some point has no smoothness: it is in the strip below."""
+
+    @property
+    def inner(self) -> Box:
+        """The part that is to scale."""
+        left, top, right, bottom = self.plot
+        return (
+            left,
+            top,
+            right - self.beyond * STRIP * (right - left),
+            bottom - self.still * STRIP * (bottom - top),
+        )
+
+    def across(self, rmse_mm: float) -> float:
+        """Return where an error is [px from the left]."""
+        left, _, right, _ = self.inner
+        return left + (right - left) * (rmse_mm - self.x[0]) / (self.x[1] - self.x[0])
+
+    def down(self, sparc: float) -> float:
+        """Return where a smoothness is [px from the top]."""
+        _, top, _, bottom = self.inner
+        return bottom - (bottom - top) * (sparc - self.y[0]) / (self.y[1] - self.y[0])
+
+    def off(self, point: Point) -> bool:
+        """Whether the error of a point is off the scale."""
+        return point.rmse_mm.mean > self.x[1]
+
+    def below(self, point: Point) -> bool:
+        """Whether a point has a smoothness lower than the scale shows."""
+        return point.sparc is not None and point.sparc.mean < self.y[0]
+
+    def place(self, point: Point) -> Place:
+        """Return where a point is: in the middle of a strip, or at the edge, if off the scale."""
+        _, top, right, bottom = self.inner
+        off, margin = self.off(point), MARGIN / 2 * (bottom - top)
+        x = (right + self.plot[2]) / 2 if off else self.across(point.rmse_mm.mean)
+        if point.sparc is None:
+            return x, (bottom + self.plot[3]) / 2
+        return x, min(max(self.down(point.sparc.mean), top + margin), bottom - margin)
+
+    def bars(self, point: Point) -> tuple[Box, ...]:
+        """Return the 95 % intervals of a point, as lines; none off the scale."""
+        if self.off(point):
+            return ()
+        x, y = self.place(point)
+        _, top, right, bottom = self.inner
+        low, high = point.rmse_mm.ci95
+        bars = [(self.across(low), y, min(self.across(high), right), y)]
+        if point.sparc is not None and not self.below(point):
+            low, high = point.sparc.ci95
+            bars.append((x, max(self.down(high), top), x, min(self.down(low), bottom)))
+        return tuple(bar for bar in bars if bar[:2] != bar[2:])
+
+
+def make_scale(points: Sequence[Point], plot: Box) -> Scale:
+    """Return a scale that shows most of the points; those far off do not count."""
+    far = far_limit([point.rmse_mm.mean for point in points if point.kind != "bound"])
+    near = [point for point in points if point.rmse_mm.mean <= far]
+    heights = [end for each in near if each.sparc for end in (each.sparc.mean, *each.sparc.ci95)]
+    return Scale(
+        plot=plot,
+        x=_padded([end for point in near for end in point.rmse_mm.ci95]),
+        y=_padded(heights or [0.0]),
+        beyond=len(near) < len(points),
+        still=any(point.sparc is None for point in points),
+    )
+
+
+def _padded(values: Sequence[float]) -> Interval:
+    low, high = min(values), max(values)
+    margin = MARGIN * max(high - low, 0.1 * abs(high), 1e-3)
+    return low - margin, high + margin

@@ -1,0 +1,289 @@
+"""All that the scatter picture shows, in pixels from the top left."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+
+from ...rendering.labels import nearest, place_labels
+from ...rendering.ticks import round_ticks
+from ...statistics import Interval
+from ..front import Point, pareto_front
+from .scale import Box, Place, Scale, make_scale
+
+WIDE: Final = (920, 520)
+NARROW: Final = (390, 440)
+"""Sizes of the picture [px], for a screen and for a telephone."""
+ROOMY: Final = 600
+"""Width from which on there is room for more ticks and longer notes [px]."""
+
+MARGINS: Final = (56, 44, 12, 48)
+"""Room for axes at the left, at the top, at the right and below the plot [px]."""
+TITLE_LINE: Final = 20
+TITLE_GAP: Final = 12
+"""Room for a line of the title, and below its last [px]."""
+
+NAME_SIZE: Final = 12.5
+NOTE_SIZE: Final = 11.5
+"""Sizes of letters [px]."""
+LINE_HEIGHT: Final = 1.2
+"""Distance between the lines of a text, over the size of its letters."""
+RADIUS: Final = 5.0
+"""Radius of a marker [px]."""
+CLEAR: Final = 2.0
+"""Room left free around names and markers [px]."""
+
+NAMED: Final = 40
+"""Most points that get a name: first the front, the baseline and the bounds, then the others."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tick:
+    """A tick of an axis."""
+
+    at: float
+    """Pixels from the left or from the top."""
+    text: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Note:
+    """A few words in the plot."""
+
+    box: Box
+    text: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Label:
+    """The name of a point, in the middle of a box."""
+
+    box: Box
+    lines: tuple[str, ...]
+    leader: Box | None
+    """Line from the marker to a name away from it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Dot:
+    """A point, its intervals and its name."""
+
+    point: Point
+    at: Place
+    bars: tuple[Box, ...]
+    best: bool
+    """Whether it is on the front."""
+    tip: str
+    """What it is, in words."""
+    label: Label | None
+    """None if there is no room for its name."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scene:
+    """The picture: error across, smoothness up, both better towards the top left."""
+
+    size: tuple[int, int]
+    """Width and height [px]."""
+    title: tuple[str, ...]
+    """Lines above the plot, the first in bold."""
+    axis: str
+    """What the error is of."""
+    scale: Scale
+    across: tuple[Tick, ...]
+    """RMSE [mm]."""
+    up: tuple[Tick, ...]
+    """SPARC."""
+    ratios: tuple[Tick, ...]
+    """RMSE over that of the human-human baseline, above the plot; none without it."""
+    baseline: float | None
+    """The human-human baseline's RMSE [px from the left]."""
+    front: tuple[Place, ...]
+    """Corners of the line that joins the front."""
+    notes: tuple[Note, ...]
+    dots: tuple[Dot, ...]
+    """The points, in the order given."""
+    summary: str
+    """The picture in a sentence."""
+
+
+def make_scene(
+    points: Sequence[Point], *, axis: str, size: tuple[int, int] = WIDE, title: Sequence[str] = ()
+) -> Scene:
+    """Return the scene.
+
+    Parameters
+    ----------
+    points
+        At least one policy, the best first; the human-human baseline and the bounds.
+    axis
+        Name of the error's axis.
+    size
+        Width and height [px].
+    title
+        Lines above the plot.
+    """
+    (width, height), (left, top, right, bottom) = size, MARGINS
+    top += TITLE_LINE * len(title) + (TITLE_GAP if title else 0)
+    scale = make_scale(points, (left, top, width - right, height - bottom))
+    wide, front = width >= ROOMY, pareto_front(points)
+    baseline = next((point.rmse_mm.mean for point in points if point.kind == "baseline"), None)
+    corners = _stair([scale.place(point) for point in front])
+    notes = _notes(scale, points, wide)
+    lines = [_span(*ends) for ends in pairwise(corners)]
+    if baseline is not None:
+        across = scale.across(baseline)
+        lines.append((across, scale.plot[1], across, scale.plot[3]))
+    return Scene(
+        size=size,
+        title=tuple(title),
+        axis=axis,
+        scale=scale,
+        across=_ticks(scale.across, scale.x, 10 if wide else 6),
+        up=_ticks(scale.down, scale.y, 7),
+        ratios=() if baseline is None else _ratios(scale, baseline, 8 if wide else 4),
+        baseline=None if baseline is None else scale.across(baseline),
+        front=corners,
+        notes=notes,
+        dots=_dots(points, front, scale, notes, lines),
+        summary=_summary(points, front),
+    )
+
+
+def minus(text: str) -> str:
+    """Return a number with a true minus sign."""
+    return text.replace("-", "\N{MINUS SIGN}")
+
+
+def text_width(text: str, size: float) -> float:
+    """Return the width of a line of bold text [px], at most about, in the usual fonts."""
+    ems = (0.45 if c in "ijltrfI.,:;'()|-* " else 1.05 if c in "mwMW@%" else 0.69 for c in text)
+    return size * sum(ems)
+
+
+def _ticks(place: Callable[[float], float], ends: Interval, most: int) -> tuple[Tick, ...]:
+    """Return the round numbers between two ends, all with as many decimals."""
+    values = round_ticks(*ends, most)
+    digits = max((len(f"{value:g}".partition(".")[2]) for value in values), default=0)
+    return tuple(Tick(at=place(value), text=minus(f"{value:.{digits}f}")) for value in values)
+
+
+def _ratios(scale: Scale, baseline: float, most: int) -> tuple[Tick, ...]:
+    return tuple(
+        Tick(at=scale.across(ratio * baseline), text=f"{ratio:g}\N{MULTIPLICATION SIGN}")
+        for ratio in round_ticks(scale.x[0] / baseline, scale.x[1] / baseline, most)
+    )
+
+
+def _dots(
+    points: Sequence[Point],
+    front: Sequence[Point],
+    scale: Scale,
+    notes: Sequence[Note],
+    lines: Sequence[Box],
+) -> tuple[Dot, ...]:
+    """Return the points with their names, where there is room."""
+    places = [scale.place(point) for point in points]
+    order = sorted(
+        range(len(points)), key=lambda i: (points[i] not in front, points[i].kind == "policy")
+    )[:NAMED]
+    texts = [_name(points[i], scale) for i in order]
+    half = RADIUS + CLEAR
+    boxes = place_labels(
+        [places[i] for i in order],
+        [
+            (
+                max(text_width(line, NAME_SIZE) for line in text) + 2 * CLEAR,
+                NAME_SIZE * LINE_HEIGHT * len(text),
+            )
+            for text in texts
+        ],
+        obstacles=[(x - half, y - half, x + half, y + half) for x, y in places]
+        + [note.box for note in notes],
+        lines=[
+            (left - 1, top - 1, right + 1, bottom + 1)
+            for left, top, right, bottom in (*lines, *(b for p in points for b in scale.bars(p)))
+        ],
+        bounds=scale.plot,
+    )
+    labels = {
+        i: _label(places[i], text, tuple(box.tolist()))
+        for i, text, box in zip(order, texts, boxes, strict=True)
+        if box is not None
+    }
+    return tuple(
+        Dot(
+            point=point,
+            at=places[i],
+            bars=scale.bars(point),
+            best=point in front,
+            tip=_tip(point),
+            label=labels.get(i),
+        )
+        for i, point in enumerate(points)
+    )
+
+
+def _label(at: Place, lines: tuple[str, ...], box: Box) -> Label:
+    x, y = (float(each) for each in nearest(np.array(box), at))
+    away = math.hypot(x - at[0], y - at[1]) > 2.6 * RADIUS
+    return Label(box=box, lines=lines, leader=(*at, x, y) if away else None)
+
+
+def _name(point: Point, scale: Scale) -> tuple[str, ...]:
+    """Return the name of a point, with a line of the values that its place does not show."""
+    values = [f"{point.rmse_mm.mean:.0f} mm"] if scale.off(point) else []
+    if point.sparc is not None and scale.below(point):
+        values.append(f"SPARC {minus(f'{point.sparc.mean:.1f}')}")
+    name = f"{point.name} *" if point.sparc and point.missing else point.name
+    return (name, ", ".join(values)) if values else (name,)
+
+
+def _tip(point: Point) -> str:
+    sparc = f"SPARC {minus(f'{point.sparc.mean:.2f}')}" if point.sparc else "no smoothness"
+    return f"{point.name}: RMSE {point.rmse_mm.mean:.1f} mm, {sparc}"
+
+
+def _stair(places: Sequence[Place]) -> tuple[Place, ...]:
+    """Return the corners of the line that joins the places of the front."""
+    corners = list(places[:1])
+    for (_, y), (x, next_y) in pairwise(places):
+        corners += [(x, y), (x, next_y)]
+    return tuple(corners)
+
+
+def _span(one: Place, other: Place) -> Box:
+    """Return the box of a line that is straight up or across."""
+    (left, right), (top, bottom) = (sorted(ends) for ends in zip(one, other, strict=True))
+    return left, top, right, bottom
+
+
+def _notes(scale: Scale, points: Sequence[Point], wide: bool) -> tuple[Note, ...]:
+    """Return what explains the strips and the asterisk."""
+    left, top, right, bottom = scale.plot
+    floor, height = scale.inner[3], NOTE_SIZE * LINE_HEIGHT + CLEAR
+    texts = []
+    if scale.beyond:
+        text = "off the scale" if wide else "beyond"
+        texts.append((text, right - text_width(text, NOTE_SIZE) - CLEAR, top + CLEAR))
+    if scale.still:
+        text = "does not move along: no smoothness" if wide else "no smoothness"
+        texts.append((text, left + CLEAR, bottom - height))
+    if any(point.sparc and point.missing for point in points):
+        texts.append(("* without smoothness in some lifts", left + CLEAR, floor - height))
+    return tuple(
+        Note(text=text, box=(x, y, x + text_width(text, NOTE_SIZE), y + height))
+        for text, x, y in texts
+    )
+
+
+def _summary(points: Sequence[Point], front: Sequence[Point]) -> str:
+    policies = sum(point.kind == "policy" for point in points)
+    best = ", ".join(point.name for point in front) or "none"
+    return (
+        f"{policies} policies by RMSE (across, further left is more level) and smoothness (up, "
+        f"higher is smoother). Not beaten in both by any other: {best}."
+    )
