@@ -1,7 +1,7 @@
 """Positions of the labels of a scatter plot: near their points, and over nothing.
 
 Each label has some hundred candidate boxes around its point. In turn, each takes its cheapest free
-box while the others stay, until none moves: a discrete gradient descent, as compared with others by
+box while the others stay, a few times: a discrete gradient descent, as compared with others by
 J. Christensen, J. Marks, S. Shieber (1995), An empirical study of algorithms for point-feature
 label placement, ACM Transactions on Graphics 14(3):203-232.
 """
@@ -15,11 +15,12 @@ Array = NDArray[np.float64]
 """Boxes have shape (k, 4): left, top, right, bottom. Lengths are in one unit, such as pixels."""
 
 DIRECTIONS: Final = 16
-DISTANCES: Final = (0.6, 0.8, 1.2, 1.8, 2.6, 3.6, 5.0, 7.0, 9.5)
+DISTANCES: Final = (0.6, 0.8, 1.2, 1.8, 2.6, 3.6, 5.0, 7.0, 9.5, 13.0, 18.0, 25.0)
 """Distances between a point and its label, in heights of the lowest label."""
 
 COVERED: Final = 6.0
 """Cost of covering a line, in units of distance."""
+
 CROSSED: Final = 30.0
 """Cost of a leader that crosses an obstacle or another label."""
 
@@ -56,7 +57,7 @@ def place_labels(
     thin = np.asarray(lines, dtype=np.float64).reshape(-1, 4)
     limits = np.asarray(bounds, dtype=np.float64)
     unit = float(extents[:, 1].min(initial=np.inf))
-    candidates, alone = [], []
+    candidates, costs = [], []
     for anchor, extent in zip(anchors, extents, strict=True):
         boxes, gaps = _candidates(anchor, extent, unit, limits)
         free = ~_covers(boxes, fixed).any(axis=1)
@@ -64,21 +65,17 @@ def place_labels(
         others = fixed[~_covers(anchor[[0, 1, 0, 1]][None], fixed)[0]]
         crossed = _crossings(anchor, boxes, others)
         candidates.append(boxes)
-        alone.append(gaps + COVERED * _covers(boxes, thin).sum(axis=1) + CROSSED * crossed)
-    chosen: list[int | None] = [None] * len(anchors)
+        costs.append(gaps + COVERED * _covers(boxes, thin).sum(axis=1) + CROSSED * crossed)
+    chosen: list[Array | None] = [None] * len(anchors)
     for _ in range(PASSES):
-        before = list(chosen)
-        for i, anchor in enumerate(anchors):
-            others = np.array(
-                [candidates[j][k] for j, k in enumerate(chosen) if k is not None and j != i]
-            ).reshape(-1, 4)
-            left = np.flatnonzero(~_covers(candidates[i], others).any(axis=1))
-            crossed = _crossings(anchor, candidates[i][left], others)
-            cost = alone[i][left] + CROSSED * crossed
-            chosen[i] = int(left[cost.argmin()]) if len(left) else None
-        if chosen == before:
-            break
-    return [None if k is None else boxes[k] for boxes, k in zip(candidates, chosen, strict=True)]
+        for i, (anchor, boxes) in enumerate(zip(anchors, candidates, strict=True)):
+            rest = [box for j, box in enumerate(chosen) if box is not None and j != i]
+            others = np.reshape(rest, (-1, 4))
+            cost = costs[i] + CROSSED * _crossings(anchor, boxes, others)
+            cost[_covers(boxes, others).any(axis=1)] = np.inf
+            some = bool(np.isfinite(cost).any())
+            chosen[i] = boxes[cost.argmin()] if some else None
+    return chosen
 
 
 def nearest(box: Array, point: ArrayLike) -> Array:

@@ -43,7 +43,7 @@ def test_its_line_does_not_run_through_another_point() -> None:
     The other's label is too wide for that place.
     """
     points = np.array([(400.0, 250.0), (440.0, 250.0)])
-    taken = [(340.0, 190.0, 460.0, 310.0)]
+    taken = [(340.0, 190.0, 460.0, 310.0), (436.0, 246.0, 444.0, 254.0)]
     sizes, bounds = [(30, 12), (90, 12)], (0.0, 0.0, 520.0, 500.0)
     box, _ = place_labels(points, sizes, obstacles=taken, bounds=bounds)
     line = points[0] + np.linspace(0.0, 1.0, 200)[:, None] * (nearest(box, points[0]) - points[0])
@@ -80,13 +80,13 @@ def test_no_labels_are_no_boxes() -> None:
     assert place_labels([], [], bounds=BOUNDS).shape == (0, 4)
 
 
-def test_it_covers_a_line_only_where_there_is_no_room_near() -> None:
-    line = (405.0, 0.0, 407.0, 500.0)
+def test_it_covers_a_line_only_where_there_is_no_other_room() -> None:
+    line = (420.0, 0.0, 422.0, 500.0)
     (box,) = place_labels([(400, 250)], [(60, 12)], lines=[line], bounds=BOUNDS)
-    assert box[2] <= 405.0
-    narrow = (390.0, 0.0, 500.0, 500.0)
+    assert overlap(box, np.array(line)) == 0.0
+    narrow = (390.0, 0.0, 470.0, 500.0)
     (box,) = place_labels([(400, 250)], [(60, 12)], lines=[line], bounds=narrow)
-    assert box[0] < 405.0 < box[2]
+    assert overlap(box, np.array(line)) > 0.0
 
 
 def test_a_label_without_a_free_place_has_none_and_the_first_come_first() -> None:

@@ -120,7 +120,7 @@ def test_some_lifts_without_smoothness_are_marked_and_explained(comparison: Comp
     drawn = scene(list(comparison.points))
     label = dots(drawn)["failing"].label
     assert label is not None
-    assert label.lines == ("failing *",)
+    assert label.lines[0] == "failing *"
     assert "* without smoothness in some lifts" in {note.text for note in drawn.notes}
 
 
