@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[np.float64]
 """Boxes have shape (k, 4): left, top, right, bottom. Lengths are in one unit, such as pixels."""
 
-DIRECTIONS: Final = 16
+DIRECTIONS: Final = 24
 DISTANCES: Final = (0.6, 0.8, 1.2, 1.8, 2.6, 3.6, 5.0, 7.0, 9.5, 13.0, 18.0, 25.0)
 """Distances between a point and its label, in heights of the lowest label."""
 

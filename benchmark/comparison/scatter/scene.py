@@ -37,7 +37,7 @@ CLEAR: Final = 2.0
 """Room left free around names and markers [px]."""
 
 NAMED: Final = 40
-"""Most points that get a name: first the front, the baseline and the bounds, then the others."""
+"""Most points that get a name: the front, baseline and bounds, then the others, most level first."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -158,10 +158,10 @@ def minus(text: str) -> str:
     return text.replace("-", "\N{MINUS SIGN}")
 
 
-def text_width(text: str, size: float) -> float:
-    """Return the width of a line of bold text [px], at most about, in the usual fonts."""
-    ems = (0.45 if c in "ijltrfI.,:;'()|-* " else 1.05 if c in "mwMW@%" else 0.72 for c in text)
-    return size * sum(ems)
+def text_width(text: str, size: float, *, bold: bool = False) -> float:
+    """Return the width of a line of text [px], at most about, in the usual fonts."""
+    ems = (0.42 if c in "ijltrfI.,:;'()|-* " else 0.98 if c in "mwMW@%" else 0.65 for c in text)
+    return size * (1.13 if bold else 1.0) * sum(ems)
 
 
 def _ticks(place: Callable[[float], float], ends: Interval, most: int) -> tuple[Tick, ...]:
@@ -188,18 +188,24 @@ def _dots(
     """Return the points with their names, where there is room."""
     places = [scale.place(point) for point in points]
     order = sorted(
-        range(len(points)), key=lambda i: (points[i] not in front, points[i].kind == "policy")
+        range(len(points)),
+        key=lambda i: (
+            points[i] not in front,
+            points[i].kind == "policy",
+            points[i].rmse_mm.mean,
+        ),
     )[:NAMED]
     texts = [_name(points[i], scale) for i in order]
+    bold = [i for i in order if points[i] in front or points[i].kind == "baseline"]
     half = RADIUS + CLEAR
     boxes = place_labels(
         [places[i] for i in order],
         [
             (
-                max(text_width(line, NAME_SIZE) for line in text) + 2 * CLEAR,
+                max(text_width(line, NAME_SIZE, bold=i in bold) for line in text) + 2 * CLEAR,
                 NAME_SIZE * LINE_HEIGHT * len(text),
             )
-            for text in texts
+            for i, text in zip(order, texts, strict=True)
         ],
         obstacles=[(x - half, y - half, x + half, y + half) for x, y in places]
         + [note.box for note in notes],
