@@ -37,7 +37,7 @@ CLEAR: Final = 2.0
 """Room left free around names and markers [px]."""
 
 NAMED: Final = 40
-"""Most points that get a name: the front, baseline and bounds, then the others, most level first."""
+"""Most points that get a name: the front, baseline and bounds, then the others by their error."""
 
 
 @dataclass(frozen=True, kw_only=True)
