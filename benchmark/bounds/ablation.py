@@ -63,7 +63,7 @@ VARIANTS: Final = (
 
 @dataclass(frozen=True, kw_only=True)
 class Ablation:
-    """How a variant does, and what it loses against the whole."""
+    """Errors of a variant, and its loss relative to the whole."""
 
     name: str
     rmse_mm: float
@@ -100,15 +100,15 @@ def variants(first: Lesson, last: Lesson, *, seed: int = 0) -> Iterator[Anticipa
 
 
 def narrowed(data: TrainingData, window: FeatureWindow) -> TrainingData:
-    """Return experience as it would be with a narrower window: the first of its inputs."""
+    """Return training data for a narrower window: the first of its inputs."""
     return dataclasses.replace(data, inputs=data.inputs[:, : window.size])
 
 
-def moving(data: TrainingData, ways: Sequence[str]) -> TrainingData:
-    """Return the part of experience of :data:`.CURRICULUM` in which people move in some of them."""
-    if ways == CURRICULUM:
+def moving(data: TrainingData, behaviours: Sequence[str]) -> TrainingData:
+    """Return the part of the training data with some behaviours of :data:`.CURRICULUM`."""
+    if behaviours == CURRICULUM:
         return data
-    chosen = np.isin(data.seeds % len(CURRICULUM), [CURRICULUM.index(way) for way in ways])
+    chosen = np.isin(data.seeds % len(CURRICULUM), [CURRICULUM.index(each) for each in behaviours])
     return TrainingData(
         inputs=data.inputs[chosen], outcomes=data.outcomes[chosen], seeds=data.seeds[chosen]
     )

@@ -52,7 +52,7 @@ HIDDEN: Final = (128, 128, 128)
 """Units of its hidden layers: twice the policy's, so more than three times the weights."""
 
 ONLY_LEVEL: Final = AnticipateParameters(smoothness=0.0)
-"""It is a bound of the error alone: nothing is given away for smoothness."""
+"""A bound of the error alone: it trades none of it for smoothness."""
 
 
 @cache

@@ -17,7 +17,7 @@ RIVALS: Final = ("blend", "reactive")
 
 TO_TEAM: Final = {"smooth": 0.70, "pause": 0.70, "jerky": 1.15, "changing_goal": 0.70}
 TO_TEAM_OVER_ALL: Final = 0.75
-"""Largest RMSE over the human-human team's, on each behaviour and over all."""
+"""Largest RMSE over the human-human baseline's, on each behaviour and over all."""
 
 TO_BOUND: Final = 1.15
 """Largest RMSE over the causal bound's, on each behaviour."""
@@ -26,12 +26,12 @@ TO_BLEND: Final = 0.35
 """Largest RMSE over that of `blend`, on smooth and on recorded lifts."""
 
 WINS: Final = 0.98
-"""Smallest share of the recorded lifts in which it is more level than `blend`."""
+"""Smallest fraction of the recorded lifts in which it is more level than `blend`."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PolicyClaim:
-    """A number, and what it has to be."""
+    """A number and its limit."""
 
     text: str
     value: float
@@ -47,9 +47,9 @@ class PolicyClaim:
 
 
 def claims(contest: Contest) -> tuple[PolicyClaim, ...]:
-    """Return what a contest of the policy, its rivals and the bounds says to each claim.
+    """Return the claims, measured in a contest of the policy, its rivals and the bounds.
 
-    The causal bound and the rivals are needed, and the human-human team is always there. On
+    The causal bound and the rivals are needed, and the human-human baseline is always there. On
     recorded lifts the team and the bound are no limits: people are no plan.
     """
     entries = {entry.name: entry for entry in contest.entries}
@@ -71,7 +71,7 @@ def claims(contest: Contest) -> tuple[PolicyClaim, ...]:
     for behaviour in dict.fromkeys(behaviours.tolist()):
         chosen = behaviours == behaviour
         if behaviour in TO_TEAM:
-            ratio(f"the human-human team, {behaviour}", team, chosen, TO_TEAM[behaviour])
+            ratio(f"the human-human baseline, {behaviour}", team, chosen, TO_TEAM[behaviour])
             ratio(f"the causal bound, {behaviour}", bound, chosen, TO_BOUND)
         if behaviour in ("smooth", RECORDED):
             ratio(f"blend, {behaviour}", blend, chosen, TO_BLEND)
@@ -86,7 +86,7 @@ def claims(contest: Contest) -> tuple[PolicyClaim, ...]:
                 )
             )
     if set(behaviours.tolist()) == set(TO_TEAM):
-        ratio("the human-human team, over all", team, everything, TO_TEAM_OVER_ALL)
+        ratio("the human-human baseline, over all", team, everything, TO_TEAM_OVER_ALL)
     return (*found, *_kinder(entries, contest))
 
 

@@ -29,7 +29,7 @@ FORESIGHT: Final = 0.6
 
 
 class Foreknowing:
-    """Commands what best follows a path that is known for the whole episode.
+    """Commands that best follow a path known for the whole episode.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class Foreknowing:
 
 
 def foreknow(lift: Lift, seed: int) -> Episode:
-    """Return the episode of a seed, played by who knows how it will go.
+    """Return the episode of a seed, played by the oracle.
 
     It is rehearsed, as in iterative learning control: the first time the oracle follows the
     human's private plan, and each further time its own last command plus the height difference

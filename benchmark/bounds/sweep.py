@@ -109,7 +109,7 @@ def team_rmse(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
 ) -> float:
-    """Return the mean RMSE of the human-human team [mm]: it has no such timing."""
+    """Return the mean RMSE of the human-human baseline [mm]: it has no such timing."""
     run = human_team_run(suite, executor=executor, progress=progress)
     return float(np.mean([episode.scores["rmse_mm"] for episode in run.episodes]))
 

@@ -26,7 +26,7 @@ LOOKS: Final = {
 
 
 def sweep_json(swept: Sequence[Swept], team: float) -> str:
-    """Return the numbers of the picture; ``team`` is the human-human team's RMSE [mm]."""
+    """Return the numbers of the picture; ``team`` is the human-human baseline's RMSE [mm]."""
     content = {"human_human_rmse_mm": team, "swept": [asdict(each) for each in swept]}
     return json.dumps(content, indent=1) + "\n"
 
@@ -39,7 +39,7 @@ def sweep_figure(swept: Sequence[Swept], team: float, title: str) -> Figure:
     swept
         The scores.
     team
-        Mean RMSE of the human-human team [mm], a line.
+        Mean RMSE of the human-human baseline [mm], a line.
     title
         What stands above.
     """
@@ -60,7 +60,7 @@ def sweep_figure(swept: Sequence[Swept], team: float, title: str) -> Figure:
 def _panel(axes: Axes, swept: Sequence[Swept], along: str, team: float) -> None:
     style_axes(axes)
     axes.set_xticks(sorted({1000 * getattr(each, along) for each in swept}))
-    axes.axhline(team, color=HUMAN, lw=1.2, ls=(0, (4, 3)), label="human-human team")
+    axes.axhline(team, color=HUMAN, lw=1.2, ls=(0, (4, 3)), label="human-human baseline")
     for name, (colour, line, marker) in LOOKS.items():
         points = sorted((1000 * getattr(s, along), s.rmse_mm) for s in swept if s.policy == name)
         axes.plot(

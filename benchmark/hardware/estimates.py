@@ -110,8 +110,8 @@ def _delay(trial: LoggedTrial) -> float:
     commands = [step.command for step in trial.log.steps]
     if not commands or np.ptp(commands) < LOWEST_MOTION:
         raise InputError(
-            f"the hands were told to move by less than {1000 * LOWEST_MOTION:.0f} mm: "
-            "nothing can be said of how they follow"
+            f"the hands were commanded to move by less than {1000 * LOWEST_MOTION:.0f} mm: "
+            "too little to estimate how they follow"
         )
     first = trial.log.start + LONGEST_DELAY
     frames = frames[frames[:, 0] >= first]

@@ -7,20 +7,20 @@ from typing import Final
 from ...agents.errors import InputError
 
 KINDS: Final = {
-    "dropout": "the motion capture sends nothing",
+    "dropout": "the motion capture sends no frames",
     "slow": "the motion capture sends only each VALUE-th frame (default 10)",
     "nan": "the motion capture does not see the human's end (NaN)",
     "freeze": "the motion capture repeats where the first VALUE markers were (default 4, all)",
     "unit-change": "the motion capture sends millimetres instead of metres",
     "future-stamps": "the motion capture's time stamps are VALUE s ahead (default 5)",
-    "nan-stamps": "the motion capture's time stamps are no numbers",
+    "nan-stamps": "the motion capture's time stamps are not numbers",
     "swap": "the motion capture takes the ends for each other",
     "drift": "the motion capture drifts upwards by VALUE m/s (default 0.05)",
     "latency": "the motion capture comes VALUE s later (default 0.25)",
     "jitter": "the motion capture comes up to VALUE s later, at random (default 0.05)",
     "disconnect": "the robot's connection is closed, for good",
     "silence": "the robot does not answer where its joints are",
-    "hang": "the robot answers nothing at all",
+    "hang": "the robot does not answer at all",
     "foreign-setpoint": "somebody else moves the left shoulder to VALUE rad (default 0.5)",
     "stream-end": "the stream is closed, for good",
     "motor-off": "the robot's motors have no stiffness",
@@ -74,7 +74,7 @@ def parse_fault(text: str) -> Fault:
 
 
 class Schedule:
-    """When what goes wrong: what was planned from the first lift on, and what is asked for since.
+    """Faults over time: those planned from the first lift on, and those requested since.
 
     Parameters
     ----------
@@ -103,5 +103,5 @@ class Schedule:
         self._faults.append(replace(fault, start=now + fault.start))
 
     def active(self, now: float) -> list[Fault]:
-        """Return what goes wrong now; their ``start`` is on the same clock."""
+        """Return the active faults; their ``start`` is on the same clock."""
         return [fault for fault in self._faults if fault.active(now)]

@@ -33,7 +33,7 @@ class JointArms(NaoArms):
 
         q_i = c_i + (g_i - J_i F / 2) / k.
 
-    No offset makes up for the weight: that is the business of whoever sends the commands.
+    No offset makes up for the weight: the sender of the commands has to.
     """
 
     def __init__(self, client: int, tree: int, physics: Physics, servo: Servo) -> None:
@@ -63,7 +63,7 @@ class JointArms(NaoArms):
     def prepare(
         self, command: float, own: list[float], other: list[float], force: list[float]
     ) -> None:
-        """Take the commanded angles for the end of the next frame; ``command`` means nothing."""
+        """Take the commanded angles for the end of the next frame; ``command`` is ignored."""
         self._load += self._yielding * (force[-1] - self._load)
         self._from, self._to = self._to, self._set_points()
 

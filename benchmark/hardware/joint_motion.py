@@ -68,7 +68,7 @@ def joint_names(names: str | Sequence[str]) -> list[str]:
     return [joint for name in names for joint in joint_names(name)]
 
 
-def spread(value: Any, count: int, what: str) -> list[float]:
+def per_joint(value: Any, count: int, what: str) -> list[float]:
     """Return one number for each joint; a single one stands for all.
 
     Raises
@@ -140,8 +140,8 @@ class JointMotion:
         with self._lock:
             for joint, value in zip(names, values, strict=True):
                 target = min(max(value, 0.0), 1.0)
-                way = abs(target - self._stiffness[joint])
-                self._ramps[joint] = (target, way / max(time, TICK))
+                distance = abs(target - self._stiffness[joint])
+                self._ramps[joint] = (target, distance / max(time, TICK))
 
     def kill(self) -> None:
         """Forget all targets: the joints stay where they are."""
@@ -154,12 +154,12 @@ class JointMotion:
             self._off = off
 
     def moving(self, names: Sequence[str]) -> bool:
-        """Return whether one of the joints is on its way."""
+        """Return whether one of the joints is moving."""
         with self._lock:
             return any(joint in self._moves for joint in names)
 
     def stiffening(self, names: Sequence[str]) -> bool:
-        """Return whether the stiffness of one of the joints is on its way."""
+        """Return whether the stiffness of one of the joints is changing."""
         with self._lock:
             return any(joint in self._ramps for joint in names)
 

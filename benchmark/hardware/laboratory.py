@@ -55,7 +55,7 @@ class Conditions:
     capture_latency: float = CAPTURE_LATENCY
     """Time from a motion-capture frame to its sending [s]."""
     faults: tuple[Fault, ...] = ()
-    """What goes wrong, in seconds after the first lift began."""
+    """Faults, in seconds after the first lift began."""
 
 
 class Laboratory:
@@ -84,10 +84,10 @@ class Laboratory:
         self._ahead = self._before = np.array(self._motion.set_points(NAMES))
         self._frame = self._lifts = 0
         self._faults = Schedule(conditions.faults)
-        self._told: set[Fault] = set()
+        self._reported: set[Fault] = set()
         self._markers = Markers(conditions.capture_latency)
         self.answering = threading.Event()
-        """Whether the robot answers where its joints are; whoever asks waits for it."""
+        """Whether the robot answers where its joints are; callers wait for it."""
         self.answering.set()
         self.services: dict[str, Any] = {
             "ALMotion": MotionService(self._motion, log, pause, self.answering),
@@ -128,8 +128,8 @@ class Laboratory:
         now = self._now()
         faults = self._active(now)
         # The set-points of a tick are reached at its end, as by the robot's own interpolation.
-        share = (phase + 1) / FRAMES_PER_TICK
-        commanded = self._before + (self._ahead - self._before) * share
+        fraction = (phase + 1) / FRAMES_PER_TICK
+        commanded = self._before + (self._ahead - self._before) * fraction
         lifting = self._lift.lifting
         self._lift.advance(commanded.tolist(), self._motion.stiffness(NAMES))
         if lifting and not self._lift.lifting:
@@ -158,8 +158,8 @@ class Laboratory:
         """Return the active faults; those of the motors take effect here."""
         active = self._faults.active(now)
         for fault in active:
-            if fault not in self._told:
-                self._told.add(fault)
+            if fault not in self._reported:
+                self._reported.add(fault)
                 self._log(f"fault {fault.kind}")
             if fault.kind == "foreign-setpoint":
                 self._motion.set_angles(NAMES[:1], [fault.value], FOREIGN_FRACTION)

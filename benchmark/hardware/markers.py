@@ -29,7 +29,7 @@ MARKER_NOISE: Final = MOCAP_NOISE * 2**0.5
 simulated motion capture."""
 
 Row = tuple[float, list[float]]
-"""When a frame is said to have been captured [s], and x, y and z of each marker [m]."""
+"""Time stamp of a frame [s], and x, y and z of each marker [m]."""
 
 
 class Markers:

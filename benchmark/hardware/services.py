@@ -10,10 +10,10 @@ from collections.abc import Callable
 from typing import Any, Final
 
 from ...robots.nao.facts import JOINTS
-from .joint_motion import BODY, TICK, JointMotion, MotionError, joint_names, spread
+from .joint_motion import BODY, TICK, JointMotion, MotionError, joint_names, per_joint
 
 VERSION: Final = "2.8.7-emulated"
-"""What the emulator says it is: the NAO 6's NAOqi, and that it is none."""
+"""NAOqi of the NAO 6, marked as emulated."""
 
 SPEAKING: Final = 0.05
 """How long the emulator takes to say a text [s]."""
@@ -62,14 +62,14 @@ class MotionService:
     def setAngles(self, names: Any, angles: Any, fractionMaxSpeed: float) -> None:
         """Move joints; does not block."""
         joints = joint_names(names)
-        values = spread(angles, len(joints), "angles")
+        values = per_joint(angles, len(joints), "angles")
         self._log(f"motion setAngles {values[0]:.4f} {fractionMaxSpeed:.4f}")
         self._motion.set_angles(joints, values, float(fractionMaxSpeed))
 
     def angleInterpolationWithSpeed(self, names: Any, angles: Any, maxSpeedFraction: float) -> None:
         """Move joints; blocks until they have arrived."""
         joints = joint_names(names)
-        values = spread(angles, len(joints), "angles")
+        values = per_joint(angles, len(joints), "angles")
         self._log(f"motion angleInterpolationWithSpeed {maxSpeedFraction:.4f}")
         self._motion.set_angles(joints, values, float(maxSpeedFraction))
         self._wait(self._motion.moving, joints)
@@ -77,7 +77,7 @@ class MotionService:
     def setStiffnesses(self, names: Any, stiffnesses: Any) -> None:
         """Set stiffnesses; does not block."""
         joints = joint_names(names)
-        self._motion.set_stiffness(joints, spread(stiffnesses, len(joints), "stiffnesses"), 0.0)
+        self._motion.set_stiffness(joints, per_joint(stiffnesses, len(joints), "stiffnesses"), 0.0)
 
     def stiffnessInterpolation(self, names: Any, stiffnessLists: Any, timeLists: Any) -> None:
         """Bring joints to one stiffness each within a time [s]; blocks."""
@@ -139,7 +139,7 @@ class MotionService:
 
 
 class MemoryService:
-    """ALMemory: what is known by a name, for everybody."""
+    """ALMemory: values by name, shared by all clients."""
 
     __qi_threading__ = "multi"
 
@@ -151,7 +151,7 @@ class MemoryService:
         """Keep a value by a key."""
         known = self._data.get(key)
         self._data[key] = value
-        # A heartbeat changes the last of some values, and nothing that is to be told.
+        # A heartbeat changes only the last of some values: not worth a line of the log.
         if not (isinstance(known, list) and isinstance(value, list) and known[:-1] == value[:-1]):
             self._log(f"memory {key}: {value}")
 
@@ -197,7 +197,7 @@ class SpeechService:
         self._heard, self._log, self._pause = heard, log, pause
 
     def say(self, text: str) -> None:
-        """Say a text; as long as one takes to say it."""
+        """Say a text; takes as long as speaking does."""
         self._log(f"say {text}")
         self._pause(SPEAKING)
         self._heard(text)
@@ -215,7 +215,7 @@ class FaultService:
 
 
 class SystemService:
-    """ALSystem: who the robot is."""
+    """ALSystem: name and version of the robot."""
 
     def robotName(self) -> str:
         """Return the robot's name."""

@@ -59,7 +59,7 @@ class SimulatedLaboratory:
         return self._button.reason
 
     def _pass(self, seconds: float) -> None:
-        """Let the time pass, whoever presses a button."""
+        """Let the time pass, whether or not the stop button is pressed."""
         for _ in range(round(seconds / FRAME)):
             self._frames += 1
             self._faults = self._laboratory.frame()

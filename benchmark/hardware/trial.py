@@ -126,14 +126,14 @@ def _trace(log: TrialLog) -> Trace:
     stop = steps[-1].deadline + log.period if steps else log.start
     frames = round((stop - log.start) / FRAME)
     human_end, robot_end = _resampled(log, frames)
-    nothing = np.full(frames, math.nan)
+    missing = np.full(frames, math.nan)
     return Trace(
         human_end=human_end,
         robot_end=robot_end,
-        human_velocity=np.gradient(smoothed(human_end), FRAME) if frames > 1 else nothing,
-        human_force=nothing,
-        robot_force=nothing,
-        target=nothing,
+        human_velocity=np.gradient(smoothed(human_end), FRAME) if frames > 1 else missing,
+        human_force=missing,
+        robot_force=missing,
+        target=missing,
         action=np.array([[step.action] for step in steps]).reshape(-1, 1),
         human_action=np.full((len(steps), per_step), math.nan),
         state=np.zeros((len(steps), HASH_BYTES), np.uint8),

@@ -36,7 +36,7 @@ TABLE_1: Final = {
 """Average RMSE of each subject without and with prediction [mm] (Table I)."""
 
 SEEDS: Final = (50_000, 50_060)
-"""Seeds of the calibration, far from those of the suites: 60 lifts a subject."""
+"""Seeds of the calibration, far from those of the suites: 60 lifts per subject."""
 
 ROUNDS: Final = 4
 """Rounds of the fit; each corrects all numbers at once by what the last one measured."""
@@ -45,7 +45,7 @@ RATIO_SLOPE: Final = -0.11
 """Change of the ratio of Table I's columns with the logarithm of q."""
 
 LAG_SLOPE: Final = 25.0
-"""Change of the teams' RMSE with the partner's lag [mm/s]."""
+"""Change of the human-human RMSE with the partner's lag [mm/s]."""
 
 
 def _blend(process_noise: float) -> InMemorySpec:
@@ -63,7 +63,7 @@ def _partner(lag: float) -> InMemorySpec:
 
 @dataclass(frozen=True, kw_only=True)
 class Fit:
-    """One round: the numbers, and what they gave."""
+    """One round: the parameters and the resulting errors."""
 
     calibration: Calibration
     without: dict[str, float]
@@ -71,7 +71,7 @@ class Fit:
     with_prediction: dict[str, float]
     """Mean RMSE of ``blend`` for each subject [mm]."""
     human_human: float
-    """Mean RMSE of the human-human teams [mm]."""
+    """Mean RMSE of the human-human baseline [mm]."""
 
     @property
     def worst_cell(self) -> float:

@@ -93,7 +93,7 @@ def collect_evidence(
     Parameters
     ----------
     suite
-        The lifts of Table I: one smooth scenario a subject. The other experiments have the same
+        The lifts of Table I: one smooth scenario per subject. The other experiments have the same
         subjects and take the first of the same seeds.
     effort
         How much of each experiment.
@@ -165,7 +165,7 @@ def first_seeds(suite: Suite, count: int) -> Suite:
 
 
 def behaving(suite: Suite, name: str, human: Behaviour, seeds: int) -> Suite:
-    """Return a suite of the same subjects, moving in another way, on the first of the seeds."""
+    """Return a suite of the same subjects, with another behaviour, on the first of the seeds."""
     scenarios = tuple(
         Scenario(behaviour=name, human=human, subject=scenario.subject)
         for scenario in suite.scenarios

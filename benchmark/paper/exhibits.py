@@ -24,14 +24,14 @@ class Claim:
     paper: str
     """What the paper reports."""
     criterion: str
-    """When we say that it holds."""
+    """Condition under which it holds."""
     measured: str
-    """What we found, in words and numbers."""
+    """Our result, in words and numbers."""
     values: Mapping[str, float | None] = field(default_factory=dict)
     """The numbers of ``measured``, units in the names."""
     holds: bool
     note: str = ""
-    """What the data say about why, or what limits the answer; always there if it does not hold."""
+    """Reasons in the data, or limits of the answer; never empty if the claim does not hold."""
 
     def __post_init__(self) -> None:
         """Give a claim that does not hold a note, if it has none."""
@@ -63,7 +63,7 @@ class Exhibit:
     """Name of its files, such as ``figure-4``."""
     title: str
     caption: str
-    """What it shows and what to see in it."""
+    """Content, and the point to note."""
     figure: Figure
     columns: Mapping[str, Sequence[float | str] | Sequence[float]]
     """The data, column by column, units in the names."""
@@ -83,13 +83,13 @@ def panels(
     Parameters
     ----------
     labels
-        What the vertical axis of each row of panels shows.
+        Quantity on the vertical axis of each row of panels.
     heights
         Height of each row [inches].
     columns
         Panels in a row.
     x_label
-        What the horizontal axes show.
+        Quantity on the horizontal axes.
     share_x
         Whether all panels share the horizontal axis.
     share_y

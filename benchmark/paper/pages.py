@@ -93,7 +93,7 @@ def report_pages(
 
 
 def _row(name: str, *values: str) -> Row:
-    """Return a row of the table; what is in brackets, an interval, goes under its value."""
+    """Return a row of the table; an interval in brackets goes under its value."""
     parts = (value.partition(" (") for value in values)
     return Row(name, [Cell(mean, bracket.strip() + rest) for mean, bracket, rest in parts])
 
@@ -108,7 +108,7 @@ def table_notes(table: TableOne) -> list[str]:
     return [
         f"Ratio of the means, with / without: paper {table.ratio.paper:.3f}, ours "
         f"{_ours(table.ratio, '.3f')}.",
-        f"Human-human team: paper {table.human_human.paper:.3f} mm (one team, no spread), ours "
+        f"Human-human baseline: paper {table.human_human.paper:.3f} mm (one team), ours "
         f"{_ours(table.human_human)} mm.",
     ]
 

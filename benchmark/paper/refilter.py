@@ -25,7 +25,7 @@ class Refiltered:
     """(n,) predicted velocity [m/s]."""
     acceleration: Series
     """(n,) predicted acceleration [m/s2]."""
-    spread: Series
+    deviation: Series
     """(n,) standard deviation of the predicted height [m]."""
     likelihood: Series
     """(n,) likelihood of the sample (eq. 6)."""
@@ -55,13 +55,13 @@ def refilter(
         chance = likelihood(
             1000 * (sample - expected.height), expected.variance, parameters.reading
         )
-        spread = expected.variance**0.5 / 1000
-        rows.append((expected.height, expected.velocity, expected.acceleration, spread, chance))
+        deviation = expected.variance**0.5 / 1000
+        rows.append((expected.height, expected.velocity, expected.acceleration, deviation, chance))
         motion.update(sample)
     return Refiltered(
         **dict(
             zip(
-                ("height", "velocity", "acceleration", "spread", "likelihood"),
+                ("height", "velocity", "acceleration", "deviation", "likelihood"),
                 np.array(rows).T,
                 strict=True,
             )
@@ -80,5 +80,5 @@ def confidence_trajectory(likelihoods: ArrayLike, forgetting: float) -> Series:
         phi, in (0, 1].
     """
     confidence = Confidence(forgetting)
-    course = [confidence.update(value) for value in np.asarray(likelihoods).tolist()]
-    return np.array(course)
+    profile = [confidence.update(value) for value in np.asarray(likelihoods).tolist()]
+    return np.array(profile)

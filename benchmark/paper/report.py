@@ -55,7 +55,7 @@ def make_report(evidence: Evidence) -> Report:
         exhibits=all_exhibits(evidence, table),
         claims=all_claims(evidence, table),
         provenance=f"colift {version('colift')}, suite {suite.name}, digest {suite.digest}, "
-        f"seeds {suite.seeds[0]} to {suite.seeds[-1]}, {table.lifts} lifts a subject and case",
+        f"seeds {suite.seeds[0]} to {suite.seeds[-1]}, {table.lifts} lifts per subject and case",
     )
 
 

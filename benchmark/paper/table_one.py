@@ -83,13 +83,13 @@ class TableOne:
     ratio: Reproduction
     """Mean with prediction / mean without."""
     human_human: Reproduction
-    """RMSE of the human-human team [mm] (section V.A)."""
+    """RMSE of the human-human baseline [mm] (section V.A)."""
     lifts: int
     """Lifts in each of our cells."""
 
 
 def table_one(reactive: Run, blend: Run, human_human: Run) -> TableOne:
-    """Return Table I from runs on the same suite, one scenario a subject."""
+    """Return Table I from runs on the same suite, one scenario per subject."""
     subjects = [scenario.subject.name for scenario in blend.suite.scenarios]
     strata = [episode.subject for episode in blend.episodes]
     without, with_it = errors(reactive.episodes), errors(blend.episodes)

@@ -81,7 +81,7 @@ class SampledLift:
 
     @property
     def predicted(self) -> Series:
-        """(m,) what was predicted of each sample, one step earlier [m]; NaN for the first."""
+        """(m,) prediction of each sample, one step earlier [m]; NaN for the first."""
         return self.one_step_ahead("prediction")
 
     def one_step_ahead(self, name: str) -> Series:

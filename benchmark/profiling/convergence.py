@@ -24,7 +24,7 @@ STUDIED: Final = {
     FINE: (Physics(step=0.0025), Physics(step=0.005), PHYSICS),
     CONVERGED: (Physics(iterations=35), Physics(iterations=200), PHYSICS),
 }
-"""Each reference with what is held against it."""
+"""Each reference with the settings compared with it."""
 
 POLICIES: Final = ("anticipate", "blend", "copy", "random")
 """Two that predict, one that follows, and one that jerks the table."""
@@ -32,7 +32,7 @@ POLICIES: Final = ("anticipate", "blend", "copy", "random")
 
 @dataclass(frozen=True, kw_only=True)
 class PhysicsDeviation:
-    """One setting of the physics against a reference."""
+    """Errors of one setting of the physics relative to a reference."""
 
     physics: Physics
     reference: Physics

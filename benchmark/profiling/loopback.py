@@ -20,7 +20,7 @@ START_SECONDS: Final = 180.0
 IDLE_SECONDS: Final = 1800
 ORPHANED_SECONDS: Final = 60
 """When a scheduler that is not used, and a worker without a scheduler, end by themselves [s]:
-whoever started them may have been killed."""
+the process that started them may have been killed."""
 
 LEAN: Final = {
     "DASK_DISTRIBUTED__ADMIN__TICK__INTERVAL": "1s",
@@ -73,7 +73,7 @@ def _dask(folder: Path, command: str, *options: str) -> Iterator["subprocess.Pop
             stdout=log,
             stderr=log,
             env={**LEAN, **os.environ},
-            # Ctrl-C is for the one who measures.
+            # Ctrl-C is meant for the measuring process.
             start_new_session=True,
         )
     try:
@@ -104,8 +104,8 @@ def _wait(address: str, workers: int, folder: Path) -> None:
         try:
             client.wait_for_workers(workers, timeout=START_SECONDS)
         except TimeoutError:
-            told = _last(folder / "worker.log")
-            raise EvaluatorFault(f"the Dask workers do not start: {told}") from None
+            reason = _last(folder / "worker.log")
+            raise EvaluatorFault(f"the Dask workers do not start: {reason}") from None
 
 
 def _last(log: Path) -> str:

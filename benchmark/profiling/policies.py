@@ -21,7 +21,7 @@ SEEDS: Final = (0, 1)
 
 @dataclass(frozen=True, kw_only=True)
 class StepTime:
-    """What the steps of a policy took."""
+    """Durations of the steps of a policy."""
 
     policy: str
     steps: int
@@ -46,7 +46,7 @@ def step_time(
 ) -> StepTime | None:
     """Return what the calls of ``act`` take in whole episodes, in this process.
 
-    The first episode is played once before the clock counts: what is loaded once is not a step's.
+    The first episode is played once before the clock counts: loading is not part of a step.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def step_time(
     Returns
     -------
     StepTime or None
-        Nothing if no step came to an end: the policy fails.
+        None if no step came to an end: the policy fails.
 
     Raises
     ------

@@ -31,12 +31,12 @@ ROUNDS: Final = 20
 
 @dataclass(frozen=True, kw_only=True)
 class IsolationCost:
-    """What a way of isolation costs, over none."""
+    """Cost of an isolation level, relative to none."""
 
     step_us: float
-    """More time a step [us]."""
+    """Added time per step [us]."""
     episode_ms: float
-    """More time an episode without its steps [ms]: making the policy, its reset, its end."""
+    """Added time per episode without its steps [ms]: making the policy, its reset, its end."""
 
     @property
     def within_aim(self) -> bool:
@@ -46,14 +46,14 @@ class IsolationCost:
 
 @contextlib.contextmanager
 def isolated() -> Iterator[tuple[AgentSpec, dict[str, SandboxedPolicy]]]:
-    """Yield the template of a submission, in this process and in each way that works here."""
+    """Yield the template of a submission, in this process and at each level that works here."""
     with tempfile.TemporaryDirectory(prefix="colift-") as directory:
         folder = Path(directory, "template")
         write_template(folder)
         submission = read_submission(folder)
-        ways = {level: submission.sandboxed(level) for level in working_levels()}
-        ways["preload"] = dataclasses.replace(ways[strongest()], preload=True)
-        yield submission.trusted(), ways
+        policies = {level: submission.sandboxed(level) for level in working_levels()}
+        policies["preload"] = dataclasses.replace(policies[strongest()], preload=True)
+        yield submission.trusted(), policies
 
 
 def isolation_cost(

@@ -23,7 +23,7 @@ def letters(size: int, *, bold: bool = False) -> ImageFont.FreeTypeFont:
 
 
 def title_strip(episode: Episode, policy: str, width: int, height: int) -> Image.Image:
-    """Return a strip that says which lift it is, and its RMSE in mm (and whether it failed)."""
+    """Return a strip with the lift, its RMSE [mm] and whether it failed."""
     picture = Image.new("RGB", (width, height), PAPER)
     pen = ImageDraw.Draw(picture)
     size, middle = round(0.40 * height), height / 2
@@ -57,7 +57,7 @@ def readout(picture: Image.Image, episode: Episode, frame: int, partner: str) ->
     """Write a frame's time, the heights of both ends and their difference [mm] into a scene.
 
     They stand in the upper left over a NAO, and in the middle between two people. The last frame
-    of a failed episode says why it failed.
+    of a failed episode states the reason.
     """
     trace = episode.trace
     human, robot = 1000 * float(trace.human_end[frame]), 1000 * float(trace.robot_end[frame])

@@ -19,7 +19,7 @@ from .style import PAPER
 from .writing import check_film, write
 
 FPS: Final = 12.5
-"""Pictures a second: 80 ms each, which a GIF can say exactly."""
+"""Pictures per second: 80 ms each, which a GIF can represent exactly."""
 
 WIDTH: Final = 640
 TITLE, SCENE, CURVES = 36, 360, 204
@@ -148,10 +148,10 @@ def film_episode(
         pictures = iter((still_picture(episode, scenario, policy),))
     else:
         pictures = frames(episode, scenario, policy, fps=fps)
-    write(path, _told(pictures, drawn), fps)
+    write(path, _counted(pictures, drawn), fps)
 
 
-def _told(pictures: Iterator[Picture], drawn: Callable[[int], None] | None) -> Iterator[Picture]:
+def _counted(pictures: Iterator[Picture], drawn: Callable[[int], None] | None) -> Iterator[Picture]:
     for picture in pictures:
         yield picture
         if drawn is not None:

@@ -58,7 +58,7 @@ def check_render_mode(mode: str | None) -> None:
 
 
 def _display_there() -> bool:
-    """Return whether a window can be opened; if not, say so in the log."""
+    """Return whether a window can be opened; if not, log a warning."""
     if os.environ.get("DISPLAY"):
         return True
     logging.getLogger("colift").warning("no display (DISPLAY is not set): no window is shown")
@@ -151,7 +151,7 @@ class Scene:
             )
 
     def picture(self, width: int = 640, height: int = 400) -> Picture:
-        """Return what is seen from the side, shape ``(height, width, 3)``.
+        """Return the view from the side, shape ``(height, width, 3)``.
 
         Everybody is seen whole, whatever the shape of the picture.
         """

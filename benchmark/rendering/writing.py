@@ -53,7 +53,7 @@ def write(path: Path, pictures: Iterable[Picture], fps: float) -> None:
     pictures
         At least one, all of one shape ``(height, width, 3)``; height and width even for ``.mp4``.
     fps
-        Pictures a second; a GIF rounds their duration to 10 ms.
+        Pictures per second; a GIF rounds their duration to 10 ms.
 
     Raises
     ------

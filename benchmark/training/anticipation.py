@@ -24,7 +24,7 @@ from .data import LEADS, ROAMING, Timing, TrainingData, training_data
 from .scikit import import_sklearn, reproducible_fit
 
 CURRICULUM: Final = (*BEHAVIOURS, ROAMING)
-"""How the people move that are learned from, in turn."""
+"""Behaviours of the people learned from, in turn."""
 
 FIRST_SEED: Final = 100_000
 """Seed of the first lift, far from those of the suites, the calibration and the demonstrations."""
@@ -33,10 +33,10 @@ LAST_SEED: Final = 199_999
 """Last seed to learn from: from 200000 on, policies are compared on people that none has met."""
 
 LIFTS: Final = 1500
-"""Lifts of a round."""
+"""Lifts per round."""
 
 ROUNDS: Final = 2
-"""Rounds; a third changes nothing that shows."""
+"""Rounds; a third makes no visible difference."""
 
 HIDDEN: Final = (64, 64, 64)
 """Units of the hidden layers."""
@@ -54,10 +54,10 @@ CHUNK: Final = 100_000
 def fit(
     data: TrainingData, *, hidden: Sequence[int] = HIDDEN, seed: int = 0
 ) -> tuple[Perceptron, NDArray[np.float64]]:
-    """Fit a perceptron to experience, by Adam on the mean squared error; a line, exactly.
+    """Fit a perceptron to training data, by Adam on the mean squared error; a line, exactly.
 
     Every outcome counts alike: errors are relative to those of the best linear function. The fit
-    is scikit-learn's, in one thread, so that the same experience gives the same bits.
+    is scikit-learn's, in one thread, so that the same data give the same bits.
 
     Returns
     -------
@@ -116,7 +116,7 @@ def collect_training_data(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
 ) -> TrainingData:
-    """Return the experience of lifts on these seeds; see :func:`.training_data`.
+    """Return the training data of lifts on these seeds; see :func:`.training_data`.
 
     Raises
     ------
@@ -181,7 +181,7 @@ def learn_anticipation(
     partner
         What the robot of the first round anticipates with; none: it extrapolates.
     parameters
-        How the robot acts on what it anticipates; none: as :class:`.Anticipate` does.
+        Control law of the robot; by default that of :class:`.Anticipate`.
     behaviours
         How the people move, see :func:`.scenario`.
     executor
@@ -229,7 +229,7 @@ def learned(
     hidden: Sequence[int] = HIDDEN,
     provenance: Mapping[str, Any],
 ) -> Anticipation:
-    """Return what :func:`fit` makes of experience that was gathered with a window and timing."""
+    """Return the model fitted to training data of a window and a timing."""
     perceptron, errors = fit(data, hidden=hidden)
     return Anticipation(
         perceptron=perceptron,

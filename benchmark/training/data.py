@@ -26,14 +26,14 @@ LEADS: Final = tuple(round(0.05 * i, 2) for i in range(10))
 """Times from now that are foreseen [s]: the foresight of the policy, and a little."""
 
 ROAMING: Final = "roaming"
-"""Name of the way of :class:`.Roaming`, which is in no registry."""
+"""Name of the behaviour :class:`.Roaming`, which is in no registry."""
 
 LOOKS: Final = 5
 """Times at which each period of a lift is looked at, as if the robot had decided then."""
 
 DISTURBANCE: Final = (0.002, 0.6)
 """Size [m] and persistence a step of the random disturbance of the robot's command in half of the
-lifts, so that what the human does because of the robot is told from what both do together."""
+lifts, so that the model can separate reactions to the robot from joint motion."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,7 +70,7 @@ class TrainingData:
 
 
 def scenario(seed: int, behaviours: Sequence[str], timing: Timing) -> Scenario:
-    """Return the scenario of a seed: a new person, who moves in one of the ways.
+    """Return the scenario of a seed: a new person, who moves with one of the behaviours.
 
     Parameters
     ----------

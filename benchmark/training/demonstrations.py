@@ -67,7 +67,7 @@ COLUMNS: Final = ("lift", "behaviour", "subject", "t_s", *SERIES)
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Demonstration:
-    """One lift of a human-human team, a sample each control period."""
+    """One lift of a human-human team, one sample per control period."""
 
     lift: int
     """Its seed."""
@@ -87,7 +87,7 @@ class Demonstration:
 
 
 def demonstrate(seed: int) -> Demonstration:
-    """Return the lift of a seed: a new person, who moves in one of the suites' ways."""
+    """Return the lift of a seed: a new person, who moves with one of the suites' behaviours."""
     behaviour, subject = BEHAVIOURS[seed % len(BEHAVIOURS)], f"draw-{seed}"
     lift = Lift(make_scenario(behaviour, subject, partner="human"))
     lift.reset(seed)

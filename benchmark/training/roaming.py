@@ -21,7 +21,7 @@ class Roaming:
     """Moves from goal to goal, some given up half way, at a pace of its own.
 
     Less regular than any of the suites' behaviours: heights, speeds, skews and rests are spread
-    more widely, so that who learns from it does not take the habits of a few for a law.
+    more widely, so that a learner does not overfit to the habits of a few.
     """
 
     goals: tuple[int, int] = (2, 6)
@@ -33,9 +33,9 @@ class Roaming:
     skew: tuple[float, float] = (0.35, 0.65)
     """Range of the relative time of the highest speed."""
     given_up: float = 0.5
-    """Share of the moves that are given up for the next, after ``progress`` of them."""
+    """Fraction of the moves that are given up for the next, after ``progress`` of them."""
     progress: tuple[float, float] = (0.3, 0.95)
-    """Share of a move that is carried out before it is given up."""
+    """Fraction of a move that is carried out before it is given up."""
     hold: tuple[float, float] = (0.1, 1.0)
     """Shortest and longest rest at a goal [s]; half of the goals have none."""
 
@@ -68,7 +68,7 @@ class Roaming:
     def _motion(
         self, state: NDArray[np.float64], goal: float, pace: float, rng: np.random.Generator
     ) -> Motion:
-        """Return the way from a state to rest at a goal; slower if it would leave the range."""
+        """Return the motion from a state to rest at a goal; slower if it would leave the range."""
         distance = goal - float(state[0])
         peak = pace * math.exp(0.3 * rng.standard_normal())
         # The peak speed of a minimum-jerk movement is 1.875 times its mean.

@@ -35,13 +35,13 @@ COMING: Final = 3
 """Coming velocities that it predicts: as far as latency, period and the arm's lag reach."""
 
 FIRST_STIFFNESS: Final = 1.0
-"""Stiffness in every situation before the practice: that of the table."""
+"""Stiffness in every situation before fine-tuning: that of the table."""
 
 TUNING_SEED: Final = 80_000
-"""Seed of the first lift of the practice, far from those of the suites and demonstrations."""
+"""Seed of the first lift of fine-tuning, far from those of the suites and demonstrations."""
 
 TUNING_LIFTS: Final = 200
-"""Lifts of the practice, each with another person; the last half counts."""
+"""Lifts of fine-tuning, each with another person; the last half counts."""
 
 SEEN_AFTER: Final = round((CONTROL_PERIOD + LATENCY) / CONTROL_PERIOD)
 """Steps from a movement to the sample that shows its end."""
@@ -145,9 +145,9 @@ def fine_tune(
 ) -> LearnedTask:
     """Return the task with the impedance learned by lifting with simulated people: step two.
 
-    Each lift is with a new person, in one of the suites' ways, on seeds of their own. The impedance
-    adapts in every step (:func:`.adapt`) by the height difference that the robot sees once its
-    movement is over; what is kept is its mean over the second half of the lifts.
+    Each lift is with a new person, with one of the suites' behaviours, on seeds of their own. The
+    impedance adapts in every step (:func:`.adapt`) by the height difference that the robot sees
+    once its movement is over; the result is its mean over the second half of the lifts.
 
     Raises
     ------
@@ -197,7 +197,7 @@ def _lift_together(
 
 
 def _about(demonstrations: Sequence[Demonstration]) -> dict[str, Any]:
-    """Return what identifies the demonstrations."""
+    """Return the provenance of the demonstrations."""
     sha = hashlib.sha256()
     for each in demonstrations:
         sha.update(np.ascontiguousarray(each.series, "<f8").tobytes())

@@ -64,8 +64,8 @@ def _still(lifts: Sequence[SampledLift]) -> Claim:
 
 
 def _onset(lifts: Sequence[SampledLift]) -> Claim:
-    course = aligned(lifts, lambda lift: lift.first_motion, 0, 10)
-    mean = course.mean(axis=0)
+    profile = aligned(lifts, lambda lift: lift.first_motion, 0, 10)
+    mean = profile.mean(axis=0)
     lowest = int(mean.argmin())
     return Claim(
         claim="When the motion begins, the confidence drops suddenly, and then improves as the "
@@ -82,18 +82,18 @@ def _onset(lifts: Sequence[SampledLift]) -> Claim:
 
 
 def _falls(pauses: Sequence[SampledLift]) -> Claim:
-    course = aligned(pauses, lambda lift: lift.step_showing(lift.event("brake")), 1, 8)
-    before, first, second, third, fourth, fifth, *_ = course.mean(axis=0).tolist()
-    share = float(((course[:, 4] < LOW) & (course[:, 5] < 0.2)).mean())
-    told = ", ".join(f"{value:.2f}" for value in (first, second, third, fourth, fifth))
+    profile = aligned(pauses, lambda lift: lift.step_showing(lift.event("brake")), 1, 8)
+    before, first, second, third, fourth, fifth, *_ = profile.mean(axis=0).tolist()
+    fraction = float(((profile[:, 4] < LOW) & (profile[:, 5] < 0.2)).mean())
+    steps = ", ".join(f"{value:.2f}" for value in (first, second, third, fourth, fifth))
     return Claim(
         claim="The confidence falls to zero within 3 to 4 steps of the abrupt change.",
         figure="figure 6",
         paper="3 to 4 steps to zero",
         criterion="mean over the lifts below 0.3 in the fourth step that shows the braking and "
         "below 0.2 one step later",
-        measured=f"{before:.2f} before, then {told} in steps 1 to 5; both limits are met in "
-        f"{share:.0%} of the lifts",
+        measured=f"{before:.2f} before, then {steps} in steps 1 to 5; both limits are met in "
+        f"{fraction:.0%} of the lifts",
         values={
             "before": before,
             "step_1": first,
@@ -101,7 +101,7 @@ def _falls(pauses: Sequence[SampledLift]) -> Claim:
             "step_3": third,
             "step_4": fourth,
             "step_5": fifth,
-            "share_of_lifts": share,
+            "share_of_lifts": fraction,
         },
         holds=fourth < LOW and fifth < 0.2,
         note="Step 1 is the first sample taken after the human began to brake; braking takes 0.4 "
@@ -137,8 +137,8 @@ def _holds(pauses: Sequence[SampledLift]) -> Claim:
 
 
 def _resumes(pauses: Sequence[SampledLift]) -> Claim:
-    course = aligned(pauses, lambda lift: lift.step_showing(lift.event("resume")), 1, 8)
-    mean = course.mean(axis=0)
+    profile = aligned(pauses, lambda lift: lift.step_showing(lift.event("resume")), 1, 8)
+    mean = profile.mean(axis=0)
     return Claim(
         claim="When the human goes on, the robot switches from leader to follower.",
         figure="figure 6",
@@ -176,7 +176,7 @@ def confidence_exhibit(lift: SampledLift) -> Exhibit:
     strokes = [
         (lift.step_showing(start), lift.step_showing(stop)) for start, stop in lift.plan.strokes
     ]
-    figure, _ = _course(lift, strokes, "the human moves")
+    figure, _ = _panels(lift, strokes, "the human moves")
     return Exhibit(
         name="figure-5",
         title="Figure 5. Confidence together with predictions and observations",
@@ -191,7 +191,7 @@ def confidence_exhibit(lift: SampledLift) -> Exhibit:
 def pause_exhibit(lift: SampledLift) -> Exhibit:
     """Return figure 6 from one lift that pauses."""
     onset, still, resume = (lift.step_showing(lift.event(e)) for e in ("brake", "pause", "resume"))
-    figure, (upper, lower) = _course(lift, [(still, resume)], "the human stands still")
+    figure, (upper, lower) = _panels(lift, [(still, resume)], "the human stands still")
     for axes in (upper, lower):
         for step in (onset, resume):
             axes.axvline(step, color=INK, lw=0.9, ls=(0, (4, 3)))
@@ -211,7 +211,7 @@ def pause_exhibit(lift: SampledLift) -> Exhibit:
     )
 
 
-def _course(
+def _panels(
     lift: SampledLift, spans: Sequence[tuple[float, float]], label: str
 ) -> tuple[Figure, tuple[Axes, Axes]]:
     figure, ((upper,), (lower,)) = panels(["position [mm]", "confidence C"], [2.2, 1.6])

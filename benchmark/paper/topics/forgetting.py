@@ -14,7 +14,7 @@ from ..table_one import FORGETTING, FORGETTING_FACTORS, errors
 from ..watched import SampledLift, rms
 
 SETTLED: Final = 0.05
-"""A course has settled within this share of its resting value."""
+"""A profile has settled within this fraction of its resting value."""
 
 
 def forgetting_claims(
@@ -26,9 +26,13 @@ def forgetting_claims(
 
 
 def _fluctuates(rests: Sequence[SampledLift], factors: Sequence[float]) -> Claim:
-    courses = [refilter(lift.samples, lift.scenario.control_period).likelihood for lift in rests]
+    likelihoods = [
+        refilter(lift.samples, lift.scenario.control_period).likelihood for lift in rests
+    ]
     means = [
-        float(np.mean([fluctuation(confidence_trajectory(course, phi)) for course in courses]))
+        float(
+            np.mean([fluctuation(confidence_trajectory(profile, phi)) for profile in likelihoods])
+        )
         for phi in factors
     ]
     return Claim(
@@ -98,10 +102,10 @@ def _sparc(run: Run) -> list[float]:
 
 def _after_braking(lift: SampledLift, forgetting: float) -> float:
     """Return the confidence in the fifth step that shows the braking, offline."""
-    course = confidence_trajectory(
+    profile = confidence_trajectory(
         refilter(lift.samples, lift.scenario.control_period).likelihood, forgetting
     )
-    return float(course[lift.step_showing(lift.event("brake")) + 4])
+    return float(profile[lift.step_showing(lift.event("brake")) + 4])
 
 
 def _listed(factors: Sequence[float], values: Sequence[float], digits: str) -> str:
@@ -127,13 +131,14 @@ def forgetting_exhibit(lift: SampledLift) -> Exhibit:
         "likelihood": refiltered.likelihood.tolist(),
     }
     for (axes,), phi in zip(rows[1:], FORGETTING_FACTORS, strict=True):
-        course = confidence_trajectory(refiltered.likelihood, phi)
-        columns[f"confidence_phi_{phi:.2f}"] = course.tolist()
+        profile = confidence_trajectory(refiltered.likelihood, phi)
+        columns[f"confidence_phi_{phi:.2f}"] = profile.tolist()
         shade(axes, [(start, stop)])
-        axes.plot(steps, course, color=CONFIDENCE, lw=1.8)
+        axes.plot(steps, profile, color=CONFIDENCE, lw=1.8)
         axes.set_ylim(-0.05, 1.08)
         axes.annotate(
-            f"fluctuation {fluctuation(course):.3f} a step, settles in {settling(lift, phi)} steps",
+            f"fluctuation {fluctuation(profile):.3f} per step, "
+            f"settles in {settling(lift, phi)} steps",
             (stop - 1, 0.12),
             ha="right",
             fontsize=8.5,
@@ -168,33 +173,33 @@ def settling(lift: SampledLift, forgetting: float, *, staying: bool = False) -> 
         Whether to wait for the last departure, noise included, instead of the first arrival.
     """
     refiltered = refilter(lift.samples, lift.scenario.control_period)
-    course = confidence_trajectory(refiltered.likelihood, forgetting)
+    profile = confidence_trajectory(refiltered.likelihood, forgetting)
     start, stop = (lift.step_showing(lift.event(event)) for event in ("pause", "resume"))
-    return settling_steps(course[start:stop], staying=staying)
+    return settling_steps(profile[start:stop], staying=staying)
 
 
-def fluctuation(course: ArrayLike) -> float:
+def fluctuation(profile: ArrayLike) -> float:
     """Return the root mean square of the changes from step to step.
 
     Parameters
     ----------
-    course
+    profile
         Values, one a step, at least two.
     """
-    return rms(np.diff(np.asarray(course, dtype=np.float64)))
+    return rms(np.diff(np.asarray(profile, dtype=np.float64)))
 
 
-def settling_steps(course: ArrayLike, *, staying: bool = False) -> int:
-    """Return after how many steps a course has come to rest.
+def settling_steps(profile: ArrayLike, *, staying: bool = False) -> int:
+    """Return after how many steps a profile has come to rest.
 
-    The resting value is the mean of the last quarter of the course.
+    The resting value is the mean of the last quarter of the profile.
 
     Parameters
     ----------
-    course
+    profile
         Values from the step on in which the cause of the change ended.
     staying
-        Whether to count up to the last time that the course is further than ``SETTLED`` from its
+        Whether to count up to the last time that the profile is further than ``SETTLED`` from its
         resting value, noise included, instead of to its first arrival.
 
     Returns
@@ -202,7 +207,7 @@ def settling_steps(course: ArrayLike, *, staying: bool = False) -> int:
     int
         Steps: 0 if the first value is already there.
     """
-    x = np.asarray(course, dtype=np.float64)
+    x = np.asarray(profile, dtype=np.float64)
     resting = x[-max(len(x) // 4, 1) :].mean()
     away = np.abs(x - resting) > SETTLED * abs(resting)
     if staying:

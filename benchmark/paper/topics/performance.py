@@ -72,7 +72,7 @@ def _lowering(evidence: Evidence) -> Claim:
     return Claim(
         claim="With prediction, the motion is smoother while lowering than while lifting.",
         figure="figure 8",
-        paper="one lift, drawn; put down to the arm's jerks against gravity",
+        paper="one lift, drawn; attributed to the arm's jerks against gravity",
         criterion="mean SPARC of the robot's end higher in the lowering, paired p < 0.01",
         measured=f"SPARC {down.mean():.2f} lowering, {up.mean():.2f} lifting ({p_value_text(p)})",
         values={"lowering": float(down.mean()), "lifting": float(up.mean()), "p": p},
@@ -175,15 +175,16 @@ def error_limit(*episodes: Episode) -> float:
     return 1050 * max(float(np.abs(t.human_end - t.robot_end).max()) for t in traces)
 
 
-def human_human_exhibit(team: Episode, limit: float) -> Exhibit:
+def human_human_exhibit(episode: Episode, limit: float) -> Exhibit:
     """Return figure 9: two humans, the error's axis up to ``limit`` [mm]."""
     return Exhibit(
         name="figure-9",
         title="Figure 9. A human-human team",
-        caption=f"Subject {team.subject}, seed {team.seed}, with a second human at the far end "
-        "instead of the robot: the same intention as in figure 8, and the same scale of the error.",
-        figure=_figure({"two humans": team}, "partner's end", limit),
-        columns=_columns(team, ""),
+        caption=f"Subject {episode.subject}, seed {episode.seed}, with a second human at the far "
+        "end instead of the robot: the same intention as in figure 8, and the "
+        "same scale of the error.",
+        figure=_figure({"two humans": episode}, "partner's end", limit),
+        columns=_columns(episode, ""),
     )
 
 

@@ -18,14 +18,14 @@ INITIAL: Final = 10
 """Steps after which the paper sees the estimates improve."""
 
 SMALL: Final = 0.1
-"""Share of the peak speed below which a difference of velocities counts as very small."""
+"""Fraction of the peak speed below which a difference of velocities counts as very small."""
 
 LONGEST_TRAIL: Final = 5
 """Steps by which a predicted velocity might trail the calculated one, at most; all velocities are
 compared from there on."""
 
 CENTRED: Final = 0.1
-"""Share of its root mean square within which a mean counts as zero."""
+"""Fraction of its root mean square within which a mean counts as zero."""
 
 _QUANTITIES = ("position", "velocity", "acceleration")
 
@@ -69,7 +69,7 @@ def _improves(lifts: Sequence[SampledLift]) -> Claim:
         "average. The filter takes the acceleration for constant and errs where it changes: as "
         "the motion begins, and again when the human turns from speeding up to slowing down, "
         "where speed is highest. Relative to the speed the claim is seen: rms error / rms distance "
-        f"a step is {relative[0]:.2f} in steps 1 to 5, "
+        f"per step is {relative[0]:.2f} in steps 1 to 5, "
         f"{relative[1]:.2f} in 6 to 10, {relative[2]:.2f} in 11 to 20.",
     )
 
@@ -93,11 +93,11 @@ def _profile(lifts: Sequence[SampledLift]) -> tuple[int, tuple[float, float, flo
         for lift in lifts
     ]
     errors, distances = np.array(aligned), np.array(moved)
-    course = np.sqrt((errors**2).mean(axis=0))
+    profile = np.sqrt((errors**2).mean(axis=0))
     half = INITIAL // 2
     spans = (slice(0, half), slice(half, INITIAL), slice(INITIAL, 2 * INITIAL))
     first, second, third = (rms(errors[:, span]) / rms(distances[:, span]) for span in spans)
-    return int(course.argmax()) + 1, (first, second, third)
+    return int(profile.argmax()) + 1, (first, second, third)
 
 
 def _velocity(lifts: Sequence[SampledLift]) -> Claim:
@@ -106,16 +106,16 @@ def _velocity(lifts: Sequence[SampledLift]) -> Claim:
         float(np.mean([_velocity_difference(lift, steps) for lift in lifts]))
         for steps in range(LONGEST_TRAIL)
     ]
-    steps, share = int(np.argmin(trailing)), trailing[0] / peak
+    steps, fraction = int(np.argmin(trailing)), trailing[0] / peak
     return Claim(
         claim="The difference between the predicted and the calculated velocity is very small.",
         figure="figure 4",
         paper="in words only",
         criterion="rms difference over the lift below 10 % of the peak speed",
         measured=f"rms difference {1000 * trailing[0]:.1f} mm/s, mean peak speed "
-        f"{1000 * peak:.0f} mm/s: {100 * share:.1f} %",
-        values={"difference_mm_s": 1000 * trailing[0], "share": share},
-        holds=share < SMALL,
+        f"{1000 * peak:.0f} mm/s: {100 * fraction:.1f} %",
+        values={"difference_mm_s": 1000 * trailing[0], "share": fraction},
+        holds=fraction < SMALL,
         note="The calculated velocity is the central difference of the samples. The predicted one "
         f"trails it ({trailing[steps] / peak:.1%} from the velocity of {100 * steps} ms earlier) "
         f"and overshoots: its peak is {_predicted_peak(lifts) / peak:.2f} times that calculated.",

@@ -16,7 +16,7 @@ RATIO: Final = 0.04
 """Largest deviation of the ratio of the means."""
 
 TEAM: Final = 0.7
-"""Largest deviation of the human-human team [mm]."""
+"""Largest deviation of the human-human baseline [mm]."""
 
 
 def table_claims(table: TableOne) -> list[Claim]:
@@ -74,7 +74,7 @@ def _reproduced(table: TableOne) -> Claim:
 def _ratio(table: TableOne) -> Claim:
     ratio = table.ratio
     return Claim(
-        claim="Prediction takes about a quarter of the error away.",
+        claim="Prediction removes about a quarter of the error.",
         figure="Table I",
         paper=f"ratio of the means {ratio.paper:.3f}",
         criterion=f"our ratio within {ratio.paper:.3f} ± {RATIO}",
@@ -109,9 +109,9 @@ def _team(table: TableOne) -> Claim:
     return Claim(
         claim="Two humans do better than a human with the robot, with prediction or without.",
         figure="figure 9, Table I",
-        paper=f"{team.paper:.3f} mm (one team, no spread given)",
-        criterion=f"team below blend below reactive with intervals apart, and {team.paper:.1f} ± "
-        f"{TEAM} mm",
+        paper=f"{team.paper:.3f} mm (one team, no standard deviation given)",
+        criterion=f"baseline below blend below reactive with intervals apart, and "
+        f"{team.paper:.1f} ± {TEAM} mm",
         measured=f"{team.mean:.2f} mm (95 % interval {team.ci95[0]:.2f} to {team.ci95[1]:.2f}), "
         f"against {blend.mean:.2f} with and {reactive.mean:.2f} mm without prediction",
         values={"human_human_mm": team.mean, "blend_mm": blend.mean, "reactive_mm": reactive.mean},
@@ -156,7 +156,7 @@ def table_exhibit(table: TableOne) -> Exhibit:
         name="table-1",
         title="Table I as a picture",
         caption="Mean error of each subject without and with prediction, with 95 % intervals; the "
-        "dashes are the paper's means, the broken line is our team of two humans.",
+        "dashes are the paper's means, the broken line is our human-human baseline.",
         figure=figure,
         columns={
             "subject": [row.subject for row in rows],

@@ -106,7 +106,7 @@ def _pooled(lifts: Sequence[SampledLift], wrong: Callable[[SampledLift], Series]
 
 
 def ahead_errors(lift: SampledLift, parameters: PredictorParameters | None = None) -> Series:
-    """Return how wrong the predictions ``HORIZON`` ahead of the sample are [m], shape (m,).
+    """Return the errors of the predictions ``HORIZON`` ahead of the sample [m], shape (m,).
 
     The filter's prediction one step ahead is carried on at constant acceleration (eq. 5) to the
     horizon. The error stands in the step whose sample it is checked against; NaN before there is
@@ -134,13 +134,13 @@ def timing_claims(runs: Mapping[TimingSetting, Run]) -> list[Claim]:
 
 def _next_sample(blends: Sequence[TimingResult]) -> Claim:
     return Claim(
-        claim="With a faster robot, more samples a second would improve the predictions (of the "
+        claim="With a faster robot, more samples per second would improve the predictions (of the "
         "next sample).",
         figure="timing",
         paper="an expectation",
         criterion="the rms error one step ahead falls with every shorter period, in mm and as time",
-        measured=f"{_told(blends, 'one_step_mm')} mm, which is "
-        f"{_told(blends, 'one_step_ms', '.1f')} ms of motion",
+        measured=f"{_listed(blends, 'one_step_mm')} mm, which is "
+        f"{_listed(blends, 'one_step_ms', '.1f')} ms of motion",
         values=_values(blends, "one_step_mm"),
         holds=_rising(blends, "one_step_mm") and _rising(blends, "one_step_ms"),
         note="The next sample is nearer, which alone makes it easier; see the next claim.",
@@ -150,18 +150,22 @@ def _next_sample(blends: Sequence[TimingResult]) -> Claim:
 def _same_time(blends: Sequence[TimingResult]) -> Claim:
     retuned = _rising(blends, "ahead_retuned_mm")
     return Claim(
-        claim="More samples a second would improve the predictions (of the same 100 ms ahead).",
+        claim="More samples per second would improve the predictions (of the same 100 ms ahead).",
         figure="timing",
         paper="an expectation",
         criterion="the rms error 100 ms ahead falls with every shorter period",
-        measured=f"{_told(blends, 'ahead_mm')} mm",
+        measured=f"{_listed(blends, 'ahead_mm')} mm",
         values=_values(blends, "ahead_mm") | _values(blends, "ahead_retuned_mm"),
         holds=_rising(blends, "ahead_mm"),
         note="The filter keeps its parameters, but q is the variance of a jerk that is constant "
-        "over a step: the same q at a shorter step means less process noise a second, and a filter "
-        "that believes its own model more. With q times the period kept, computed offline on the "
-        f"same samples, the errors are {_told(blends, 'ahead_retuned_mm')} mm: more samples "
-        + ("do help a filter that is tuned for them." if retuned else "still do not help."),
+        "over a step: the same q at a shorter step means less process noise per second, and a "
+        "filter that trusts its own model more. With q times the period kept, computed "
+        f"offline on the same samples, the errors are {_listed(blends, 'ahead_retuned_mm')} mm: "
+        + (
+            "more samples do help a filter that is tuned for them."
+            if retuned
+            else "more samples still do not help."
+        ),
     )
 
 
@@ -176,9 +180,9 @@ def _performs(blends: Sequence[TimingResult], reactives: Sequence[TimingResult])
         figure="timing",
         paper="an expectation",
         criterion="at the shortest period, compared with the longest, the RMSE with prediction is "
-        "lower and the share of the error that prediction takes away is larger",
-        measured=f"with prediction {_told(blends, 'rmse_mm')} mm; without "
-        f"{_told(reactives, 'rmse_mm')} mm; prediction takes away {gains[0]:.0%} at the shortest "
+        "lower and the fraction of the error that prediction removes is larger",
+        measured=f"with prediction {_listed(blends, 'rmse_mm')} mm; without "
+        f"{_listed(reactives, 'rmse_mm')} mm; prediction removes {gains[0]:.0%} at the shortest "
         f"and {gains[-1]:.0%} at the longest period",
         values=_values(blends, "rmse_mm") | {"gain_fast": gains[0], "gain_slow": gains[-1]},
         holds=fast.rmse_mm < slow.rmse_mm and gains[0] > gains[-1],
@@ -189,7 +193,7 @@ def _performs(blends: Sequence[TimingResult], reactives: Sequence[TimingResult])
     )
 
 
-def _told(results: Sequence[TimingResult], attribute: str, digits: str = ".2f") -> str:
+def _listed(results: Sequence[TimingResult], attribute: str, digits: str = ".2f") -> str:
     return ", ".join(
         f"{1000 * result.control_period_s:.0f} ms: {format(getattr(result, attribute), digits)}"
         for result in results

@@ -55,10 +55,10 @@ def told(found):
 def test_ratios_are_of_the_means_on_each_behaviour():
     mine = np.where([behaviour == "jerky" for behaviour, _ in CELLS], 9.6, 4.4)
     found = told(claims(contest(mine)))
-    team = found["RMSE over that of the human-human team, jerky"]
+    team = found["RMSE over that of the human-human baseline, jerky"]
     assert (team.value, team.holds) == (pytest.approx(1.2), False)
-    assert found["RMSE over that of the human-human team, smooth"].value == pytest.approx(0.55)
-    assert found["RMSE over that of the human-human team, over all"].value == pytest.approx(
+    assert found["RMSE over that of the human-human baseline, smooth"].value == pytest.approx(0.55)
+    assert found["RMSE over that of the human-human baseline, over all"].value == pytest.approx(
         (3 * 4.4 + 9.6) / 32
     )
     bound = found["RMSE over that of the causal bound, pause"]

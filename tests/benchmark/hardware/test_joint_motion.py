@@ -9,7 +9,7 @@ from colift.benchmark.hardware.joint_motion import (
     JointMotion,
     MotionError,
     joint_names,
-    spread,
+    per_joint,
 )
 from colift.robots.nao.facts import JOINTS
 
@@ -32,7 +32,7 @@ def test_names_chains_and_body_are_naoqis():
 @pytest.mark.parametrize("value", [[1.0], "up", [None, 1.0]])
 def test_as_many_numbers_as_joints_are_needed(value):
     with pytest.raises(MotionError, match="angles"):
-        spread(value, 2, "angles")
+        per_joint(value, 2, "angles")
 
 
 def test_a_joint_moves_at_its_share_of_its_greatest_speed_tick_by_tick():
