@@ -1,4 +1,4 @@
-"""A session in the laboratory: set-up, trials, and the way back to rest."""
+"""A session in the laboratory: set-up, trials, and return to rest."""
 
 import gc
 from collections.abc import Callable, Iterator
@@ -28,24 +28,24 @@ READY: Final = 0.015
 """Largest height of an end at which a trial may begin [m]."""
 
 BACK: Final = 3.0
-"""How long a robot that does not answer is waited for before it is left as it is [s]."""
+"""Longest wait for a robot that does not answer [s]."""
 
 RELEASE: Final = "Take the table out of the hands: the arms go limp."
-"""What is said before the stiffness is taken from the arms."""
+"""Instruction to the operator before the arms are released."""
 
 UNKNOWN: Final = (
     "The robot does not answer; nothing is known of the arms: they may be stiff, limp, or on the "
     "way to their last target. Take the table out with care, and press the chest button twice."
 )
-"""What is said when the robot may hang."""
+"""Instruction to the operator when the robot does not answer."""
 
 GO: Final = "Go"
-"""What the robot says when a trial begins."""
+"""Spoken signal at the start of a trial."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Session:
-    """A robot, a motion capture and a clock, and what to tell the operator.
+    """A robot, a motion capture, a clock, and the dialogue with the operator.
 
     Every method raises :class:`.StopTrialError` on a stop, and :class:`.InputError` if the set-up
     is wrong.
@@ -134,7 +134,7 @@ class Session:
                 decider.close()
 
     def _ready(self) -> None:
-        """Bring the hands to rest, and wait for the person to do so."""
+        """Bring the hands to rest, and wait until the table rests."""
         if not self.dry:
             setup.move_to(self.arm, self.clock, 0.0)
         for _ in range(100):
@@ -149,16 +149,16 @@ class Session:
         )
 
     def stop(self, stop: StopTrialError) -> None:
-        """Freeze the hands for good, and say why."""
+        """Freeze the hands for good, and show the reason."""
         self.tell(f"STOPPED ({stop.stop.name}): {stop.reason}")
         if not self.dry and not self.arm.stopped:
             self.arm.stop()
 
     def finish(self, taken_out: Callable[[], None]) -> None:
-        """Let the arms go limp, smoothly, and the robot rest.
+        """Release the arms smoothly, and bring the robot to rest.
 
-        A robot that somebody else commands is left to them. Of one that does not answer nothing is
-        claimed; it is waited for, for a little while.
+        A robot that another client commands is left to it. One that does not answer is waited for,
+        up to :data:`BACK`.
 
         Parameters
         ----------
