@@ -14,6 +14,9 @@ STRIP: Final = 0.115
 MARGIN: Final = 0.09
 """Room around the points, over the breadth of the scale."""
 
+LEAST: Final = 0.8
+"""Least breadth that the room is a part of, where points are alike [mm or SPARC]."""
+
 Place = tuple[float, float]
 """Pixels from the left and from the top."""
 
@@ -104,5 +107,5 @@ def make_scale(points: Sequence[Point], plot: Box) -> Scale:
 
 def _padded(values: Sequence[float]) -> Interval:
     low, high = min(values), max(values)
-    margin = MARGIN * max(high - low, 0.1 * abs(high), 1e-3)
+    margin = MARGIN * max(high - low, 0.1 * abs(high), LEAST)
     return low - margin, high + margin
