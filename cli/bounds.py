@@ -1,4 +1,4 @@
-"""``colift bounds``: whether `anticipate` keeps what is claimed of it, on people it never met."""
+"""``colift bounds``, ``ablate`` and ``sweep``: studies of ``anticipate`` with drawn subjects."""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,52 +6,65 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
+from ..agents.errors import InputError
 from ..agents.loading.loading import PolicySpec
+from ..benchmark.bounds import ablation, sweep
+from ..benchmark.bounds.ablation import VARIANTS, Ablation, variants
 from ..benchmark.bounds.causal import BOUNDS
 from ..benchmark.bounds.claims import POLICY, RIVALS, PolicyClaim, claims
 from ..benchmark.bounds.held_out import FIRST_SEED, held_out_suite
+from ..benchmark.bounds.sweep import NAMES, Swept, lifts_to_play, team_rmse, timings
 from ..benchmark.comparison.comparison import compare
 from ..benchmark.comparison.contest import amount, play_contest
-from ..benchmark.execution.pool import local_pool
+from ..benchmark.statistics import Estimate
 from ..benchmark.suites.suite import recorded_suite
-from .options import Jobs
+from ..benchmark.training.anticipation import LIFTS, ROUNDS, learn_anticipation
+from .options import Jobs, check_output
 from .printing import show, table
-from .progress import progress_bar
+from .progress import workers
 from .tables.comparison import behaviours_table, ranks_table
+
+People = Annotated[int, typer.Option(metavar="N", help="Number of drawn subjects.", min=1)]
+LiftsEach = Annotated[
+    int, typer.Option("--each", metavar="N", help="Lifts per subject and behaviour.", min=1)
+]
+LearningLifts = Annotated[
+    int, typer.Option("--lifts", metavar="N", help="Lifts per round of learning.", min=1)
+]
+RecordedLifts = Annotated[
+    Path | None,
+    typer.Option(
+        "--recordings",
+        metavar="CSV",
+        help="Recorded human motion (columns trial,t_s,z_m) instead of drawn subjects.",
+    ),
+]
 
 
 def bounds(
-    people: Annotated[int, typer.Option(metavar="N", help="New people to lift with.")] = 20,
-    each: Annotated[
-        int, typer.Option(metavar="N", help="Lifts with each, in each way to move.")
-    ] = 5,
-    seed: Annotated[int, typer.Option(help="Seed of the first of them.")] = FIRST_SEED,
-    recordings: Annotated[
-        Path | None,
-        typer.Option(metavar="CSV", help="Recorded lifts (trial,t_s,z_m) instead."),
-    ] = None,
+    people: People = 20,
+    each: LiftsEach = 5,
+    seed: Annotated[int, typer.Option(help="Seed of the first lift.")] = FIRST_SEED,
+    recordings: RecordedLifts = None,
     jobs: Jobs = None,
 ) -> None:
-    """Measure anticipate against people, the paper's policies and the bounds, with new people."""
+    """Measure anticipate, the paper's policies and the bounds with drawn subjects."""
     suite = held_out_suite(people, each, seed) if recordings is None else recorded_suite(recordings)
     specs = {name: PolicySpec(text=name) for name in (POLICY, *RIVALS)}
     total = amount(len(specs), suite, bounds=len(BOUNDS))
-    with (
-        local_pool(jobs) as pool,
-        progress_bar("bounds", total) as progress,
-    ):
+    with workers("bounds", total, jobs) as (pool, progress):
         contest = play_contest(specs, suite, bounds=BOUNDS, executor=pool, progress=progress)
     comparison = compare(contest)
     show(ranks_table(comparison))
     if recordings is None:
         show(behaviours_table(comparison))
     found = claims(contest)
-    show(_table(found))
+    show(_claims_table(found))
     if not all(claim.holds for claim in found):
         raise typer.Exit(1)
 
 
-def _table(found: tuple[PolicyClaim, ...]) -> Table:
+def _claims_table(found: tuple[PolicyClaim, ...]) -> Table:
     return table(
         f"Claims of {POLICY}",
         ("what", "value", "95 %", "limit", "holds"),
@@ -65,4 +78,96 @@ def _table(found: tuple[PolicyClaim, ...]) -> Table:
             )
             for claim in found
         ),
+    )
+
+
+def ablate_policies(
+    lifts: LearningLifts = LIFTS,
+    people: People = 20,
+    each: LiftsEach = 3,
+    recordings: RecordedLifts = None,
+    jobs: Jobs = None,
+) -> None:
+    """Measure what each part of anticipate contributes: learn and play it without the part."""
+    suite = held_out_suite(people, each) if recordings is None else recorded_suite(recordings)
+    total = ROUNDS * lifts + (1 + len(VARIANTS)) * suite.size
+    with workers("ablation", total, jobs) as (pool, progress):
+        first, *_, last = learn_anticipation(lifts=lifts, executor=pool, progress=progress)
+        found = ablation.ablate(variants(first, last), suite, executor=pool, progress=progress)
+    show(_ablation_table(found, suite.name))
+
+
+def _ablation_table(found: list[Ablation], suite: str) -> Table:
+    return table(
+        f"Without each part, on {suite}",
+        ("without", "RMSE", "more", "SPARC", "rougher by"),
+        (
+            (
+                each.name,
+                f"{each.rmse_mm:.2f}",
+                _difference(each.worse_mm),
+                f"{each.sparc:.3f}",
+                _difference(each.rougher, 3),
+            )
+            for each in found
+        ),
+        caption="RMSE in mm, SPARC (closer to 0 is smoother); in brackets the 95 % interval of the "
+        "paired difference to the whole.",
+    )
+
+
+def _difference(difference: Estimate | None, digits: int = 2) -> str:
+    if difference is None:
+        return ""
+    low, high = difference.ci95
+    return f"{difference.mean:+.{digits}f} ({low:+.{digits}f} to {high:+.{digits}f})"
+
+
+def sweep_rates(
+    lifts: LearningLifts = 400,
+    people: People = 8,
+    each: LiftsEach = 2,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE.png",
+            help="Figure; its numbers go to a .json file beside it.",
+        ),
+    ] = None,
+    jobs: Jobs = None,
+) -> None:
+    """Measure policies and bounds at other latencies and control periods."""
+    if out is not None and out.suffix != ".png":
+        raise InputError(f"--out must end in .png, got {out}")
+    check_output(out)
+    suite = held_out_suite(people, each)
+    with workers("sweep", lifts_to_play(suite, lifts), jobs) as (pool, progress):
+        team = team_rmse(suite, executor=pool, progress=progress)
+        swept = list(sweep.sweep(suite, lifts=lifts, executor=pool, progress=progress))
+    show(_sweep_table(swept, team, suite.name))
+    if out is not None:
+        # matplotlib is slow to load.
+        from ..benchmark.bounds.sweep_picture import sweep_figure, sweep_json
+
+        sweep_figure(swept, team, "What a fresher or a faster robot gains").savefig(out)
+        out.with_suffix(".json").write_text(sweep_json(swept, team))
+        print(f"written: {out}")
+
+
+def _sweep_table(swept: list[Swept], team: float, suite: str) -> Table:
+    rows = []
+    for timing in timings():
+        latency, period = timing.latency, timing.control_period
+        found = {
+            each.policy: each.rmse_mm
+            for each in swept
+            if (each.latency, each.control_period) == (latency, period)
+        }
+        row = (f"{1000 * latency:.0f}", f"{1000 * period:.0f}")
+        rows.append((*row, *(f"{found[name]:.2f}" for name in NAMES)))
+    return table(
+        f"RMSE mm on {suite}",
+        ("latency ms", "period ms", *NAMES),
+        rows,
+        caption=f"human-human team: {team:.2f} mm",
     )

@@ -38,8 +38,8 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "baselines": "baselines:baselines",
         "practice": "practice:practice",
         "bounds": "bounds:bounds",
-        "ablate": "ablate:ablate_policies",
-        "sweep": "sweep:sweep_rates",
+        "ablate": "bounds:ablate_policies",
+        "sweep": "bounds:sweep_rates",
         "bench": "bench:bench",
     },
 }

@@ -1,19 +1,21 @@
-"""``colift learn``: learn a policy in the world."""
+"""``colift learn``: learning of policies and of the causal bound in the world."""
 
 import dataclasses
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 import typer
-from rich.table import Table
-from rich.text import Text
 from typer.core import TyperGroup
 
-from ..agents.control.learned_task import LearnedTask, task_json
-from ..agents.control.q_learning import ACTIONS, Q_PARAMETERS
+from ..agents.control.anticipation import Anticipation, anticipation_json, load_anticipation
+from ..agents.control.learned_task import task_json
 from ..agents.errors import InputError
-from ..benchmark.execution.pool import checked_jobs, local_pool
+from ..benchmark.bounds import causal
+from ..benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
+from ..benchmark.execution.pool import checked_jobs
+from ..benchmark.training import anticipation
+from ..benchmark.training.data import Timing
 from ..benchmark.training.demonstrations import FIRST_SEED, LIFTS, read_demonstrations
 from ..benchmark.training.q_learning import LearningTrial, learning_trials, table_json
 from ..benchmark.training.scikit import import_sklearn
@@ -24,14 +26,21 @@ from ..benchmark.training.task_model import (
     learn_task,
 )
 from .demonstrate import record
-from .learn_anticipate import anticipate, learn_causal_bound
-from .options import Jobs, check_output, write_output
-from .printing import Cell, show, table
-from .progress import progress_bar
+from .options import LATENCY_OPTION, PERIOD_OPTION, Jobs, check_output, write_output
+from .printing import show
+from .progress import progress_bar, workers
+from .tables.learning import anticipation_table, convergence_text, q_table, task_table
+
+Lifts = Annotated[int, typer.Option(metavar="N", help="Lifts per round.")]
+Rounds = Annotated[int, typer.Option(metavar="N", help="Rounds of lifting and fitting.")]
+Seed = Annotated[int, typer.Option(help="Seed of the first lift.")]
+Out = Annotated[
+    Path | None, typer.Option(metavar="FILE.json", help="File for the learned numbers.")
+]
 
 
 class _Learnable(TyperGroup):
-    """The policies that can be learned, as commands."""
+    """The learnable policies, as commands."""
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         if args[0] not in self.commands:
@@ -41,7 +50,7 @@ class _Learnable(TyperGroup):
 
 app = typer.Typer(
     cls=_Learnable,
-    help="Learn a policy in the world, as the shipped one was learned.",
+    help="Learn a policy as the built-in one was learned.",
     no_args_is_help=True,
 )
 
@@ -53,7 +62,7 @@ def reactive(
     ] = 1,
     seed: Annotated[int, typer.Option(help="Seed of the first trial.")] = 0,
     out: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Where to write the first trial's table.")
+        Path | None, typer.Option(metavar="FILE", help="File for the first trial's table.")
     ] = None,
     jobs: Jobs = None,
 ) -> None:
@@ -63,12 +72,12 @@ def reactive(
     check_output(out)
     done: list[LearningTrial] = []
     jobs = min(trials, checked_jobs(jobs))
-    with local_pool(jobs) as pool, progress_bar("learning", trials) as progress:
+    with workers("learning", trials, jobs) as (pool, progress):
         for trial in learning_trials(trials, seed, executor=pool):
             done.append(trial)
             progress(1)
-    show(_table(done[0]))
-    print(_convergence(done))
+    show(q_table(done[0]))
+    print(convergence_text(done))
     write_output(out, table_json(done[0], seed))
 
 
@@ -76,17 +85,19 @@ def reactive(
 def task_model(
     demonstrations: Annotated[
         Path | None,
-        typer.Option(metavar="FILE.csv", help="Lifts of 'colift demonstrate'; default: record."),
+        typer.Option(
+            metavar="FILE.csv", help="Lifts of 'colift demonstrate'; default: record new ones."
+        ),
     ] = None,
     components: Annotated[
         int, typer.Option(metavar="N", help="Gaussians of the mixture.")
     ] = COMPONENTS,
     seed: Annotated[int, typer.Option(help="Seed of the mixture's fit.")] = 0,
     practice: Annotated[
-        int, typer.Option(metavar="N", help="Lifts to practise the impedance in.")
+        int, typer.Option(metavar="N", help="Lifts in which the impedance is learned.")
     ] = TUNING_LIFTS,
     out: Annotated[
-        Path | None, typer.Option(metavar="FILE.json", help="Where to write the model.")
+        Path | None, typer.Option(metavar="FILE.json", help="File for the model.")
     ] = None,
 ) -> None:
     """Learn the task model from demonstrations, then its impedance by practice."""
@@ -107,60 +118,65 @@ def task_model(
         f"--practice {practice}"
     )
     task = dataclasses.replace(task, provenance={"command": command, **task.provenance})
-    show(_task(task))
+    show(task_table(task))
     write_output(out, task_json(task))
 
 
-app.command()(anticipate)
-app.command("causal_bound")(learn_causal_bound)
+@app.command()
+def anticipate(
+    lifts: Lifts = anticipation.LIFTS,
+    rounds: Rounds = anticipation.ROUNDS,
+    seed: Seed = anticipation.FIRST_SEED,
+    latency: Annotated[float, LATENCY_OPTION] = LATENCY,
+    control_period: Annotated[float, PERIOD_OPTION] = CONTROL_PERIOD,
+    out: Out = None,
+    jobs: Jobs = None,
+) -> None:
+    """Learn to predict the human's motion, in rounds of lifts with drawn subjects."""
+    timing = Timing(latency=latency, control_period=control_period)
+    command = f"colift learn anticipate --lifts {lifts} --rounds {rounds} --seed {seed}"
+    if timing != Timing():
+        command += f" --latency {latency:g} --control-period {control_period:g}"
+    _learn(command, lifts, rounds, seed, anticipation.HIDDEN, timing, out, jobs)
 
 
-def _task(task: LearnedTask) -> Table:
-    """Return the situations that the model tells apart, the most frequent first."""
-    impedance = task.impedance
-    mixture = task.mixture
-    rows = []
-    for i in np.argsort(-mixture.weights, kind="stable"):
-        height, *velocities = 1000 * mixture.means[i]
-        speeds = (f"{velocities[0]:.0f}", f"{velocities[-1]:.0f}")
-        share = f"{100 * mixture.weights[i]:.0f} %"
-        rows.append((share, f"{height:.0f}", *speeds, f"{impedance.stiffness[i]:.2f}"))
-    return table(
-        "Situations (mean of each component of the mixture) and their stiffness",
-        ("share", "height mm", "velocity mm/s", "then", "stiffness"),
-        rows,
-        caption=f"lead {1000 * impedance.lead:.0f} ms, offset {1000 * impedance.offset:.1f} mm, "
-        f"tolerance {1000 * task.tolerance:.1f} mm",
-    )
+@app.command("causal_bound")
+def learn_causal_bound(
+    lifts: Annotated[int, typer.Option(metavar="N", help="Lifts.")] = causal.LIFTS,
+    seed: Seed = causal.FIRST_SEED,
+    out: Out = None,
+    jobs: Jobs = None,
+) -> None:
+    """Learn the causal bound: a larger model than anticipate, from other lifts and subjects."""
+    command = f"colift learn causal_bound --lifts {lifts} --seed {seed}"
+    _learn(command, lifts, 1, seed, causal.HIDDEN, Timing(), out, jobs, load_anticipation())
 
 
-def _table(trial: LearningTrial) -> Table:
-    steps = (1000 * action * Q_PARAMETERS.position_step for action in ACTIONS)
-    edges = ["", *(f"{1000 * edge:+.0f}" for edge in Q_PARAMETERS.edges), ""]
-    rows: list[tuple[Cell, ...]] = []
-    for low, high, row in zip(edges, edges[1:], trial.table, strict=False):
-        best = int(np.argmax(row))
-        name = f"{low} to {high} mm" if low and high else f"above {low}" if low else f"below {high}"
-        cells = (
-            Text(f"{1000 * value:.1f}", "bold" if i == best else "") for i, value in enumerate(row)
-        )
-        rows.append((name, *cells))
-    return table(
-        "Q-table (mm of tilt taken away); the greedy action is bold",
-        ("human - robot", *(f"{step:+.0f} mm" for step in steps)),
-        rows,
-    )
-
-
-def _convergence(trials: list[LearningTrial]) -> str:
-    found = [trial.converged_at for trial in trials if trial.converged_at is not None]
-    if len(trials) == 1:
-        when = found[0] if found else None
-        return f"converged after {when} iterations" if when else "did not converge"
-    missed = len(trials) - len(found)
-    counts = [*found, *[10**9] * missed]
-    median, ninetieth = np.percentile(counts, [50, 90])
-    return (
-        f"{len(trials)} trials: median {median:.0f} iterations to converge, "
-        f"90th percentile {ninetieth:.0f}, {missed} did not converge (paper: median 36)"
-    )
+def _learn(
+    command: str,
+    lifts: int,
+    rounds: int,
+    seed: int,
+    hidden: Sequence[int],
+    timing: Timing,
+    out: Path | None,
+    jobs: int | None,
+    partner: Anticipation | None = None,
+) -> None:
+    check_output(out)
+    models: list[Anticipation] = []
+    with workers("lifting", rounds * lifts, jobs) as (pool, progress):
+        for lesson in anticipation.learn_anticipation(
+            lifts=lifts,
+            rounds=rounds,
+            hidden=hidden,
+            timing=timing,
+            first_seed=seed,
+            partner=partner,
+            executor=pool,
+            progress=progress,
+        ):
+            models.append(lesson.model)
+    show(anticipation_table(models))
+    provenance = {"command": command, **models[-1].provenance}
+    write_output(out, anticipation_json(dataclasses.replace(models[-1], provenance=provenance)))

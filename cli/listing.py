@@ -1,14 +1,24 @@
 """``colift list``: policies, behaviours, subjects, tasks and suites."""
 
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.console import RenderableType
+from rich.padding import Padding
 from rich.table import Table
+from rich.text import Text
 
 from ..agents.humans import SUBJECTS, Subject
+from ..agents.loading.description import ParameterText, described
+from ..agents.loading.loading import PolicySpec
 from ..agents.registry import HUMANS, POLICIES, SUITES, TASKS, entries, lookup, summary
+from ..agents.sandbox.host.policy import SandboxedPolicy
+from ..agents.submissions.manifest import MANIFEST, Manifest
+from ..agents.submissions.submission import read_submission
 from .completion import policies
-from .policy_parameters import policy_parameters
+from .policies import choose_policy
 from .printing import show
 
 
@@ -16,7 +26,9 @@ def list_all(
     policy: Annotated[
         str | None,
         typer.Argument(
-            help="List its parameters: a name, module:Class, file.py:Class or a folder.",
+            metavar="[POLICY]",
+            help="List the parameters of this policy: a name, module:Class, file.py:Class or a "
+            "submission's folder.",
             autocompletion=policies,
         ),
     ] = None,
@@ -50,3 +62,46 @@ def _about(subject: Subject) -> str:
         f"lifts {1000 * subject.amplitude:.0f} mm in {subject.duration:.2f} s, "
         f"arm {subject.stiffness:.0f} N/m, sees after {1000 * subject.visual_delay:.0f} ms"
     )
+
+
+def policy_parameters(text: str) -> Iterator[RenderableType]:
+    """Yield the description of a policy, and its parameters: names, defaults, kinds, meanings.
+
+    Colift's own is loaded here, any other in a sandbox.
+
+    Raises
+    ------
+    InputError
+        If there is no such policy, or it cannot be made.
+    """
+    policy = choose_policy(text)
+    known: Sequence[ParameterText]
+    if isinstance(policy, SandboxedPolicy):
+        line, known = policy.described()
+    else:
+        made = PolicySpec(text=text).load()
+        line, known = summary(made), described(made)
+    folder = Path(PolicySpec(text=text).parts[0])
+    if isinstance(policy, SandboxedPolicy) and (folder / MANIFEST).is_file():
+        yield from _manifest(read_submission(folder).manifest, policy.digest())
+    else:
+        yield Text(f"{line}\n")
+    for each in known:
+        yield Text.assemble((f"  {each.name}={each.default}", "bold"), (f"  {each.kind}", "dim"))
+        if each.meaning:
+            yield Padding(Text(each.meaning), (0, 0, 0, 6))
+    if known:
+        last = f"{known[-1].name}={known[-1].default}"
+        place = PolicySpec(text=text).parts[0]
+        yield Text(f"\nThese are the defaults. To set one: colift run {place},{last}")
+    else:
+        yield Text("It has no parameters.")
+
+
+def _manifest(manifest: Manifest, digest: str) -> Iterator[RenderableType]:
+    """Yield the content of a submission's manifest."""
+    yield Text(f"{manifest.name} by {', '.join(manifest.authors)}")
+    yield Text(manifest.description)
+    yield Text(f"Licence {manifest.licence}; trained on: {manifest.trained_on}; digest {digest}\n")
+    if manifest.parameters:
+        yield Text(f"It sets {manifest.parameters}.")
