@@ -1,10 +1,12 @@
-"""``colift bench``: how fast the benchmark is, how fine its physics, how fast the policies."""
+"""``colift bench``: speed of the benchmark and the policies, and convergence of the physics."""
 
 import dataclasses
-import json
-from typing import Annotated, Final
+from collections.abc import Callable
+from functools import partial
+from typing import Annotated, Any, Final
 
 import typer
+from rich.table import Table
 
 from ..agents.errors import InputError
 from ..agents.loading.loading import PolicySpec
@@ -24,7 +26,8 @@ from ..benchmark.profiling.sandbox import (
 )
 from ..benchmark.suites.suite import make_suite
 from ..benchmark.world import Physics
-from .printing import left, show, table
+from .options import AsJson, check_exclusive
+from .printing import left, print_json, show, table
 from .progress import progress_bar
 
 MEANING: Final = {
@@ -43,6 +46,9 @@ SCALE_POLICY: Final = "blend"
 SCALE_SUITE: Final = "standard-v1"
 SCALE_ROUNDS: Final = 5
 
+Report = tuple[Any, Table]
+"""Figures as JSON, and as a table."""
+
 
 def bench(
     episodes: Annotated[
@@ -55,66 +61,65 @@ def bench(
         bool, typer.Option("--policies", help="Time a step of every registered policy instead.")
     ] = False,
     isolation: Annotated[
-        bool, typer.Option("--isolation", help="Time what each sandbox costs instead.")
+        bool, typer.Option("--isolation", help="Time the cost of each sandbox instead.")
     ] = False,
     scale: Annotated[
         bool, typer.Option("--scale", help="Time a Dask cluster and verification instead.")
     ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON alone.")] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Measure the benchmark itself: speed as ratios within this run, memory, convergence."""
-    studies = {
-        "--convergence": (convergence, _convergence),
-        "--policies": (policies, _policies),
-        "--isolation": (isolation, _isolation),
-        "--scale": (scale, _scale),
-    }
-    chosen = [name for name, (wanted, _) in studies.items() if wanted]
-    if len(chosen) > 1:
-        raise InputError(f"{' and '.join(chosen)} exclude each other: name one")
-    if chosen:
-        studies[chosen[0]][1](as_json)
-        return
+    check_exclusive(convergence=convergence, policies=policies, isolation=isolation, scale=scale)
     if episodes < 200:
         raise InputError(f"--episodes must be at least 200, got {episodes}")
+    studies: dict[Callable[[], Report], bool] = {
+        _convergence: convergence,
+        _policies: policies,
+        _isolation: isolation,
+        _scale: scale,
+        partial(_engine, episodes): True,
+    }
+    content, shown = next(study for study, wanted in studies.items() if wanted)()
+    if as_json:
+        print_json(content)
+    else:
+        show(shown)
+
+
+def _engine(episodes: int) -> Report:
+    """Return the speed, the accuracy and the memory of the benchmark itself."""
     figures = single_process() | {"solver_error": solver_error()}
     figures |= two_workers_ratio(process_pool) | _endurance(episodes)
-    _print_figures("colift bench", figures, "", as_json)
+    return figures, _figures_table("colift bench", figures)
 
 
-def _print_figures(title: str, figures: dict[str, float], caption: str, as_json: bool) -> None:
-    if as_json:
-        print(json.dumps(figures, indent=2))
-        return
+def _figures_table(title: str, figures: dict[str, float], caption: str = "") -> Table:
     rows = ((name, f"{value:.3g}", MEANING[name]) for name, value in figures.items())
-    show(table(title, ("figure", "value", left("meaning")), rows, caption=caption))
+    return table(title, ("figure", "value", left("meaning")), rows, caption=caption)
 
 
-def _scale(as_json: bool) -> None:
-    """Print how fast a cluster and verification are, over a run in the local pool."""
+def _scale() -> Report:
+    """Return the speed of a cluster and of verification, over a run in the local pool."""
     lifts = 3 * SCALE_ROUNDS * make_suite(SCALE_SUITE).size
     with progress_bar("bench", lifts) as progress:
         figures = measure_scale(SCALE_POLICY, SCALE_SUITE, SCALE_ROUNDS, progress)
-    told = f"{SCALE_POLICY} on {SCALE_SUITE}, two worker processes each"
-    _print_figures("scale", figures, f"{told}; median of {SCALE_ROUNDS} rounds", as_json)
+    caption = f"{SCALE_POLICY} on {SCALE_SUITE}, two worker processes; median of {SCALE_ROUNDS}"
+    return figures, _figures_table("scale", figures, caption)
 
 
-def _isolation(as_json: bool) -> None:
-    """Print what each way that works here costs, over the same policy in this process."""
+def _isolation() -> Report:
+    """Return the cost of each isolation level, over the same policy in this process."""
     found: dict[str, IsolationCost] = {}
     with isolated() as (plain, ways), progress_bar("bench", ROUNDS * len(ways)) as progress:
         for name, policy in ways.items():
             found[name] = isolation_cost(plain, policy, progress=progress)
-    if as_json:
-        content = {
-            "aim": {"step_us": STEP_US, "episode_ms": EPISODE_MS},
-            "isolation": {
-                name: {**dataclasses.asdict(cost), "within_aim": cost.within_aim}
-                for name, cost in found.items()
-            },
-        }
-        print(json.dumps(content, indent=2))
-        return
+    content = {
+        "aim": {"step_us": STEP_US, "episode_ms": EPISODE_MS},
+        "isolation": {
+            name: {**dataclasses.asdict(cost), "within_aim": cost.within_aim}
+            for name, cost in found.items()
+        },
+    }
     rows = (
         (
             name,
@@ -124,9 +129,9 @@ def _isolation(as_json: bool) -> None:
         )
         for name, cost in found.items()
     )
-    titles = ("isolation", "us a step", "ms an episode", "aim")
-    caption = f"over in-process; aim: {STEP_US:g} us a step, {EPISODE_MS:g} ms an episode"
-    show(table("cost of isolation", titles, rows, caption=caption))
+    titles = ("isolation", "us per step", "ms per episode", "aim")
+    caption = f"over in-process; aim: {STEP_US:g} us per step, {EPISODE_MS:g} ms per episode"
+    return content, table("cost of isolation", titles, rows, caption=caption)
 
 
 def _endurance(episodes: int) -> dict[str, float]:
@@ -140,31 +145,28 @@ def _endurance(episodes: int) -> dict[str, float]:
     }
 
 
-def _policies(as_json: bool) -> None:
-    """Print what a step of each policy takes, and which are over the limit."""
+def _policies() -> Report:
+    """Return the time of a step of each policy, and which exceed the limit."""
     scenarios, names = default_scenarios(), list(entries(POLICIES))
     found: dict[str, StepTime | None] = {}
     with progress_bar("bench", len(names)) as progress:
         for name in names:
             found[name] = step_time(PolicySpec(text=name), scenarios)
             progress(1)
-    if as_json:
-        content = {
-            "limit_ms": LIMIT_MS,
-            "policies": {
-                name: None
-                if taken is None
-                else {
-                    "steps": taken.steps,
-                    "median_ms": taken.median_ms,
-                    "p99_ms": taken.p99_ms,
-                    "within_limit": taken.within_limit,
-                }
-                for name, taken in found.items()
-            },
-        }
-        print(json.dumps(content, indent=2))
-        return
+    content = {
+        "limit_ms": LIMIT_MS,
+        "policies": {
+            name: None
+            if taken is None
+            else {
+                "steps": taken.steps,
+                "median_ms": taken.median_ms,
+                "p99_ms": taken.p99_ms,
+                "within_limit": taken.within_limit,
+            }
+            for name, taken in found.items()
+        },
+    }
     rows = []
     for name, taken in found.items():
         if taken is None:
@@ -175,39 +177,48 @@ def _policies(as_json: bool) -> None:
             rows.append((name, *times, str(taken.steps), kept))
     titles = ("policy", "median ms", "p99 ms", "steps", "limit")
     caption = f"limit: 99th percentile at most {LIMIT_MS:g} ms"
-    show(table("time of a step", titles, rows, caption=caption))
+    return content, table("time of a step", titles, rows, caption=caption)
 
 
-def _convergence(as_json: bool) -> None:
-    """Print the study, as a table that can be pasted into the docs."""
-    rows = list(study())
-    if as_json:
-        content = [
-            {
-                "policy": row.policy,
-                "step_s": row.physics.step,
-                "iterations": row.physics.iterations,
-                "reference_step_s": row.reference.step,
-                "reference_iterations": row.reference.iterations,
-                "mean_rmse_error": row.mean_error,
-                "worst_rmse_error": row.rmse_error,
-                "height_error_mm": row.height_error_mm,
-            }
-            for row in rows
-        ]
-        print(json.dumps(content, indent=2))
-        return
-    print("| policy | physics | against | mean RMSE error | worst RMSE error | heights mm |")
-    print("|---|---|---|---|---|---|")
-    for row in rows:
-        print(
-            f"| {row.policy} | {_setting(row.physics)} | {_setting(row.reference)} "
-            f"| {100 * row.mean_error:.3f} % | {100 * row.rmse_error:.3f} % "
-            f"| {row.height_error_mm:.3f} |"
+def _convergence() -> Report:
+    """Return the errors of coarser physics."""
+    errors = list(study())
+    content = [
+        {
+            "policy": row.policy,
+            "step_s": row.physics.step,
+            "iterations": row.physics.iterations,
+            "reference_step_s": row.reference.step,
+            "reference_iterations": row.reference.iterations,
+            "mean_rmse_error": row.mean_error,
+            "worst_rmse_error": row.rmse_error,
+            "height_error_mm": row.height_error_mm,
+        }
+        for row in errors
+    ]
+    rows = (
+        (
+            row.policy,
+            _setting(row.physics),
+            _setting(row.reference),
+            f"{100 * row.mean_error:.3f} %",
+            f"{100 * row.rmse_error:.3f} %",
+            f"{row.height_error_mm:.3f}",
         )
+        for row in errors
+    )
+    titles = (
+        "policy",
+        left("physics"),
+        left("reference"),
+        "mean RMSE error",
+        "worst",
+        "heights mm",
+    )
+    return content, table("convergence", titles, rows)
 
 
 def _setting(physics: Physics) -> str:
-    """Return a physics setting as a table says it."""
+    """Return a physics setting as a table cell."""
     solver = f"{physics.iterations} iterations" if physics.iterations else "direct"
     return f"{1000 * physics.step:g} ms, {solver}"

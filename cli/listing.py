@@ -26,7 +26,7 @@ def list_all(
     policy: Annotated[
         str | None,
         typer.Argument(
-            metavar="[POLICY]",
+            metavar="POLICY",
             help="List the parameters of this policy: a name, module:Class, file.py:Class or a "
             "submission's folder.",
             autocompletion=policies,
