@@ -31,20 +31,16 @@ def board_table(
         Columns of the terminal.
     """
     wide = width >= NARROW
+    metrics = board_metrics(season.suite)[: None if wide else 1]
     titles = ["rank", "policy", "RMSE mm", "95 % interval", "vs human"]
-    titles += [metric.heading for metric in metrics(wide)]
+    titles += [metric.heading for metric in metrics]
     titles += ["ms/step", "gap mm"] if wide else []
     titles += ["verified"]
-    lines = list(_lines(standings, team, wide))
+    lines = list(_lines(standings, team, metrics, wide))
     columns: list[str | Column] = [Column("rank", justify="right", no_wrap=True), *titles[1:]]
     most = _room(titles, lines, 1, width)
     columns[1] = Column("policy", overflow="ellipsis", no_wrap=True, max_width=most)
     return table(f"Season {season.name} on {season.suite}", columns, lines, caption=_caption(wide))
-
-
-def metrics(wide: bool) -> Sequence[Metric]:
-    """Return the metrics beside RMSE that have a column: the first alone in a narrow terminal."""
-    return board_metrics() if wide else board_metrics()[:1]
 
 
 def _room(titles: Sequence[str], lines: Sequence[Sequence[Cell]], place: int, width: int) -> int:
@@ -55,22 +51,25 @@ def _room(titles: Sequence[str], lines: Sequence[Sequence[Cell]], place: int, wi
 
 
 def _lines(
-    standings: Sequence[RankedRow], team: HumanHumanScores | None, wide: bool
+    standings: Sequence[RankedRow],
+    human_human: HumanHumanScores | None,
+    metrics: Sequence[Metric],
+    wide: bool,
 ) -> Iterator[Sequence[Cell]]:
     """Yield the cells of each line."""
-    waiting = team
+    waiting = human_human
     for each in standings:
         if waiting is not None and (
             not each.ranked or each.row.hidden.rmse_mm.mean > waiting.rmse_mm.mean
         ):
-            yield styled(_team(waiting, wide), "bold")
+            yield styled(_human_human(waiting, metrics, wide), "bold")
             waiting = None
-        yield styled(_cells(each, wide), "" if each.ranked else "dim")
+        yield styled(_cells(each, metrics, wide), "" if each.ranked else "dim")
     if waiting is not None:
-        yield styled(_team(waiting, wide), "bold")
+        yield styled(_human_human(waiting, metrics, wide), "bold")
 
 
-def _cells(each: RankedRow, wide: bool) -> list[str]:
+def _cells(each: RankedRow, metrics: Sequence[Metric], wide: bool) -> list[str]:
     row, hidden = each.row, each.row.hidden
     cells: list[str] = [
         _rank(each),
@@ -78,7 +77,7 @@ def _cells(each: RankedRow, wide: bool) -> list[str]:
         f"{hidden.rmse_mm.mean:.2f}",
         _interval(hidden.rmse_mm),
         f"{hidden.vs_human.mean:.2f}",
-        *(metric.text(row.public.metrics[metric.name].mean) for metric in metrics(wide)),
+        *(metric.text(row.public.metrics[metric.name].mean) for metric in metrics),
     ]
     if wide:
         cells += [_step(row), f"{row.gap_mm.mean:+.2f}"]
@@ -93,14 +92,14 @@ def _rank(each: RankedRow) -> str:
     return each.section
 
 
-def _team(team: HumanHumanScores, wide: bool) -> list[str]:
+def _human_human(baseline: HumanHumanScores, metrics: Sequence[Metric], wide: bool) -> list[str]:
     cells: list[str] = [
         "",
         "human-human baseline",
-        f"{team.rmse_mm.mean:.2f}",
-        _interval(team.rmse_mm),
+        f"{baseline.rmse_mm.mean:.2f}",
+        _interval(baseline.rmse_mm),
         "1.00",
-        *(metric.text(team.means[metric.name]) for metric in metrics(wide)),
+        *(metric.text(baseline.means[metric.name]) for metric in metrics),
     ]
     return [*cells, *(["", ""] if wide else []), ""]
 

@@ -44,7 +44,7 @@ def row_text(
     public = row.public
     metrics = (
         f"{metric.label} {metric.text(public.metrics[metric.name].mean)} {metric.unit}".rstrip()
-        for metric in board_metrics()
+        for metric in board_metrics(row.suite)
     )
     lines = [
         UNRANKED.get(section) or _rank(row, ranking, section),

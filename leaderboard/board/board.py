@@ -202,7 +202,7 @@ class Board:
     def ranking(self, season: str | None = None) -> "DataFrame":
         """Return the ranked rows of a season as a data frame, best first.
 
-        Its columns are :data:`.standings.COLUMNS`: RMSE and its ratio to the human-human baseline
+        Its columns are :func:`.standings.columns`: RMSE and its ratio to the human-human baseline
         are those of the hidden episodes.
 
         Raises
@@ -210,7 +210,7 @@ class Board:
         InputError
             If there is no such season, or pandas is not installed.
         """
-        return frame(self.standings(season))
+        return frame(self.standings(season), self.season_info(season).suite)
 
     def human_human(self, season: str | None = None) -> HumanHumanScores | None:
         """Return a season's human-human baseline on hidden episodes; None before the first row."""

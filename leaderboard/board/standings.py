@@ -141,18 +141,25 @@ def human_human_scores(human_human: Baseline) -> HumanHumanScores:
     )
 
 
-def frame(table: tuple[RankedRow, ...]) -> "DataFrame":
-    """Return the rows of a table that have ranks as a data frame; see :meth:`.Board.ranking`."""
+def frame(table: tuple[RankedRow, ...], suite: str) -> "DataFrame":
+    """Return the rows of a suite's table that have ranks; see :meth:`.Board.ranking`."""
     try:
         import pandas as pd
     except ImportError:
         raise InputError(
             f"a ranking as data frame needs pandas: {how_to_install('board')}"
         ) from None
-    return pd.DataFrame([_flat(each) for each in table if each.section in RANKED], columns=COLUMNS)
+    rows = [_flat(each) for each in table if each.section in RANKED]
+    return pd.DataFrame(rows, columns=columns(suite))
 
 
-COLUMNS = (
+def columns(suite: str) -> tuple[str, ...]:
+    """Return the columns of :meth:`.Board.ranking`: RMSE and ratio are of the hidden episodes."""
+    metrics = (metric.name for metric in board_metrics(suite))
+    return (*HIDDEN_COLUMNS, *metrics, *OTHER_COLUMNS)
+
+
+HIDDEN_COLUMNS: Final = (
     "section",
     "group",
     "name",
@@ -169,7 +176,9 @@ COLUMNS = (
     "public_rmse_mm_low",
     "public_rmse_mm_high",
     "gap_mm",
-    *(metric.name for metric in board_metrics()),
+)
+
+OTHER_COLUMNS: Final = (
     "step_ms_p50",
     "step_ms_p99",
     "verified",
@@ -179,7 +188,6 @@ COLUMNS = (
     "at",
     "submission",
 )
-"""Columns of :meth:`.Board.ranking`. RMSE and ratio are those of the hidden episodes."""
 
 
 def _flat(each: RankedRow) -> tuple[object, ...]:
@@ -198,7 +206,7 @@ def _flat(each: RankedRow) -> tuple[object, ...]:
         public.rmse_mm.mean,
         *public.rmse_mm.ci95,
         row.gap_mm.mean,
-        *(public.metrics[metric.name].mean for metric in board_metrics()),
+        *(public.metrics[metric.name].mean for metric in board_metrics(row.suite)),
         public.step_ms_p50,
         public.step_ms_p99,
         row.verified,

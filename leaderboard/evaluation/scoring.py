@@ -34,7 +34,7 @@ def public_scores(results: Results) -> PublicScores:
         vs_human=_known(summary.vs_human),
         metrics={
             each.name: summary.metrics[each.name]
-            for each in board_metrics()
+            for each in board_metrics(results.suite)
             if each.name in summary.metrics
         },
         step_ms_p50=summary.step_ms.p50,

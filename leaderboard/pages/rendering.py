@@ -32,9 +32,11 @@ def render_page(template: str, links: Links, **content: Any) -> str:
     links
         Where the other pages are.
     content
-        What the template shows, by name.
+        What the template shows, by name; with a ``season``, also the metrics of its suite.
     """
-    return _environment().get_template(template).render(links=links, **content)
+    season = content.get("season")
+    metrics = () if season is None else board_metrics(season.suite)
+    return _environment().get_template(template).render(links=links, metrics=metrics, **content)
 
 
 @functools.cache
@@ -59,7 +61,6 @@ def prose(name: str) -> Markup:
 def _environment() -> Environment:
     made = templates(__package__)
     made.filters.update(FILTERS, svg=svg, data=lambda content: Markup(script_json(content)))
-    made.globals["metrics"] = board_metrics()
     return made
 
 

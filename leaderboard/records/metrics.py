@@ -1,26 +1,34 @@
 """The metrics that a board shows beside RMSE: means of a run, and their order in a table."""
 
+import functools
 from collections.abc import Mapping
 from typing import Any, Final
 
+from ...agents.registry import SUITES, entries
 from ...benchmark.episode.level import LEVEL
 from ...benchmark.episode.metric import Metric, on_boards
 from ...benchmark.statistics import MeanWithMissing
+from ...benchmark.suites.suite import make_suite
 
 _MISSING: Final = 1000.0
 """Weight of a missing value in a sort key: more than any mean."""
 
 
-def board_metrics() -> tuple[Metric, ...]:
-    """Return the metrics that have a column on boards, in their order."""
-    return on_boards(LEVEL.metrics)
+@functools.cache
+def board_metrics(suite: str) -> tuple[Metric, ...]:
+    """Return the metrics that have a column on boards of a suite, in their order.
+
+    They are those of the suite's task; of ``level``, if no suite of that name is registered.
+    """
+    metrics = make_suite(suite).metrics if suite in entries(SUITES) else LEVEL.metrics
+    return on_boards(metrics)
 
 
-def read_means(content: Mapping[str, Any]) -> dict[str, MeanWithMissing]:
-    """Return the means of these metrics by name, from JSON that has more or less of a run."""
+def read_means(content: Mapping[str, Any], suite: str) -> dict[str, MeanWithMissing]:
+    """Return the means of a suite's :func:`board_metrics` by name, from JSON with other entries."""
     return {
         metric.name: MeanWithMissing(**content[metric.name])
-        for metric in board_metrics()
+        for metric in board_metrics(suite)
         if metric.name in content
     }
 

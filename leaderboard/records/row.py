@@ -110,7 +110,11 @@ class BoardRow:
                 "authors": tuple(content["authors"]),
                 "gap_mm": _estimate(content["gap_mm"]),
                 "public": PublicScores(
-                    **{**public, **_estimates(public), "metrics": read_means(public["metrics"])}
+                    **{
+                        **public,
+                        **_estimates(public),
+                        "metrics": read_means(public["metrics"], content["suite"]),
+                    }
                 ),
                 "hidden": HiddenScores(**{**hidden, **_estimates(hidden)}),
             }

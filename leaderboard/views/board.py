@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ...benchmark.comparison.scatter.scene import NARROW, WIDE, Scene
+from ...benchmark.episode.metric import Metric
 from ..board.board import Board
 from ..board.standings import HumanHumanScores, RankedRow
 from ..records.metrics import board_metrics
@@ -72,6 +73,10 @@ class BoardView:
         return tuple(dict.fromkeys(stratum.behaviour for stratum in self._strata))
 
     @property
+    def _metrics(self) -> tuple[Metric, ...]:
+        return board_metrics(self.season.suite)
+
+    @property
     def subjects(self) -> tuple[str, ...]:
         """The subjects of the suite, in its order."""
         return tuple(dict.fromkeys(stratum.subject for stratum in self._strata))
@@ -88,12 +93,14 @@ class BoardView:
             "top": self.axis.top,
             "metrics": [
                 {name: getattr(each, name) for name in ("name", "digits", "better", "missing")}
-                for each in board_metrics()
+                for each in self._metrics
             ],
             "strata": [
                 [c.behaviour, c.subject, c.episodes, c.human_human_rmse_mm] for c in self._strata
             ],
-            "rows": [[_numbers(stratum) for stratum in row.strata] for row in self.rows],
+            "rows": [
+                [_numbers(stratum, self._metrics) for stratum in row.strata] for row in self.rows
+            ],
             "bounds": [
                 [
                     round(bound.strata[stratum.behaviour, stratum.subject], 4)
@@ -166,7 +173,9 @@ def _strata_of(bundle: Path | None) -> tuple[StratumScore, ...]:
     return () if bundle is None else stratum_scores(bundle)
 
 
-def _numbers(stratum: StratumScore) -> list[float | list[float | None]]:
-    found = [stratum.metrics[metric.name] for metric in board_metrics()]
+def _numbers(
+    stratum: StratumScore, metrics: tuple[Metric, ...]
+) -> list[float | list[float | None]]:
+    found = [stratum.metrics[metric.name] for metric in metrics]
     means = [[None if each.mean is None else round(each.mean, 4), each.missing] for each in found]
     return [round(stratum.rmse_mm, 4), *means]

@@ -46,7 +46,8 @@ class PublicLift:
 @functools.lru_cache(maxsize=8192)
 def stratum_scores(bundle: Path) -> tuple[StratumScore, ...]:
     """Return the means of each stratum of a bundle, in the suite's order."""
-    return tuple(_stratum(group) for group in read_json(bundle / RESULTS)["groups"])
+    results = read_json(bundle / RESULTS)
+    return tuple(_stratum(group, results["suite"]) for group in results["groups"])
 
 
 @functools.lru_cache(maxsize=64)
@@ -72,7 +73,7 @@ def is_whole(bundle: Path | None) -> bool:
     return bundle is not None and all((bundle / name).is_file() for name in FILES)
 
 
-def _stratum(group: dict[str, Any]) -> StratumScore:
+def _stratum(group: dict[str, Any], suite: str) -> StratumScore:
     return StratumScore(
         behaviour=group["behaviour"],
         subject=group["subject"],
@@ -80,7 +81,7 @@ def _stratum(group: dict[str, Any]) -> StratumScore:
         failed=group["failed"],
         rmse_mm=group["rmse_mm"]["mean"],
         human_human_rmse_mm=group["human_human_rmse_mm"]["mean"],
-        metrics=read_means(group),
+        metrics=read_means(group, suite),
     )
 
 

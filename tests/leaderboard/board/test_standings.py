@@ -9,7 +9,7 @@ from colift.agents.errors import InputError
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.board.ranks import can_distinguish
 from colift.leaderboard.board.seasons import ImportedEntry, ImportedSeason
-from colift.leaderboard.board.standings import COLUMNS
+from colift.leaderboard.board.standings import columns
 from colift.leaderboard.records.season import Season, SeasonInfo
 
 from ..conftest import SECRET
@@ -47,7 +47,7 @@ def ranks(board, season=None):
 def test_an_empty_board_has_an_empty_table(board):
     assert board.standings() == ()
     assert board.human_human() is None
-    assert list(board.ranking().columns) == list(COLUMNS)
+    assert list(board.ranking().columns) == list(columns("standard-v1"))
     assert len(board.ranking()) == 0
 
 
