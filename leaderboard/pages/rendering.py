@@ -32,9 +32,9 @@ def render_page(template: str, links: Links, **content: Any) -> str:
     links
         Where the other pages are.
     content
-        What the template shows, by name; with a ``season``, also the metrics of its suite.
+        What the template shows, by name; it also gets the metrics of the season's suite.
     """
-    season = content.get("season")
+    season = content.get("season") or getattr(content.get("view"), "season", None)
     metrics = () if season is None else board_metrics(season.suite)
     return _environment().get_template(template).render(links=links, metrics=metrics, **content)
 
