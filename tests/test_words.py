@@ -1,5 +1,6 @@
 """Wording: habits to avoid in code, messages and pages, each with the better words."""
 
+import ast
 import io
 import re
 import tokenize
@@ -15,9 +16,22 @@ ROOT: Final = Path(__file__).parents[1]
 FOLDERS: Final = ("agents", "benchmark", "cli", "docs", "examples", "leaderboard", "robots")
 PAGES: Final = (".css", ".html", ".js", ".md", ".xml")
 
+NOUNS: Final = (
+    "behaviour|call|class|column|command|day|entry|field|file|folder|frame|function|hash|job|lift|"
+    "line|message|minute|number|page|policy|process|row|sample|season|second|step|subject|thread|value"
+)
+"""Nouns that are counted."""
+
 WORDS: Final[Mapping[str, str]] = {
-    r"who(ever)? keeps a board": "the maintainer",
+    r"who(ever)? keeps (the|a) board": "the maintainer",
     r"whose an? \w+ is": "the owner of",
+    r"what came of": "the outcome of",
+    r"what there is": "the names of what is there",
+    r"whom to (tell|ask)": "the noun",
+    r"(is|are|was|were|be|been) told (of|that|how|what|who|why|where|whether)": "reported",
+    r"tells? nothing": "carries no information",
+    rf"(one|two) ({NOUNS}) an? ({NOUNS})": "per: one row per lift",
+    r"mend(s|ed|ing)?": "fix, correct",
     r"rungs?|ladder": "isolation level",
     r"fig\. leaf": "the fact itself",
     r"as ever": "as usual",
@@ -32,6 +46,9 @@ NAMES: Final[Mapping[str, str]] = {
     r"ladder": "levels",
 }
 """The same for one word of a Python name, such as ``rung`` in ``next_rung``."""
+
+OPENINGS: Final = r"(What|How|Where|Whom?|Whose|Whether|Why|When|Which|From) "
+"""First words of a module's docstring that make it a clause; it should be a noun phrase."""
 
 
 def sources() -> list[Path]:
@@ -75,6 +92,8 @@ def complaints(path: Path, text: str) -> list[str]:
             for match in re.finditer(spaced(pattern), piece, re.IGNORECASE):
                 line = first + piece.count("\n", 0, match.start())
                 found.append(f"{place}:{line}: {' '.join(match[0].split())!r}: write {better}")
+    if path.suffix == ".py" and re.match(OPENINGS, ast.get_docstring(ast.parse(text)) or ""):
+        found.append(f"{place}:1: the docstring of a module is a noun phrase, not a clause")
     return found
 
 
@@ -99,13 +118,14 @@ def test_no_habit_to_avoid(folder):
     [
         (
             "a.py",
-            '"""Rows.\n\nGiven to who\nkeeps a board.\n"""\n',
-            "a.py:3: 'who keeps a board'",
+            '"""Rows.\n\nGiven to who\nkeeps the board.\n"""\n',
+            "a.py:3: 'who keeps the board'",
         ),
         ("a.py", "x = 1  # the next rung\n", "a.py:1: 'rung'"),
         ("a.py", "def f():\n    raise ValueError(f'{x}: no ladder')\n", "a.py:2: 'ladder'"),
         ("a.py", "def next_rung():\n    pass\n", "a.py:1: 'rung'"),
-        ("a.md", "A board.\n\nWho keeps a board decides.\n", "a.md:3: 'Who keeps a board'"),
+        ("a.py", '"""What a row is."""\n', "a.py:1: the docstring of a module"),
+        ("a.md", "A board.\n\nWho keeps the board decides.\n", "a.md:3: 'Who keeps the board'"),
     ],
 )
 def test_each_kind_of_place_is_read(name, text, wanted):
