@@ -91,7 +91,7 @@ def test_list_names_everything(colift):
     ("arguments", "told"),
     [
         (["run", "nonesuch"], "blend, copy, "),
-        (["run", "copy", "--suite", "nonesuch"], "standard-v1, paper-v1, quick-v1"),
+        (["run", "copy", "--suite", "nonesuch"], "paper-v1, quick-v1, standard-v1"),
         (["run", "copy", "--seeds", "5:5"], "5:5"),
         (["run", "copy", "--seeds", "5"], "A:B"),
         (["run", "copy", "--seeds=-1:3"], "A:B"),

@@ -152,7 +152,7 @@ def test_a_reset_forgets():
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"times": (1.0,)}, "as many, got 1 and 0"),
+        ({"times": (1.0,)}, "same length, got 1 and 0"),
         ({"times": (1.0, 1.0), "alphas": (0.0, 1.0)}, "increasing"),
         ({"times": (2.0, 1.0), "alphas": (0.0, 1.0)}, "increasing"),
         ({"times": (math.nan,), "alphas": (1.0,)}, "increasing numbers, got"),

@@ -71,5 +71,5 @@ def test_timing_claims_tell_one_value_a_period(made):
 
 @pytest.mark.parametrize(("errors", "index"), [([3.0, 1.0, 2.0], 2), ([4.0, 1.0, 2.0, 3.0], 2)])
 def test_the_lift_that_is_shown_has_the_median_error(errors, index):
-    episodes = [types.SimpleNamespace(scores=types.SimpleNamespace(rmse_mm=e)) for e in errors]
+    episodes = [types.SimpleNamespace(scores={"rmse_mm": e}) for e in errors]
     assert median_lift(episodes) == index
