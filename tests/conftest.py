@@ -40,6 +40,21 @@ def pytest_ignore_collect(collection_path, config):
     return True if asked and "mark.smoke" not in collection_path.read_text() else None
 
 
+@pytest.hookimpl(wrapper=True)
+def pytest_collection():
+    """Exempt the half a million objects of the collection from all later garbage collection.
+
+    The search for leaks after each module would otherwise take longer than most modules.
+    """
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.collect()
+        gc.freeze()
+        gc.enable()
+
+
 @pytest.fixture(scope="session", autouse=True)
 def own_environment(tmp_path_factory):
     """Keep what is cached from the user's own; one worker is enough where tests share the cores."""
