@@ -222,8 +222,8 @@ class TestInTheWorld:
                 for behaviour, subject in (("smooth", "S1"), ("pause", "S3"), ("jerky", "S4"))
                 for seed in (6000, 6001)
             ]
-            rmse[policy] = np.mean([score.rmse_mm for score in scores])
-            sparc[policy] = np.mean([score.sparc for score in scores])
+            rmse[policy] = np.mean([score["rmse_mm"] for score in scores])
+            sparc[policy] = np.mean([score["sparc"] for score in scores])
         assert rmse[Impedance] < 0.95 * rmse[Copy]
         assert sparc[Impedance] > sparc[Proportional] + 0.05
 
