@@ -66,8 +66,9 @@ class Limits:
     use."""
     period: float = 0.1
     """Control period of the episode [s]; that of the suites."""
-    step_periods: float = 20.0
-    """Wall time for an action, in control periods."""
+    step_periods: float = 100.0
+    """Wall time for an action, in control periods: long enough for a machine that does too much at
+    a time; what all actions may take bounds a slow policy."""
     pace_periods: float = 3.0
     """Wall time that each action adds to what all may take, in control periods."""
 

@@ -27,9 +27,9 @@ def test_another_process_gets_equal_limits():
 
 def test_the_time_of_a_step_and_of_a_lift_follows_from_the_control_period():
     assert LIMITS.period == CONTROL_PERIOD
-    assert (LIMITS.step_seconds, LIMITS.pace_seconds) == (20 * 0.1, pytest.approx(3 * 0.1))
+    assert (LIMITS.step_seconds, LIMITS.pace_seconds) == (100 * 0.1, pytest.approx(3 * 0.1))
     twice = Limits(period=0.2)
-    assert (twice.step_seconds, twice.pace_seconds) == (20 * 0.2, pytest.approx(3 * 0.2))
+    assert (twice.step_seconds, twice.pace_seconds) == (100 * 0.2, pytest.approx(3 * 0.2))
 
 
 def test_a_lift_of_ten_seconds_may_take_one_minute():
