@@ -95,7 +95,7 @@ def _rank(each: RankedRow) -> str:
 def _human_human(baseline: HumanHumanScores, metrics: Sequence[Metric], wide: bool) -> list[str]:
     cells: list[str] = [
         "",
-        "human-human baseline",
+        "two people",
         f"{baseline.rmse_mm.mean:.2f}",
         _interval(baseline.rmse_mm),
         "1.00",

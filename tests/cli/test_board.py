@@ -25,9 +25,11 @@ def filled(board):
     for name, mean in ((LONG, 9.8), ("blend", 16.27), ("cheat", 1.2)):
         add(board, name, mean)
     board.withdraw("1", digest("cheat"), "Ada", "it read the [bold]clock[/bold]")
-    cells = (("pause", "S1"),) * 4
+    strata = (("pause", "S1"),) * 4
     team = Baseline(
-        cells=cells, rmse_mm=(9.9, 10.5, 11.0, 10.8), means={"sparc": -2.79, "human_force_n": 0.37}
+        strata=strata,
+        rmse_mm=(9.9, 10.5, 11.0, 10.8),
+        means={"sparc": -2.79, "human_force_n": 0.37},
     )
     board.store.secrets("1").keep_human_human(team)
     return board
@@ -47,7 +49,7 @@ def test_the_table_fits_and_cuts_only_names(filled, width):
     assert max(map(len, lines)) <= width
     assert [line for line in lines if "…" in line] == [line for line in lines if LONG[:8] in line]
     rows = [line.split() for line in lines if " to " in line]
-    assert [row[0] for row in rows] == ["1", "human-human", "2", "out"]
+    assert [row[0] for row in rows] == ["1", "two", "2", "out"]
     assert rows[0][2:6] == ["9.80", "8.80", "to", "10.80"]
     assert rows[1][2:4] == ["10.55", "9.90"]
     assert ("0.200" in " ".join(rows[2])) == (width == 120)

@@ -135,8 +135,8 @@ def test_a_bundle_is_compared_as_it_is(colift, tmp_path: Path) -> None:
     assert contents[0] == contents[1]
     mixed = colift("compare", "holds", "hold", "copys")
     assert mixed.returncode == 0, mixed.stderr
-    assert "copy: as copys has it, not simulated again here" in mixed.stdout
-    assert "holds: as holds has it" in mixed.stdout
+    assert "copy: from copys, not simulated again" in mixed.stdout
+    assert "holds: from holds, not simulated again" in mixed.stdout
     for arguments, told in (
         (("--suite", "quick-v1"), "holds has the lifts of quick-v1[0:2] (digest "),
         (("--seeds", "0:3"), "not of standard-v1[0:3]"),

@@ -34,7 +34,7 @@ def test_the_list_says_how_far_each_is_or_why_it_has_no_row(colift, jobs):
 
 def test_the_log_is_printed(colift, jobs):
     assert colift("queue", "log", jobs[0].id[:8], *BOARD).stdout == "attempt 1\nImportError\n"
-    assert colift("queue", "log", jobs[2].id, *BOARD).stdout == "No worker has begun it.\n"
+    assert colift("queue", "log", jobs[2].id, *BOARD).stdout == "No worker has begun this job.\n"
 
 
 def test_a_job_that_has_ended_is_tried_again_and_that_is_told(colift, board, jobs):

@@ -50,7 +50,7 @@ def test_json_keeps_it_to_five_digits():
     [
         ({"weights": ([[1.0, 2.0]],)}, "layers must have the shapes"),
         ({"weights": ()}, "layers must have the shapes"),
-        ({"deviation": [1.0, 1.0]}, "one deviation per input"),
+        ({"spread": [1.0, 1.0]}, "one deviation per input"),
         ({"gain": [1.0, 1.0]}, "one gain per output"),
         ({"gain": [np.inf]}, "finite"),
     ],

@@ -121,5 +121,5 @@ def test_trials_that_say_nothing_are_refused_by_what_they_lack():
 
     with pytest.raises(InputError, match="5 steps are too few"):
         estimate_setup([recorded(log(0.5, up_and_down, up_and_down))])
-    with pytest.raises(InputError, match="told to move by less than 30 mm"):
+    with pytest.raises(InputError, match="commanded to move by less than 30 mm"):
         estimate_setup([recorded(log(5.0, up_and_down, up_and_down))])

@@ -108,8 +108,8 @@ def test_an_uploaded_template_becomes_a_verified_row_before_ones_eyes(
     page.evaluate("""() => {
         window.seen = [];
         const read = (id) => document.getElementById(id).textContent;
-        const look = () => window.seen.push(`${read("state")}, ${read("told")}`);
-        new MutationObserver(look).observe(document.getElementById("told"), {childList: true});
+        const look = () => window.seen.push(`${read("state")}, ${read("status")}`);
+        new MutationObserver(look).observe(document.getElementById("status"), {childList: true});
     }""")
     seen: list[str] = []
     working = threading.Thread(target=Worker(WorkerQueue(queue.board)).once)

@@ -54,7 +54,7 @@ def test_an_own_policy_is_isolated_and_verified_as_anybodys(played, season):
 def test_own_policies_have_digests_of_their_own():
     digests = {builtin_entrant(name).digest for name in builtin_names()}
     assert len(digests) == len(builtin_names())
-    with pytest.raises(InputError, match=r"no policy 'nonesuch'.*blend"):
+    with pytest.raises(InputError, match=r"no built-in policy 'nonesuch'.*blend"):
         builtin_entrant("nonesuch")
 
 
