@@ -2,17 +2,14 @@
 
 from functools import cache
 from pathlib import Path
-from typing import Final
 
 import matplotlib
 from PIL import Image, ImageDraw, ImageFont
 
 from ...agents.agent import FRAME
 from ..episode.episode import Episode
+from ..episode.seat import SEATS
 from .style import FAINT, HUMAN, INK, PAPER, ROBOT
-
-PARTNERS: Final[dict[str, str]] = {"nao": "robot", "human": "partner"}
-"""What the holder of the far end is called."""
 
 
 @cache
@@ -64,7 +61,7 @@ def readout(picture: Image.Image, episode: Episode, frame: int, partner: str) ->
     rows = [
         ("time", f"{(frame + 1) * FRAME:.2f} s", FAINT, False),
         ("human's end", _millimetres(human), HUMAN, False),
-        (f"{PARTNERS[partner]}'s end", _millimetres(robot), ROBOT, False),
+        (f"{SEATS[partner].label}'s end", _millimetres(robot), ROBOT, False),
         ("difference", _millimetres(abs(human - robot)), INK, True),
     ]
     pen = ImageDraw.Draw(picture)

@@ -12,7 +12,8 @@ from ...agents.agent import FRAME
 from ...agents.errors import InputError
 from ..episode.episode import Episode
 from ..episode.scenario import Scenario
-from .caption import PARTNERS, readout, title_strip
+from ..episode.seat import SEATS
+from .caption import readout, title_strip
 from .curves import Curves
 from .scene import Picture, Scene
 from .style import PAPER
@@ -73,7 +74,7 @@ def frames(
     shown = shown_frames(episode, fps)
     page = Image.new("RGB", (WIDTH, TITLE + SCENE + CURVES), PAPER)
     page.paste(title_strip(episode, policy, WIDTH, TITLE))
-    curves = Curves(episode.trace, WIDTH, CURVES, partner=PARTNERS[partner])
+    curves = Curves(episode.trace, WIDTH, CURVES, partner=SEATS[partner].label)
     with closing(Scene(partner)) as scene:
         for frame in shown:
             view = _view(scene, episode, frame, WIDTH, SCENE)
@@ -111,7 +112,9 @@ def still_picture(episode: Episode, scenario: Scenario, policy: str) -> Picture:
             view = _view(scene, episode, frame, step - GUTTER, STILL_SCENE)
             readout(view, episode, frame, partner)
             page.paste(view, (column * step, STILL_TITLE))
-    curves = Curves(episode.trace, STILL_WIDTH, STILL_CURVES, partner=PARTNERS[partner], scale=1.8)
+    curves = Curves(
+        episode.trace, STILL_WIDTH, STILL_CURVES, partner=SEATS[partner].label, scale=1.8
+    )
     page.paste(curves.marked(moments), (0, STILL_TITLE + STILL_SCENE))
     return np.asarray(page).copy()
 
