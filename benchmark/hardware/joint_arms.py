@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from ...robots.nao.kinematics import ARM_JOINTS, MIRROR, arm_path, gravity_torque, vertical_lever
 from ..world import BodyParameters, BulletWorld, NaoFarEnd
-from ..world.bullet import pybullet
 from ..world.nao_arms import NaoArms
 from ..world.physics import Physics
 from ..world.servo import Servo
@@ -70,22 +69,15 @@ class JointArms(NaoArms):
     def drive(self, begin: float, height: float, velocity: float) -> float:
         """Set the motors for the physics step that begins at ``begin`` of the frame."""
         angles = self._from + (self._to - self._from) * (begin + self._ahead)
-        pybullet.setJointMotorControlArray(
-            self._body,
-            self._joints,
-            pybullet.POSITION_CONTROL,
-            angles.tolist(),
-            forces=(self.stiffness * self._efforts).tolist(),
-            positionGains=self._gains,
-            velocityGains=np.ones(len(ARM_JOINTS)).tolist(),
-            physicsClientId=self._client,
-        )
+        left, right = self._left, self._right
+        for arm, side in ((left, slice(0, 5)), (right, slice(5, 10))):
+            efforts = self.stiffness[side] * arm.efforts
+            arm.drive(angles[side].tolist(), self._gains, efforts.tolist())
         return 0.0
 
     def angles(self) -> list[float]:
         """Return the joints' angles by the encoders [rad]."""
-        states = pybullet.getJointStates(self._body, self._joints, physicsClientId=self._client)
-        return [state[0] for state in states]
+        return self._left.angles() + self._right.angles()
 
 
 @dataclass(frozen=True)

@@ -5,20 +5,16 @@ from dataclasses import dataclass
 from typing import ClassVar, Final
 
 from ...agents.agent import FRAME
-from ...robots.nao.facts import HAND_OFFSET_X, HAND_OFFSET_Z, JOINTS
-from ...robots.nao.kinematics import ARM_JOINTS, GRIP_X, GRIP_Y, REST_Z, arm_path
-from ...robots.nao.urdf import arms_only_urdf
-from .bullet import pybullet
-from .engine import Vector, load_urdf_text
+from ...robots.nao.facts import ARM
+from ...robots.nao.kinematics import GRIP_X, GRIP_Y, REST_Z, arm_path
+from .engine import Vector
+from .nao_arm import NaoArm
 from .physics import Physics
 from .servo import SERVO, Servo
 from .table import PITCH, WEIGHT_SHARE
 
-_HAND: Final = (HAND_OFFSET_X, 0.0, -HAND_OFFSET_Z)
-"""The hand point in the frame of the last arm joint [m]; none of it is sideways."""
-
-_ZEROS: Final = [0.0] * len(ARM_JOINTS)
-_ONES: Final = [1.0] * len(ARM_JOINTS)
+_HALF: Final = len(ARM)
+"""Joints of one arm: of the angles of both, the left arm's come first."""
 
 
 class NaoArms:
@@ -46,57 +42,26 @@ class NaoArms:
         compliance = path.levers**2 / 2 / servo.stiffness
         self._weight_sag: list[float] = weight_sag.sum(axis=1).tolist()
         self._compliance: list[float] = compliance.sum(axis=1).tolist()
-        self._body = load_urdf_text(client, arms_only_urdf(shapes=False), (0, 0, 0))
-        self._joints = self._joint_indices()
-        self._wrists = (self._joints[4], self._joints[9])
-        self._efforts = [JOINTS[name].effort for name in ARM_JOINTS]
-        self._gains = [-math.expm1(-physics.step / servo.time)] * len(ARM_JOINTS)
+        gain = -math.expm1(-physics.step / servo.time)
+        self._gains = [gain] * _HALF
         # A set-point that ramps is followed with the servo's time constant at any step size.
-        gain = self._gains[0]
         self._ahead = (physics.step / gain - servo.time) / FRAME
         self._yielding = -math.expm1(-FRAME / servo.load_time)
-        for joint, angle in zip(self._joints, self._path.joint_angles(0.0), strict=True):
-            pybullet.resetJointState(self._body, joint, angle, physicsClientId=client)
-        for wrist, side in zip(self._wrists, (1, -1), strict=True):
-            self._grip(wrist, (GRIP_X, side * GRIP_Y, REST_Z), tree)
+        angles = path.joint_angles(0.0)
+        self._left = NaoArm(client, "L", angles[:_HALF])
+        self._right = NaoArm(client, "R", angles[_HALF:])
+        self._left.grip(tree, PITCH, (GRIP_X, GRIP_Y, REST_Z))
+        self._right.grip(tree, PITCH, (GRIP_X, -GRIP_Y, REST_Z))
         rest = path.row(0.0)
         sag = self._weight_sag[rest] + self._compliance[rest] * WEIGHT_SHARE
         self._offset = sag if servo.weight_offset else 0.0
         self.reset()
 
-    def _joint_indices(self) -> list[int]:
-        """Return the engine's indices of the arm joints, in the order of ``ARM_JOINTS``."""
-        count = pybullet.getNumJoints(self._body, physicsClientId=self._client)
-        names = [
-            pybullet.getJointInfo(self._body, i, physicsClientId=self._client)[1].decode()
-            for i in range(count)
-        ]
-        return [names.index(name) for name in ARM_JOINTS]
-
-    def _grip(self, wrist: int, point: Vector, tree: int) -> None:
-        """Pin a hand to the table at ``point`` (world frame)."""
-        anchors = []
-        for body, link in ((self._body, wrist), (tree, PITCH)):
-            state = pybullet.getLinkState(
-                body, link, computeForwardKinematics=1, physicsClientId=self._client
-            )
-            inverse = pybullet.invertTransform(state[0], state[1])
-            anchors.append(pybullet.multiplyTransforms(*inverse, point, (0, 0, 0, 1))[0])
-        pybullet.createConstraint(
-            self._body,
-            wrist,
-            tree,
-            PITCH,
-            pybullet.JOINT_POINT2POINT,
-            (0, 0, 0),
-            *anchors,
-            physicsClientId=self._client,
-        )
-
     def reset(self) -> None:
         """Hold rest height; the engine's state itself is restored by the world."""
         self._load = WEIGHT_SHARE
         self._previous = self._target = self._row(0.0)
+        self._driven = -1
 
     def prepare(
         self, command: float, own: list[float], other: list[float], force: list[float]
@@ -125,17 +90,11 @@ class NaoArms:
         """
         previous = self._previous
         row = int(previous + (self._target - previous) * (begin + self._ahead) + 0.5)
-        pybullet.setJointMotorControlArray(
-            self._body,
-            self._joints,
-            pybullet.POSITION_CONTROL,
-            self._angles[row],
-            _ZEROS,
-            self._efforts,
-            self._gains,
-            _ONES,
-            self._client,
-        )
+        if row != self._driven:
+            self._driven = row
+            angles, arm, other = self._angles[row], self._left, self._right
+            arm.drive(angles[:_HALF], self._gains, arm.efforts)
+            other.drive(angles[_HALF:], self._gains, other.efforts)
         return 0.0
 
     def hand_height(self, end: float) -> float:
@@ -143,14 +102,7 @@ class NaoArms:
 
         It differs from the table's ``end`` when the hands slip.
         """
-        height = 0.0
-        for state in pybullet.getLinkStates(
-            self._body, self._wrists, computeForwardKinematics=1, physicsClientId=self._client
-        ):
-            x, y, z, w = state[5]
-            height += state[4][2] + 2 * (x * z - y * w) * _HAND[0]
-            height += (1 - 2 * (x * x + y * y)) * _HAND[2]
-        return height / 2 - REST_Z
+        return (self._left.hand_height() + self._right.hand_height()) / 2 - REST_Z
 
 
 @dataclass(frozen=True)
