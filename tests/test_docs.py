@@ -36,7 +36,7 @@ def test_the_first_policy_is_the_same_in_readme_and_template(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "page", ["README.md", "docs/submissions.md", "agents/submissions/template/policy.py"]
+    "page", ["README.md", "docs/guides/submissions.md", "agents/submissions/template/policy.py"]
 )
 def test_the_largest_action_is_where_a_submitter_reads(page):
     assert f"{action_limit(CONTROL_PERIOD):.2f} m" in (ROOT / page).read_text()
@@ -44,7 +44,7 @@ def test_the_largest_action_is_where_a_submitter_reads(page):
 
 def test_the_recipe_for_a_trained_net_plays_what_the_net_says(tmp_path):
     """The weights are of a net that is known: two linear layers, here evaluated by hand."""
-    (source,) = (each for each in python_blocks("docs/submissions.md") if "weights.npz" in each)
+    (source,) = (each for each in python_blocks("docs/guides/submissions.md") if "weights.npz" in each)
     assert len(source.strip().splitlines()) <= 25
     write_template(tmp_path / "mine")
     (tmp_path / "mine" / "policy.py").write_text(source)
@@ -67,7 +67,7 @@ def test_the_recipe_for_a_trained_net_plays_what_the_net_says(tmp_path):
 
 
 def test_the_loop_of_the_environments_page_plays_a_lift(capsys):
-    [loop] = python_blocks("docs/environment.md")
+    [loop] = python_blocks("docs/reference/environment.md")
     exec(loop, {})
     apart, steps = re.fullmatch(
         r"(\d+) mm apart at most, in (\d+) steps", capsys.readouterr().out.strip()
@@ -79,7 +79,7 @@ def test_the_loop_of_the_environments_page_plays_a_lift(capsys):
 def pages():
     """Return the documentation, each page relative to the repository."""
     names = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md"]
-    return [*names, *sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("docs/*.md"))]
+    return [*names, *sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("docs/**/*.md"))]
 
 
 def anchors(path):
@@ -112,7 +112,7 @@ def test_every_page_is_linked_from_the_readme():
 
 
 def test_a_glossary_entry_stands_once():
-    terms = re.findall(r"^\| \*\*(.+?)\*\*", (ROOT / "docs/glossary.md").read_text(), re.MULTILINE)
+    terms = re.findall(r"^\| \*\*(.+?)\*\*", (ROOT / "docs/reference/glossary.md").read_text(), re.MULTILINE)
     assert len(terms) >= 35
     assert len(terms) == len(set(terms))
 

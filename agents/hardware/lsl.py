@@ -62,7 +62,7 @@ class LslCapture:
             raise InputError(
                 f"no stream {name!r} on the network within {RESOLVE_TIME:g} s; there is "
                 f"{', '.join(known) or 'none'}. Where multicast does not pass, name the sender in "
-                "lsl_api.cfg (docs/hardware.md)"
+                "lsl_api.cfg (docs/guides/hardware.md)"
             )
         self._lsl = lsl
         self._inlet = lsl.StreamInlet(

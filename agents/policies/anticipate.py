@@ -138,7 +138,7 @@ class AnticipationController:
 class Anticipate(AnticipationController):
     """Forecasts the human's next half second, and commands what keeps the table level (ours).
 
-    Three parts; ``docs/anticipate.md`` shows the loss without each:
+    Three parts; ``docs/background/anticipate.md`` shows the loss without each:
 
     **Forecast.** A small perceptron, learned in simulated lifts, maps the last two seconds of the
     human's end to the mean of its coming heights h(t). It replaces a mixture of several models: its

@@ -26,7 +26,7 @@ Pause = Callable[[float], None]
 
 
 class MotionService:
-    """ALMotion: the part of it that is documented in ``docs/hardware.md``."""
+    """ALMotion: the part of it that is documented in ``docs/guides/hardware.md``."""
 
     # libqi would else call one method at a time, and a blocking one would block them all.
     __qi_threading__ = "multi"

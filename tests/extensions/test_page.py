@@ -1,4 +1,4 @@
-"""The package of ``docs/extending.md``, installed as it stands there."""
+"""The package of ``docs/guides/extending.md``, installed as it stands there."""
 
 import json
 import os
