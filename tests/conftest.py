@@ -24,6 +24,10 @@ from colift.benchmark.profiling.loopback import loopback_cluster
 MOST_MEMORY = 1 << 30
 """Memory that no process of the tests may reach [bytes]."""
 
+# The tests start hundreds of processes: each would compile all it imports if nobody kept it.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
+
 # A shell lets what it starts in the background ignore Ctrl-C; so would all that the tests start.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
