@@ -44,7 +44,9 @@ def test_the_largest_action_is_where_a_submitter_reads(page):
 
 def test_the_recipe_for_a_trained_net_plays_what_the_net_says(tmp_path):
     """The weights are of a net that is known: two linear layers, here evaluated by hand."""
-    (source,) = (each for each in python_blocks("docs/guides/submissions.md") if "weights.npz" in each)
+    (source,) = (
+        each for each in python_blocks("docs/guides/submissions.md") if "weights.npz" in each
+    )
     assert len(source.strip().splitlines()) <= 25
     write_template(tmp_path / "mine")
     (tmp_path / "mine" / "policy.py").write_text(source)
@@ -112,7 +114,9 @@ def test_every_page_is_linked_from_the_readme():
 
 
 def test_a_glossary_entry_stands_once():
-    terms = re.findall(r"^\| \*\*(.+?)\*\*", (ROOT / "docs/reference/glossary.md").read_text(), re.MULTILINE)
+    terms = re.findall(
+        r"^\| \*\*(.+?)\*\*", (ROOT / "docs/reference/glossary.md").read_text(), re.MULTILINE
+    )
     assert len(terms) >= 35
     assert len(terms) == len(set(terms))
 
