@@ -85,22 +85,34 @@ def ablate_policies(
     lifts: LearningLifts = LIFTS,
     people: People = 20,
     each: LiftsEach = 3,
-    recordings: RecordedLifts = None,
+    recordings: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="CSV",
+            help="Recorded human motion (columns trial,t_s,z_m), measured as well.",
+        ),
+    ] = None,
     jobs: Jobs = None,
 ) -> None:
     """Measure what each part of anticipate contributes: learn and play it without the part."""
-    suite = held_out_suite(people, each) if recordings is None else recorded_suite(recordings)
-    total = ROUNDS * lifts + (1 + len(VARIANTS)) * suite.size
+    suites = [held_out_suite(people, each)]
+    if recordings is not None:
+        suites.append(recorded_suite(recordings))
+    total = ROUNDS * lifts + (1 + len(VARIANTS)) * sum(suite.size for suite in suites)
     with workers("ablation", total, jobs) as (pool, progress):
         first, *_, last = learn_anticipation(lifts=lifts, executor=pool, progress=progress)
-        found = ablation.ablate(variants(first, last), suite, executor=pool, progress=progress)
-    show(_ablation_table(found, suite.name))
+        robots = tuple(variants(first, last))
+        found = [
+            ablation.ablate(robots, suite, executor=pool, progress=progress) for suite in suites
+        ]
+    for suite, rows in zip(suites, found, strict=True):
+        show(_ablation_table(rows, suite.name))
 
 
 def _ablation_table(found: list[Ablation], suite: str) -> Table:
     return table(
         f"Without each part, on {suite}",
-        ("without", "RMSE", "more", "SPARC", "rougher by"),
+        ("without", "RMSE mm", "more by, 95 %", "SPARC", "rougher by, 95 %"),
         (
             (
                 each.name,
@@ -111,8 +123,8 @@ def _ablation_table(found: list[Ablation], suite: str) -> Table:
             )
             for each in found
         ),
-        caption="RMSE in mm, SPARC (closer to 0 is smoother); in brackets the 95 % interval of the "
-        "paired difference to the whole.",
+        caption="SPARC: closer to 0 is smoother. In brackets the 95 % interval of the paired "
+        "difference to the complete policy.",
     )
 
 
@@ -169,5 +181,5 @@ def _sweep_table(swept: list[Swept], team: float, suite: str) -> Table:
         f"RMSE mm on {suite}",
         ("latency ms", "period ms", *NAMES),
         rows,
-        caption=f"human-human team: {team:.2f} mm",
+        caption=f"human-human baseline: {team:.2f} mm",
     )

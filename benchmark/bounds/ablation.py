@@ -1,7 +1,7 @@
 """The value of each part of `anticipate`: the policy without it, on lifts with new people."""
 
 import dataclasses
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from typing import Any, Final
@@ -19,7 +19,7 @@ from ..training.anticipation import CURRICULUM, HIDDEN, Lesson, learned
 from ..training.data import Timing, TrainingData
 from .causal import AnticipationSpec
 
-WHOLE: Final = "whole"
+WHOLE: Final = "nothing: the complete policy"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,17 +46,17 @@ class Variant:
 
 
 VARIANTS: Final = (
-    Variant(name="the curve: a linear map instead of the perceptron", hidden=()),
-    Variant(name="the far past: 0.4 s instead of 2 s", window={"velocities": 4}),
-    Variant(name="the second round of learning", first_round=True),
-    Variant(name="people who roam among those it learned from", only=BEHAVIOURS),
+    Variant(name="the non-linearity: a linear map instead of the perceptron", hidden=()),
+    Variant(name="the longer history: 0.4 s instead of 2 s", window={"velocities": 4}),
+    Variant(name="the second training round", first_round=True),
+    Variant(name="roaming people in the training data", only=BEHAVIOURS),
     Variant(name="the arm's lag", parameters={"arm_lag": 0.0}),
-    Variant(name="making up for the sag", parameters={"sag_memory": 1e9}),
+    Variant(name="compensation of the sag", parameters={"sag_memory": 1e9}),
     Variant(
-        name="foresight beyond the period, as smooth",
+        name="forecast beyond the period, equally smooth",
         parameters={"horizon": CONTROL_PERIOD, "smoothness": 0.2},
     ),
-    Variant(name="the cost of bends", parameters={"smoothness": 0.0}),
+    Variant(name="the cost on changes of slope", parameters={"smoothness": 0.0}),
 )
 """Each lacks one part."""
 
@@ -115,13 +115,13 @@ def moving(data: TrainingData, behaviours: Sequence[str]) -> TrainingData:
 
 
 def ablate(
-    robots: Iterator[AnticipationSpec],
+    robots: Iterable[AnticipationSpec],
     suite: Suite,
     *,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> list[Ablation]:
-    """Return how the robots do on a suite; the first is the whole, which others are set against."""
+    """Return the scores of the robots on a suite; the first is the whole policy, the reference."""
     found: list[Ablation] = []
     whole: Run | None = None
     for robot in robots:

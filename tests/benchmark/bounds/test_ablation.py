@@ -43,9 +43,9 @@ def test_variants_are_learned_from_what_the_whole_was_learned_from():
     whole, *others = variants(first, last)
     assert whole.model is last.model
     found = dict(zip((variant.name for variant in VARIANTS), others, strict=True))
-    assert found["the far past: 0.4 s instead of 2 s"].model.window.velocities == 4
-    assert found["the second round of learning"].model is first.model
-    assert found["the cost of bends"].parameters.smoothness == 0.0
+    assert found["the longer history: 0.4 s instead of 2 s"].model.window.velocities == 4
+    assert found["the second training round"].model is first.model
+    assert found["the cost on changes of slope"].parameters.smoothness == 0.0
     line = next(robot for name, robot in found.items() if "linear" in name)
     assert len(line.model.perceptron.weights) == 1
     assert isinstance(last, Lesson)
