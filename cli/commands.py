@@ -41,6 +41,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "ablate": "bounds:ablate_policies",
         "sweep": "bounds:sweep_rates",
         "bench": "bench:bench",
+        "figures": "figures:figures",
     },
 }
 """The commands by panel of ``colift --help``, each ``module:attribute``: a function, or an app with

@@ -1,0 +1,57 @@
+"""The origin of a figure: digests of all that its numbers depend on."""
+
+import functools
+import importlib
+from collections.abc import Callable
+from typing import Any, Final
+
+from ...agents.errors import InputError
+from ...agents.identity import code_hash
+from ...agents.loading.loading import PolicySpec
+from ...agents.registry import POLICIES, own_entries
+from ..suites.suite import make_suite
+from .registry import ALL, RecordedFigure
+
+COLIFT: Final = __name__.partition(".")[0]
+
+Origin = dict[str, str]
+"""Digests, by what they are of: ``suite standard-v1``, ``policy blend``, ``command``."""
+
+
+def origin_of(figure: RecordedFigure) -> Origin:
+    """Return the origin of a figure, as the code is now.
+
+    The command is part of it. A figure of the machine depends on nothing else that has a digest.
+
+    Raises
+    ------
+    InputError
+        If a suite, a policy or a definition does not exist.
+    """
+    policies = own_entries(POLICIES) if ALL in figure.policies else figure.policies
+    return {
+        "command": figure.command,
+        **{f"suite {name}": _suite(name) for name in figure.suites},
+        **{f"policy {name}": _policy(name) for name in policies},
+        **{f"code {place}": _code(place) for place in figure.code},
+    }
+
+
+@functools.cache
+def _suite(name: str) -> str:
+    return make_suite(name).digest
+
+
+@functools.cache
+def _policy(name: str) -> str:
+    return PolicySpec(text=name).digest()
+
+
+@functools.cache
+def _code(place: str) -> str:
+    module, _, name = place.partition(":")
+    try:
+        found: Callable[..., Any] = getattr(importlib.import_module(f"{COLIFT}.{module}"), name)
+    except (ImportError, AttributeError):
+        raise InputError(f"figures: there is no {name!r} in {COLIFT}.{module}") from None
+    return code_hash(found)

@@ -1,0 +1,99 @@
+"""``colift figures``: the recorded figures of the documentation."""
+
+import sys
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..agents.errors import EvaluatorFault, InputError
+from ..benchmark.figures.making import FigureStatus, remake, statuses
+from ..benchmark.figures.registry import clone
+from .options import check_exclusive
+from .printing import left, show, table
+
+
+def figures(
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="NAME...", help="Figures; default: all, or those that are due."),
+    ] = None,
+    again: Annotated[
+        bool,
+        typer.Option(
+            "--remake",
+            help="Run the commands of the named figures, or of those that are due; print the "
+            "changes.",
+        ),
+    ] = False,
+    check: Annotated[bool, typer.Option("--check", help="Exit with 1 if a figure is due.")] = False,
+    recordings: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="CSV",
+            help="File for the figures of recorded lifts, which colift does not contain.",
+        ),
+    ] = None,
+) -> None:
+    """List the recorded figures of the documentation, or make them again.
+
+    A figure is due if what it depends on has changed since it was made: a suite, a policy, other
+    code, or its command. Figures of a machine's speed are made again only by name.
+    """
+    check_exclusive(remake=again, check=check)
+    if recordings is not None and not again:
+        raise InputError("--recordings needs --remake")
+    if recordings is not None and not recordings.is_file():
+        raise InputError(f"--recordings: there is no file {recordings}")
+    root = clone()
+    found = statuses(root)
+    unknown = [name for name in names or () if name not in found]
+    if unknown:
+        raise InputError(f"unknown figure {unknown[0]!r}; figures: {', '.join(found)}")
+    chosen = {name: found[name] for name in names or found}
+    if again:
+        wanted = [each for each in chosen.values() if names or _is_due(each)]
+        if not _remake(root, wanted, recordings):
+            raise typer.Exit(1)
+        return
+    _list(chosen)
+    if check and any(map(_is_due, chosen.values())):
+        raise typer.Exit(1)
+
+
+def _is_due(status: FigureStatus) -> bool:
+    return status.due and not status.figure.machine
+
+
+def _list(chosen: Mapping[str, FigureStatus]) -> None:
+    rows = ((name, _state(status), status.figure.command) for name, status in chosen.items())
+    show(table("", ("figure", left("state"), left("command")), rows))
+
+
+def _state(status: FigureStatus) -> str:
+    """Return the state of a figure in words: due with the reasons, by name, or current."""
+    if status.due:
+        first, *more = status.reasons
+        return f"due: {first}" + (f" and {len(more)} more" if more else "")
+    return "of its machine" if status.figure.machine else "current"
+
+
+def _remake(root: Path, wanted: Iterable[FigureStatus], recordings: Path | None) -> bool:
+    """Make figures again, print the changes of each, and return whether all could be made."""
+    complete = True
+    for status in wanted:
+        name, needed = status.figure.name, status.figure.recordings
+        if needed and recordings is None:
+            complete = False
+            message = f"{name} needs {needed}, which colift does not contain: give --recordings"
+            print(message, file=sys.stderr)
+            continue
+        try:
+            changes = remake(root, status.figure, recordings)
+        except EvaluatorFault as fault:
+            complete = False
+            print(fault, file=sys.stderr)
+        else:
+            print("\n".join(changes) or f"{name}: unchanged", flush=True)
+    return complete
