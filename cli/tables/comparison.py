@@ -6,7 +6,7 @@ from rich.table import Column, Table
 from rich.text import Text
 
 from ...benchmark.comparison.comparison import Comparison
-from ...benchmark.comparison.contest import TEAM, Entry
+from ...benchmark.comparison.contest import TEAM
 from ...benchmark.comparison.standing import MetricMean, Scope, Standing
 from ...benchmark.comparison.words import (
     between,
@@ -19,7 +19,7 @@ from ...benchmark.comparison.words import (
 )
 from ...benchmark.episode.metric import Metric
 from ...benchmark.statistics import Estimate
-from ..printing import Cell, optional_number, styled, table
+from ..printing import Cell, styled, table
 
 NAME: Final = 18
 """Longest name that stays on one line."""
@@ -35,10 +35,8 @@ BASELINE: Final = "blue"
 def ranks_table(comparison: Comparison) -> Table:
     """Return the policies by rank, the human-human team among them."""
     suite, overall = comparison.contest.suite, comparison.overall
-    entries = {entry.name: entry for entry in comparison.contest.entries}
     rows: list[tuple[float, list[Cell]]] = [
-        (standing.rmse_mm.mean, _rank_row(comparison, standing, entries[standing.name]))
-        for standing in overall.standings
+        (standing.rmse_mm.mean, _rank_row(comparison, standing)) for standing in overall.standings
     ]
     rows += [
         (overall.baselines_rmse_mm[name].mean, styled(_baseline_row(comparison, name), BASELINE))
@@ -49,19 +47,13 @@ def ranks_table(comparison: Comparison) -> Table:
         (
             Column("#", justify="right"),
             Column("policy", overflow="fold", min_width=len(TEAM)),
-            *(
-                "RMSE mm",
-                "95 %",
-                "vs_human",
-                *(each.symbol for each in comparison.contest.metrics),
-                "step",
-            ),
+            *("RMSE mm", "95 %", "vs_human"),
+            *(each.symbol for each in comparison.contest.metrics),
         ),
         (cells for _, cells in sorted(rows, key=lambda row: row[0])),
         caption=f"{overall.episodes} lifts each; suite digest {suite.digest}. "
         + (undecided(overall) or "Policies of one rank (#) cannot be told from the first of them.")
-        + f" vs_human: RMSE over the {TEAM}'s. Force at the "
-        "human's hands in N; median time of a step in ms."
+        + f" vs_human: RMSE over the {TEAM}'s. Force at the human's hands in N."
         + (f" {NO_POLICIES}" if comparison.contest.bounds else "")
         + (f" {FEWER}" if any(s.sparc and s.sparc_missing for s in overall.standings) else ""),
     )
@@ -77,20 +69,18 @@ def _baseline_row(comparison: Comparison, name: str) -> list[str]:
         _interval(rmse),
         f"{rmse.mean / overall.team_rmse_mm.mean:.2g}",
         *(metric.text(baseline.means[metric.name]) for metric in comparison.contest.metrics),
-        "",
     ]
 
 
-def _rank_row(comparison: Comparison, standing: Standing, entry: Entry) -> list[Cell]:
+def _rank_row(comparison: Comparison, standing: Standing) -> list[Cell]:
     overall, metrics = comparison.overall, comparison.contest.metrics
     return [
         str(standing.rank) if overall.decisive else "",
-        _name(entry.name),
+        _name(standing.name),
         f"{standing.rmse_mm.mean:.2f}",
         _interval(standing.rmse_mm),
         f"{standing.vs_human.mean:.2f}",
         *(_metric(metric, standing.metrics[metric.name]) for metric in metrics),
-        optional_number(entry.step_ms[0] if entry.step_ms else None, ".3f"),
     ]
 
 
