@@ -19,7 +19,7 @@ class Calibration:
     process_noise: float
     """q of the motion filter [mm2/s6]."""
     partner_lag: float
-    """Lag of the second human of a human-human team [s]."""
+    """Lag of the second human of the human-human baseline [s]."""
     provenance: dict[str, Any]
     """How, on what and with what result they were fitted."""
 

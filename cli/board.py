@@ -66,8 +66,8 @@ def _report(backup: Backup, action: str) -> None:
 
 def _show(place: Board, season: str | None) -> None:
     console, info = Console(), place.season_info(season)
-    standings, team = place.standings(info.name), place.human_human(info.name)
-    show(board_table(info, standings, team, console.width), console=console)
+    standings, human_human = place.standings(info.name), place.human_human(info.name)
+    show(board_table(info, standings, human_human, console.width), console=console)
     for each in place.events(info.name):
         if each.submission is not None:
             what = f"{each.kind} of {each.submission[:16]} by {each.who}"
@@ -89,14 +89,14 @@ def _waiting(place: Board) -> str:
 
 def _content(place: Board, season: str | None) -> dict[str, Any]:
     info: SeasonInfo = place.season_info(season)
-    team = place.human_human(info.name)
+    human_human = place.human_human(info.name)
     return {
         "season": {**vars(info), "began_at": info.began_at.isoformat()},
         "human_human": None
-        if team is None
+        if human_human is None
         else {
-            "rmse_mm": {"mean": team.rmse_mm.mean, "ci95": list(team.rmse_mm.ci95)},
-            **team.means,
+            "rmse_mm": {"mean": human_human.rmse_mm.mean, "ci95": list(human_human.rmse_mm.ci95)},
+            **human_human.means,
         },
         "rows": [
             {

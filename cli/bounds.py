@@ -13,9 +13,10 @@ from ..benchmark.bounds.ablation import VARIANTS, Ablation, variants
 from ..benchmark.bounds.causal import BOUNDS
 from ..benchmark.bounds.claims import POLICY, RIVALS, PolicyClaim, claims
 from ..benchmark.bounds.held_out import FIRST_SEED, held_out_suite
-from ..benchmark.bounds.sweep import NAMES, Swept, lifts_to_play, team_rmse, timings
+from ..benchmark.bounds.sweep import NAMES, Swept, human_human_rmse, lifts_to_play, timings
 from ..benchmark.comparison.comparison import compare
 from ..benchmark.comparison.contest import amount, play_contest
+from ..benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from ..benchmark.statistics import Estimate
 from ..benchmark.suites.suite import recorded_suite
 from ..benchmark.training.anticipation import LIFTS, ROUNDS, learn_anticipation
@@ -154,19 +155,19 @@ def sweep_rates(
     check_output(out)
     suite = held_out_suite(people, each)
     with workers("sweep", lifts_to_play(suite, lifts), jobs) as (pool, progress):
-        team = team_rmse(suite, executor=pool, progress=progress)
+        human_human = human_human_rmse(suite, executor=pool, progress=progress)
         swept = list(sweep.sweep(suite, lifts=lifts, executor=pool, progress=progress))
-    show(_sweep_table(swept, team, suite.name))
+    show(_sweep_table(swept, human_human, suite.name))
     if out is not None:
         # matplotlib is slow to load.
         from ..benchmark.bounds.sweep_picture import sweep_figure, sweep_json
 
-        sweep_figure(swept, team, "What a fresher or a faster robot gains").savefig(out)
-        out.with_suffix(".json").write_text(sweep_json(swept, team))
+        sweep_figure(swept, human_human, "What a fresher or a faster robot gains").savefig(out)
+        out.with_suffix(".json").write_text(sweep_json(swept, human_human))
         print(f"written: {out}")
 
 
-def _sweep_table(swept: list[Swept], team: float, suite: str) -> Table:
+def _sweep_table(swept: list[Swept], human_human: float, suite: str) -> Table:
     rows = []
     for timing in timings():
         latency, period = timing.latency, timing.control_period
@@ -181,5 +182,5 @@ def _sweep_table(swept: list[Swept], team: float, suite: str) -> Table:
         f"RMSE mm on {suite}",
         ("latency ms", "period ms", *NAMES),
         rows,
-        caption=f"human-human baseline: {team:.2f} mm",
+        caption=f"{HUMAN_HUMAN_LABEL}: {human_human:.2f} mm",
     )

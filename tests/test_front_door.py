@@ -127,7 +127,10 @@ def test_workers_give_the_same(copied):
 def test_what_it_prints_and_holds(copied):
     text = str(copied)
     assert text.startswith("copy on quick-v1")
-    assert all(name in text for name in ("smooth", "pause", "jerky", "changing_goal", "team"))
+    assert all(
+        name in text
+        for name in ("smooth", "pause", "jerky", "changing_goal", "human-human baseline")
+    )
     assert f"RMSE {copied.rmse_mm:.2f} mm" in text
     assert not any(line.endswith(" ") for line in text.splitlines())
     low, high = copied.rmse_mm_ci95

@@ -1,4 +1,4 @@
-"""The second person of a human-human team: follows what is seen, a little ahead of the eye."""
+"""The partner, the second person of the human-human baseline: follows a little ahead of the eye."""
 
 import math
 from dataclasses import dataclass
@@ -28,7 +28,8 @@ PARTNER_SUBJECT: Final = Subject(
     pull=0.4,
     felt_share=1.0,
 )
-"""Who stands at the robot's end of every human-human team: one person, as the robot is one robot.
+"""The person at the far end in every lift of the human-human baseline: always the same one, as the
+robot is one robot.
 
 Sight about 150 ms old and a faster haptic reflex; a light, well damped arm that gives in to what it
 feels. Choices inside the ranges of the literature; height and duration of own lifts do not matter.
@@ -41,7 +42,7 @@ class PartnerParameters:
 
     lag: float = CALIBRATION.partner_lag
     """How far behind the other person the partner means to be [s]: the one number that is
-    calibrated, so that the teams have the RMSE of the paper's one team, 6.531 mm."""
+    calibrated, so that the human-human baseline has the RMSE of the paper's pair, 6.531 mm."""
 
     velocity_memory: float = 0.1
     """Time constant with which the seen velocity is smoothed [s]: one control period."""

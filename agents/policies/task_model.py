@@ -153,7 +153,7 @@ class TaskModel(TaskModelController):
     collaborative tasks: object-lifting case study with a humanoid", Humanoids 2009). The control
     law is ours.
 
-    **Step one** learns, from demonstrations by human-human teams, a Gaussian mixture of how people
+    **Step one** learns, from demonstrations by two people, a Gaussian mixture of how people
     move who lift together. Its regression infers the human's intent: the coming velocities of the
     human's end with their covariance, from the height and the velocities that were seen. They carry
     a sample of age L over the latency and the period T, to where the human's end is now, p0, and

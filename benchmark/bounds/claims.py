@@ -15,8 +15,8 @@ POLICY: Final = "anticipate"
 RIVALS: Final = ("blend", "reactive")
 """The paper's policies that it is set against."""
 
-TO_TEAM: Final = {"smooth": 0.70, "pause": 0.70, "jerky": 1.15, "changing_goal": 0.70}
-TO_TEAM_OVER_ALL: Final = 0.75
+TO_HUMAN_HUMAN: Final = {"smooth": 0.70, "pause": 0.70, "jerky": 1.15, "changing_goal": 0.70}
+TO_HUMAN_HUMAN_OVER_ALL: Final = 0.75
 """Largest RMSE over the human-human baseline's, on each behaviour and over all."""
 
 TO_BOUND: Final = 1.15
@@ -50,14 +50,14 @@ def claims(contest: Contest) -> tuple[PolicyClaim, ...]:
     """Return the claims, measured in a contest of the policy, its rivals and the bounds.
 
     The causal bound and the rivals are needed, and the human-human baseline is always there. On
-    recorded lifts the team and the bound are no limits: people are no plan.
+    recorded lifts neither the human-human baseline nor the bound is a limit: people follow no plan.
     """
     entries = {entry.name: entry for entry in contest.entries}
-    strata = contest.team.strata
+    strata = contest.human_human.strata
     behaviours = np.array([behaviour for behaviour, _ in strata])
     mine, blend = (_values(entries[name], "rmse_mm") for name in (POLICY, "blend"))
-    bound, team = (
-        np.array(other.rmse_mm) for other in (contest.bounds[CAUSAL_BOUND], contest.team)
+    bound, human_human = (
+        np.array(other.rmse_mm) for other in (contest.bounds[CAUSAL_BOUND], contest.human_human)
     )
     found: list[PolicyClaim] = []
 
@@ -70,8 +70,13 @@ def claims(contest: Contest) -> tuple[PolicyClaim, ...]:
     everything = np.full(len(strata), True)
     for behaviour in dict.fromkeys(behaviours.tolist()):
         chosen = behaviours == behaviour
-        if behaviour in TO_TEAM:
-            ratio(f"the human-human baseline, {behaviour}", team, chosen, TO_TEAM[behaviour])
+        if behaviour in TO_HUMAN_HUMAN:
+            ratio(
+                f"the human-human baseline, {behaviour}",
+                human_human,
+                chosen,
+                TO_HUMAN_HUMAN[behaviour],
+            )
             ratio(f"the causal bound, {behaviour}", bound, chosen, TO_BOUND)
         if behaviour in ("smooth", RECORDED):
             ratio(f"blend, {behaviour}", blend, chosen, TO_BLEND)
@@ -85,8 +90,10 @@ def claims(contest: Contest) -> tuple[PolicyClaim, ...]:
                     least=True,
                 )
             )
-    if set(behaviours.tolist()) == set(TO_TEAM):
-        ratio("the human-human baseline, over all", team, everything, TO_TEAM_OVER_ALL)
+    if set(behaviours.tolist()) == set(TO_HUMAN_HUMAN):
+        ratio(
+            "the human-human baseline, over all", human_human, everything, TO_HUMAN_HUMAN_OVER_ALL
+        )
     return (*found, *_kinder(entries, contest))
 
 
@@ -96,7 +103,9 @@ def _kinder(entries: dict[str, Entry], contest: Contest) -> Iterator[PolicyClaim
         smoother = [_values(entries[other], "sparc") for other in (POLICY, name)]
         moved = ~(np.isnan(smoother[0]) | np.isnan(smoother[1]))
         strata = [
-            stratum for stratum, taken in zip(contest.team.strata, moved, strict=True) if taken
+            stratum
+            for stratum, taken in zip(contest.human_human.strata, moved, strict=True)
+            if taken
         ]
         difference = paired_difference(smoother[0][moved], smoother[1][moved], strata)
         yield PolicyClaim(
@@ -107,7 +116,7 @@ def _kinder(entries: dict[str, Entry], contest: Contest) -> Iterator[PolicyClaim
             least=True,
         )
     force = [_values(entries[other], "human_force_n") for other in (POLICY, "blend")]
-    difference = paired_difference(force[0], force[1], contest.team.strata)
+    difference = paired_difference(force[0], force[1], contest.human_human.strata)
     yield PolicyClaim(
         text="rms force at the human's hands minus that with blend [N], paired",
         value=difference.mean,

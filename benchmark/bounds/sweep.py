@@ -11,7 +11,7 @@ import numpy as np
 from ...agents.loading.loading import PolicySpec
 from ...agents.spec import AgentSpec
 from ..execution.runner import Run, run_suite
-from ..results.baselines import human_team_run
+from ..results.baselines import human_human_run
 from ..suites.suite import Suite
 from ..training.anticipation import ROUNDS, learn_anticipation
 from ..training.data import Timing
@@ -103,14 +103,14 @@ def sweep(
         yield _mean(ORACLE, oracle_run(timed, executor=executor, progress=progress), timing)
 
 
-def team_rmse(
+def human_human_rmse(
     suite: Suite,
     *,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
 ) -> float:
     """Return the mean RMSE of the human-human baseline [mm]: it has no such timing."""
-    run = human_team_run(suite, executor=executor, progress=progress)
+    run = human_human_run(suite, executor=executor, progress=progress)
     return float(np.mean([episode.scores["rmse_mm"] for episode in run.episodes]))
 
 

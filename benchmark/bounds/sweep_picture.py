@@ -25,20 +25,20 @@ LOOKS: Final = {
 """Colour, line and marker; the bounds are black."""
 
 
-def sweep_json(swept: Sequence[Swept], team: float) -> str:
-    """Return the numbers of the picture; ``team`` is the human-human baseline's RMSE [mm]."""
-    content = {"human_human_rmse_mm": team, "swept": [asdict(each) for each in swept]}
+def sweep_json(swept: Sequence[Swept], human_human: float) -> str:
+    """Return the numbers of the picture; ``human_human`` is the baseline's RMSE [mm]."""
+    content = {"human_human_rmse_mm": human_human, "swept": [asdict(each) for each in swept]}
     return json.dumps(content, indent=1) + "\n"
 
 
-def sweep_figure(swept: Sequence[Swept], team: float, title: str) -> Figure:
+def sweep_figure(swept: Sequence[Swept], human_human: float, title: str) -> Figure:
     """Return the picture: on the left other latencies, on the right other control periods.
 
     Parameters
     ----------
     swept
         The scores.
-    team
+    human_human
         Mean RMSE of the human-human baseline [mm], a line.
     title
         What stands above.
@@ -47,8 +47,8 @@ def sweep_figure(swept: Sequence[Swept], team: float, title: str) -> Figure:
     FigureCanvasAgg(figure)
     figure.suptitle(title, fontsize=11, color=INK, x=0.01, ha="left", weight="bold")
     left, right = figure.subplots(1, 2, sharey=True)
-    _panel(left, [s for s in swept if s.control_period == CONTROL_PERIOD], "latency", team)
-    _panel(right, [s for s in swept if s.latency == LATENCY], "control_period", team)
+    _panel(left, [s for s in swept if s.control_period == CONTROL_PERIOD], "latency", human_human)
+    _panel(right, [s for s in swept if s.latency == LATENCY], "control_period", human_human)
     left.set_xlabel(f"latency [ms], control period {1000 * CONTROL_PERIOD:.0f} ms", color=INK)
     right.set_xlabel(f"control period [ms], latency {1000 * LATENCY:.0f} ms", color=INK)
     left.set_ylabel("RMSE of the height difference [mm]", color=INK)
@@ -57,10 +57,10 @@ def sweep_figure(swept: Sequence[Swept], team: float, title: str) -> Figure:
     return figure
 
 
-def _panel(axes: Axes, swept: Sequence[Swept], along: str, team: float) -> None:
+def _panel(axes: Axes, swept: Sequence[Swept], along: str, human_human: float) -> None:
     style_axes(axes)
     axes.set_xticks(sorted({1000 * getattr(each, along) for each in swept}))
-    axes.axhline(team, color=HUMAN, lw=1.2, ls=(0, (4, 3)), label="human-human baseline")
+    axes.axhline(human_human, color=HUMAN, lw=1.2, ls=(0, (4, 3)), label="human-human baseline")
     for name, (colour, line, marker) in LOOKS.items():
         points = sorted((1000 * getattr(s, along), s.rmse_mm) for s in swept if s.policy == name)
         axes.plot(

@@ -2,14 +2,15 @@
 
 from dataclasses import dataclass
 
-from .contest import TEAM, Contest
+from ..results.baselines import HUMAN_HUMAN_LABEL
+from .contest import Contest
 from .front import Point, exact, pareto_front
 from .standing import Kind, Scope, scope
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Comparison:
-    """Policies set against each other and against the human-human team."""
+    """Policies set against each other and against the human-human baseline."""
 
     contest: Contest
     overall: Scope
@@ -17,7 +18,7 @@ class Comparison:
     behaviours: tuple[Scope, ...]
     subjects: tuple[Scope, ...]
     points: tuple[Point, ...]
-    """The policies, the most level first; then the human-human team and the bounds."""
+    """The policies, the most level first; then the human-human baseline and the bounds."""
 
     @property
     def front(self) -> tuple[str, ...]:
@@ -27,14 +28,14 @@ class Comparison:
 
 def compare(contest: Contest) -> Comparison:
     """Return the comparison of the policies: overall, on each behaviour, with each subject."""
-    overall = scope(contest, "all", "all", range(len(contest.team.strata)))
+    overall = scope(contest, "all", "all", range(len(contest.human_human.strata)))
     return Comparison(
         contest=contest,
         overall=overall,
         behaviours=_parts(
-            contest, "behaviour", [behaviour for behaviour, _ in contest.team.strata]
+            contest, "behaviour", [behaviour for behaviour, _ in contest.human_human.strata]
         ),
-        subjects=_parts(contest, "subject", [subject for _, subject in contest.team.strata]),
+        subjects=_parts(contest, "subject", [subject for _, subject in contest.human_human.strata]),
         points=_points(contest, overall),
     )
 
@@ -54,7 +55,7 @@ def _points(contest: Contest, overall: Scope) -> tuple[Point, ...]:
             name=name,
             rmse_mm=overall.baselines_rmse_mm[name],
             sparc=exact(baseline.means["sparc"]),
-            kind="baseline" if name == TEAM else "bound",
+            kind="baseline" if name == HUMAN_HUMAN_LABEL else "bound",
         )
         for name, baseline in contest.baselines.items()
     ]

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final, Protocol
+from typing import Protocol
 
 import numpy as np
 
@@ -16,15 +16,14 @@ from ..episode.metric import SCORING, Metric, Scores, on_boards
 from ..execution.runner import Run, run_suite
 from ..results.baselines import (
     HUMAN_HUMAN,
+    HUMAN_HUMAN_LABEL,
     Baseline,
-    human_team_run,
+    human_human_run,
     shipped_baselines,
     shipped_bounds,
 )
 from ..results.summary import Stratum, stratum
 from ..suites.suite import Suite
-
-TEAM: Final = "human-human team"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -68,12 +67,12 @@ class Bound(Protocol):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Contest:
-    """Policies and the human-human team on the same episodes."""
+    """Policies and the human-human baseline on the same episodes."""
 
     suite: Suite
     entries: tuple[Entry, ...]
-    team: Baseline
-    """The human-human team."""
+    human_human: Baseline
+    """The human-human baseline."""
     bounds: Mapping[str, Baseline] = field(default_factory=dict)
     """What no policy is expected to beat."""
 
@@ -84,14 +83,14 @@ class Contest:
 
     @property
     def baselines(self) -> dict[str, Baseline]:
-        """What policies are set against, by name: the team, then the bounds; none has a rank."""
-        return {TEAM: self.team, **self.bounds}
+        """The human-human baseline, then the bounds, by name; none has a rank."""
+        return {HUMAN_HUMAN_LABEL: self.human_human, **self.bounds}
 
 
 def amount(policies: int, suite: Suite, *, bounds: int = 0) -> int:
     """Return how many episodes :func:`play_contest` will play with so many policies and bounds."""
-    team = shipped_baselines(suite) is None
-    return suite.size * (policies + team + bounds * (shipped_bounds(suite) is None))
+    human_human = shipped_baselines(suite) is None
+    return suite.size * (policies + human_human + bounds * (shipped_bounds(suite) is None))
 
 
 def play_contest(
@@ -103,7 +102,7 @@ def play_contest(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> Contest:
-    """Play the suite with every policy; and with the human-human team and bounds not shipped.
+    """Play the suite with every policy; and with the human-human baseline and bounds not shipped.
 
     Parameters
     ----------
@@ -132,10 +131,12 @@ def play_contest(
         bounding = play_bounds(bounds or {}, suite, executor=executor, progress=progress)
     shipped = shipped_baselines(suite)
     if shipped is None:
-        team = Baseline.of(human_team_run(suite, executor=executor, progress=progress))
+        human_human = Baseline.of(human_human_run(suite, executor=executor, progress=progress))
     else:
-        team = shipped[HUMAN_HUMAN]
-    return Contest(suite=suite, entries=(*entries, *stored), team=team, bounds=bounding)
+        human_human = shipped[HUMAN_HUMAN]
+    return Contest(
+        suite=suite, entries=(*entries, *stored), human_human=human_human, bounds=bounding
+    )
 
 
 def play_bounds(

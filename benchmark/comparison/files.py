@@ -9,8 +9,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from ..results.baselines import HUMAN_HUMAN_LABEL
 from .comparison import Comparison
-from .contest import TEAM
 from .html import html_page
 from .scatter.png import png
 from .scatter.scene import make_scene
@@ -45,7 +45,7 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
         "suite_digest": suite.digest,
         "episodes": comparison.overall.episodes,
         "decisive": comparison.overall.decisive,
-        "human_human": _baseline(comparison, TEAM),
+        "human_human": _baseline(comparison, HUMAN_HUMAN_LABEL),
         "bounds": [
             {"name": name, **_baseline(comparison, name)} for name in comparison.contest.bounds
         ],
@@ -79,7 +79,7 @@ def _part(scope: Scope) -> dict[str, Any]:
         "name": scope.name,
         "episodes": scope.episodes,
         "decisive": scope.decisive,
-        "human_human_rmse_mm": dataclasses.asdict(scope.team_rmse_mm),
+        "human_human_rmse_mm": dataclasses.asdict(scope.human_human_rmse_mm),
         "policies": [_policy(standing) for standing in scope.standings],
     }
 
@@ -104,7 +104,7 @@ def _row(scope: Scope, standing: Standing) -> Iterator[tuple[str, object]]:
     behind = standing.to_best
     for name, estimate in (
         ("rmse_mm", standing.rmse_mm),
-        ("human_human_rmse_mm", scope.team_rmse_mm),
+        ("human_human_rmse_mm", scope.human_human_rmse_mm),
         ("vs_human", standing.vs_human),
         *((name, metric.estimate) for name, metric in standing.metrics.items()),
         ("to_best_mm", behind),

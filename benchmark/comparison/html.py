@@ -69,7 +69,7 @@ def _baseline_row(comparison: Comparison, name: str) -> Row:
     cells = [
         Cell(""),
         _estimate(rmse, ".2f"),
-        Cell(f"{rmse.mean / overall.team_rmse_mm.mean:.2g}"),
+        Cell(f"{rmse.mean / overall.human_human_rmse_mm.mean:.2g}"),
         *(Cell(metric.text(baseline.means[metric.name])) for metric in comparison.contest.metrics),
         Cell(""),
     ]

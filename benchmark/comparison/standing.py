@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from ..episode.metric import Metric
+from ..results.baselines import HUMAN_HUMAN_LABEL
 from ..results.summary import Stratum
 from ..statistics import (
     Estimate,
@@ -21,7 +22,7 @@ from ..statistics import (
     rank_groups,
     ratio_of_means,
 )
-from .contest import TEAM, Contest, Entry
+from .contest import Contest, Entry
 
 Kind = Literal["all", "behaviour", "subject"]
 
@@ -52,9 +53,9 @@ class Standing:
     """Lifts that failed; they count with the worst error."""
     rmse_mm: Estimate
     vs_human: Estimate
-    """RMSE over that of the human-human team: below 1 is better than a human partner."""
+    """RMSE over that of the human-human baseline: below 1 is better than a human partner."""
     better_than_human: float
-    """Probability that its mean RMSE on such lifts is below the human-human team's."""
+    """Probability that its mean RMSE on such lifts is below the human-human baseline's."""
     metrics: Mapping[str, MetricMean]
     """The other metrics that boards show."""
     clipped: float | None
@@ -90,9 +91,9 @@ class Scope:
     """Whether the episodes are enough to tell any policy from the best; else ranks say nothing."""
 
     @property
-    def team_rmse_mm(self) -> Estimate:
-        """RMSE of the human-human team."""
-        return self.baselines_rmse_mm[TEAM]
+    def human_human_rmse_mm(self) -> Estimate:
+        """RMSE of the human-human baseline."""
+        return self.baselines_rmse_mm[HUMAN_HUMAN_LABEL]
 
     def best(self, standing: Standing) -> bool:
         """Whether a policy is the best here or cannot be told from it, as far as that is known."""
@@ -112,8 +113,8 @@ def scope(contest: Contest, kind: Kind, name: str, members: Sequence[int]) -> Sc
         Indices of the episodes, in the suite's order.
     """
     chosen = np.array(members)
-    strata = [contest.team.strata[i] for i in members]
-    team = np.array(contest.team.rmse_mm)[chosen]
+    strata = [contest.human_human.strata[i] for i in members]
+    human_human = np.array(contest.human_human.rmse_mm)[chosen]
     errors = {entry.name: _values(entry, "rmse_mm")[chosen] for entry in contest.entries}
     groups = rank_groups(errors)
     order = [name for group in groups for name in group]
@@ -129,7 +130,9 @@ def scope(contest: Contest, kind: Kind, name: str, members: Sequence[int]) -> Sc
             for name, baseline in contest.baselines.items()
         },
         standings=tuple(
-            _standing(entries[name], contest.metrics, chosen, strata, team, ranks[name], difference)
+            _standing(
+                entries[name], contest.metrics, chosen, strata, human_human, ranks[name], difference
+            )
             for name, difference in zip(order, differences, strict=True)
         ),
         decisive=decisive(len(errors), len(members)),
@@ -156,7 +159,7 @@ def _standing(
     metrics: Sequence[Metric],
     chosen: FloatArray,
     strata: Sequence[Stratum],
-    team: FloatArray,
+    human_human: FloatArray,
     rank: int,
     to_best: PairedDifference | None,
 ) -> Standing:
@@ -166,8 +169,8 @@ def _standing(
         rank=rank,
         failed=sum(entry.failures[i] is not None for i in chosen),
         rmse_mm=mean_of(rmse, strata),
-        vs_human=ratio_of_means(rmse, team, strata),
-        better_than_human=probability_better(rmse, team, strata),
+        vs_human=ratio_of_means(rmse, human_human, strata),
+        better_than_human=probability_better(rmse, human_human, strata),
         metrics={
             metric.name: _metric_mean(_values(entry, metric.name)[chosen], strata)
             for metric in metrics

@@ -5,8 +5,8 @@ from typing import Final
 
 from ...agents.actions import HAND_SPEED
 from ..episode.level_metrics import MOSTLY_CLIPPED
+from ..results.baselines import HUMAN_HUMAN_LABEL
 from .comparison import Comparison
-from .contest import TEAM
 from .standing import Scope
 
 SURE: Final = 0.975
@@ -17,7 +17,7 @@ HOW_TO_READ: Final = (
     "is more level. A lift that failed counts 250 mm from the failure on.",
     "Policies of the same rank cannot be told from the first of that rank (paired sign flips, "
     "Holm-corrected for the policies behind it, 5 %).",
-    "The human-human team is two simulated people on the same lifts. vs_human is the RMSE over "
+    "The human-human baseline is two simulated people on the same lifts. vs_human is the RMSE over "
     "theirs: 1 is as level as a human partner, less is better.",
     "SPARC is the smoothness of the robot's end over the human's strokes: closer to 0 is smoother. "
     "A robot that does not move along has none, and counts as least smooth.",
@@ -31,7 +31,7 @@ PICTURE_AXIS: Final = "← more level · RMSE of the height difference, mm"
 PICTURE_CAPTION: Final = (
     "The higher and the further left, the better. Bars are 95 % intervals. The line joins the "
     "policies than which no other is, by its means, both more level and smoother; the diamond is "
-    f"the {TEAM}, a square is a bound: no policy, but how far one might come."
+    f"the {HUMAN_HUMAN_LABEL}, a square is a bound: no policy, but how far one might come."
 )
 
 RANKS_CAPTION: Final = (
@@ -42,7 +42,7 @@ RANKS_CAPTION: Final = (
 AGAINST_CAPTION: Final = (
     "How far each policy is behind the best on the same lifts, with the 95 % interval; p of no "
     "difference, Holm-corrected; the share of the lifts in which it is better than the best; and "
-    f"the probability that its mean error on such lifts is below the {TEAM}'s."
+    f"the probability that its mean error on such lifts is below the {HUMAN_HUMAN_LABEL}'s."
 )
 
 
@@ -67,7 +67,8 @@ def verdict(comparison: Comparison) -> str:
     best, *others = overall.standings
     told = (
         f"{best.name} is the most level: {best.rmse_mm.mean:.1f} mm, "
-        f"{best.vs_human.mean:.2f} times the {TEAM}'s {overall.team_rmse_mm.mean:.1f} mm."
+        f"{best.vs_human.mean:.2f} times the {HUMAN_HUMAN_LABEL}'s "
+        f"{overall.human_human_rmse_mm.mean:.1f} mm."
     )
     equals = [standing.name for standing in others if standing.rank == best.rank]
     if not overall.decisive:

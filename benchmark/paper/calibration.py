@@ -1,10 +1,11 @@
 """Fitting the few free numbers of the simulated set-up to the paper's results.
 
-The paper states neither how high its subjects lifted nor Q, nor anything of its human-human team
-but one RMSE. Fitted are the mean lift height of each subject (so that ``reactive`` and ``blend``
-together have the error of the subject's row of Table I), q (so that the ratio of the two columns is
-the paper's), and the partner's lag (so that the teams have 6.531 mm). The paper gives eleven
-numbers for these seven; the rest of Table I is not fitted and shows how well the set-up does.
+The paper states neither the lift heights of its subjects nor Q, and only one RMSE of two people
+lifting together. Fitted are the mean lift height of each subject (so that ``reactive`` and
+``blend`` together have the error of the subject's row of Table I), q (so that the ratio of the two
+columns is the paper's), and the partner's lag (so that the human-human baseline has 6.531 mm). The
+paper gives eleven numbers for these seven; the rest of Table I is not fitted and shows how well the
+set-up reproduces the experiment.
 """
 
 import dataclasses
@@ -140,12 +141,12 @@ def _measure(
             for name in TABLE_1
         }
 
-    teams = means(_partner(calibration.partner_lag), suite.with_partner("human"))
+    human_human = means(_partner(calibration.partner_lag), suite.with_partner("human"))
     return Fit(
         calibration=calibration,
         without=means(PolicySpec(text="reactive"), suite),
         with_prediction=means(_blend(calibration.process_noise), suite),
-        human_human=float(np.mean(list(teams.values()))),
+        human_human=float(np.mean(list(human_human.values()))),
     )
 
 

@@ -12,7 +12,7 @@ from ...agents.loading.loading import PolicySpec
 from ...agents.spec import AgentSpec
 from ..episode.scenario import Scenario
 from ..execution.runner import Run, run_suite
-from ..results.baselines import human_team_run
+from ..results.baselines import human_human_run
 from ..suites.suite import Suite
 from ..training.q_learning import LearningTrial, learning_trials
 from .table_one import FORGETTING_FACTORS
@@ -123,7 +123,7 @@ def collect_evidence(
         reactive=run(REACTIVE, suite),
         blend=blend,
         lifts=sampled_lifts(blend),
-        human_human=human_team_run(suite, executor=executor, progress=progress),
+        human_human=human_human_run(suite, executor=executor, progress=progress),
         pauses=sampled_lifts(run(BLEND, behaving(suite, "pause", PAUSE, effort.pause))),
         rests=sampled_lifts(run(BLEND, behaving(suite, "pause", LONG_PAUSE, effort.rest))),
         jerky_reactive=run(REACTIVE, jerky),

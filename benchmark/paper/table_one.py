@@ -25,7 +25,7 @@ WITH_PREDICTION: Final = {"S1": 12.967, "S2": 16.591, "S3": 18.418, "S4": 15.391
 """Table I: average RMSE of each subject with the whole framework [mm]."""
 
 HUMAN_HUMAN_RMSE: Final = 6.531
-"""RMSE of the one human-human team [mm] (section V.A)."""
+"""RMSE of the one pair of people [mm] (section V.A)."""
 
 MEDIAN_ITERATIONS: Final = 36
 """Median number of iterations until Q-learning converged (section IV.A)."""

@@ -24,10 +24,13 @@ from ..suites.suite import Suite
 from .summary import Stratum, stratum
 
 HUMAN_HUMAN: Final = "human_human"
+"""Key of the human-human baseline."""
 
+HUMAN_HUMAN_LABEL: Final = "human-human baseline"
+"""Its name in tables and pictures."""
 
-TEAM_PARTNER: Final = InMemorySpec(name=HUMAN_HUMAN, factory=Partner, source=Partner)
-"""The second human of a human-human team."""
+PARTNER_SPEC: Final = InMemorySpec(name=HUMAN_HUMAN, factory=Partner, source=Partner)
+"""The partner: the second human of the human-human baseline."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,14 +94,14 @@ class Baseline:
 
 
 SPECS: Final[Mapping[str, AgentSpec]] = {
-    HUMAN_HUMAN: TEAM_PARTNER,
+    HUMAN_HUMAN: PARTNER_SPEC,
     "hold": PolicySpec(text="hold"),
     "copy": PolicySpec(text="copy"),
 }
 """Where each baseline comes from."""
 
 
-def human_team_run(
+def human_human_run(
     suite: Suite,
     *,
     executor: Executor | None = None,
@@ -106,7 +109,7 @@ def human_team_run(
 ) -> Run:
     """Play a suite's episodes with a second human at the robot's end; see :func:`.run_suite`."""
     return run_suite(
-        TEAM_PARTNER, suite.with_partner("human"), executor=executor, progress=progress
+        PARTNER_SPEC, suite.with_partner("human"), executor=executor, progress=progress
     )
 
 

@@ -35,7 +35,7 @@ def stratified_bootstrap(
     covered 94 to 96 % for normal values. For moderately skewed ones (log-normal, sigma 0.5) they
     covered 93 to 94 %, but 90 to 92 % in four or five strata of three; for strongly skewed ones
     (sigma 1) 89 to 93 %, and 84 to 88 % in five strata of two. With the errors that the
-    human-human team and ``copy`` make on the standard suite, 94 to 95 %; drawn as ``quick-v1``
+    human-human baseline and ``copy`` make on the standard suite, 94 to 95 %; drawn as ``quick-v1``
     has them, three in each of four strata of which one varies most, 89 to 93 %. The plain
     percentile interval covers 86 to 88 % in strata of three.
 

@@ -1,4 +1,4 @@
-"""Demonstrations: lifts of human-human teams, as a robot could learn from them.
+"""Demonstrations: lifts of two simulated people, as a robot could learn from them.
 
 The file begins with comment lines (``#``) that say where it comes from; then come a header and a
 row for each control period of each lift:
@@ -67,7 +67,7 @@ COLUMNS: Final = ("lift", "behaviour", "subject", "t_s", *SERIES)
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Demonstration:
-    """One lift of a human-human team, one sample per control period."""
+    """One lift of two simulated people, one sample per control period."""
 
     lift: int
     """Its seed."""
@@ -148,7 +148,7 @@ def write_demonstrations(path: Path, lifts: Sequence[Demonstration]) -> None:
     with path.open("w", newline="") as file:
         file.write(
             f"# colift demonstrate --lifts {len(lifts)} --seed {lifts[0].lift}\n"
-            f"# colift {version('colift')}; human-human teams; a row every {CONTROL_PERIOD} s\n"
+            f"# colift {version('colift')}; two simulated people; a row every {CONTROL_PERIOD} s\n"
             "# heights [m] are displacements from the table's rest height, velocities in m/s\n"
         )
         writer = csv.writer(file, lineterminator="\n")

@@ -17,7 +17,10 @@ NARROW = 100
 
 
 def board_table(
-    season: SeasonInfo, standings: Sequence[RankedRow], team: HumanHumanScores | None, width: int
+    season: SeasonInfo,
+    standings: Sequence[RankedRow],
+    human_human: HumanHumanScores | None,
+    width: int,
 ) -> Table:
     """Return a season's table: who cannot be told from each other shares a rank.
 
@@ -25,7 +28,7 @@ def board_table(
 
     Parameters
     ----------
-    season, standings, team
+    season, standings, human_human
         What the board says of them.
     width
         Columns of the terminal.
@@ -36,7 +39,7 @@ def board_table(
     titles += [metric.heading for metric in metrics]
     titles += ["ms/step", "gap mm"] if wide else []
     titles += ["verified"]
-    lines = list(_lines(standings, team, metrics, wide))
+    lines = list(_lines(standings, human_human, metrics, wide))
     columns: list[str | Column] = [Column("rank", justify="right", no_wrap=True), *titles[1:]]
     most = _room(titles, lines, 1, width)
     columns[1] = Column("policy", overflow="ellipsis", no_wrap=True, max_width=most)

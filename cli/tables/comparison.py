@@ -6,7 +6,6 @@ from rich.table import Column, Table
 from rich.text import Text
 
 from ...benchmark.comparison.comparison import Comparison
-from ...benchmark.comparison.contest import TEAM
 from ...benchmark.comparison.standing import MetricMean, Scope, Standing
 from ...benchmark.comparison.words import (
     between,
@@ -18,6 +17,7 @@ from ...benchmark.comparison.words import (
     undecided,
 )
 from ...benchmark.episode.metric import Metric
+from ...benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from ...benchmark.statistics import Estimate
 from ..printing import Cell, styled, table
 
@@ -29,11 +29,11 @@ FEWER: Final = "†: over the lifts in which the robot moves along."
 NO_POLICIES: Final = "The oracle and the causal bound are no policies: how far one might come."
 
 BASELINE: Final = "blue"
-"""Style of the rows of the human-human team and of the bounds."""
+"""Style of the rows of the human-human baseline and of the bounds."""
 
 
 def ranks_table(comparison: Comparison) -> Table:
-    """Return the policies by rank, the human-human team among them."""
+    """Return the policies by rank, the human-human baseline among them."""
     suite, overall = comparison.contest.suite, comparison.overall
     rows: list[tuple[float, list[Cell]]] = [
         (standing.rmse_mm.mean, _rank_row(comparison, standing)) for standing in overall.standings
@@ -46,14 +46,14 @@ def ranks_table(comparison: Comparison) -> Table:
         title(comparison),
         (
             Column("#", justify="right"),
-            Column("policy", overflow="fold", min_width=len(TEAM)),
+            Column("policy", overflow="fold", min_width=len(HUMAN_HUMAN_LABEL)),
             *("RMSE mm", "95 %", "vs_human"),
             *(each.symbol for each in comparison.contest.metrics),
         ),
         (cells for _, cells in sorted(rows, key=lambda row: row[0])),
         caption=f"{overall.episodes} lifts each; suite digest {suite.digest}. "
         + (undecided(overall) or "Policies of one rank (#) cannot be told from the first of them.")
-        + f" vs_human: RMSE over the {TEAM}'s. Force at the human's hands in N."
+        + f" vs_human: RMSE over the {HUMAN_HUMAN_LABEL}'s. Force at the human's hands in N."
         + (f" {NO_POLICIES}" if comparison.contest.bounds else "")
         + (f" {FEWER}" if any(s.sparc and s.sparc_missing for s in overall.standings) else ""),
     )
@@ -67,7 +67,7 @@ def _baseline_row(comparison: Comparison, name: str) -> list[str]:
         name,
         f"{rmse.mean:.2f}",
         _interval(rmse),
-        f"{rmse.mean / overall.team_rmse_mm.mean:.2g}",
+        f"{rmse.mean / overall.human_human_rmse_mm.mean:.2g}",
         *(metric.text(baseline.means[metric.name]) for metric in comparison.contest.metrics),
     ]
 
@@ -110,9 +110,10 @@ def differences_table(comparison: Comparison) -> Table:
         f"Behind {best.name}, on the same lifts",
         ("policy", "RMSE mm", "95 %", "p", "better", "P(< human)"),
         rows,
-        caption="p: of no difference, Holm-corrected. better: share of the lifts. P(< human): that "
-        f"its mean error is below the {TEAM}'s; {probability(best.better_than_human)} for "
-        f"{best.name}.",
+        caption="RMSE: difference to the best policy. p: of its permutation test, Holm-corrected. "
+        "better: share of the lifts in which the policy has the lower RMSE. P(< human): "
+        f"probability that its mean RMSE is below the {HUMAN_HUMAN_LABEL}'s; for {best.name} it is "
+        f"{probability(best.better_than_human)}.",
     )
 
 

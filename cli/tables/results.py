@@ -10,12 +10,13 @@ from ...agents.hardware.setup import LOWEST_RATE
 from ...agents.sandbox.host.levels import LEVELS, VERIFIABLE
 from ...benchmark.bundle import Results
 from ...benchmark.episode.metric import LEADING, Metric, Metrics
+from ...benchmark.results.baselines import HUMAN_HUMAN, HUMAN_HUMAN_LABEL
 from ...benchmark.results.headline import error, versus_human
 from ...benchmark.results.summary import StratumScores
 from ..printing import optional_number, styled, table
 
 NAMES: Final = {
-    "human_human": "human-human team",
+    HUMAN_HUMAN: HUMAN_HUMAN_LABEL,
     "hold": "hold (never moves)",
     "copy": "copy (goes where the human was)",
 }
@@ -30,9 +31,9 @@ TIMES: Final = {
 """What of a robot's step is timed."""
 
 MEANINGS: Final = (
-    "two people: RMSE mm of a human-human team on the same lifts. SPARC, LDLJ: smoothness of the "
-    "robot's end, closer to 0 is smoother. force: at the human's hands. lag: of the robot behind "
-    "the human."
+    "two people: RMSE in mm of the human-human baseline on the same lifts. SPARC, LDLJ: smoothness "
+    "of the robot's end, closer to 0 is smoother. force: at the human's hands. lag: of the robot "
+    "behind the human."
 )
 """What the columns mean."""
 
@@ -92,10 +93,10 @@ def _row(strata: Sequence[StratumScores], shown: Sequence[Metric]) -> list[str]:
         for each in strata
         if each.human_human_rmse_mm is not None
     ]
-    team = _pooled(human) if len(human) == len(strata) else None
+    human_human = _pooled(human) if len(human) == len(strata) else None
     errors = [
         optional_number(_pooled(_means(strata, "rmse_mm")), ".1f"),
-        optional_number(team, ".1f"),
+        optional_number(human_human, ".1f"),
     ]
     return errors + [metric.text(_pooled(_means(strata, metric.name))) for metric in shown]
 

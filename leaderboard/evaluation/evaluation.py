@@ -18,7 +18,7 @@ from ...benchmark.execution.runner import Run, run_suite
 from ...benchmark.results.baselines import (
     SPECS,
     Baseline,
-    human_team_run,
+    human_human_run,
     play_baselines,
     shipped_baselines,
 )
@@ -177,7 +177,7 @@ def play_human_human(
     """
     watch = watch or Callbacks()
     watch.stage("human-human baseline")
-    return Baseline.of(human_team_run(season.hidden, executor=executor, progress=watch.progress))
+    return Baseline.of(human_human_run(season.hidden, executor=executor, progress=watch.progress))
 
 
 def _baselines(season: Season, executor: Executor | None, watch: Callbacks) -> dict[str, Baseline]:

@@ -44,7 +44,7 @@ from ...benchmark.episode.episode import Episode, run_episode
 from ...benchmark.episode.lift import Lift
 from ...benchmark.episode.scenario import Scenario
 from ...benchmark.episode.seat import limited_command
-from ...benchmark.results.baselines import TEAM_PARTNER
+from ...benchmark.results.baselines import PARTNER_SPEC
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -61,7 +61,7 @@ class Ghost:
 def play_ghost(scenario: Scenario, seed: int) -> Ghost:
     """Play an episode with a second human at the robot's end; about 0.1 s."""
     with contextlib.closing(Lift(dataclasses.replace(scenario, partner="human"))) as lift:
-        episode = run_episode(lift, TEAM_PARTNER.make(), seed)
+        episode = run_episode(lift, PARTNER_SPEC.make(), seed)
         return Ghost(episode=episode, plan=lift.plan, horizon=lift.horizon)
 
 

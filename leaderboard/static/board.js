@@ -38,7 +38,7 @@
   const lines = (name) => [...document.querySelectorAll(`#backdrop .${name}, .board .scale .${name}`)].map((line) => ({
     line, at: line.getAttribute("x1") || line.getAttribute("x"),
   }));
-  const teams = lines("team"), bounds = lines("bound");
+  const humanHumanLines = lines("human-human"), bounds = lines("bound");
   const bands = [...document.querySelectorAll("#backdrop .band")];
   const field = (id) => document.getElementById(id);
   const [query, behaviour, subject, choice, columns, status, more] =
@@ -62,9 +62,9 @@
     if (strata.some(([stratum]) => !stratum))
       return { rmse: null, ratio: null, metrics: names.map(() => ({ mean: null, missing: 0 })) };
     const rmse = mean(strata.map(([stratum, [, , lifts]]) => [stratum[0], lifts]));
-    const team = mean(strata.map(([, [, , lifts, mm]]) => [mm, lifts]));
+    const humanHuman = mean(strata.map(([, [, , lifts, mm]]) => [mm, lifts]));
     return {
-      rmse, team, ratio: team ? rmse / team : null,
+      rmse, humanHuman, ratio: humanHuman ? rmse / humanHuman : null,
       metrics: names.map((_, i) => ({
         mean: mean(strata.map(([stratum, [, , lifts]]) => [stratum[i + 1][0], lifts - stratum[i + 1][1]])),
         missing: strata.reduce((sum, [stratum]) => sum + stratum[i + 1][1], 0),
@@ -102,10 +102,10 @@
     }
   }
 
-  function moveLines(team, bound) {
-    move(teams, team);
+  function moveLines(humanHuman, bound) {
+    move(humanHumanLines, humanHuman);
     move(bounds, bound);
-    for (const band of bands) band.classList.toggle("away", team !== null);
+    for (const band of bands) band.classList.toggle("away", humanHuman !== null);
   }
 
   function part() {
@@ -114,10 +114,10 @@
       if ((!behaviour.value || b === behaviour.value) && (!subject.value || s === subject.value)) chosen.push(i);
     });
     table.classList.add("part");
-    let team = null;
+    let humanHuman = null;
     for (const row of rows) {
       const found = scores(row, chosen);
-      team = team === null ? found.team ?? null : team;
+      humanHuman = humanHuman === null ? found.humanHuman ?? null : humanHuman;
       show(row.stratum.rmse, found.rmse, write(found.rmse, 1));
       show(row.stratum.ratio, found.ratio, write(found.ratio, 2));
       found.metrics.forEach((each, i) => show(row.stratum[names[i]], sortKey(data.metrics[i], each),
@@ -126,15 +126,15 @@
     }
     let causal = null;
     for (const row of baselines) {
-      const rmse = row.bound === undefined ? team :
+      const rmse = row.bound === undefined ? humanHuman :
         mean(chosen.map((i) => [data.bounds[row.bound][i], data.strata[i][2]]));
       show(row.stratum.rmse, rmse, write(rmse, 1));
-      show(row.stratum.ratio, null, write(rmse === null || !team ? null : rmse / team, 2));
+      show(row.stratum.ratio, null, write(rmse === null || !humanHuman ? null : rmse / humanHuman, 2));
       for (const name of names) show(row.stratum[name], null, "–");
       draw(row, rmse, at(rmse || 0));
       if (row.tr.dataset.causal !== undefined) causal = rmse;
     }
-    moveLines(team, causal);
+    moveLines(humanHuman, causal);
     return chosen;
   }
 

@@ -10,14 +10,14 @@
     const mm = (values) => values.map((value) => (value === null ? null : 1000 * value));
     const both = (a, b) => a.map((value, i) => 1000 * (value - b[i]));
     const error = both(now.robot, now.human);
-    const team = both(now.ghost.robot, now.ghost.human);
+    const humanHuman = both(now.ghost.robot, now.ghost.human);
     const series = (kind, style, when, values, dot) => ({ kind, style, times: when(values), values, dot });
     const span = (...lists) => {
       const all = lists.flat().filter((value) => value !== null);
       return [Math.min(0, ...all), Math.max(50, ...all)];
     };
     const lines = [
-      series("team", "line", times, mm(now.ghost.robot)),
+      series("human-human", "line", times, mm(now.ghost.robot)),
       series("target", "line", times, mm(now.target)),
       series("human", "line", times, mm(now.human), true),
       series("robot", "line", times, mm(now.robot), true),
@@ -26,7 +26,7 @@
       ["human", "human's end"],
       ["robot", "robot's end"],
       ["target", "human's intention"],
-      ["team", "a second human in the robot's place"],
+      ["human-human", "a second human in the robot's place"],
     ];
     if (now.prediction) {
       lines.push(series("prediction", "dots", steps, mm(now.prediction)));
@@ -41,7 +41,7 @@
       last.values = last.values.map((value) => (within(value) ? value : null));
     }
     const events = now.events.map(([name, frame]) => [colift.eventWords(name), frame * now.frame_s]);
-    const reach = Math.min(Math.max(15, ...error.map(Math.abs), ...team.map(Math.abs)), 120) * 1.1;
+    const reach = Math.min(Math.max(15, ...error.map(Math.abs), ...humanHuman.map(Math.abs)), 120) * 1.1;
     const charts = [
       {
         name: "heights",
@@ -58,11 +58,11 @@
         name: "error",
         title: "Error: robot's end above the human's [mm]",
         summary: `Height difference, RMSE ${colift.number(now.scores.rmse_mm, 1)} mm`,
-        keys: [["robot", "with the robot"], ["team", "with a second human"]],
+        keys: [["robot", "with the robot"], ["human-human", "with a second human"]],
         low: -reach,
         high: reach,
         height: 150,
-        series: [series("robot", "area", times, error, true), series("team", "line", times, team)],
+        series: [series("robot", "area", times, error, true), series("human-human", "line", times, humanHuman)],
         last: !(now.confidence || now.role),
       },
     ];

@@ -1,5 +1,5 @@
 "use strict";
-// The lift from the side: robot, table, person, and the human-human team as a ghost.
+// The lift from the side: robot, table, person, and the human-human baseline as a ghost.
 // Lengths are in m; x goes from the robot to the human, z upwards (see replays/geometry.py).
 (function () {
   const SVG = "http://www.w3.org/2000/svg";
@@ -266,8 +266,8 @@
       this.arm.pose(now.robot);
       this.ghostTable.pose(now.ghostHuman, now.ghostRobot);
       this.partner.pose(now.ghostRobot);
-      const team = now.ghostRobot - now.ghostHuman;
-      this.level.pose(1000 * (now.robot - now.human), 1000 * team, now.over);
+      const humanHuman = now.ghostRobot - now.ghostHuman;
+      this.level.pose(1000 * (now.robot - now.human), 1000 * humanHuman, now.over);
       const put = (node, x, height) =>
         node.setAttribute("transform", `translate(${x} ${-(this.rest + height)})`);
       put(this.intention, this.humanX + 0.035, now.target);

@@ -2,7 +2,7 @@
 // The player of replays: fills every element with data-replay="ID", ID that of a JSON script
 // {"geometry": ..., "replays": [...]} (see replays/geometry.py and replays/replay.py).
 // Keys: space plays and pauses, arrows go by a step (with shift by a second), Home and End,
-// comma and full stop go by a frame, G shows or hides the human-human team.
+// comma and full stop go by a frame, G shows or hides the human-human baseline.
 (function () {
   const SPEEDS = [0.25, 0.5, 1, 2, 4];
 
@@ -137,7 +137,7 @@
         "dl",
         { class: "replay-scores" },
         score("error (RMSE)", mm(now.scores.rmse_mm), "robot"),
-        score("two people", mm(now.ghost.rmse_mm), "team")
+        score("two people", mm(now.ghost.rmse_mm), "human-human")
       );
       this.about.replaceChildren(text);
       this.readout.replaceChildren(scores, this.list);
@@ -184,7 +184,7 @@
         ["human", "human's end", `${number(1000 * state.human, 0)} mm`],
         ["robot", "robot's end", `${number(1000 * state.robot, 0)} mm`],
         ["error", "difference", over ? "counts as 250 mm" : `${number(difference, 1)} mm`],
-        ["team", "two people", `${number(1000 * (state.ghostRobot - state.ghostHuman), 1)} mm`],
+        ["human-human", "two people", `${number(1000 * (state.ghostRobot - state.ghostHuman), 1)} mm`],
         ["target", "human's intention", `${number(1000 * state.target, 0)} mm`],
         ["command", "robot's command", state.command === null ? "none" : `${number(1000 * state.command, 0)} mm`],
       ];
@@ -225,7 +225,7 @@
     showGhost(shown) {
       this.ghost = shown;
       this.ghostBox.checked = shown;
-      this.root.classList.toggle("no-team", !shown);
+      this.root.classList.toggle("no-human-human", !shown);
       this.scene.showGhost(shown);
     }
 

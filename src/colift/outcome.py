@@ -40,7 +40,7 @@ class Evaluation:
 
     @property
     def vs_human(self) -> float:
-        """:attr:`rmse_mm` over that of a team of two humans: 1 is as good, less is better."""
+        """:attr:`rmse_mm` over that of the human-human baseline: 1 is as good, less is better."""
         ratio = self.results.summary.vs_human
         assert ratio is not None  # Evaluations always have the baselines.
         return ratio.mean

@@ -32,14 +32,16 @@ def evaluation_picture(run: Run, results: Results) -> str:
     for row, behaviour in enumerate(behaviours):
         errors = [e.scores["rmse_mm"] for e in run.episodes if e.behaviour == behaviour]
         strata = [each for each in results.strata if each.behaviour == behaviour]
-        team = np.average(
+        human_human = np.average(
             [each.human_human_rmse_mm for each in strata],
             weights=[each.episodes for each in strata],
         )
         axes.plot(errors, np.full(len(errors), row), "o", color=ROBOT, alpha=0.35, ms=5, mew=0)
         ends = [row - 0.3, row + 0.3]
         axes.plot([np.mean(errors)] * 2, ends, color=ROBOT, lw=2, label=_once(run.policy, row))
-        axes.plot([team] * 2, ends, "--", color=HUMAN, lw=1.5, label=_once("two humans", row))
+        axes.plot(
+            [human_human] * 2, ends, "--", color=HUMAN, lw=1.5, label=_once("two humans", row)
+        )
     axes.set_yticks(range(len(behaviours)), behaviours)
     axes.set_ylim(len(behaviours) - 0.5, -0.5)
     axes.set_xlim(left=0)

@@ -14,7 +14,7 @@ from colift.agents.loading.loading import PolicySpec
 from colift.agents.registry import POLICIES, entries
 from colift.benchmark.execution.provenance import fingerprint
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import HUMAN_HUMAN, human_team_run
+from colift.benchmark.results.baselines import HUMAN_HUMAN, human_human_run
 from colift.benchmark.suites.suite import make_suite
 
 FILE = Path(__file__).with_name("golden.json")
@@ -26,7 +26,7 @@ NAMES = [HUMAN_HUMAN] + [
 def played(name):
     """Return a digest for each lift: of its trace, and of its scores."""
     suite = make_suite("quick-v1")
-    run = human_team_run(suite) if name == HUMAN_HUMAN else run_suite(PolicySpec(text=name), suite)
+    run = human_human_run(suite) if name == HUMAN_HUMAN else run_suite(PolicySpec(text=name), suite)
     return {
         f"{each.behaviour} {each.subject} {each.seed}": [
             each.trace.digest()[:16],

@@ -26,7 +26,7 @@ def test_bounds_tell_claims_and_whether_they_hold(colift):
     code, told, errors = colift("bounds", "--people", "1", "--each", "1", "--jobs", "1")
     assert code in (0, 1)
     assert errors == ""
-    for name in ("anticipate", "causal_bound", "oracle", "human-human team", "Claims"):
+    for name in ("anticipate", "causal_bound", "oracle", "human-human baseline", "Claims"):
         assert name in told
     assert ("NO" in told) == (code == 1)
 

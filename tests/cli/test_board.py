@@ -21,17 +21,17 @@ LONG = "a-policy-with-a-rather-long-name-indeed-so-long-that-it-is-cut"
 
 @pytest.fixture
 def filled(board):
-    """Return a board of three rows, one taken out, and a human-human team between them."""
+    """Return a board of three rows, one taken out, and the human-human baseline between them."""
     for name, mean in ((LONG, 9.8), ("blend", 16.27), ("cheat", 1.2)):
         add(board, name, mean)
     board.withdraw("1", digest("cheat"), "Ada", "it read the [bold]clock[/bold]")
     strata = (("pause", "S1"),) * 4
-    team = Baseline(
+    human_human = Baseline(
         strata=strata,
         rmse_mm=(9.9, 10.5, 11.0, 10.8),
         means={"sparc": -2.79, "human_force_n": 0.37},
     )
-    board.store.secrets("1").keep_human_human(team)
+    board.store.secrets("1").keep_human_human(human_human)
     return board
 
 

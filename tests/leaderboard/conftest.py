@@ -80,7 +80,7 @@ def season() -> Season:
 
 
 @pytest.fixture(scope="session")
-def team(season: Season) -> Baseline:
+def human_human(season: Season) -> Baseline:
     return play_human_human(season)
 
 

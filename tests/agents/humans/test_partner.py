@@ -1,4 +1,4 @@
-"""The second human of a human-human team."""
+"""The second human of the human-human baseline."""
 
 import numpy as np
 import pytest

@@ -35,7 +35,7 @@ def baseline(rmse, strata):
     )
 
 
-def contest(mine, *, bound=4.0, blend=16.0, team=8.0, sparc=-2.0, force=0.1, strata=CELLS):
+def contest(mine, *, bound=4.0, blend=16.0, human_human=8.0, sparc=-2.0, force=0.1, strata=CELLS):
     return Contest(
         suite=make_suite("quick-v1"),
         entries=(
@@ -44,7 +44,7 @@ def contest(mine, *, bound=4.0, blend=16.0, team=8.0, sparc=-2.0, force=0.1, str
             entry("reactive", 20.0, -2.9, 0.3, strata),
         ),
         bounds={"causal_bound": baseline(bound, strata)},
-        team=baseline(team, strata),
+        human_human=baseline(human_human, strata),
     )
 
 
@@ -55,8 +55,8 @@ def told(found):
 def test_ratios_are_of_the_means_on_each_behaviour():
     mine = np.where([behaviour == "jerky" for behaviour, _ in CELLS], 9.6, 4.4)
     found = told(claims(contest(mine)))
-    team = found["RMSE over that of the human-human baseline, jerky"]
-    assert (team.value, team.holds) == (pytest.approx(1.2), False)
+    human_human = found["RMSE over that of the human-human baseline, jerky"]
+    assert (human_human.value, human_human.holds) == (pytest.approx(1.2), False)
     assert found["RMSE over that of the human-human baseline, smooth"].value == pytest.approx(0.55)
     assert found["RMSE over that of the human-human baseline, over all"].value == pytest.approx(
         (3 * 4.4 + 9.6) / 32
@@ -85,4 +85,4 @@ def test_recorded_lifts_are_set_against_blend_alone():
     assert found["RMSE over that of blend, recorded"].value == pytest.approx(mine.mean() / 16)
     wins = found["share of the recorded lifts more level than with blend"]
     assert (wins.value, wins.holds) == (pytest.approx(0.96), False)
-    assert not any("team" in text or "bound" in text for text in found)
+    assert not any("human-human" in text or "bound" in text for text in found)

@@ -3,7 +3,14 @@ import json
 import pytest
 from colift.benchmark.bounds import sweep as sweeping
 from colift.benchmark.bounds.held_out import FIRST_SEED
-from colift.benchmark.bounds.sweep import NAMES, Swept, lifts_to_play, sweep, team_rmse, timings
+from colift.benchmark.bounds.sweep import (
+    NAMES,
+    Swept,
+    human_human_rmse,
+    lifts_to_play,
+    sweep,
+    timings,
+)
 from colift.benchmark.bounds.sweep_picture import sweep_figure, sweep_json
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
@@ -31,9 +38,9 @@ def test_everyone_meets_the_same_lifts_at_every_timing(monkeypatch):
     assert [(s.policy, s.latency, s.control_period) for s in swept] == [
         (name, timing.latency, timing.control_period) for timing in some for name in NAMES
     ]
-    team = team_rmse(SUITE, progress=done.append)
+    human_human = human_human_rmse(SUITE, progress=done.append)
     assert sum(done) == lifts_to_play(SUITE, 2)
-    assert team > 0.0
+    assert human_human > 0.0
     by_name = {s.policy: s.rmse_mm for s in swept if s.latency == 0.0}
     assert by_name["oracle"] < by_name["blend"] < by_name["reactive"]
 

@@ -55,11 +55,11 @@ def noise(seed: int, spread: float = 0.5) -> np.ndarray:
 
 
 def contest(*entries: Entry) -> Contest:
-    """Return a contest against a team whose error is the difficulty of the lift."""
-    team = Baseline(
+    """Return a contest against a human-human baseline whose error is the difficulty of the lift."""
+    human_human = Baseline(
         strata=CELLS, rmse_mm=tuple(DIFFICULTY), means={"sparc": -2.5, "human_force_n": 0.4}
     )
-    return Contest(suite=make_suite("quick-v1"), entries=entries, team=team)
+    return Contest(suite=make_suite("quick-v1"), entries=entries, human_human=human_human)
 
 
 @pytest.fixture(scope="session")

@@ -108,8 +108,8 @@ def test_with_three_lifts_a_behaviour_none_is_the_best_there() -> None:
 
     better, worse = few(entry("better", 5.0, -2.0)), few(entry("worse", 200.0, -2.0))
     full = contest()
-    team = dataclasses.replace(full.team, strata=better.strata, rmse_mm=(10.0,) * 13)
-    made = compare(dataclasses.replace(full, entries=(better, worse), team=team))
+    human_human = dataclasses.replace(full.human_human, strata=better.strata, rmse_mm=(10.0,) * 13)
+    made = compare(dataclasses.replace(full, entries=(better, worse), human_human=human_human))
     assert [scope.episodes for scope in made.behaviours] == [4, 3, 3, 3]
     for scope in made.behaviours:
         assert not any(scope.best(standing) for standing in scope.standings)

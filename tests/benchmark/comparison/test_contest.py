@@ -6,11 +6,16 @@ import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import results
 from colift.benchmark.comparison.comparison import compare
-from colift.benchmark.comparison.contest import TEAM, Contest, amount, play_contest
+from colift.benchmark.comparison.contest import Contest, amount, play_contest
 from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.html import html_page
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import human_team_run, shipped_baselines, shipped_bounds
+from colift.benchmark.results.baselines import (
+    HUMAN_HUMAN_LABEL,
+    human_human_run,
+    shipped_baselines,
+    shipped_bounds,
+)
 from colift.benchmark.suites.suite import Suite, make_suite
 
 
@@ -48,19 +53,23 @@ def test_the_bounds_are_there_when_they_are_shipped(quick: Suite, played: Contes
     page = html_page(compare(played))
     parts = page.replace("<wbr>", "").split("<table")[1:]
     tables = [part.partition("</table>")[0] for part in parts]
-    for name in (TEAM, "oracle", "causal_bound"):
+    for name in (HUMAN_HUMAN_LABEL, "oracle", "causal_bound"):
         assert [name in table for table in tables] == [True, False, True, True]
 
 
-def test_the_team_is_the_one_shipped_or_is_played(quick: Suite, played: Contest) -> None:
-    assert played.team == (shipped_baselines(quick) or {})["human_human"]
+def test_the_human_human_baseline_is_the_one_shipped_or_is_played(
+    quick: Suite, played: Contest
+) -> None:
+    assert played.human_human == (shipped_baselines(quick) or {})["human_human"]
     other = dataclasses.replace(quick.with_seeds(7, 8), scenarios=quick.scenarios[:1])
     counted: list[int] = []
     copies = {"a": PolicySpec(text="copy"), "b": PolicySpec(text="copy")}
     found = play_contest(copies, other, progress=counted.append)
     assert found.bounds == {}
-    team = human_team_run(other)
-    assert found.team.rmse_mm == tuple(episode.scores["rmse_mm"] for episode in team.episodes)
+    human_human = human_human_run(other)
+    assert found.human_human.rmse_mm == tuple(
+        episode.scores["rmse_mm"] for episode in human_human.episodes
+    )
     assert sum(counted) == amount(2, other) == 3
 
 

@@ -127,5 +127,5 @@ def test_the_share_of_actions_that_were_cut_is_told(lift):
 
 def test_a_policy_without_an_action_and_a_second_human_have_no_share(lift):
     assert math.isnan(run_episode(lift, Scripted(fail, after=0), 4).scores["clipped"])
-    with contextlib.closing(Lift(make_scenario("smooth", partner="human"))) as team:
-        assert math.isnan(run_episode(team, Partner(), 4).scores["clipped"])
+    with contextlib.closing(Lift(make_scenario("smooth", partner="human"))) as human_human:
+        assert math.isnan(run_episode(human_human, Partner(), 4).scores["clipped"])

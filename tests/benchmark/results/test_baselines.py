@@ -1,4 +1,4 @@
-"""The baselines (the human-human team, hold, copy), and the bounds shipped with them."""
+"""The baselines (the human-human baseline, hold, copy), and the bounds shipped with them."""
 
 import dataclasses
 import json
@@ -16,7 +16,7 @@ from colift.benchmark.results.baselines import (
     HUMAN_HUMAN,
     ToShip,
     baselines_json,
-    human_team_run,
+    human_human_run,
     play_baselines,
     shipped_baselines,
     shipped_bounds,
@@ -80,40 +80,40 @@ def test_the_shipped_file_can_be_read_back(quick, played):
     assert content[quick.digest]["baselines"]["copy"]["rmse_mm"] == list(played["copy"].rmse_mm)
 
 
-def test_the_human_team_has_the_papers_error_on_the_papers_suite():
+def test_the_human_human_baseline_has_the_papers_error_on_the_papers_suite():
     """Calibrated on other seeds: 6.5 +- 0.7 mm."""
-    team = shipped_baselines(make_suite("paper-v1"))[HUMAN_HUMAN]
-    assert team.mean == pytest.approx(HUMAN_HUMAN_RMSE, abs=0.7)
+    human_human = shipped_baselines(make_suite("paper-v1"))[HUMAN_HUMAN]
+    assert human_human.mean == pytest.approx(HUMAN_HUMAN_RMSE, abs=0.7)
 
 
-def test_the_team_meets_the_plans_that_the_robot_meets(quick):
-    team = human_team_run(quick.with_seeds(0, 1))
+def test_the_human_human_baseline_meets_the_plans_that_the_robot_meets(quick):
+    human_human = human_human_run(quick.with_seeds(0, 1))
     robot = run_suite(PolicySpec(text="copy"), quick.with_seeds(0, 1))
-    pairs = zip(team.episodes, robot.episodes, strict=True)
+    pairs = zip(human_human.episodes, robot.episodes, strict=True)
     assert all(a.trace.target.tobytes() == b.trace.target.tobytes() for a, b in pairs)
 
 
-def test_the_team_beats_copying_wherever_the_human_moves_smoothly(played):
-    team, copy = (played[name].by_stratum() for name in (HUMAN_HUMAN, "copy"))
-    for stratum in team:
+def test_the_human_human_baseline_beats_copying_wherever_the_human_moves_smoothly(played):
+    human_human, copy = (played[name].by_stratum() for name in (HUMAN_HUMAN, "copy"))
+    for stratum in human_human:
         if stratum[0] != "jerky":
-            assert team[stratum] < 0.6 * copy[stratum]
+            assert human_human[stratum] < 0.6 * copy[stratum]
 
 
 def test_vs_human_is_the_ratio_of_the_means_with_a_paired_interval(quick, played):
     run = run_suite(PolicySpec(text="copy"), quick)
     content = results(run, played)
     versus = content.summary.vs_human
-    team = played[HUMAN_HUMAN]
-    assert versus.mean == pytest.approx(np.mean(played["copy"].rmse_mm) / team.mean)
+    human_human = played[HUMAN_HUMAN]
+    assert versus.mean == pytest.approx(np.mean(played["copy"].rmse_mm) / human_human.mean)
     low, high = versus.ci95
     assert 1 < low < versus.mean < high
-    assert content.strata[0].human_human_rmse_mm == pytest.approx(np.mean(team.rmse_mm[:3]))
-    assert content.baselines[HUMAN_HUMAN].mean == pytest.approx(team.mean)
+    assert content.strata[0].human_human_rmse_mm == pytest.approx(np.mean(human_human.rmse_mm[:3]))
+    assert content.baselines[HUMAN_HUMAN].mean == pytest.approx(human_human.mean)
 
 
-def test_a_team_against_itself_is_exactly_one(quick, played):
-    run = human_team_run(quick)
+def test_the_human_human_baseline_against_itself_is_exactly_one(quick, played):
+    run = human_human_run(quick)
     against = results(dataclasses.replace(run, suite=quick), played).summary.vs_human
     assert against.mean == pytest.approx(1.0)
     assert against.ci95 == pytest.approx([1.0, 1.0])

@@ -94,14 +94,14 @@ def ratio(confidence: float) -> Find:
     )
 
 
-def test_of_the_ratio_to_the_human_team() -> None:
+def test_of_the_ratio_to_the_human_human_baseline() -> None:
     true = shipped("copy").mean() / shipped("human_human").mean()
     assert 0.93 <= paired_coverage(ratio(0.95), true) <= 0.97
     assert paired_coverage(ratio(0.9), true, sets=400) < 0.93
     assert paired_coverage(ratio(0.95), 1.01 * true, sets=400) < 0.93
 
 
-def test_of_the_paired_difference_to_the_human_team() -> None:
+def test_of_the_paired_difference_to_the_human_human_baseline() -> None:
     def find(a: Sample, b: Sample, strata: list[int], seed: int) -> tuple[float, float]:
         return paired_difference(a, b, strata, resamples=600, seed=seed).ci95
 

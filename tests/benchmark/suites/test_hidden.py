@@ -13,7 +13,7 @@ from colift.agents.spec import InProcess
 from colift.benchmark.episode.episode import policy_seed
 from colift.benchmark.execution.batches import shuffled_batches
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import human_team_run
+from colift.benchmark.results.baselines import human_human_run
 from colift.benchmark.suites.hidden import commitment, hidden_suite, keyed, new_secret
 from colift.benchmark.suites.suite import make_suite
 
@@ -125,9 +125,9 @@ def test_every_hidden_lift_has_a_plan_of_its_own(public, hidden):
     assert len(set(goals)) == 24
 
 
-def test_the_human_team_meets_the_same_hidden_plans(hidden):
-    team = human_team_run(hidden_suite(QUICK, SECRET))
-    for ours, theirs in zip(hidden.episodes, team.episodes, strict=True):
+def test_the_human_human_baseline_meets_the_same_hidden_plans(hidden):
+    human_human = human_human_run(hidden_suite(QUICK, SECRET))
+    for ours, theirs in zip(hidden.episodes, human_human.episodes, strict=True):
         assert ours.trace.target.tobytes() == theirs.trace.target.tobytes()
 
 

@@ -51,13 +51,13 @@ class TestTrue:
         mend(tmp_path / "recorded")
         assert "other episodes" in refused(tmp_path / "recorded", file="results.json")
 
-    def test_a_human_team_is_verified(self, tmp_path):
+    def test_the_human_human_baseline_is_verified(self, tmp_path):
         suite = make_suite("quick-v1").with_seeds(0, 1).with_partner("human")
-        from colift.benchmark.results.baselines import TEAM_PARTNER
+        from colift.benchmark.results.baselines import PARTNER_SPEC
 
-        run = run_suite(TEAM_PARTNER, suite)
-        write_bundle(tmp_path / "team", run, results(run, {}).plain())
-        assert verify(tmp_path / "team").ok
+        run = run_suite(PARTNER_SPEC, suite)
+        write_bundle(tmp_path / "baseline", run, results(run, {}).plain())
+        assert verify(tmp_path / "baseline").ok
 
     def test_the_policys_own_words_are_not_verified(self, giving):
         edit_arrays(giving, lambda arrays: arrays["internals/prediction"].fill(7.0))

@@ -224,7 +224,7 @@ def test_ranks_are_computed_once_for_each_state_of_the_board(board, monkeypatch)
     assert len(calls) == 2
 
 
-def practice(board, team, current=False, bundle=None):
+def practice(board, human_human, current=False, bundle=None):
     season = Season(name="practice", suite=make_suite("quick-v1"), secret=SECRET)
     info = SeasonInfo(
         name="practice",
@@ -243,14 +243,14 @@ def practice(board, team, current=False, bundle=None):
         )
         for name, mean in (("blend", 16.0), ("proactive", 14.0))
     ]
-    return ImportedSeason(info=info, entries=entries, human_human=team)
+    return ImportedSeason(info=info, entries=entries, human_human=human_human)
 
 
-def test_a_season_from_elsewhere_is_taken_over_with_its_rows(board, team, tmp_path):
+def test_a_season_from_elsewhere_is_taken_over_with_its_rows(board, human_human, tmp_path):
     bundle = tmp_path / "bundle"
     bundle.mkdir()
     (bundle / "results.json").write_text("{}")
-    told = practice(board, team, bundle=bundle)
+    told = practice(board, human_human, bundle=bundle)
     board.import_season(told)
     board.import_season(told)
     assert ranks(board, "practice") == [(1, "proactive"), (2, "blend")]
@@ -259,20 +259,20 @@ def test_a_season_from_elsewhere_is_taken_over_with_its_rows(board, team, tmp_pa
         ("practice", False),
     ]
     assert board.seasons()[1] == told.info
-    assert board.human_human("practice").rmse_mm.mean == round(team.mean, 2)
+    assert board.human_human("practice").rmse_mm.mean == round(human_human.mean, 2)
     assert (board.bundle("practice", digest("blend")) / "results.json").read_text() == "{}"
     assert board.bundle("1", digest("blend")) is None
 
 
-def test_a_season_from_elsewhere_may_take_submissions(board, team):
-    board.import_season(practice(board, team, current=True))
+def test_a_season_from_elsewhere_may_take_submissions(board, human_human):
+    board.import_season(practice(board, human_human, current=True))
     assert board.season.secret == SECRET
     board.new_season("2")
     assert board.season.secret != SECRET
 
 
-def test_a_season_from_elsewhere_must_have_the_secret_that_it_is_committed_to(board, team):
-    told = practice(board, team)
+def test_a_season_from_elsewhere_must_have_the_secret_that_it_is_committed_to(board, human_human):
+    told = practice(board, human_human)
     import dataclasses
 
     wrong = dataclasses.replace(told.info, commitment="0" * 64)

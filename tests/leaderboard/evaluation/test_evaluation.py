@@ -73,17 +73,17 @@ def bundle(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def evaluation(season, team, told, bundle):
+def evaluation(season, human_human, told, bundle):
     watch = Callbacks(stage=told.append, progress=told.append)
     return evaluate_entrant(
-        make_entrant(PolicySpec(text="copy")), season, team, bundle, watch=watch
+        make_entrant(PolicySpec(text="copy")), season, human_human, bundle, watch=watch
     )
 
 
-def evaluated(policy, season, team, bundle):
+def evaluated(policy, season, human_human, bundle):
     """Evaluate a policy that is told the stages."""
     watch = Callbacks(stage=policy.stages.append)
-    return evaluate_entrant(make_entrant(policy), season, team, bundle, watch=watch)
+    return evaluate_entrant(make_entrant(policy), season, human_human, bundle, watch=watch)
 
 
 def without_times(row):
@@ -91,14 +91,14 @@ def without_times(row):
     return dataclasses.replace(row, public=public)
 
 
-def test_a_row_has_the_scores_of_both_runs(evaluation, season, team):
+def test_a_row_has_the_scores_of_both_runs(evaluation, season, human_human):
     row = evaluation.row
     public = run_suite(PolicySpec(text="copy"), season.suite)
     hidden = run_suite(PolicySpec(text="copy"), season.hidden)
     errors = [[e.scores["rmse_mm"] for e in run.episodes] for run in (public, hidden)]
     assert row.public.rmse_mm.mean == pytest.approx(np.mean(errors[0]))
     assert row.hidden.rmse_mm.mean == round(np.mean(errors[1]), 2)
-    assert row.hidden.vs_human.mean == round(np.mean(errors[1]) / team.mean, 2)
+    assert row.hidden.vs_human.mean == round(np.mean(errors[1]) / human_human.mean, 2)
     assert row.gap_mm.mean == round(np.mean(errors[1]) - np.mean(errors[0]), 2)
     assert list(evaluation.hidden_rmse_mm) == errors[1]
     for each in (row.public.rmse_mm, row.hidden.rmse_mm, row.hidden.vs_human, row.gap_mm):
@@ -113,8 +113,8 @@ def test_stages_and_progress_are_told(evaluation, season, told):
     assert sum(each for each in told if isinstance(each, int)) == episode_count(season)
 
 
-def test_the_same_secret_gives_the_same_row(evaluation, season, team, copy, tmp_path):
-    again = evaluate_entrant(copy, season, team, tmp_path / "again")
+def test_the_same_secret_gives_the_same_row(evaluation, season, human_human, copy, tmp_path):
+    again = evaluate_entrant(copy, season, human_human, tmp_path / "again")
     assert without_times(again.row) == without_times(evaluation.row)
     assert again.hidden_rmse_mm == evaluation.hidden_rmse_mm
 
@@ -162,13 +162,13 @@ def written(folder, act, imports="import os"):
         ("return 'up'", "lifts failed: smooth/S1 seed 7000: step 0: robot's action must be"),
     ],
 )
-def test_what_fails_the_check_is_played_no_further(season, team, tmp_path, act, reason):
+def test_what_fails_the_check_is_played_no_further(season, human_human, tmp_path, act, reason):
     stages = []
     with pytest.raises(InputError, match=f"the check of its {reason}"):
         evaluate_entrant(
             make_entrant(written(tmp_path, act)),
             season,
-            team,
+            human_human,
             tmp_path / "bundle",
             watch=Callbacks(stage=stages.append),
         )
@@ -176,7 +176,7 @@ def test_what_fails_the_check_is_played_no_further(season, team, tmp_path, act, 
     assert not (tmp_path / "bundle").exists()
 
 
-def test_what_fails_in_every_public_lift_gets_no_row(season, team, tmp_path, monkeypatch):
+def test_what_fails_in_every_public_lift_gets_no_row(season, human_human, tmp_path, monkeypatch):
     """It passes the check: as if that were on other lifts."""
     monkeypatch.setattr(
         "colift.leaderboard.evaluation.evaluation.presubmission_checks", lambda *_: ()
@@ -184,10 +184,10 @@ def test_what_fails_in_every_public_lift_gets_no_row(season, team, tmp_path, mon
     policy = written(tmp_path, "raise ValueError('my fault')")
     told = r"it fails in every public lift: 2 lifts: ValueError: my fault \(first: smooth/S1 seed 0"
     with pytest.raises(InputError, match=told):
-        evaluate_entrant(make_entrant(policy), season, team, tmp_path / "bundle")
+        evaluate_entrant(make_entrant(policy), season, human_human, tmp_path / "bundle")
 
 
-def test_the_time_of_all_lifts_together_is_bounded(season, team, tmp_path):
+def test_the_time_of_all_lifts_together_is_bounded(season, human_human, tmp_path):
     """A step takes 2 ms here, a lift some 80 steps: the check alone takes longer."""
     stages = []
     policy = written(tmp_path, "time.sleep(0.002); return [0.0]", "import time")
@@ -195,7 +195,7 @@ def test_the_time_of_all_lifts_together_is_bounded(season, team, tmp_path):
         evaluate_entrant(
             make_entrant(policy),
             season,
-            team,
+            human_human,
             tmp_path / "bundle",
             watch=Callbacks(stage=stages.append),
             budget=Budget(0.5),
@@ -226,13 +226,13 @@ def test_time_that_a_policy_takes_to_begin_and_to_fail_is_counted(season):
 
 
 def test_a_policy_that_acts_by_chance_in_public_is_refused_with_the_place(
-    season, team, tmp_path, monkeypatch
+    season, human_human, tmp_path, monkeypatch
 ):
     monkeypatch.setattr(
         "colift.leaderboard.evaluation.evaluation.presubmission_checks", lambda *_: ()
     )
     policy = written(tmp_path, "return [os.urandom(1)[0] * 1e-6]")
-    found = evaluate_entrant(make_entrant(policy), season, team, tmp_path / "bundle")
+    found = evaluate_entrant(make_entrant(policy), season, human_human, tmp_path / "bundle")
     assert found.row is None
     assert CHANCE in found.refusal
     assert "seed" in found.refusal
@@ -240,21 +240,21 @@ def test_a_policy_that_acts_by_chance_in_public_is_refused_with_the_place(
 
 
 def test_a_policy_that_does_so_in_hidden_episodes_is_refused_without_the_place(
-    season, team, tmp_path
+    season, human_human, tmp_path
 ):
     policy = Trying(hidden=lambda observation: 1e-6 * next(counter))
-    found = evaluated(policy, season, team, tmp_path / "bundle")
+    found = evaluated(policy, season, human_human, tmp_path / "bundle")
     assert found.row is None
     assert found.refusal == f"played again, a hidden episode differs: {CHANCE}"
 
 
 def test_failed_hidden_episodes_count_as_worst_and_are_told_in_no_words_of_the_policy(
-    season, team, tmp_path
+    season, human_human, tmp_path
 ):
     def shout(observation):
         raise RuntimeError(f"start: MARK {observation}")
 
-    found = evaluated(Trying(hidden=shout), season, team, tmp_path / "bundle")
+    found = evaluated(Trying(hidden=shout), season, human_human, tmp_path / "bundle")
     row = found.row
     assert (row.public.failed, row.hidden.failed) == (0, 2)
     assert row.hidden.failures == {"step": 2}
@@ -274,19 +274,19 @@ def test_all_that_is_told_of_hidden_episodes_is_this(evaluation):
             assert value == round(value, 2)
 
 
-def test_a_machine_that_fails_is_no_failure_of_the_submission(season, team, tmp_path):
+def test_a_machine_that_fails_is_no_failure_of_the_submission(season, human_human, tmp_path):
     def break_down(observation):
         raise EvaluatorFault("the disk is full")
 
     with pytest.raises(EvaluatorFault, match="the disk is full"):
-        evaluated(Trying(hidden=break_down), season, team, tmp_path / "bundle")
+        evaluated(Trying(hidden=break_down), season, human_human, tmp_path / "bundle")
 
 
-def test_an_interrupted_evaluation_gives_no_row(season, team, copy, tmp_path):
+def test_an_interrupted_evaluation_gives_no_row(season, human_human, copy, tmp_path):
     def interrupt(episodes):
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         evaluate_entrant(
-            copy, season, team, tmp_path / "bundle", watch=Callbacks(progress=interrupt)
+            copy, season, human_human, tmp_path / "bundle", watch=Callbacks(progress=interrupt)
         )

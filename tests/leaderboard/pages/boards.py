@@ -30,7 +30,7 @@ POLICIES = {
 def practice(folder: Path, season: str, names: tuple[str, ...] = tuple(POLICIES)) -> ImportedSeason:
     """Play some policies, and return them as a season that a board can take over."""
     played = Season(name=season, suite=make_suite("quick-v1"), secret=SECRET)
-    team = play_human_human(played)
+    human_human = play_human_human(played)
     info = SeasonInfo(
         name=season,
         suite=played.suite.name,
@@ -40,8 +40,8 @@ def practice(folder: Path, season: str, names: tuple[str, ...] = tuple(POLICIES)
         current=True,
         revealed=SECRET.hex(),
     )
-    adopted = [_adopted(folder, played, team, name, i) for i, name in enumerate(names)]
-    return ImportedSeason(info=info, entries=adopted, human_human=team)
+    adopted = [_adopted(folder, played, human_human, name, i) for i, name in enumerate(names)]
+    return ImportedSeason(info=info, entries=adopted, human_human=human_human)
 
 
 def renamed(season: ImportedSeason, name: str, began_at: datetime) -> ImportedSeason:
@@ -63,7 +63,9 @@ def digest(name: str) -> str:
     return (name.encode().hex() * 64)[:64]
 
 
-def _adopted(folder: Path, season: Season, team: Baseline, name: str, number: int) -> ImportedEntry:
+def _adopted(
+    folder: Path, season: Season, human_human: Baseline, name: str, number: int
+) -> ImportedEntry:
     text, description = POLICIES[name]
     policy, bundle = PolicySpec(text=text), folder / str(number)
     public = run_suite(policy, season.suite)
@@ -83,7 +85,7 @@ def _adopted(folder: Path, season: Season, team: Baseline, name: str, number: in
         trained_on="<i>recorded</i> lifts" if name == "<b>sly</b>" else "nothing",
         submission=digest(name),
         public=public_scores(content),
-        hidden=hidden_scores(hidden, team),
+        hidden=hidden_scores(hidden, human_human),
         gap_mm=gap(hidden, public),
         isolation="bubblewrap",
         verified=True,

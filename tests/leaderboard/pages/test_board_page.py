@@ -68,7 +68,7 @@ def test_a_filter_shows_the_means_of_the_public_lifts_of_that_part(page, front, 
 
 def test_the_line_of_two_people_goes_where_they_are_on_the_part(page, front):
     page.goto(front)
-    line = page.locator("#backdrop line.team")
+    line = page.locator("#backdrop line.human-human")
     whole = float(line.get_attribute("x1").rstrip("%"))
     page.get_by_label("Subject").select_option("S3")  # jerky: two people are no good at it either.
     assert float(line.get_attribute("x1").rstrip("%")) > 1.3 * whole
@@ -191,12 +191,12 @@ def test_two_people_and_the_bounds_stand_below_the_policies_and_follow_a_filter(
 ):
     page.goto(front)
     board = Board.open(folder)
-    team = board.human_human()
+    human_human = board.human_human()
     board.close()
     bounds = shipped_bounds(make_suite("quick-v1"))
     rows = page.locator(".baselines tr")
     expect(rows).to_have_count(3)
-    expect(rows.nth(0).locator(".rmse b")).to_have_text(f"{team.rmse_mm.mean:.1f}")
+    expect(rows.nth(0).locator(".rmse b")).to_have_text(f"{human_human.rmse_mm.mean:.1f}")
     expect(rows.nth(1).locator(".rmse b")).to_have_text(f"{bounds['causal_bound'].mean:.1f}")
     expect(rows.nth(2).locator(".rmse b")).to_have_text(f"{bounds['oracle'].mean:.2f}")
     page.locator("#behaviour").select_option("jerky")

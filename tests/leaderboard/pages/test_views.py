@@ -32,7 +32,7 @@ def shown(folder):
     board.close()
 
 
-def team(mean):
+def human_human(mean):
     return HumanHumanScores(rmse_mm=around(mean), means={"sparc": -2.8, "human_force_n": 0.3})
 
 
@@ -115,7 +115,7 @@ def test_the_best_of_each_scenario_is_named(shown):
 
 def test_the_picture_has_hidden_errors_and_public_smoothness():
     row = make_row("a", 10.0, sparc=-2.5)
-    picture = make_picture([row], team(9.7), size=WIDE)
+    picture = make_picture([row], human_human(9.7), size=WIDE)
     policy, people = picture.dots
     assert policy.tip == "a: RMSE 10.0 mm, SPARC \N{MINUS SIGN}2.50"
     assert people.tip.startswith("two people: RMSE 9.7 mm")
@@ -133,7 +133,7 @@ def test_a_policy_that_never_moves_along_is_in_the_strip_and_not_on_the_front():
 
 
 def test_a_board_without_policies_has_no_picture():
-    assert make_picture([], team(9.7), size=WIDE) is None
+    assert make_picture([], human_human(9.7), size=WIDE) is None
 
 
 def test_a_policy_that_failed_in_every_lift_says_why_once(tmp_path):

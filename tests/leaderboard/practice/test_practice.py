@@ -25,16 +25,20 @@ def season(tiny_suite):
 
 @pytest.fixture(scope="module")
 def played(season):
-    team = play_human_human(season)
-    return team, play_policy("copy", season, team, NOW)
+    human_human = play_human_human(season)
+    return human_human, play_policy("copy", season, human_human, NOW)
 
 
 @pytest.fixture(scope="module")
 def shipped(season, played, tmp_path_factory):
-    team, copy = played
+    human_human, copy = played
     folder = tmp_path_factory.mktemp("data")
     made = PlayedSeason(
-        suite=SUITE, suite_digest=season.suite.digest, began_at=NOW, human_human=team, played=()
+        suite=SUITE,
+        suite_digest=season.suite.digest,
+        began_at=NOW,
+        human_human=human_human,
+        played=(),
     )
     made.with_played(copy).write(folder)
     return folder
@@ -59,9 +63,9 @@ def test_own_policies_have_digests_of_their_own():
 
 
 def test_what_is_written_is_read(shipped, played):
-    team, copy = played
+    human_human, copy = played
     found = PlayedSeason.read(SUITE, shipped)
-    assert found.human_human == team
+    assert found.human_human == human_human
     assert found.began_at == NOW
     assert found.played == (copy,)
     assert PlayedSeason.read("paper-v1", shipped) is None

@@ -17,7 +17,7 @@ SEASON = "practice-quick-v1"
 
 
 @pytest.fixture
-def data(tmp_path, team):
+def data(tmp_path, human_human):
     """A folder with a shipped season of one row."""
     at = datetime(2026, 1, 1, tzinfo=UTC)
     entry = BoardEntry(
@@ -31,7 +31,11 @@ def data(tmp_path, team):
     )
     played = Played(entry=entry, hidden_rmse_mm=make_errors(10.0), files={"results.json": b"{}"})
     shipped = PlayedSeason(
-        suite=SUITE.name, suite_digest=SUITE.digest, began_at=at, human_human=team, played=(played,)
+        suite=SUITE.name,
+        suite_digest=SUITE.digest,
+        began_at=at,
+        human_human=human_human,
+        played=(played,),
     )
     folder = tmp_path / "data"
     folder.mkdir()
@@ -68,7 +72,7 @@ def test_a_board_that_is_there_is_left_as_it_is(tmp_path, opened):
     assert opened() == ([("1", True)], [])
 
 
-def test_what_was_shipped_under_other_rules_is_not_shown(data, opened, team):
+def test_what_was_shipped_under_other_rules_is_not_shown(data, opened, human_human):
     shipped = PlayedSeason.read(SUITE.name, data)
     dataclasses.replace(shipped, suite_digest="0" * 16).write(data)
     assert opened() == ([("1", True)], [])

@@ -160,7 +160,7 @@ def test_a_drag_on_the_curves_goes_there(open_page):
     assert float(slider(page).input_value()) > first
 
 
-def test_the_team_can_be_hidden(open_page):
+def test_the_two_people_can_be_hidden(open_page):
     page = open_page()
     ghost = page.locator(".replay-ghost").first
     assert ghost.is_visible()

@@ -9,7 +9,7 @@ from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.execution.batches import play
-from colift.benchmark.results.baselines import human_team_run
+from colift.benchmark.results.baselines import human_human_run
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.replays.replay import changes, hand_commands, play_ghost, replay_content
@@ -84,13 +84,15 @@ def test_a_policy_that_says_nothing_or_nonsense_is_replayed(episode, ghost):
     json.dumps(made, allow_nan=False)
 
 
-def test_the_ghost_is_the_human_team_in_the_same_episode(made, episode, ghost):
+def test_the_ghost_is_the_human_human_baseline_in_the_same_episode(made, episode, ghost):
     suite = dataclasses.replace(make_suite("quick-v1"), scenarios=(SCENARIO,), seeds=(3,))
-    (team,) = human_team_run(suite).episodes
-    assert ghost.episode.trace.digest() == team.trace.digest()
+    (human_human,) = human_human_run(suite).episodes
+    assert ghost.episode.trace.digest() == human_human.trace.digest()
     assert np.array_equal(ghost.episode.trace.target, episode.trace.target)
-    assert made["ghost"]["rmse_mm"] == round(team.scores["rmse_mm"], 4)
-    assert heights(made["ghost"]["robot"]) == pytest.approx(team.trace.robot_end, abs=0.51e-4)
+    assert made["ghost"]["rmse_mm"] == round(human_human.scores["rmse_mm"], 4)
+    assert heights(made["ghost"]["robot"]) == pytest.approx(
+        human_human.trace.robot_end, abs=0.51e-4
+    )
 
 
 def test_events_say_when_the_human_pauses(made, episode):
