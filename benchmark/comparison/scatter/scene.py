@@ -37,7 +37,7 @@ CLEAR: Final = 2.0
 """Room left free around names and markers [px]."""
 
 NAMED: Final = 40
-"""Most points that get a name: the front, baseline and bounds, then the others by their error."""
+"""Most points that get a name: the baseline, the front, the bounds, then the rest by error."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -190,6 +190,7 @@ def _dots(
     order = sorted(
         range(len(points)),
         key=lambda i: (
+            points[i].kind != "baseline",
             points[i] not in front,
             points[i].kind == "policy",
             points[i].rmse_mm.mean,
