@@ -1,12 +1,15 @@
-"""Draw what each behaviour intends: ``python examples/plot_plans.py FILE.png``."""
+"""
+The plans of the behaviours
+===========================
 
-import sys
+The heights that five people intend, in one lift of each behaviour.
+"""
 
 import numpy as np
 from colift.agents.humans import SUBJECTS, ChangingGoal, Jerky, Pause, Smooth
-from matplotlib.figure import Figure
+from matplotlib import pyplot as plt
 
-figure = Figure(figsize=(9, 5.4), layout="constrained")
+figure = plt.figure(figsize=(9, 5.4), layout="constrained")
 axes = figure.subplots(2, 2, sharex=True, sharey=True)
 for panel, behaviour in zip(axes.flat, (Smooth(), Pause(), Jerky(), ChangingGoal()), strict=True):
     for seed, (name, subject) in enumerate(SUBJECTS.items()):
@@ -17,4 +20,3 @@ for panel, behaviour in zip(axes.flat, (Smooth(), Pause(), Jerky(), ChangingGoal
 axes[0, 0].legend(ncols=5, fontsize="x-small", loc="upper center")
 figure.supxlabel("time [s]")
 figure.supylabel("intended height [mm]")
-figure.savefig(sys.argv[1], dpi=110)

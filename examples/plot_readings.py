@@ -1,4 +1,9 @@
-"""The effect of the paper's ambiguous places: ``python examples/readings.py``."""
+"""
+The paper's ambiguous places
+============================
+
+Four readings of the paper's text, and how level and smooth a lift is with each.
+"""
 
 import colift
 import numpy as np

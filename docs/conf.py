@@ -1,0 +1,63 @@
+"""The configuration of the documentation site, which ``docs/build`` builds."""
+
+import sys
+from importlib.metadata import version as version_of
+from pathlib import Path
+
+DOCS = Path(__file__).parent
+sys.path.insert(0, str(DOCS / "extensions"))
+
+project = "colift"
+author = "The colift developers"
+project_copyright = author
+version = release = version_of("colift")
+
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.napoleon",
+    "sphinx_copybutton",
+    "sphinx_design",
+    "sphinx_gallery.gen_gallery",
+    "commands",
+    "recorded",
+    "session",
+]
+exclude_patterns = ["extensions", "generated/gallery/*.ipynb", "generated/gallery/*.py"]
+nitpicky = True
+nitpick_ignore_regex = [("py:.*", "(?!colift).*")]  # Other projects' sites cannot be asked offline.
+templates_path = ["templates"]
+
+myst_enable_extensions = ["attrs_inline", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 300
+
+autosummary_generate = True
+autodoc_default_options = {"members": True, "show-inheritance": True}
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+napoleon_google_docstring = False
+
+copybutton_prompt_text = "$ "
+copybutton_exclude = ".linenos, .go"
+
+sphinx_gallery_conf = {
+    "examples_dirs": "../examples",
+    "gallery_dirs": "generated/gallery",
+    "filename_pattern": "/plot_",
+    "abort_on_example_error": True,
+    "download_all_examples": False,
+    "show_memory": False,
+    "show_signature": False,
+    "min_reported_time": 1e9,
+}
+
+html_theme = "furo"
+html_title = "colift"
+html_static_path = ["static"]
+html_css_files = ["site.css"]
+html_copy_source = False
+html_show_sphinx = False
