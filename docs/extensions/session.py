@@ -138,7 +138,7 @@ class File(_InSession):
 class Run(_InSession):
     """Run each line as a command of a shell, and show it with its output.
 
-    ``:exit:`` is the expected exit code, by default 0; ``:expect:`` a text that the output contains;
+    ``:exit:`` is the expected exit code, by default 0; ``:expect:`` a text in the output;
     ``:lines:`` the number of lines that are shown; ``:quiet:`` shows none.
     """
 
