@@ -7,7 +7,7 @@ import typer
 
 from ..agents.registry import SUITES, own_entries
 from ..benchmark.bounds.causal import BOUNDS
-from ..benchmark.comparison.contest import play_bounds
+from ..benchmark.comparison.playing import play_bounds
 from ..benchmark.results.baselines import SPECS, Baseline, ToShip, baselines_json, play_baselines
 from ..benchmark.statistics import stratified_bootstrap
 from ..benchmark.suites.suite import make_suite

@@ -15,7 +15,7 @@ from ..benchmark.bounds.claims import POLICY, RIVALS, PolicyClaim, claims
 from ..benchmark.bounds.held_out import FIRST_SEED, held_out_suite
 from ..benchmark.bounds.sweep import NAMES, Swept, human_human_rmse, lifts_to_play, timings
 from ..benchmark.comparison.comparison import compare
-from ..benchmark.comparison.contest import amount, play_contest
+from ..benchmark.comparison.playing import episodes_to_play, play_policies
 from ..benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from ..benchmark.statistics import Estimate
 from ..benchmark.suites.suite import recorded_suite
@@ -52,14 +52,14 @@ def bounds(
     """Measure anticipate, the paper's policies and the bounds with drawn subjects."""
     suite = held_out_suite(people, each, seed) if recordings is None else recorded_suite(recordings)
     specs = {name: PolicySpec(text=name) for name in (POLICY, *RIVALS)}
-    total = amount(len(specs), suite, bounds=len(BOUNDS))
+    total = episodes_to_play(len(specs), suite, bounds=len(BOUNDS))
     with workers("bounds", total, jobs) as (pool, progress):
-        contest = play_contest(specs, suite, bounds=BOUNDS, executor=pool, progress=progress)
-    comparison = compare(contest)
+        results = play_policies(specs, suite, bounds=BOUNDS, executor=pool, progress=progress)
+    comparison = compare(results)
     show(ranks_table(comparison))
     if recordings is None:
         show(behaviours_table(comparison))
-    found = claims(contest)
+    found = claims(results)
     show(_claims_table(found))
     if not all(claim.holds for claim in found):
         raise typer.Exit(1)

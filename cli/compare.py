@@ -13,20 +13,13 @@ from ..agents.errors import InputError
 from ..agents.registry import POLICIES, entries
 from ..agents.spec import AgentSpec
 from ..benchmark.bounds.causal import BOUNDS
+from ..benchmark.comparison.captions import failures, unit_warnings, verdict
 from ..benchmark.comparison.comparison import Comparison
 from ..benchmark.comparison.comparison import compare as compared
-from ..benchmark.comparison.contest import (
-    Bound,
-    Entry,
-    Stored,
-    amount,
-    check_same_suite,
-    is_bundle,
-    play_contest,
-    read_stored,
-)
 from ..benchmark.comparison.files import comparison_json
-from ..benchmark.comparison.words import failures, oddities, verdict
+from ..benchmark.comparison.paired_results import PolicyResults
+from ..benchmark.comparison.playing import Bound, episodes_to_play, play_policies
+from ..benchmark.comparison.stored import Stored, check_same_suite, is_bundle, read_stored
 from ..benchmark.suites.suite import Suite
 from .completion import policies as named
 from .completion import suites
@@ -99,7 +92,7 @@ def compare_policies(
 
         check_folder("--out", out)
     limits = BOUNDS if bounds else {}
-    comparison = _compare(specs, [each.entry for each in stored], episodes, limits, jobs)
+    comparison = _compare(specs, [each.policy for each in stored], episodes, limits, jobs)
     if out is not None:
         write_comparison(out, comparison)
     if as_json:
@@ -107,7 +100,7 @@ def compare_policies(
     else:
         _show(comparison)
         for each in stored:
-            print(f"{each.entry.name}: from {each.folder}, not simulated again")
+            print(f"{each.policy.name}: from {each.folder}, not simulated again")
         if out is not None:
             print(f"Page: {out / 'compare.html'}")
     failed = failures(comparison)
@@ -139,38 +132,38 @@ def _named(named: Sequence[str], everything: bool) -> tuple[dict[str, AgentSpec]
     }
     specs = {text: choose_policy(text) for text in texts if text not in stored}
     names = Counter(spec.name for spec in specs.values())
-    names.update(each.entry.name for each in stored.values())
+    names.update(each.policy.name for each in stored.values())
     # Policies of the same name are distinguished by their place.
     called = {spec.name if names[spec.name] == 1 else text: spec for text, spec in specs.items()}
     return called, [
         each
-        if names[each.entry.name] == 1
-        else dataclasses.replace(each, entry=dataclasses.replace(each.entry, name=text))
+        if names[each.policy.name] == 1
+        else dataclasses.replace(each, policy=dataclasses.replace(each.policy, name=text))
         for text, each in stored.items()
     ]
 
 
 def _compare(
     specs: Mapping[str, AgentSpec],
-    stored: Sequence[Entry],
+    stored: Sequence[PolicyResults],
     suite: Suite,
     bounds: Mapping[str, Bound],
     jobs: int | None,
 ) -> Comparison:
     """Play the episodes and compare."""
-    total = amount(len(specs), suite, bounds=len(bounds))
+    total = episodes_to_play(len(specs), suite, bounds=len(bounds))
     with (
         reported_interrupt("policies are compared on all lifts or not at all"),
         workers("compare", total, jobs) as (pool, progress),
     ):
-        contest = play_contest(
+        results = play_policies(
             specs, suite, stored=stored, bounds=bounds, executor=pool, progress=progress
         )
-        return compared(contest)
+        return compared(results)
 
 
 def _show(comparison: Comparison) -> None:
     show(ranks_table(comparison), differences_table(comparison))
     if len(comparison.behaviours) > 1:
         show(behaviours_table(comparison))
-    show(verdict(comparison), *oddities(comparison))
+    show(verdict(comparison), *unit_warnings(comparison))

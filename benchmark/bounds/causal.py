@@ -13,7 +13,7 @@ from ...agents.control.anticipation import Anticipation, anticipation_json, read
 from ...agents.errors import InputError
 from ...agents.policies.anticipate import AnticipateParameters, AnticipationController
 from ...agents.spec import InProcess
-from ..comparison.contest import Bound
+from ..comparison.playing import Bound
 from ..execution.runner import Run, run_suite
 from ..suites.suite import Suite
 from .oracle import ORACLE, oracle_run

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ..comparison.contest import Contest, Entry
+from ..comparison.paired_results import PairedResults, PolicyResults
 from ..statistics import FloatArray, Interval, paired_difference, ratio_of_means, share_better
 from ..suites.catalogue import RECORDED
 from .causal import CAUSAL_BOUND
@@ -46,18 +46,18 @@ class PolicyClaim:
         return self.value >= self.limit if self.least else self.value <= self.limit
 
 
-def claims(contest: Contest) -> tuple[PolicyClaim, ...]:
-    """Return the claims, measured in a contest of the policy, its rivals and the bounds.
+def claims(results: PairedResults) -> tuple[PolicyClaim, ...]:
+    """Return the claims, measured on the policy, its rivals and the bounds.
 
     The causal bound and the rivals are needed, and the human-human baseline is always there. On
     recorded lifts neither the human-human baseline nor the bound is a limit: people follow no plan.
     """
-    entries = {entry.name: entry for entry in contest.entries}
-    strata = contest.human_human.strata
+    by_name = {policy.name: policy for policy in results.policies}
+    strata = results.human_human.strata
     behaviours = np.array([behaviour for behaviour, _ in strata])
-    mine, blend = (_values(entries[name], "rmse_mm") for name in (POLICY, "blend"))
+    mine, blend = (_values(by_name[name], "rmse_mm") for name in (POLICY, "blend"))
     bound, human_human = (
-        np.array(other.rmse_mm) for other in (contest.bounds[CAUSAL_BOUND], contest.human_human)
+        np.array(other.rmse_mm) for other in (results.bounds[CAUSAL_BOUND], results.human_human)
     )
     found: list[PolicyClaim] = []
 
@@ -94,17 +94,17 @@ def claims(contest: Contest) -> tuple[PolicyClaim, ...]:
         ratio(
             "the human-human baseline, over all", human_human, everything, TO_HUMAN_HUMAN_OVER_ALL
         )
-    return (*found, *_kinder(entries, contest))
+    return (*found, *_kinder(by_name, results))
 
 
-def _kinder(entries: dict[str, Entry], contest: Contest) -> Iterator[PolicyClaim]:
+def _kinder(by_name: dict[str, PolicyResults], results: PairedResults) -> Iterator[PolicyClaim]:
     """Yield the claims that it moves more smoothly, and is no harder on the human's hands."""
     for name in RIVALS:
-        smoother = [_values(entries[other], "sparc") for other in (POLICY, name)]
+        smoother = [_values(by_name[other], "sparc") for other in (POLICY, name)]
         moved = ~(np.isnan(smoother[0]) | np.isnan(smoother[1]))
         strata = [
             stratum
-            for stratum, taken in zip(contest.human_human.strata, moved, strict=True)
+            for stratum, taken in zip(results.human_human.strata, moved, strict=True)
             if taken
         ]
         difference = paired_difference(smoother[0][moved], smoother[1][moved], strata)
@@ -115,8 +115,8 @@ def _kinder(entries: dict[str, Entry], contest: Contest) -> Iterator[PolicyClaim
             limit=0.0,
             least=True,
         )
-    force = [_values(entries[other], "human_force_n") for other in (POLICY, "blend")]
-    difference = paired_difference(force[0], force[1], contest.human_human.strata)
+    force = [_values(by_name[other], "human_force_n") for other in (POLICY, "blend")]
+    difference = paired_difference(force[0], force[1], results.human_human.strata)
     yield PolicyClaim(
         text="rms force at the human's hands minus that with blend [N], paired",
         value=difference.mean,
@@ -125,5 +125,5 @@ def _kinder(entries: dict[str, Entry], contest: Contest) -> Iterator[PolicyClaim
     )
 
 
-def _values(entry: Entry, metric: str) -> FloatArray:
-    return np.array([scores[metric] for scores in entry.scores])
+def _values(policy: PolicyResults, metric: str) -> FloatArray:
+    return np.array([scores[metric] for scores in policy.scores])

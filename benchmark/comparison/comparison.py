@@ -3,20 +3,20 @@
 from dataclasses import dataclass
 
 from ..results.baselines import HUMAN_HUMAN_LABEL
-from .contest import Contest
 from .front import Point, exact, pareto_front
-from .standing import Kind, Scope, scope
+from .paired_results import PairedResults
+from .ranking import Ranking, SubsetKind, rank_policies
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Comparison:
-    """Policies set against each other and against the human-human baseline."""
+    """Policies compared with each other and with the human-human baseline."""
 
-    contest: Contest
-    overall: Scope
+    results: PairedResults
+    overall: Ranking
     """On all episodes."""
-    behaviours: tuple[Scope, ...]
-    subjects: tuple[Scope, ...]
+    behaviours: tuple[Ranking, ...]
+    subjects: tuple[Ranking, ...]
     points: tuple[Point, ...]
     """The policies, the most level first; then the human-human baseline and the bounds."""
 
@@ -26,45 +26,45 @@ class Comparison:
         return tuple(point.name for point in pareto_front(self.points))
 
 
-def compare(contest: Contest) -> Comparison:
+def compare(results: PairedResults) -> Comparison:
     """Return the comparison of the policies: overall, on each behaviour, with each subject."""
-    overall = scope(contest, "all", "all", range(len(contest.human_human.strata)))
+    overall = rank_policies(results, "all", "all", range(len(results.human_human.strata)))
     return Comparison(
-        contest=contest,
+        results=results,
         overall=overall,
         behaviours=_parts(
-            contest, "behaviour", [behaviour for behaviour, _ in contest.human_human.strata]
+            results, "behaviour", [behaviour for behaviour, _ in results.human_human.strata]
         ),
-        subjects=_parts(contest, "subject", [subject for _, subject in contest.human_human.strata]),
-        points=_points(contest, overall),
+        subjects=_parts(results, "subject", [subject for _, subject in results.human_human.strata]),
+        points=_points(results, overall),
     )
 
 
-def _points(contest: Contest, overall: Scope) -> tuple[Point, ...]:
+def _points(results: PairedResults, overall: Ranking) -> tuple[Point, ...]:
     policies = [
         Point(
-            name=standing.name,
-            rmse_mm=standing.rmse_mm,
-            sparc=standing.sparc,
-            missing=standing.sparc_missing,
+            name=ranked.name,
+            rmse_mm=ranked.rmse_mm,
+            sparc=ranked.sparc,
+            missing=ranked.sparc_missing,
         )
-        for standing in overall.standings
+        for ranked in overall.policies
     ]
     others = [
         Point(
             name=name,
-            rmse_mm=overall.baselines_rmse_mm[name],
+            rmse_mm=overall.references_rmse_mm[name],
             sparc=exact(baseline.means["sparc"]),
             kind="baseline" if name == HUMAN_HUMAN_LABEL else "bound",
         )
-        for name, baseline in contest.baselines.items()
+        for name, baseline in results.references.items()
     ]
     return (*policies, *others)
 
 
-def _parts(contest: Contest, kind: Kind, labels: list[str]) -> tuple[Scope, ...]:
-    """Return one scope a label, in order of appearance; ``labels`` has one an episode."""
+def _parts(results: PairedResults, kind: SubsetKind, labels: list[str]) -> tuple[Ranking, ...]:
+    """Return a ranking per label, in order of appearance; ``labels`` has one per episode."""
     return tuple(
-        scope(contest, kind, name, [i for i, label in enumerate(labels) if label == name])
+        rank_policies(results, kind, name, [i for i, label in enumerate(labels) if label == name])
         for name in dict.fromkeys(labels)
     )

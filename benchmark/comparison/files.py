@@ -10,32 +10,32 @@ from pathlib import Path
 from typing import Any
 
 from ..results.baselines import HUMAN_HUMAN_LABEL
+from .captions import PICTURE_AXIS, picture_title
 from .comparison import Comparison
 from .html import html_page
+from .ranking import RankedPolicy, Ranking
 from .scatter.png import png
 from .scatter.scene import make_scene
-from .standing import Scope, Standing
-from .words import PICTURE_AXIS, picture_title
 
 
 def comparison_json(comparison: Comparison) -> dict[str, Any]:
     """Return the content of ``compare.json``: policies in the order of their mean RMSE.
 
     ``policies`` are on all episodes, ``behaviours`` and ``subjects`` on a part of them each. The
-    fields of a policy are those of :class:`.Standing`. Where ``decisive`` is false the episodes are
-    too few for any test, and all policies have rank 1.
+    fields of a policy are those of :class:`.RankedPolicy`. Where ``decisive`` is false, the
+    episodes are too few for any test, and all policies have rank 1.
     """
-    suite = comparison.contest.suite
-    entries = {entry.name: entry for entry in comparison.contest.entries}
+    suite = comparison.results.suite
+    by_name = {policy.name: policy for policy in comparison.results.policies}
     policies = []
-    for standing in comparison.overall.standings:
-        entry = entries[standing.name]
-        p50, p99 = entry.step_ms or (None, None)
+    for ranked in comparison.overall.policies:
+        policy = by_name[ranked.name]
+        p50, p99 = policy.step_ms or (None, None)
         policies.append(
             {
-                **_policy(standing),
-                "digest": entry.digest,
-                "pareto_front": standing.name in comparison.front,
+                **_policy(ranked),
+                "digest": policy.digest,
+                "pareto_front": ranked.name in comparison.front,
                 "step_ms": {"p50": p50, "p99": p99},
             }
         )
@@ -47,17 +47,17 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
         "decisive": comparison.overall.decisive,
         "human_human": _baseline(comparison, HUMAN_HUMAN_LABEL),
         "bounds": [
-            {"name": name, **_baseline(comparison, name)} for name in comparison.contest.bounds
+            {"name": name, **_baseline(comparison, name)} for name in comparison.results.bounds
         ],
         "policies": policies,
-        "behaviours": [_part(scope) for scope in comparison.behaviours],
-        "subjects": [_part(scope) for scope in comparison.subjects],
+        "behaviours": [_part(ranking) for ranking in comparison.behaviours],
+        "subjects": [_part(ranking) for ranking in comparison.subjects],
     }
 
 
-def _policy(standing: Standing) -> dict[str, Any]:
-    """Return a standing, its metrics among its fields."""
-    fields = dataclasses.asdict(standing)
+def _policy(ranked: RankedPolicy) -> dict[str, Any]:
+    """Return a ranked policy, its metrics among its fields."""
+    fields = dataclasses.asdict(ranked)
     of = fields.pop("metrics")
     empty = {"mean": None, "ci95": None}
     return fields | {
@@ -67,30 +67,30 @@ def _policy(standing: Standing) -> dict[str, Any]:
 
 
 def _baseline(comparison: Comparison, name: str) -> dict[str, Any]:
-    baseline = comparison.contest.baselines[name]
+    baseline = comparison.results.references[name]
     return {
-        "rmse_mm": dataclasses.asdict(comparison.overall.baselines_rmse_mm[name]),
+        "rmse_mm": dataclasses.asdict(comparison.overall.references_rmse_mm[name]),
         **{name: {"mean": mean} for name, mean in baseline.means.items()},
     }
 
 
-def _part(scope: Scope) -> dict[str, Any]:
+def _part(ranking: Ranking) -> dict[str, Any]:
     return {
-        "name": scope.name,
-        "episodes": scope.episodes,
-        "decisive": scope.decisive,
-        "human_human_rmse_mm": dataclasses.asdict(scope.human_human_rmse_mm),
-        "policies": [_policy(standing) for standing in scope.standings],
+        "name": ranking.name,
+        "episodes": ranking.episodes,
+        "decisive": ranking.decisive,
+        "human_human_rmse_mm": dataclasses.asdict(ranking.human_human_rmse_mm),
+        "policies": [_policy(ranked) for ranked in ranking.policies],
     }
 
 
 def comparison_csv(comparison: Comparison) -> str:
-    """Return the content of ``compare.csv``: one row for each policy in each scope.
+    """Return the content of ``compare.csv``: one row for each policy in each ranking.
 
     Where there is no value, as in the difference of the best to itself, the field is empty.
     """
-    scopes = (comparison.overall, *comparison.behaviours, *comparison.subjects)
-    rows = [dict(_row(scope, standing)) for scope in scopes for standing in scope.standings]
+    rankings = (comparison.overall, *comparison.behaviours, *comparison.subjects)
+    rows = [dict(_row(ranking, ranked)) for ranking in rankings for ranked in ranking.policies]
     text = io.StringIO()
     writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
     writer.writeheader()
@@ -98,15 +98,15 @@ def comparison_csv(comparison: Comparison) -> str:
     return text.getvalue()
 
 
-def _row(scope: Scope, standing: Standing) -> Iterator[tuple[str, object]]:
-    yield from (("scope", scope.kind), ("name", scope.name), ("episodes", scope.episodes))
-    yield from (("policy", standing.name), ("rank", standing.rank), ("failed", standing.failed))
-    behind = standing.to_best
+def _row(ranking: Ranking, ranked: RankedPolicy) -> Iterator[tuple[str, object]]:
+    yield from (("scope", ranking.kind), ("name", ranking.name), ("episodes", ranking.episodes))
+    yield from (("policy", ranked.name), ("rank", ranked.rank), ("failed", ranked.failed))
+    behind = ranked.to_best
     for name, estimate in (
-        ("rmse_mm", standing.rmse_mm),
-        ("human_human_rmse_mm", scope.human_human_rmse_mm),
-        ("vs_human", standing.vs_human),
-        *((name, metric.estimate) for name, metric in standing.metrics.items()),
+        ("rmse_mm", ranked.rmse_mm),
+        ("human_human_rmse_mm", ranking.human_human_rmse_mm),
+        ("vs_human", ranked.vs_human),
+        *((name, metric.estimate) for name, metric in ranked.metrics.items()),
         ("to_best_mm", behind),
     ):
         low, high = estimate.ci95 if estimate else (None, None)
@@ -114,9 +114,9 @@ def _row(scope: Scope, standing: Standing) -> Iterator[tuple[str, object]]:
         yield from ((f"{name}_low", low), (f"{name}_high", high))
     yield "to_best_p", behind.p if behind else None
     yield "to_best_share_better", behind.share_better if behind else None
-    yield "better_than_human", standing.better_than_human
-    yield from ((f"{name}_missing", metric.missing) for name, metric in standing.metrics.items())
-    yield "clipped", standing.clipped
+    yield "better_than_human", ranked.better_than_human
+    yield from ((f"{name}_missing", metric.missing) for name, metric in ranked.metrics.items())
+    yield "clipped", ranked.clipped
 
 
 def write_comparison(folder: Path, comparison: Comparison) -> None:

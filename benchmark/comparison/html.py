@@ -7,15 +7,15 @@ from typing import Final
 from ..episode.metric import Metric
 from ..rendering.page import Cell, Row, render
 from ..statistics import Estimate
-from . import words
+from . import captions
 from .comparison import Comparison
-from .contest import Entry
+from .formatting import between, digits, p_value, probability
+from .paired_results import PolicyResults
+from .ranking import MetricMean, RankedPolicy, Ranking
 from .scatter.scene import NARROW, WIDE, make_scene
 from .scatter.svg import svg
-from .standing import MetricMean, Scope, Standing
-from .words import between, digits, p_value, probability
 
-AGAINST: Final = ("policy", "behind the best mm", "p", "better than the best", "better than humans")
+AGAINST: Final = ("policy", "behind the best mm", "p", "lifts won", "P(better than humans)")
 
 
 def html_page(comparison: Comparison) -> str:
@@ -24,12 +24,12 @@ def html_page(comparison: Comparison) -> str:
     return render(
         __package__,
         "compare.html",
-        title=f"{words.title(comparison)}, compared",
-        words=words,
-        verdict=words.verdict(comparison),
-        odd=(*words.failures(comparison), *words.oddities(comparison)),
+        title=f"{captions.title(comparison)}, compared",
+        captions=captions,
+        verdict=captions.verdict(comparison),
+        warnings=(*captions.failures(comparison), *captions.unit_warnings(comparison)),
         pictures=[
-            svg(make_scene(comparison.points, axis=words.PICTURE_AXIS, size=size), kind)
+            svg(make_scene(comparison.points, axis=captions.PICTURE_AXIS, size=size), kind)
             for kind, size in (("wide", WIDE), ("narrow", NARROW))
         ],
         ranks_header=(
@@ -37,7 +37,7 @@ def html_page(comparison: Comparison) -> str:
             "rank",
             "RMSE mm",
             "vs_human",
-            *(each.heading for each in comparison.contest.metrics),
+            *(each.heading for each in comparison.results.metrics),
             "step ms",
         ),
         ranks=_ranks(comparison),
@@ -46,46 +46,46 @@ def html_page(comparison: Comparison) -> str:
         parts=[
             {
                 "kind": kind,
-                "caption": words.parts_caption(kind, scopes),
-                "header": ("policy", *(scope.name for scope in scopes)),
-                "rows": _parts(comparison, scopes),
+                "caption": captions.parts_caption(kind, rankings),
+                "header": ("policy", *(ranking.name for ranking in rankings)),
+                "rows": _parts(comparison, rankings),
             }
-            for kind, scopes in kinds
+            for kind, rankings in kinds
         ],
-        provenance=words.provenance(comparison, version("colift")),
+        provenance=captions.provenance(comparison, version("colift")),
     )
 
 
 def _ranks(comparison: Comparison) -> list[Row]:
-    entries = {entry.name: entry for entry in comparison.contest.entries}
-    rows = [_rank_row(comparison, s, entries[s.name]) for s in comparison.overall.standings]
-    rows += [_baseline_row(comparison, name) for name in comparison.contest.baselines]
+    by_name = {policy.name: policy for policy in comparison.results.policies}
+    rows = [_policy_row(comparison, s, by_name[s.name]) for s in comparison.overall.policies]
+    rows += [_baseline_row(comparison, name) for name in comparison.results.references]
     return rows
 
 
 def _baseline_row(comparison: Comparison, name: str) -> Row:
-    baseline, overall = comparison.contest.baselines[name], comparison.overall
-    rmse = overall.baselines_rmse_mm[name]
+    baseline, overall = comparison.results.references[name], comparison.overall
+    rmse = overall.references_rmse_mm[name]
     cells = [
         Cell(""),
         _estimate(rmse, ".2f"),
         Cell(f"{rmse.mean / overall.human_human_rmse_mm.mean:.2g}"),
-        *(Cell(metric.text(baseline.means[metric.name])) for metric in comparison.contest.metrics),
+        *(Cell(metric.text(baseline.means[metric.name])) for metric in comparison.results.metrics),
         Cell(""),
     ]
     return Row(name, cells, kind="baseline")
 
 
-def _rank_row(comparison: Comparison, standing: Standing, entry: Entry) -> Row:
-    overall, metrics = comparison.overall, comparison.contest.metrics
-    steps = entry.step_ms
+def _policy_row(comparison: Comparison, ranked: RankedPolicy, policy: PolicyResults) -> Row:
+    overall, metrics = comparison.overall, comparison.results.metrics
+    steps = policy.step_ms
     return Row(
-        standing.name,
+        ranked.name,
         [
-            Cell(str(standing.rank) if overall.decisive else "", best=overall.best(standing)),
-            _estimate(standing.rmse_mm, ".2f"),
-            _estimate(standing.vs_human, ".2f"),
-            *(_metric(metric, standing.metrics[metric.name]) for metric in metrics),
+            Cell(str(ranked.rank) if overall.decisive else "", best=overall.best(ranked)),
+            _estimate(ranked.rmse_mm, ".2f"),
+            _estimate(ranked.vs_human, ".2f"),
+            *(_metric(metric, ranked.metrics[metric.name]) for metric in metrics),
             Cell("none") if steps is None else Cell(f"{steps[0]:.3f}", f"{steps[1]:.3f}"),
         ],
     )
@@ -100,8 +100,8 @@ def _metric(metric: Metric, mean: MetricMean) -> Cell:
 
 def _against(comparison: Comparison) -> list[Row]:
     rows = []
-    for standing in comparison.overall.standings:
-        behind, better = standing.to_best, Cell(probability(standing.better_than_human))
+    for ranked in comparison.overall.policies:
+        behind, better = ranked.to_best, Cell(probability(ranked.better_than_human))
         if behind is None:
             cells = [Cell("best", best=True), Cell(""), Cell("")]
         else:
@@ -110,33 +110,33 @@ def _against(comparison: Comparison) -> list[Row]:
                 Cell(p_value(behind.p)),
                 Cell(f"{behind.share_better:.0%}"),
             ]
-        rows.append(Row(standing.name, [*cells, better]))
+        rows.append(Row(ranked.name, [*cells, better]))
     return rows
 
 
-def _parts(comparison: Comparison, scopes: Sequence[Scope]) -> list[Row]:
-    columns = [{standing.name: standing for standing in scope.standings} for scope in scopes]
+def _parts(comparison: Comparison, rankings: Sequence[Ranking]) -> list[Row]:
+    columns = [{ranked.name: ranked for ranked in ranking.policies} for ranking in rankings]
     rows = []
-    for standing in comparison.overall.standings:
+    for ranked in comparison.overall.policies:
         parts = [
-            _part(scope, column[standing.name])
-            for scope, column in zip(scopes, columns, strict=True)
+            _part(ranking, column[ranked.name])
+            for ranking, column in zip(rankings, columns, strict=True)
         ]
-        rows.append(Row(standing.name, parts))
-    for name in scopes[0].baselines_rmse_mm:
-        means = [scope.baselines_rmse_mm[name] for scope in scopes]
+        rows.append(Row(ranked.name, parts))
+    for name in rankings[0].references_rmse_mm:
+        means = [ranking.references_rmse_mm[name] for ranking in rankings]
         errors = [_estimate(mean, digits(mean.mean)) for mean in means]
         rows.append(Row(name, errors, kind="baseline"))
     return rows
 
 
-def _part(scope: Scope, standing: Standing) -> Cell:
-    behind = standing.to_best
+def _part(ranking: Ranking, ranked: RankedPolicy) -> Cell:
+    behind = ranked.to_best
     under = "best"
     if behind is not None:
         interval = between(behind.ci95, "+.1f")
         under = f"{behind.mean:+.1f}" + (f" ({interval})" if interval else "")
-    return Cell(f"{standing.rmse_mm.mean:.1f}", under, best=scope.best(standing))
+    return Cell(f"{ranked.rmse_mm.mean:.1f}", under, best=ranking.best(ranked))
 
 
 def _estimate(estimate: Estimate, digits: str) -> Cell:

@@ -5,17 +5,10 @@ from typing import Final
 from rich.table import Column, Table
 from rich.text import Text
 
+from ...benchmark.comparison.captions import marks_caption, title, undecided
 from ...benchmark.comparison.comparison import Comparison
-from ...benchmark.comparison.standing import MetricMean, Scope, Standing
-from ...benchmark.comparison.words import (
-    between,
-    digits,
-    marks_caption,
-    p_value,
-    probability,
-    title,
-    undecided,
-)
+from ...benchmark.comparison.formatting import between, digits, p_value, probability
+from ...benchmark.comparison.ranking import MetricMean, RankedPolicy, Ranking
 from ...benchmark.episode.metric import Metric
 from ...benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from ...benchmark.statistics import Estimate
@@ -24,9 +17,9 @@ from ..printing import Cell, styled, table
 NAME: Final = 18
 """Longest name that stays on one line."""
 
-FEWER: Final = "†: over the lifts in which the robot moves along."
+FEWER: Final = "†: mean over the lifts in which the robot moves along."
 
-NO_POLICIES: Final = "The oracle and the causal bound are no policies: how far one might come."
+NO_POLICIES: Final = "The oracle and the causal bound are not policies but limits."
 
 BASELINE: Final = "blue"
 """Style of the rows of the human-human baseline and of the bounds."""
@@ -34,13 +27,13 @@ BASELINE: Final = "blue"
 
 def ranks_table(comparison: Comparison) -> Table:
     """Return the policies by rank, the human-human baseline among them."""
-    suite, overall = comparison.contest.suite, comparison.overall
+    suite, overall = comparison.results.suite, comparison.overall
     rows: list[tuple[float, list[Cell]]] = [
-        (standing.rmse_mm.mean, _rank_row(comparison, standing)) for standing in overall.standings
+        (ranked.rmse_mm.mean, _policy_row(comparison, ranked)) for ranked in overall.policies
     ]
     rows += [
-        (overall.baselines_rmse_mm[name].mean, styled(_baseline_row(comparison, name), BASELINE))
-        for name in comparison.contest.baselines
+        (overall.references_rmse_mm[name].mean, styled(_baseline_row(comparison, name), BASELINE))
+        for name in comparison.results.references
     ]
     return table(
         title(comparison),
@@ -48,39 +41,39 @@ def ranks_table(comparison: Comparison) -> Table:
             Column("#", justify="right"),
             Column("policy", overflow="fold", min_width=len(HUMAN_HUMAN_LABEL)),
             *("RMSE mm", "95 %", "vs_human"),
-            *(each.symbol for each in comparison.contest.metrics),
+            *(each.symbol for each in comparison.results.metrics),
         ),
         (cells for _, cells in sorted(rows, key=lambda row: row[0])),
         caption=f"{overall.episodes} lifts each; suite digest {suite.digest}. "
-        + (undecided(overall) or "Policies of one rank (#) cannot be told from the first of them.")
-        + f" vs_human: RMSE over the {HUMAN_HUMAN_LABEL}'s. Force at the human's hands in N."
-        + (f" {NO_POLICIES}" if comparison.contest.bounds else "")
-        + (f" {FEWER}" if any(s.sparc and s.sparc_missing for s in overall.standings) else ""),
+        + (undecided(overall) or "Policies of one rank (#) do not differ significantly.")
+        + f" vs_human: RMSE divided by that of the {HUMAN_HUMAN_LABEL}. Force in N."
+        + (f" {NO_POLICIES}" if comparison.results.bounds else "")
+        + (f" {FEWER}" if any(s.sparc and s.sparc_missing for s in overall.policies) else ""),
     )
 
 
 def _baseline_row(comparison: Comparison, name: str) -> list[str]:
-    baseline, overall = comparison.contest.baselines[name], comparison.overall
-    rmse = overall.baselines_rmse_mm[name]
+    baseline, overall = comparison.results.references[name], comparison.overall
+    rmse = overall.references_rmse_mm[name]
     return [
         "",
         name,
         f"{rmse.mean:.2f}",
         _interval(rmse),
         f"{rmse.mean / overall.human_human_rmse_mm.mean:.2g}",
-        *(metric.text(baseline.means[metric.name]) for metric in comparison.contest.metrics),
+        *(metric.text(baseline.means[metric.name]) for metric in comparison.results.metrics),
     ]
 
 
-def _rank_row(comparison: Comparison, standing: Standing) -> list[Cell]:
-    overall, metrics = comparison.overall, comparison.contest.metrics
+def _policy_row(comparison: Comparison, ranked: RankedPolicy) -> list[Cell]:
+    overall, metrics = comparison.overall, comparison.results.metrics
     return [
-        str(standing.rank) if overall.decisive else "",
-        _name(standing.name),
-        f"{standing.rmse_mm.mean:.2f}",
-        _interval(standing.rmse_mm),
-        f"{standing.vs_human.mean:.2f}",
-        *(_metric(metric, standing.metrics[metric.name]) for metric in metrics),
+        str(ranked.rank) if overall.decisive else "",
+        _name(ranked.name),
+        f"{ranked.rmse_mm.mean:.2f}",
+        _interval(ranked.rmse_mm),
+        f"{ranked.vs_human.mean:.2f}",
+        *(_metric(metric, ranked.metrics[metric.name]) for metric in metrics),
     ]
 
 
@@ -90,20 +83,20 @@ def _metric(metric: Metric, mean: MetricMean) -> str:
 
 
 def differences_table(comparison: Comparison) -> Table:
-    """Return how far each policy is behind the best, and how sure it beats two people."""
-    best, *others = comparison.overall.standings
+    """Return each policy's difference to the best, and the probability that it beats two people."""
+    best, *others = comparison.overall.policies
     rows = []
-    for standing in others:
-        behind = standing.to_best
+    for ranked in others:
+        behind = ranked.to_best
         assert behind is not None
         rows.append(
             (
-                _name(standing.name),
+                _name(ranked.name),
                 f"{behind.mean:+.2f}",
                 between(behind.ci95, "+.2f"),
                 p_value(behind.p),
                 f"{behind.share_better:.0%}",
-                probability(standing.better_than_human),
+                probability(ranked.better_than_human),
             )
         )
     return table(
@@ -119,27 +112,27 @@ def differences_table(comparison: Comparison) -> Table:
 
 def behaviours_table(comparison: Comparison) -> Table:
     """Return the RMSE of each policy on each behaviour, the best of each marked."""
-    scopes = comparison.behaviours
-    columns = [{standing.name: standing for standing in scope.standings} for scope in scopes]
+    rankings = comparison.behaviours
+    columns = [{ranked.name: ranked for ranked in ranking.policies} for ranking in rankings]
     rows: list[list[Cell]] = [
-        [_name(name), *map(_mark, scopes, (column[name] for column in columns))]
-        for name in (standing.name for standing in comparison.overall.standings)
+        [_name(name), *map(_mark, rankings, (column[name] for column in columns))]
+        for name in (ranked.name for ranked in comparison.overall.policies)
     ]
-    for name in comparison.contest.baselines:
-        errors = (scope.baselines_rmse_mm[name].mean for scope in scopes)
+    for name in comparison.results.references:
+        errors = (ranking.references_rmse_mm[name].mean for ranking in rankings)
         cells = (f"{error:{digits(error)}}  " for error in errors)
         rows.append(styled((name, *cells), BASELINE))
     return table(
         "RMSE mm on each behaviour",
-        ("policy", *(scope.name for scope in scopes)),
+        ("policy", *(ranking.name for ranking in rankings)),
         rows,
-        caption=marks_caption("*", scopes),
+        caption=marks_caption("*", rankings),
     )
 
 
-def _mark(scope: Scope, standing: Standing) -> Text:
-    mean = f"{standing.rmse_mm.mean:.1f}"
-    return Text(f"{mean} *", "bold") if scope.best(standing) else Text(f"{mean}  ")
+def _mark(ranking: Ranking, ranked: RankedPolicy) -> Text:
+    mean = f"{ranked.rmse_mm.mean:.1f}"
+    return Text(f"{mean} *", "bold") if ranking.best(ranked) else Text(f"{mean}  ")
 
 
 def _name(name: str) -> str:

@@ -5,7 +5,7 @@ from typing import Final
 
 from rich.table import Table
 
-from ...benchmark.comparison.words import probability
+from ...benchmark.comparison.formatting import probability
 from ...benchmark.statistics import Estimate
 from ...leaderboard.board.standings import Section
 from ...leaderboard.records.metrics import board_metrics

@@ -19,7 +19,7 @@ def test_two_policies_are_ranked_against_each_other_and_people(colift, tmp_path:
     for told in ("Behind copy", "vs_human", "changing_goal", "none", "copy is the most level"):
         assert told in done.stdout
     assert f"{out / 'compare.html'}" in done.stdout
-    assert "None is marked as the best: 3 lifts in a column are too few" in done.stdout
+    assert "No policy is marked as the best: 3 lifts per column are too few" in done.stdout
     assert "*" not in done.stdout
     assert not any(line.endswith(" ") for line in done.stdout.splitlines())
     content = json.loads((out / "compare.json").read_text())
@@ -29,8 +29,8 @@ def test_two_policies_are_ranked_against_each_other_and_people(colift, tmp_path:
 
 def test_where_no_lifts_are_enough_there_are_no_ranks(colift) -> None:
     done = colift("compare", "hold", "copy", *QUICK, "--seeds", "0:1", COLUMNS="200")
-    assert "No ranks: 4 lifts are too few to tell policies apart at 5 %." in done.stdout
-    assert "But 4 lifts are too few to tell policies apart." in done.stdout
+    assert "No ranks: 4 lifts are too few for a significant difference at 5 %." in done.stdout
+    assert "But 4 lifts are too few to rank the policies." in done.stdout
     (copy, *_) = (line for line in done.stdout.splitlines() if line.split()[:1] == ["copy"])
     assert copy.startswith("     copy")
 

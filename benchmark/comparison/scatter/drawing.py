@@ -88,8 +88,8 @@ def _draw_axes(scene: Scene, pen: Pen) -> None:
     pen.text((middle, height - 10), scene.axis, "ink", 12)
     pen.text((15, (top + bottom) / 2), "SPARC · smoother →", "ink", 12, upward=True)
     if scene.baseline is not None:
-        told = "RMSE over that of two people"
-        pen.text((middle, top - 25), told, "human", NOTE_SIZE)
+        text = "RMSE divided by that of two people"
+        pen.text((middle, top - 25), text, "human", NOTE_SIZE)
         ends = ((scene.baseline, top), (scene.baseline, bottom))
         pen.line(ends, "human", 1.5, dashed=True)
     for note in scene.notes:

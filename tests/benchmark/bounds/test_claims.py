@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from colift.benchmark.bounds.claims import claims
-from colift.benchmark.comparison.contest import Contest, Entry
+from colift.benchmark.comparison.paired_results import PairedResults, PolicyResults
 from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.results.baselines import Baseline
 from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
@@ -13,13 +13,13 @@ CELLS = tuple(
 )
 
 
-def entry(name, rmse, sparc=-2.0, force=0.1, strata=CELLS):
+def policy_results(name, rmse, sparc=-2.0, force=0.1, strata=CELLS):
     errors = np.broadcast_to(rmse, len(strata))
     blank = dict.fromkeys(LEVEL.metrics, 0.0)
     scores = tuple(
         {**blank, "rmse_mm": float(e), "sparc": sparc, "human_force_n": force} for e in errors
     )
-    return Entry(
+    return PolicyResults(
         name=name,
         digest="",
         strata=strata,
@@ -35,13 +35,13 @@ def baseline(rmse, strata):
     )
 
 
-def contest(mine, *, bound=4.0, blend=16.0, human_human=8.0, sparc=-2.0, force=0.1, strata=CELLS):
-    return Contest(
+def paired(mine, *, bound=4.0, blend=16.0, human_human=8.0, sparc=-2.0, force=0.1, strata=CELLS):
+    return PairedResults(
         suite=make_suite("quick-v1"),
-        entries=(
-            entry("anticipate", mine, sparc, force, strata),
-            entry("blend", blend, -2.3, 0.2, strata),
-            entry("reactive", 20.0, -2.9, 0.3, strata),
+        policies=(
+            policy_results("anticipate", mine, sparc, force, strata),
+            policy_results("blend", blend, -2.3, 0.2, strata),
+            policy_results("reactive", 20.0, -2.9, 0.3, strata),
         ),
         bounds={"causal_bound": baseline(bound, strata)},
         human_human=baseline(human_human, strata),
@@ -54,7 +54,7 @@ def told(found):
 
 def test_ratios_are_of_the_means_on_each_behaviour():
     mine = np.where([behaviour == "jerky" for behaviour, _ in CELLS], 9.6, 4.4)
-    found = told(claims(contest(mine)))
+    found = told(claims(paired(mine)))
     human_human = found["RMSE over that of the human-human baseline, jerky"]
     assert (human_human.value, human_human.holds) == (pytest.approx(1.2), False)
     assert found["RMSE over that of the human-human baseline, smooth"].value == pytest.approx(0.55)
@@ -69,7 +69,7 @@ def test_ratios_are_of_the_means_on_each_behaviour():
 
 
 def test_smoother_and_gentler_are_paired_differences():
-    found = told(claims(contest(4.0, sparc=-2.5, force=0.25)))
+    found = told(claims(paired(4.0, sparc=-2.5, force=0.25)))
     smooth = found["SPARC minus that of blend, paired"]
     assert (smooth.value, smooth.holds) == (pytest.approx(-0.2), False)
     assert found["SPARC minus that of reactive, paired"].holds
@@ -81,7 +81,7 @@ def test_recorded_lifts_are_set_against_blend_alone():
     strata = tuple(("recorded", subject) for subject in "AB" for _ in range(25))
     mine = np.full(50, 4.0)
     mine[:2] = 17.0
-    found = told(claims(contest(mine, strata=strata)))
+    found = told(claims(paired(mine, strata=strata)))
     assert found["RMSE over that of blend, recorded"].value == pytest.approx(mine.mean() / 16)
     wins = found["share of the recorded lifts more level than with blend"]
     assert (wins.value, wins.holds) == (pytest.approx(0.96), False)

@@ -1,12 +1,11 @@
-"""Contests with scores of which the answer is known."""
+"""Paired results whose comparison is known."""
 
 import math
-from collections.abc import Callable, Mapping
 
 import numpy as np
 import pytest
 from colift.benchmark.comparison.comparison import Comparison, compare
-from colift.benchmark.comparison.contest import Contest, Entry
+from colift.benchmark.comparison.paired_results import PairedResults, PolicyResults
 from colift.benchmark.results.baselines import Baseline
 from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
 
@@ -17,14 +16,12 @@ CELLS = tuple(
 
 DIFFICULTY = np.array([6.0 if behaviour != "jerky" else 20.0 for behaviour, _ in CELLS])
 
-MakeContest = Callable[[Mapping[str, tuple[object, object]]], Contest]
 
-
-def entry(name: str, rmse: object, sparc: object, failed: int = 0) -> Entry:
+def policy_results(name: str, rmse: object, sparc: object, failed: int = 0) -> PolicyResults:
     """Return a policy's scores; the first lifts failed."""
     errors = np.broadcast_to(np.asarray(rmse, dtype=float), len(CELLS))
     smoothness = np.broadcast_to(np.asarray(sparc, dtype=float), len(CELLS))
-    return Entry(
+    return PolicyResults(
         name=name,
         digest=f"digest of {name}",
         strata=CELLS,
@@ -54,12 +51,12 @@ def noise(seed: int, spread: float = 0.5) -> np.ndarray:
     return (drawn - drawn.mean(axis=1, keepdims=True)).ravel()
 
 
-def contest(*entries: Entry) -> Contest:
-    """Return a contest against a human-human baseline whose error is the difficulty of the lift."""
+def paired(*policies: PolicyResults) -> PairedResults:
+    """Return results against a human-human baseline whose error is the difficulty of the lift."""
     human_human = Baseline(
         strata=CELLS, rmse_mm=tuple(DIFFICULTY), means={"sparc": -2.5, "human_force_n": 0.4}
     )
-    return Contest(suite=make_suite("quick-v1"), entries=entries, human_human=human_human)
+    return PairedResults(suite=make_suite("quick-v1"), policies=policies, human_human=human_human)
 
 
 @pytest.fixture(scope="session")
@@ -74,11 +71,11 @@ def comparison() -> Comparison:
     failing[:3] = 250.0
     some = np.where(np.arange(len(CELLS)) < 3, np.nan, -1.2)
     return compare(
-        contest(
-            entry("still", 120.0 + noise(4), np.nan),
-            entry("follower", follower, -1.5 + 0.1 * noise(5)),
-            entry("leader", leader, -2.0 + 0.1 * noise(6)),
-            entry("failing", failing, some, failed=3),
-            entry("twin", twin, -2.1 + 0.1 * noise(7)),
+        paired(
+            policy_results("still", 120.0 + noise(4), np.nan),
+            policy_results("follower", follower, -1.5 + 0.1 * noise(5)),
+            policy_results("leader", leader, -2.0 + 0.1 * noise(6)),
+            policy_results("failing", failing, some, failed=3),
+            policy_results("twin", twin, -2.1 + 0.1 * noise(7)),
         )
     )

@@ -4,28 +4,28 @@ import dataclasses
 
 import numpy as np
 import pytest
+from colift.benchmark.comparison.captions import parts_caption, unit_warnings
 from colift.benchmark.comparison.comparison import Comparison, compare
-from colift.benchmark.comparison.contest import Entry
 from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.html import html_page
-from colift.benchmark.comparison.standing import Scope, Standing
-from colift.benchmark.comparison.words import oddities, parts_caption
+from colift.benchmark.comparison.paired_results import PolicyResults
+from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
 from colift.benchmark.statistics import paired_permutation_p
 
-from .conftest import contest, entry
+from .conftest import paired, policy_results
 
 
-def named(scope: Scope, name: str) -> Standing:
-    return next(standing for standing in scope.standings if standing.name == name)
+def named(ranking: Ranking, name: str) -> RankedPolicy:
+    return next(ranked for ranked in ranking.policies if ranked.name == name)
 
 
 def errors(comparison: Comparison, name: str) -> np.ndarray:
-    (entry,) = [entry for entry in comparison.contest.entries if entry.name == name]
-    return np.array([scores["rmse_mm"] for scores in entry.scores])
+    (policy,) = [policy for policy in comparison.results.policies if policy.name == name]
+    return np.array([scores["rmse_mm"] for scores in policy.scores])
 
 
 def test_the_order_is_that_of_the_mean_error(comparison: Comparison) -> None:
-    assert [standing.name for standing in comparison.overall.standings] == [
+    assert [ranked.name for ranked in comparison.overall.policies] == [
         "leader",
         "twin",
         "follower",
@@ -46,16 +46,16 @@ def test_policies_that_cannot_be_told_apart_share_a_rank(comparison: Comparison)
 
 
 def test_each_behaviour_has_its_own_winner(comparison: Comparison) -> None:
-    winners = {scope.name: scope.standings[0].name for scope in comparison.behaviours}
+    winners = {ranking.name: ranking.policies[0].name for ranking in comparison.behaviours}
     assert winners["jerky"] == "follower"
     assert winners["smooth"] in ("leader", "twin")
-    assert [scope.name for scope in comparison.subjects] == ["S1", "S2"]
-    assert [scope.episodes for scope in comparison.behaviours] == [16] * 4
+    assert [ranking.name for ranking in comparison.subjects] == ["S1", "S2"]
+    assert [ranking.episodes for ranking in comparison.behaviours] == [16] * 4
 
 
 def test_differences_are_to_the_best_on_the_same_lifts(comparison: Comparison) -> None:
     overall = comparison.overall
-    assert overall.standings[0].to_best is None
+    assert overall.policies[0].to_best is None
     behind = named(overall, "still").to_best
     assert behind is not None
     difference = errors(comparison, "still") - errors(comparison, "leader")
@@ -98,7 +98,7 @@ def test_the_front_leaves_out_who_is_beaten_in_both(comparison: Comparison) -> N
 
 
 def test_with_three_lifts_a_behaviour_none_is_the_best_there() -> None:
-    def few(made: Entry) -> Entry:
+    def few(made: PolicyResults) -> PolicyResults:
         return dataclasses.replace(
             made,
             strata=made.strata[::5],
@@ -106,17 +106,20 @@ def test_with_three_lifts_a_behaviour_none_is_the_best_there() -> None:
             failures=made.failures[::5],
         )
 
-    better, worse = few(entry("better", 5.0, -2.0)), few(entry("worse", 200.0, -2.0))
-    full = contest()
+    better, worse = (
+        few(policy_results("better", 5.0, -2.0)),
+        few(policy_results("worse", 200.0, -2.0)),
+    )
+    full = paired()
     human_human = dataclasses.replace(full.human_human, strata=better.strata, rmse_mm=(10.0,) * 13)
-    made = compare(dataclasses.replace(full, entries=(better, worse), human_human=human_human))
-    assert [scope.episodes for scope in made.behaviours] == [4, 3, 3, 3]
-    for scope in made.behaviours:
-        assert not any(scope.best(standing) for standing in scope.standings)
-    assert [made.overall.best(standing) for standing in made.overall.standings] == [True, False]
+    made = compare(dataclasses.replace(full, policies=(better, worse), human_human=human_human))
+    assert [ranking.episodes for ranking in made.behaviours] == [4, 3, 3, 3]
+    for ranking in made.behaviours:
+        assert not any(ranking.best(ranked) for ranked in ranking.policies)
+    assert [made.overall.best(ranked) for ranked in made.overall.policies] == [True, False]
     assert parts_caption("behaviour", made.behaviours).endswith(
-        "None is marked as the best: 3 or 4 lifts in a column are too few to tell policies apart "
-        "at 5 %."
+        "No policy is marked as the best: 3 or 4 lifts per column are too few for a significant "
+        "difference at 5 %."
     )
     by_behaviour = html_page(made).split("<h2>By behaviour</h2>")[1].split("<h2>By subject</h2>")[0]
     assert 'class="best"' not in by_behaviour
@@ -126,22 +129,22 @@ def test_with_three_lifts_a_behaviour_none_is_the_best_there() -> None:
 
 def test_where_lifts_are_enough_the_best_are_marked(comparison: Comparison) -> None:
     marked = [
-        [standing.name for standing in scope.standings if scope.best(standing)]
-        for scope in comparison.behaviours
+        [ranked.name for ranked in ranking.policies if ranking.best(ranked)]
+        for ranking in comparison.behaviours
     ]
     assert all(marked)
     assert set(marked[0]) == {"leader", "twin"}
 
 
 def test_actions_that_are_hardly_in_metres_are_told() -> None:
-    def clipped(name: str, share: float) -> Entry:
-        made = entry(name, 20.0, -2.0)
+    def clipped(name: str, share: float) -> PolicyResults:
+        made = policy_results(name, 20.0, -2.0)
         scores = tuple({**each, "clipped": share} for each in made.scores)
         return dataclasses.replace(made, scores=scores)
 
-    made = compare(contest(clipped("millimetres", 0.98), clipped("metres", 0.02)))
-    (told,) = oddities(made)
-    assert told.startswith("millimetres: 98 % of its actions were cut")
-    assert {s.name: s.clipped for s in made.overall.standings} == pytest.approx(
+    made = compare(paired(clipped("millimetres", 0.98), clipped("metres", 0.02)))
+    (told,) = unit_warnings(made)
+    assert told.startswith("millimetres: 98 % of its actions were clipped")
+    assert {s.name: s.clipped for s in made.overall.policies} == pytest.approx(
         {"millimetres": 0.98, "metres": 0.02}
     )

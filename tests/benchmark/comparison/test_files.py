@@ -9,13 +9,13 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
+from colift.benchmark.comparison.captions import failures, verdict
 from colift.benchmark.comparison.comparison import Comparison, compare
 from colift.benchmark.comparison.files import (
     comparison_csv,
     comparison_json,
     write_comparison,
 )
-from colift.benchmark.comparison.words import failures, verdict
 from PIL import Image
 
 
@@ -128,14 +128,14 @@ def test_the_picture_fits_a_readme(folder: Path) -> None:
 def test_the_words_say_who_wins_and_who_failed(comparison: Comparison) -> None:
     assert verdict(comparison) == (
         "leader is the most level: 11.5 mm, 1.21 times the human-human baseline's 9.5 mm. "
-        "twin cannot be told from it."
+        "twin cannot be distinguished from it."
     )
     assert failures(comparison) == [
-        "failing: 3 of 64 lifts failed and count as worst; the first: step 3: oops"
+        "failing: 3 of 64 lifts failed and count as worst; first reason: step 3: oops"
     ]
 
 
 def test_the_words_say_where_it_is_better_than_people(comparison: Comparison) -> None:
-    follower = [e for e in comparison.contest.entries if e.name in ("follower", "still")]
-    two = compare(dataclasses.replace(comparison.contest, entries=tuple(follower)))
+    follower = [e for e in comparison.results.policies if e.name in ("follower", "still")]
+    two = compare(dataclasses.replace(comparison.results, policies=tuple(follower)))
     assert verdict(two).endswith(" On jerky it is more level than two people.")

@@ -9,7 +9,7 @@ from colift.agents.loading.loading import PolicySpec
 from colift.agents.registry import SUITES, own_entries
 from colift.benchmark.bounds.causal import BOUNDS
 from colift.benchmark.bundle import results
-from colift.benchmark.comparison.contest import play_bounds
+from colift.benchmark.comparison.playing import play_bounds
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.paper.table_one import HUMAN_HUMAN_RMSE
 from colift.benchmark.results.baselines import (

@@ -1,4 +1,4 @@
-"""Contests that are played, on the quick suite."""
+"""Comparisons that are played, on the quick suite."""
 
 import dataclasses
 
@@ -6,9 +6,10 @@ import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import results
 from colift.benchmark.comparison.comparison import compare
-from colift.benchmark.comparison.contest import Contest, amount, play_contest
 from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.html import html_page
+from colift.benchmark.comparison.paired_results import PairedResults
+from colift.benchmark.comparison.playing import episodes_to_play, play_policies
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import (
     HUMAN_HUMAN_LABEL,
@@ -25,27 +26,27 @@ def quick() -> Suite:
 
 
 @pytest.fixture(scope="module")
-def played(quick: Suite) -> Contest:
-    return play_contest({name: PolicySpec(text=name) for name in ("copy", "hold")}, quick)
+def played(quick: Suite) -> PairedResults:
+    return play_policies({name: PolicySpec(text=name) for name in ("copy", "hold")}, quick)
 
 
-def test_a_policy_has_the_numbers_that_run_gives_it(quick: Suite, played: Contest) -> None:
+def test_a_policy_has_the_numbers_that_run_gives_it(quick: Suite, played: PairedResults) -> None:
     run = run_suite(PolicySpec(text="copy"), quick)
     summary = results(run, shipped_baselines(quick) or {}).summary.plain()
-    standing = next(p for p in comparison_json(compare(played))["policies"] if p["name"] == "copy")
+    ranked = next(p for p in comparison_json(compare(played))["policies"] if p["name"] == "copy")
     for name in ("mean", "ci95"):
-        assert list_of(standing["rmse_mm"][name]) == list_of(summary["rmse_mm"][name])
-        assert list_of(standing["vs_human"][name]) == list_of(summary["vs_human"][name])
-    assert standing["sparc"]["mean"] == pytest.approx(summary["sparc"]["mean"])
-    assert standing["human_force_n"]["mean"] == pytest.approx(summary["human_force_n"]["mean"])
-    assert standing["digest"] == run.policy_digest
+        assert list_of(ranked["rmse_mm"][name]) == list_of(summary["rmse_mm"][name])
+        assert list_of(ranked["vs_human"][name]) == list_of(summary["vs_human"][name])
+    assert ranked["sparc"]["mean"] == pytest.approx(summary["sparc"]["mean"])
+    assert ranked["human_force_n"]["mean"] == pytest.approx(summary["human_force_n"]["mean"])
+    assert ranked["digest"] == run.policy_digest
 
 
 def list_of(value: object) -> list[object]:
     return list(value) if isinstance(value, list | tuple) else [value]
 
 
-def test_the_bounds_are_there_when_they_are_shipped(quick: Suite, played: Contest) -> None:
+def test_the_bounds_are_there_when_they_are_shipped(quick: Suite, played: PairedResults) -> None:
     assert played.bounds == shipped_bounds(quick)
     told = comparison_json(compare(played))["bounds"]
     assert [bound["name"] for bound in told] == ["causal_bound", "oracle"]
@@ -58,33 +59,33 @@ def test_the_bounds_are_there_when_they_are_shipped(quick: Suite, played: Contes
 
 
 def test_the_human_human_baseline_is_the_one_shipped_or_is_played(
-    quick: Suite, played: Contest
+    quick: Suite, played: PairedResults
 ) -> None:
     assert played.human_human == (shipped_baselines(quick) or {})["human_human"]
     other = dataclasses.replace(quick.with_seeds(7, 8), scenarios=quick.scenarios[:1])
     counted: list[int] = []
     copies = {"a": PolicySpec(text="copy"), "b": PolicySpec(text="copy")}
-    found = play_contest(copies, other, progress=counted.append)
+    found = play_policies(copies, other, progress=counted.append)
     assert found.bounds == {}
     human_human = human_human_run(other)
     assert found.human_human.rmse_mm == tuple(
         episode.scores["rmse_mm"] for episode in human_human.episodes
     )
-    assert sum(counted) == amount(2, other) == 3
+    assert sum(counted) == episodes_to_play(2, other) == 3
 
 
-def test_a_policy_against_itself_shares_the_first_rank(quick: Suite, played: Contest) -> None:
-    (copy, _) = played.entries
+def test_a_policy_against_itself_shares_the_first_rank(quick: Suite, played: PairedResults) -> None:
+    (copy, _) = played.policies
     twice = dataclasses.replace(copy, name="copy again")
-    first, second = compare(dataclasses.replace(played, entries=(copy, twice))).overall.standings
+    first, second = compare(dataclasses.replace(played, policies=(copy, twice))).overall.policies
     assert first.rank == second.rank == 1
     assert second.to_best is not None
     assert (second.to_best.mean, second.to_best.p, second.to_best.share_better) == (0.0, 1.0, 0.5)
 
 
-def test_an_interrupted_contest_is_none(quick: Suite) -> None:
+def test_an_interrupted_comparison_gives_no_results(quick: Suite) -> None:
     def stop(episodes: int) -> None:
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        play_contest({"copy": PolicySpec(text="copy")}, quick, progress=stop)
+        play_policies({"copy": PolicySpec(text="copy")}, quick, progress=stop)

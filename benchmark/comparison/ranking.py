@@ -1,4 +1,4 @@
-"""Estimates of each policy among the others: on all episodes, on a behaviour, with a subject."""
+"""Policies ranked on all episodes, on one behaviour or with one subject."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -22,9 +22,9 @@ from ..statistics import (
     rank_groups,
     ratio_of_means,
 )
-from .contest import Contest, Entry
+from .paired_results import PairedResults, PolicyResults
 
-Kind = Literal["all", "behaviour", "subject"]
+SubsetKind = Literal["all", "behaviour", "subject"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,8 +43,8 @@ class MetricMean:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Standing:
-    """One policy among others."""
+class RankedPolicy:
+    """One policy, ranked among others."""
 
     name: str
     rank: int
@@ -59,7 +59,7 @@ class Standing:
     metrics: Mapping[str, MetricMean]
     """The other metrics that boards show."""
     clipped: float | None
-    """Share of its actions that were cut; nothing if it never acted."""
+    """Share of its actions that were clipped; None if it never acted."""
     to_best: PairedDifference | None
     """RMSE minus that of the first in the order [mm], p Holm-corrected for the policies compared;
     None for the first itself."""
@@ -76,16 +76,16 @@ class Standing:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Scope:
-    """The policies' standings on some of the episodes."""
+class Ranking:
+    """Policies ranked on a subset of the episodes."""
 
-    kind: Kind
+    kind: SubsetKind
     name: str
     """The behaviour or the subject; ``all`` for all episodes."""
     episodes: int
-    baselines_rmse_mm: Mapping[str, Estimate]
-    """RMSE of each of :attr:`.Contest.baselines`."""
-    standings: tuple[Standing, ...]
+    references_rmse_mm: Mapping[str, Estimate]
+    """RMSE of each of :attr:`.PairedResults.references`."""
+    policies: tuple[RankedPolicy, ...]
     """In the order of the mean RMSE, the best first."""
     decisive: bool
     """Whether the episodes are enough to tell any policy from the best; else ranks say nothing."""
@@ -93,45 +93,47 @@ class Scope:
     @property
     def human_human_rmse_mm(self) -> Estimate:
         """RMSE of the human-human baseline."""
-        return self.baselines_rmse_mm[HUMAN_HUMAN_LABEL]
+        return self.references_rmse_mm[HUMAN_HUMAN_LABEL]
 
-    def best(self, standing: Standing) -> bool:
-        """Whether a policy is the best here or cannot be told from it, as far as that is known."""
-        return self.decisive and standing.rank == 1
+    def best(self, ranked: RankedPolicy) -> bool:
+        """Whether a policy shares the first rank, where the episodes are enough to tell."""
+        return self.decisive and ranked.rank == 1
 
 
-def scope(contest: Contest, kind: Kind, name: str, members: Sequence[int]) -> Scope:
-    """Return the standings on the episodes with these indices.
+def rank_policies(
+    results: PairedResults, kind: SubsetKind, name: str, members: Sequence[int]
+) -> Ranking:
+    """Rank the policies on the episodes with these indices.
 
     Parameters
     ----------
-    contest
-        The policies' scores.
+    results
+        Results of the policies, baseline and bounds.
     kind, name
         What the episodes have in common.
     members
         Indices of the episodes, in the suite's order.
     """
     chosen = np.array(members)
-    strata = [contest.human_human.strata[i] for i in members]
-    human_human = np.array(contest.human_human.rmse_mm)[chosen]
-    errors = {entry.name: _values(entry, "rmse_mm")[chosen] for entry in contest.entries}
+    strata = [results.human_human.strata[i] for i in members]
+    human_human = np.array(results.human_human.rmse_mm)[chosen]
+    errors = {policy.name: _values(policy, "rmse_mm")[chosen] for policy in results.policies}
     groups = rank_groups(errors)
     order = [name for group in groups for name in group]
     ranks = {name: rank for rank, group in enumerate(groups, 1) for name in group}
     differences = _to_best([errors[name] for name in order], strata)
-    entries = {entry.name: entry for entry in contest.entries}
-    return Scope(
+    by_name = {policy.name: policy for policy in results.policies}
+    return Ranking(
         kind=kind,
         name=name,
         episodes=len(members),
-        baselines_rmse_mm={
+        references_rmse_mm={
             name: mean_of(np.array(baseline.rmse_mm)[chosen], strata)
-            for name, baseline in contest.baselines.items()
+            for name, baseline in results.references.items()
         },
-        standings=tuple(
-            _standing(
-                entries[name], contest.metrics, chosen, strata, human_human, ranks[name], difference
+        policies=tuple(
+            _ranked(
+                by_name[name], results.metrics, chosen, strata, human_human, ranks[name], difference
             )
             for name, difference in zip(order, differences, strict=True)
         ),
@@ -154,28 +156,28 @@ def _to_best(
     ]
 
 
-def _standing(
-    entry: Entry,
+def _ranked(
+    policy: PolicyResults,
     metrics: Sequence[Metric],
     chosen: FloatArray,
     strata: Sequence[Stratum],
     human_human: FloatArray,
     rank: int,
     to_best: PairedDifference | None,
-) -> Standing:
-    rmse = _values(entry, "rmse_mm")[chosen]
-    return Standing(
-        name=entry.name,
+) -> RankedPolicy:
+    rmse = _values(policy, "rmse_mm")[chosen]
+    return RankedPolicy(
+        name=policy.name,
         rank=rank,
-        failed=sum(entry.failures[i] is not None for i in chosen),
+        failed=sum(policy.failures[i] is not None for i in chosen),
         rmse_mm=mean_of(rmse, strata),
         vs_human=ratio_of_means(rmse, human_human, strata),
         better_than_human=probability_better(rmse, human_human, strata),
         metrics={
-            metric.name: _metric_mean(_values(entry, metric.name)[chosen], strata)
+            metric.name: _metric_mean(_values(policy, metric.name)[chosen], strata)
             for metric in metrics
         },
-        clipped=mean_with_missing(_values(entry, "clipped")[chosen]).mean,
+        clipped=mean_with_missing(_values(policy, "clipped")[chosen]).mean,
         to_best=to_best,
     )
 
@@ -189,5 +191,5 @@ def _metric_mean(values: FloatArray, strata: Sequence[Stratum]) -> MetricMean:
     )
 
 
-def _values(entry: Entry, metric: str) -> FloatArray:
-    return np.array([scores[metric] for scores in entry.scores])
+def _values(policy: PolicyResults, metric: str) -> FloatArray:
+    return np.array([scores[metric] for scores in policy.scores])

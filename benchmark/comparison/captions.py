@@ -1,0 +1,150 @@
+"""Captions and sentences of a comparison's tables, picture and page."""
+
+from collections.abc import Sequence
+from typing import Final
+
+from ...agents.actions import HAND_SPEED
+from ..episode.level_metrics import MOSTLY_CLIPPED
+from ..results.baselines import HUMAN_HUMAN_LABEL
+from .comparison import Comparison
+from .ranking import Ranking
+
+SURE: Final = 0.975
+"""Probability above which the 95 % interval of a difference excludes zero."""
+
+HOW_TO_READ: Final = (
+    "RMSE: root mean square of the height difference between the two ends of the table, over the "
+    "whole lift. Smaller is more level. From a failure on, 250 mm are counted.",
+    "Rank: the difference between policies of the same rank and the first of that rank is not "
+    "significant (paired sign-flip test, Holm-corrected, 5 %).",
+    "Human-human baseline: two simulated people on the same lifts. vs_human is the RMSE divided by "
+    "that of the baseline: 1 is as level as with a human partner, less is better.",
+    "SPARC: smoothness of the robot's end during the human's strokes. Closer to 0 is smoother. A "
+    "robot that does not move along has no SPARC and counts as least smooth.",
+    "Intervals: 95 %, by bootstrap over the seeds within each behaviour and subject. They show how "
+    "much the value would vary with other lifts of the same people.",
+)
+
+
+PICTURE_AXIS: Final = "← more level · RMSE of the height difference, mm"
+
+PICTURE_CAPTION: Final = (
+    "Higher and further left is better. Bars are 95 % intervals. The line joins the Pareto front: "
+    "the policies that no other policy beats in both mean RMSE and mean SPARC. The diamond is the "
+    f"{HUMAN_HUMAN_LABEL}; squares are bounds, the limits of what a policy could reach."
+)
+
+RANKS_CAPTION: Final = (
+    "Small print: 95 % intervals; for the time per step, the median above its 99th percentile. "
+    "Policies that share a rank do not differ significantly from the first of them."
+)
+
+AGAINST_CAPTION: Final = (
+    "Paired difference of each policy's RMSE to the best policy's, with its 95 % interval; p value "
+    "of this difference, Holm-corrected; share of the lifts in which its RMSE is the lower one; "
+    f"probability that its mean RMSE on such lifts is below the {HUMAN_HUMAN_LABEL}'s."
+)
+
+
+def title(comparison: Comparison) -> str:
+    """Return the number of policies and the suite, in one line."""
+    return f"{len(comparison.results.policies)} policies on {comparison.results.suite.name}"
+
+
+def picture_title(comparison: Comparison) -> str:
+    """Return the title of the picture, with a line on how to read it."""
+    return (
+        f"How level and how smooth: {title(comparison)}\n"
+        f"Means over {comparison.overall.episodes} lifts, with 95 % intervals. "
+        "Orange: no other policy is both more level and smoother."
+        + (" Squares: bounds." if comparison.results.bounds else "")
+    )
+
+
+def verdict(comparison: Comparison) -> str:
+    """Return the most level policy, those of its rank, and where it beats two people."""
+    overall = comparison.overall
+    best, *others = overall.policies
+    text = (
+        f"{best.name} is the most level: {best.rmse_mm.mean:.1f} mm, "
+        f"{best.vs_human.mean:.2f} times the {HUMAN_HUMAN_LABEL}'s "
+        f"{overall.human_human_rmse_mm.mean:.1f} mm."
+    )
+    equals = [ranked.name for ranked in others if ranked.rank == best.rank]
+    if not overall.decisive:
+        text += f" But {overall.episodes} lifts are too few to rank the policies."
+    elif equals:
+        text += f" {_listed(equals)} cannot be distinguished from it."
+    if best.better_than_human > SURE:
+        return f"{text} It is more level than two people."
+    won = [
+        ranking.name
+        for ranking in comparison.behaviours
+        for ranked in ranking.policies
+        if ranked.name == best.name and ranked.better_than_human > SURE
+    ]
+    return f"{text} On {_listed(won)} it is more level than two people." if won else text
+
+
+def failures(comparison: Comparison) -> list[str]:
+    """Return a sentence per policy that failed in a lift."""
+    sentences = []
+    for policy in comparison.results.policies:
+        reasons = [failure for failure in policy.failures if failure is not None]
+        if reasons:
+            sentences.append(
+                f"{policy.name}: {len(reasons)} of {len(policy.failures)} lifts failed and count "
+                f"as worst; first reason: {reasons[0]}"
+            )
+    return sentences
+
+
+def unit_warnings(comparison: Comparison) -> list[str]:
+    """Return a sentence per policy whose actions are probably not in metres."""
+    return [
+        f"{ranked.name}: {100 * ranked.clipped:.0f} % of its actions were clipped to the "
+        f"speed of the hands ({HAND_SPEED:g} m/s): are they changes of the height, in metres?"
+        for ranked in comparison.overall.policies
+        if ranked.clipped is not None and ranked.clipped > MOSTLY_CLIPPED
+    ]
+
+
+def provenance(comparison: Comparison, version: str) -> str:
+    """Return version, suite, digest and number of lifts."""
+    suite, lifts = comparison.results.suite, comparison.overall.episodes
+    return f"colift {version}, suite {suite.name}, digest {suite.digest}, {lifts} lifts"
+
+
+def parts_caption(kind: str, rankings: Sequence[Ranking]) -> str:
+    """Return the caption of the table by one kind of subset, such as behaviours."""
+    return (
+        f"RMSE in mm for each {kind}; below it, the difference to the best policy of the column, "
+        f"with its 95 % interval. {marks_caption('Bold', rankings)}"
+    )
+
+
+def marks_caption(mark: str, rankings: Sequence[Ranking]) -> str:
+    """Return the meaning of the mark of the best, or why there is none."""
+    meaning = f"{mark}: the best policy, and those not significantly different from it."
+    few = [ranking for ranking in rankings if not ranking.decisive]
+    if not few:
+        return meaning
+    if len(few) == len(rankings):
+        lifts = " or ".join(map(str, sorted({ranking.episodes for ranking in few})))
+        return (
+            f"No policy is marked as the best: {lifts} lifts per column are too few for a "
+            "significant difference at 5 %."
+        )
+    return f"{meaning} No mark where the lifts are too few: {_listed([s.name for s in few])}."
+
+
+def undecided(overall: Ranking) -> str:
+    """Return why there are no ranks; empty if there are ranks."""
+    if overall.decisive:
+        return ""
+    return f"No ranks: {overall.episodes} lifts are too few for a significant difference at 5 %."
+
+
+def _listed(names: list[str]) -> str:
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last

@@ -1,0 +1,64 @@
+"""Results of policies, of the human-human baseline and of bounds on the same episodes."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..episode.metric import Metric, Scores, on_boards
+from ..execution.runner import Run
+from ..results.baselines import HUMAN_HUMAN_LABEL, Baseline
+from ..results.summary import Stratum, stratum
+from ..suites.suite import Suite
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PolicyResults:
+    """Scores of one policy, episode by episode. Traces are not kept: there are many policies."""
+
+    name: str
+    digest: str
+    """Hash of the policy's source."""
+    strata: tuple[Stratum, ...]
+    """Behaviour and subject of each episode, in the suite's order."""
+    scores: tuple[Scores, ...]
+    failures: tuple[str | None, ...]
+    """Reason of each failure; None for an episode that did not fail."""
+    step_ms: tuple[float, float] | None
+    """Median and 99th percentile of the time of a step [ms]; None if it never made one."""
+
+    @classmethod
+    def of(cls, name: str, run: Run) -> "PolicyResults":
+        """Return the results of a run, under the name that tables use."""
+        times = [1000 * time for episode in run.episodes for time in episode.step_times]
+        p50, p99 = np.percentile(times, [50, 99]) if times else (0.0, 0.0)
+        return cls(
+            name=name,
+            digest=run.policy_digest,
+            strata=tuple(stratum(episode) for episode in run.episodes),
+            scores=tuple(episode.scores for episode in run.episodes),
+            failures=tuple(episode.failure for episode in run.episodes),
+            step_ms=(float(p50), float(p99)) if times else None,
+        )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PairedResults:
+    """Results of policies, baseline and bounds, episode by episode the same lifts."""
+
+    suite: Suite
+    policies: tuple[PolicyResults, ...]
+    human_human: Baseline
+    """The human-human baseline."""
+    bounds: Mapping[str, Baseline] = field(default_factory=dict)
+    """The bounds, by name."""
+
+    @property
+    def metrics(self) -> tuple[Metric, ...]:
+        """The metrics that are compared beside RMSE."""
+        return on_boards(self.suite.metrics)
+
+    @property
+    def references(self) -> dict[str, Baseline]:
+        """The human-human baseline, then the bounds, by name; none has a rank."""
+        return {HUMAN_HUMAN_LABEL: self.human_human, **self.bounds}

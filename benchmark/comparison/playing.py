@@ -1,0 +1,93 @@
+"""Playing a suite with policies, and with the human-human baseline and bounds if not shipped."""
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from typing import Protocol
+
+from ...agents.spec import AgentSpec
+from ..execution.runner import Run, run_suite
+from ..results.baselines import (
+    HUMAN_HUMAN,
+    Baseline,
+    human_human_run,
+    shipped_baselines,
+    shipped_bounds,
+)
+from ..suites.suite import Suite
+from .paired_results import PairedResults, PolicyResults
+
+
+class Bound(Protocol):
+    """Plays a suite with a robot that knows more than any policy may."""
+
+    def __call__(
+        self, suite: Suite, *, executor: Executor | None, progress: Callable[[int], None]
+    ) -> Run:
+        """Return the run; arguments as for :func:`.run_suite`."""
+
+
+def episodes_to_play(policies: int, suite: Suite, *, bounds: int = 0) -> int:
+    """Return the number of episodes that :func:`play_policies` will play."""
+    human_human = shipped_baselines(suite) is None
+    return suite.size * (policies + human_human + bounds * (shipped_bounds(suite) is None))
+
+
+def play_policies(
+    policies: Mapping[str, AgentSpec],
+    suite: Suite,
+    *,
+    stored: Sequence[PolicyResults] = (),
+    bounds: Mapping[str, Bound] | None = None,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> PairedResults:
+    """Play the suite with each policy, and with baseline and bounds where none are shipped.
+
+    Parameters
+    ----------
+    policies
+        Policies, by the name that tables use.
+    suite, executor, progress
+        As for :func:`.run_suite`.
+    stored
+        Results of policies that have played the suite before.
+    bounds
+        Bounds to play, by name, if none are shipped for the suite; shipped ones are included
+        always.
+
+    Raises
+    ------
+    InputError
+        If a policy cannot be loaded.
+    KeyboardInterrupt
+        After Ctrl-C: without all episodes there are no pairs.
+    """
+    played = [
+        PolicyResults.of(name, run_suite(spec, suite, executor=executor, progress=progress))
+        for name, spec in policies.items()
+    ]
+    bounding = shipped_bounds(suite)
+    if bounding is None:
+        bounding = play_bounds(bounds or {}, suite, executor=executor, progress=progress)
+    shipped = shipped_baselines(suite)
+    if shipped is None:
+        human_human = Baseline.of(human_human_run(suite, executor=executor, progress=progress))
+    else:
+        human_human = shipped[HUMAN_HUMAN]
+    return PairedResults(
+        suite=suite, policies=(*played, *stored), human_human=human_human, bounds=bounding
+    )
+
+
+def play_bounds(
+    bounds: Mapping[str, Bound],
+    suite: Suite,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> dict[str, Baseline]:
+    """Return the results of each bound on a suite; arguments as of :func:`play_policies`."""
+    return {
+        name: Baseline.of(play(suite, executor=executor, progress=progress))
+        for name, play in bounds.items()
+    }

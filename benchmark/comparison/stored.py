@@ -1,0 +1,73 @@
+"""Results of policies that are stored in bundles."""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...agents.errors import InputError, Remedy
+from ..bundle import FILES, read_bundle
+from ..episode.metric import SCORING
+from ..suites.suite import Suite
+from .paired_results import PolicyResults
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Stored:
+    """A bundle's scores, as it claims them, and the suite that they are of."""
+
+    folder: Path
+    policy: PolicyResults
+    suite: Suite
+
+
+def is_bundle(folder: Path) -> bool:
+    """Return whether a folder has the files of a bundle; they are not read."""
+    return all((folder / name).is_file() for name in FILES)
+
+
+def read_stored(folder: Path) -> Stored:
+    """Return the scores in a bundle.
+
+    Raises
+    ------
+    InputError
+        If it is damaged, not complete, or its scores are not those of this version of colift.
+    """
+    try:
+        bundle = read_bundle(folder)
+        run = bundle.run()
+    except InputError as error:
+        raise InputError(f"{folder}: {error}") from error
+    content = bundle.results
+    if not (content["complete"] and run.complete):
+        raise InputError(
+            f"{folder} has {len(run.episodes)} of {run.suite.size} lifts: run the rest"
+        )
+    if content["scoring"] != SCORING:
+        raise InputError(
+            f"{folder} has scores of version {content['scoring']}, this colift computes version "
+            f"{SCORING}",
+            remedy=Remedy.RESCORE,
+            target=str(folder),
+        )
+    if content["suite_digest"] != run.suite.digest:
+        raise InputError(
+            f"{folder} was played on {content['suite']} with digest {content['suite_digest']}; "
+            f"here that suite has digest {run.suite.digest}: run the policy again"
+        )
+    step = content["summary"]["step_ms"]
+    policy = PolicyResults.of(run.policy, run)
+    if step["p50"] is not None and step["p99"] is not None:
+        policy = dataclasses.replace(policy, step_ms=(step["p50"], step["p99"]))
+    return Stored(folder=folder, policy=policy, suite=run.suite)
+
+
+def check_same_suite(stored: Sequence[Stored], suite: Suite) -> None:
+    """Raise an InputError if a bundle is of other lifts than those of a suite."""
+    for each in stored:
+        if each.suite.digest != suite.digest:
+            raise InputError(
+                f"{each.folder} has the lifts of {each.suite.name} (digest {each.suite.digest}), "
+                f"not of {suite.name} (digest {suite.digest}): policies are compared on the same"
+            )
