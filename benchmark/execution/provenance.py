@@ -73,10 +73,10 @@ def _linear_algebra() -> str:
     packages = Path(np.__file__).resolve().parents[1]
     own = [each for each in found if Path(each["filepath"]).is_relative_to(packages / "numpy.libs")]
     names = ("internal_api", "version", "architecture")
-    names_here = {
+    libraries = {
         " ".join(str(each.get(name, "")) for name in names).strip() for each in own or found
     }
-    return ", ".join(sorted(names_here)) or "unknown"
+    return ", ".join(sorted(libraries)) or "unknown"
 
 
 def _libm() -> str:

@@ -32,7 +32,7 @@ class Deviation:
     reason: str
     """The rule that the policy breaks."""
 
-    def told(self, run: Run) -> str:
+    def describe(self, run: Run) -> str:
         """Return the finding in a line. It names the episode: not for one that is hidden."""
         episode = run.episodes[self.place]
         where = f"{episode.behaviour}/{episode.subject} seed {episode.seed}"

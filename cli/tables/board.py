@@ -22,7 +22,7 @@ def board_table(
     human_human: HumanHumanScores | None,
     width: int,
 ) -> Table:
-    """Return a season's table: who cannot be told from each other shares a rank.
+    """Return a season's table: policies that cannot be distinguished share a rank.
 
     The human-human baseline stands where it would come by its mean.
 
@@ -108,11 +108,11 @@ def _human_human(baseline: HumanHumanScores, metrics: Sequence[Metric], wide: bo
 
 
 def _caption(wide: bool) -> str:
-    told = "One rank: no significant difference. RMSE: hidden lifts. vs human: 1 is two people"
+    common = "One rank: no significant difference. RMSE: hidden lifts. vs human: 1 is two people"
     if not wide:
-        return f"{told}. SPARC: public lifts."
+        return f"{common}. SPARC: public lifts."
     return (
-        f"{told}, less is better. SPARC (smoothness), force at the human's hands and "
+        f"{common}, less is better. SPARC (smoothness), force at the human's hands and "
         "time per step: public lifts. Gap: hidden minus public RMSE."
     )
 
@@ -123,5 +123,5 @@ def _interval(estimate: Estimate) -> str:
 
 
 def _step(row: BoardRow) -> str:
-    told = optional_number(row.public.step_ms_p50, ".3f")
-    return told if row.real_time else f"{told}, slow"
+    time = optional_number(row.public.step_ms_p50, ".3f")
+    return time if row.real_time else f"{time}, slow"

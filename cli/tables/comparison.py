@@ -46,7 +46,8 @@ def ranks_table(comparison: Comparison) -> Table:
         (cells for _, cells in sorted(rows, key=lambda row: row[0])),
         caption=f"{overall.episodes} lifts each; suite digest {suite.digest}. "
         + (undecided(overall) or "Policies of one rank (#) do not differ significantly.")
-        + f" vs_human: RMSE divided by that of the {HUMAN_HUMAN_LABEL}. Force in N."
+        + f" vs_human: RMSE divided by that of the {HUMAN_HUMAN_LABEL}. "
+        "Force at the human's hands in N."
         + (f" {NO_POLICIES}" if comparison.results.bounds else "")
         + (f" {FEWER}" if any(s.sparc and s.sparc_missing for s in overall.policies) else ""),
     )

@@ -57,17 +57,17 @@ def row_text(
             f"Time per step: median {public.step_ms_p50:.3f} ms, p99 {public.step_ms_p99:.3f} ms: "
             f"{speed}"
         )
-    told = "verified" if row.verified else "not verified, the policy was not kept apart"
-    lines.append(f"Isolation {row.isolation}: {told}")
+    status = "verified" if row.verified else "not verified, the policy was not isolated"
+    lines.append(f"Isolation {row.isolation}: {status}")
     return "\n".join(lines)
 
 
 def _rank(row: BoardRow, ranking: Sequence[tuple[int, BoardRow]], section: Section) -> str:
     rank = next(rank for rank, each in ranking if each.submission == row.submission)
     if not rank:
-        return "No rank: the lifts are too few to tell the policies of this board apart"
+        return "No rank: the lifts are too few to rank the policies of this board"
     sharing = sum(each == rank for each, _ in ranking) - 1
-    shared = f", shared with {sharing} that cannot be told from it" if sharing else ""
+    shared = f", shared with {sharing} that cannot be distinguished from it" if sharing else ""
     slow = "" if section == "ranking" else " that are not real-time"
     return f"Rank {rank} of {len(ranking)} policies{slow}{shared}"
 

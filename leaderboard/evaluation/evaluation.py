@@ -106,7 +106,7 @@ def evaluate_entrant(
     watch.stage("audit")
     finding = audit(entrant.fresh, public, season.secret, **playing)
     if finding is not None:
-        return EntrantResult(row=None, refusal=finding.told(public))
+        return EntrantResult(row=None, refusal=finding.describe(public))
     watch.stage("verification")
     _verify(bundle, executor, watch)
     watch.stage(HIDDEN)

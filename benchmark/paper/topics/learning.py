@@ -39,11 +39,12 @@ def _median(iterations: NDArray[np.float64]) -> Claim:
         figure="Q-learning",
         paper=f"median {MEDIAN_ITERATIONS} iterations of {TRIALS} trials",
         criterion="median 26 to 46 and 90th percentile at most 75",
-        measured=f"median {median:.0f}, 90th percentile {tail:.0f}, over {len(iterations)} trials",
+        measured=f"median {median:.0f}, 90th percentile {tail:.0f}, "
+        f"over {_trials(len(iterations))}",
         values={"median": _finite(median), "p90": _finite(tail), "trials": len(iterations)},
         holds=bool(26 <= median <= 46 and tail <= 75),
-        note=f"{never} trials had not converged at the end of the phase; they count as never."
-        + (f" A firm answer needs {MANY} trials (--trials)." if len(iterations) < MANY else ""),
+        note=f"{_trials(never)} had not converged at the end of the phase: counted as never."
+        + (f" A firm answer needs {MANY} trials." if len(iterations) < MANY else ""),
     )
 
 
@@ -60,7 +61,7 @@ def _longest(iterations: NDArray[np.float64]) -> Claim:
         paper=f"{LONGEST_ITERATIONS}",
         criterion=f"{LONGEST_ITERATIONS} lies within the middle 90 % of the longest of ten trials",
         measured=f"longest of ten: median {middle:.0f}, middle 90 % {low:.0f} to {high:.0f}, "
-        f"{len(longest)} tens of trials",
+        f"{len(longest)} {'group' if len(longest) == 1 else 'groups'} of ten trials",
         values={"low": _finite(low), "median": _finite(middle), "high": _finite(high)},
         holds=bool(low <= LONGEST_ITERATIONS <= high),
     )
@@ -98,6 +99,10 @@ def levels(table: NDArray[np.float64], difference: float, *, actions: int = 4) -
     for _ in range(actions):
         difference -= ACTIONS[greedy[state_of(difference)]] * Q_PARAMETERS.position_step
     return abs(difference) <= LEVEL + 1e-9
+
+
+def _trials(count: int) -> str:
+    return f"{count} trial" if count == 1 else f"{count} trials"
 
 
 def _finite(value: float) -> float | None:

@@ -93,7 +93,7 @@ def test_a_policy_left_to_chance_is_told_with_episode_and_step():
     assert finding.reason == CHANCE
     episode = run.episodes[finding.place]
     for told in (episode.behaviour, episode.subject, f"seed {episode.seed}", "step 11", CHANCE):
-        assert told in finding.told(run)
+        assert told in finding.describe(run)
 
 
 def test_state_kept_between_episodes_is_told_from_chance():
