@@ -27,7 +27,7 @@ UNKNOWN = "unknown"
 
 @dataclass(frozen=True, kw_only=True)
 class GivenPolicy(InProcess):
-    """Where the agent comes from: it is here already."""
+    """A policy given as an object or a class: it acts in this process."""
 
     given: object
     """An object with ``reset`` and ``act``, or a class of such objects."""
@@ -59,9 +59,9 @@ class GivenPolicy(InProcess):
                 ) from error
 
     def digest(self) -> str:
-        """Return the hash of the source of the class, as far as it can be read.
+        """Return the hash of the source of the class, or :data:`UNKNOWN`.
 
-        What an object has been made with or has learned is not in it.
+        The arguments and the learned state of an object are not part of it.
         """
         try:
             if self.type.__module__.startswith("colift."):
@@ -94,35 +94,34 @@ def evaluate(
     ----------
     policy
         An object with ``reset(seed)`` and ``act(observation)``, or a class of such objects: it acts
-        in this process. Or what ``colift run`` takes: a name of :func:`.list_policies`, with
-        parameters after a comma if any, ``module:Class``, ``file.py:Class``, or the folder of a
-        submission.
-        An object plays all lifts: its ``reset`` must make it forget the last one. Of a class
-        there is a new object for each lift.
+        in this process. An object plays all lifts, so its ``reset`` must clear the last one; a
+        class makes a new object for each lift.
+        Or a text, as for ``colift run``: a name of :func:`.list_policies`, with parameters after a
+        comma if any, ``module:Class``, ``file.py:Class``, or the folder of a submission.
     suite
         A name of :func:`.list_suites`, or a suite made by :mod:`colift.benchmark.suites.suite`.
     isolation
-        For names, files and folders, as ``colift run --isolation``: colift's own policies are
-        played in this process, all others in the strongest sandbox that works here.
+        Isolation level of a policy given as text. By default colift's own policies act in this
+        process, and all others in the strongest sandbox that works here.
     jobs
-        Number of worker processes. With 1 everything is done in this one. A script that asks for
-        more must do so under ``if __name__ == "__main__":``, as with any pool of processes.
+        Number of worker processes; with 1 all lifts are played in this process. A script that asks
+        for more must do so under ``if __name__ == "__main__":``, as with any pool of processes.
     progress
         Whether to show a bar on a terminal's stderr.
 
     Returns
     -------
     Evaluation
-        The outcome: print it, or see its attributes.
+        The outcome: ``print`` shows it as a table, its attributes are the numbers.
 
     Raises
     ------
     InputError
         If there is no such policy, suite or isolation, or the policy cannot be used.
     EvaluatorFault
-        If the machine fails again and again.
+        If the machine, not the policy, fails repeatedly.
     KeyboardInterrupt
-        If it is interrupted: partial results are not compared with anything.
+        After Ctrl-C; the finished lifts are discarded.
     """
     spec = _spec(policy, isolation, jobs)
     played = make_suite(suite) if isinstance(suite, str) else suite
@@ -141,18 +140,18 @@ def evaluate(
 
 
 def _spec(policy: object, isolation: str, jobs: int) -> AgentSpec:
-    """Return where the policy comes from."""
+    """Return the specification of a policy."""
     if isinstance(policy, str | Path):
         return choose_policy(str(policy), isolation)
     if isolation not in (AUTO, NONE):
         raise InputError(
-            f"isolation {isolation!r}: an object or a class acts in this process; name its file, "
-            "file.py:Class, to have it in a sandbox"
+            f"isolation {isolation!r}: an object or a class acts in this process; give its file, "
+            "file.py:Class, to play it in a sandbox"
         )
     given = GivenPolicy(given=policy)
     if jobs > 1 and given.type.__module__ == "__main__":
         raise InputError(
             f"{jobs} processes cannot import {given.name}, which is defined in this script or "
-            "notebook: put it into a module, or say jobs=1"
+            "notebook: move it to a module, or use jobs=1"
         )
     return given

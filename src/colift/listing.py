@@ -9,7 +9,7 @@ def list_policies() -> list[str]:
 
 
 def list_humans() -> list[str]:
-    """Return the names of the human behaviours: what ``scenario`` may be in :func:`.make`."""
+    """Return the names of the human behaviours: the scenarios of :func:`.make`."""
     return list(entries(HUMANS))
 
 

@@ -21,7 +21,7 @@ WIDTH = 100
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Evaluation:
-    """Scores of a policy on a suite; ``print`` shows them by the way the human moves."""
+    """Scores of a policy on a suite; ``print`` shows them by human behaviour."""
 
     run: Run
     """The lifts: ``run.episodes``, each with its scores and its trace."""
@@ -40,14 +40,14 @@ class Evaluation:
 
     @property
     def vs_human(self) -> float:
-        """:attr:`rmse_mm` over that of the human-human baseline: 1 is as good, less is better."""
+        """:attr:`rmse_mm` divided by that of the human-human baseline; below 1 is better."""
         ratio = self.results.summary.vs_human
         assert ratio is not None  # Evaluations always have the baselines.
         return ratio.mean
 
     @property
     def failures(self) -> tuple[str, ...]:
-        """Why lifts ended early, one line for each that did."""
+        """The failed lifts with their reasons, one line per lift."""
         return tuple(
             f"{episode.behaviour}/{episode.subject} seed {episode.seed}: {episode.failure}"
             for episode in self.run.episodes
@@ -87,7 +87,7 @@ class Evaluation:
         )
 
     def _repr_html_(self) -> str:
-        """Return what a notebook shows: the picture, and the table."""
+        """Return the view of a notebook: the picture and the table."""
         from .picture import evaluation_picture
 
         return f"{evaluation_picture(self.run, self.results)}<pre>{html.escape(str(self))}</pre>"

@@ -1,4 +1,4 @@
-"""The picture of an evaluation: each lift's error, by the way the human moves."""
+"""The picture of an evaluation: each lift's error, by human behaviour."""
 
 import io
 from typing import Final
@@ -23,7 +23,7 @@ def evaluation_picture(run: Run, results: Results) -> str:
     run
         The lifts: a dot each, and a solid line at the mean of each behaviour.
     results
-        Its results: a dashed line at the mean of two humans.
+        Its results: a dashed line at the mean of the human-human baseline.
     """
     behaviours = list(dict.fromkeys(episode.behaviour for episode in run.episodes))
     figure = Figure(figsize=(7.0, 1.0 + ROW * len(behaviours)), layout="constrained")

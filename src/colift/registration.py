@@ -42,7 +42,7 @@ def make(
     render_mode
         ``None``, ``"rgb_array"`` or ``"human"``.
     settings
-        ``control_period`` and ``latency`` [s], and what ``gymnasium.make`` takes itself.
+        ``control_period`` and ``latency`` [s], and the arguments of ``gymnasium.make`` itself.
 
     Raises
     ------

@@ -31,15 +31,15 @@ FASTEST: Final = 0.5
 """Highest speed of a plan [m/s]; people lift at up to 0.3 m/s."""
 
 STEEPEST: Final = 4.5
-"""Highest change of velocity in a frame, over the frame [m/s2]; the limit of ``jerky``."""
+"""Highest acceleration of a plan from frame to frame [m/s2]; the limit of ``jerky``."""
 
 
 def check_policy(make: Callable[[], Agent]) -> None:
     """Check a robot policy on the observations of a made-up lift.
 
     It must return one finite number per step in double precision, change no observation, keep
-    nothing over a reset, share no state with another object of its class, and explain itself, if
-    it does, by the same finite numbers after every action.
+    nothing from one episode to the next, and share no state with another object of its class. If
+    it has internals, they must be finite and have the same names after every action.
 
     Parameters
     ----------
@@ -185,7 +185,8 @@ def check_suite(suite: Suite) -> None:
     Its name is plain ASCII, scenarios have distinct names, seeds are distinct, and its recipe,
     which goes into result bundles, rebuilds it.
     """
-    _require(bool(suite.name) and plain_name(suite.name) == suite.name, "the name must be ASCII")
+    plain = bool(suite.name) and plain_name(suite.name) == suite.name
+    _require(plain, f"the name {suite.name!r} must be plain ASCII")
     names = [scenario.name for scenario in suite.scenarios]
     _require(len(set(names)) == len(names) > 0, "scenarios must have distinct names")
     _require(len(set(suite.seeds)) == len(suite.seeds) > 0, "seeds must be distinct")
