@@ -1,1 +1,1 @@
-"""Agents: whoever holds an end of the table. Humans, robot policies, and their one interface."""
+"""Agents, which hold the ends of the table: humans and robot policies, with one interface."""

@@ -33,13 +33,13 @@ def checked_action(agent: str, action: Any, size: int) -> list[float]:
     Raises
     ------
     ActionError
-        If it is anything else than ``size`` finite numbers.
+        If it is not ``size`` finite numbers.
     """
     try:
         values = np.asarray(action, dtype=np.float64)
     except Exception:  # An object may have any __array__ or __float__.
         values = np.empty(0)
-    if action is None or isinstance(action, str | bytes):  # NumPy makes numbers of these, too.
+    if action is None or isinstance(action, str | bytes):  # NumPy would convert these.
         values = np.empty(0)
     if size == 1 and values.ndim == 0:
         values = values.reshape(1)
@@ -53,7 +53,7 @@ def checked_action(agent: str, action: Any, size: int) -> list[float]:
 
 
 def _shown(action: Any) -> str:
-    """Return the beginning of an action's text, whatever it is."""
+    """Return the beginning of an action's text, whatever type it has."""
     try:
         return f"{action!r:.80}"
     except Exception:

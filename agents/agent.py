@@ -63,9 +63,9 @@ class RobotObservation(IntEnum):
     ROBOT_END = 1
     """Height of the robot's table end [m], motion capture."""
     HAND_HEIGHT = 2
-    """Height of the own hand [m], encoders, age 0."""
+    """Height of the robot's hand [m], encoders, age 0."""
     HAND_COMMAND = 3
-    """Own hand command [m] at the start of this step, age 0."""
+    """Command of the robot's hand [m] at the start of this step, age 0."""
     TIME = 4
     """Time since the episode began [s]."""
 

@@ -1,7 +1,7 @@
-"""The calibrated numbers: fitted to the paper's Table I, and used like any other parameter.
+"""Parameters calibrated to the paper's Table I.
 
 ``colift calibrate`` fits them on seeds of its own and writes ``calibration.json`` beside this file,
-with where they come from. None of them is specific to a policy.
+with their provenance. None of them is specific to a policy.
 """
 
 import json
@@ -19,9 +19,9 @@ class Calibration:
     process_noise: float
     """q of the motion filter [mm2/s6]."""
     partner_lag: float
-    """Lag of the second human of the human-human baseline [s]."""
+    """Lag of the partner, the second human of the human-human baseline [s]."""
     provenance: dict[str, Any]
-    """How, on what and with what result they were fitted."""
+    """Method, data and result of the fit."""
 
 
 def _load() -> Calibration:

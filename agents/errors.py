@@ -1,4 +1,4 @@
-"""The errors that have an owner: the user, the policy, or the machine that evaluates."""
+"""Errors by origin: the user's input, the policy, or the machine that evaluates."""
 
 from enum import Enum, auto
 
@@ -9,20 +9,20 @@ class Remedy(Enum):
     RESUME = auto()
     """Resume the interrupted run."""
     RESCORE = auto()
-    """Have a verification write the bundle anew, with the present scores."""
+    """Verify the bundle and replace its scores by the present ones."""
     NEW_SUBMISSION = auto()
-    """Begin with the template of a submission."""
+    """Start from the template of a submission."""
     SUBMISSION_FROM_FILE = auto()
-    """Make a submission of a file; the target is ``file.py:Class``."""
+    """Make a submission from a file; the target is ``file.py:Class``."""
 
 
 class InputError(ValueError):
-    """Something a user gave is wrong; the message names it, its value and what would be right.
+    """Invalid input from a user; the message names it, its value and the valid values.
 
     Parameters
     ----------
     message
-        What is wrong, in the words of the library: without options or commands.
+        The fault, without options or commands of any interface.
     remedy
         What the user can do, if a command line or a page can name a command for it.
     target
@@ -36,15 +36,15 @@ class InputError(ValueError):
 
 
 class PolicyError(Exception):
-    """A policy failed; the message is the reason, as it is shown. The episode counts as worst."""
+    """A failure of the policy; the message is the reason. The episode is a failed lift."""
 
 
 class EvaluatorFault(Exception):  # noqa: N818
-    """The machine failed, not the policy: the episode is played again and never counted."""
+    """A failure of the machine, not of the policy: the episode is played again."""
 
 
 def error_text(error: BaseException) -> str:
-    """Return an error in a line: its class and what it says."""
+    """Return an error on one line: its class and its message."""
     if isinstance(error, PolicyError | EvaluatorFault):
         return str(error)
     return f"{type(error).__name__}: {error}".rstrip(": ")

@@ -10,7 +10,7 @@ from urllib.parse import unquote, urlsplit
 def how_to_install(extra: str) -> str:
     """Return the command that installs an extra, for the sources that colift was installed from.
 
-    Colift is in no package registry, so that its bare name would get nothing, or something else.
+    Colift is in no package registry: its bare name would install nothing, or another project.
     """
     source, editable = _source()
     if source is None:

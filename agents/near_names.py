@@ -5,9 +5,9 @@ from collections.abc import Iterable
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return ``did you mean NAME? `` with the known name that is nearest; nothing if none is near.
+    """Return ``did you mean NAME? `` with the nearest known name; empty if none is near.
 
-    It is to be followed by what else there is.
+    It ends with a blank: a list of all known names should follow.
     """
     lower = {each.lower(): each for each in known}
     near = difflib.get_close_matches(name.lower(), lower, n=1)

@@ -1,8 +1,8 @@
 """Policies, human behaviours, suites and tasks by name.
 
-All of them, ours and those of other packages, are entry points: ``name = "module:Class"`` in the
-group ``colift.policies``, ``colift.humans`` or ``colift.tasks``, or ``name = "module:function"`` in
-``colift.suites``. Ours are in pyproject.toml.
+All of them, colift's own and those of other packages, are entry points:
+``name = "module:Class"`` in the group ``colift.policies``, ``colift.humans`` or ``colift.tasks``,
+or ``name = "module:function"`` in ``colift.suites``. Colift's own are in pyproject.toml.
 """
 
 import functools
@@ -62,7 +62,7 @@ def lookup(group: str, name: str) -> Any:
     except Exception as error:
         message = f"{type(error).__name__}: {error}"
         raise InputError(
-            f"{_KIND[group]} {name!r} ({known[name].value}) fails: {message}"
+            f"{_KIND[group]} {name!r} ({known[name].value}) cannot be loaded: {message}"
         ) from error
 
 

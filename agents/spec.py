@@ -1,4 +1,4 @@
-"""Specifications of agents: their interface, and the part that all in-process ones share."""
+"""Specifications of agents: their interfaces, and the base of those that act in this process."""
 
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
@@ -11,7 +11,7 @@ from .agent import Agent
 
 
 class AgentSpec(Protocol):
-    """The origin of the agent at the robot's end; picklable, since it goes to worker processes.
+    """The specification of the agent at the robot's end; picklable, as worker processes need it.
 
     :class:`colift.agents.loading.loading.PolicySpec` is one.
     """
@@ -44,7 +44,10 @@ class Portable(AgentSpec, Protocol):
 
     @property
     def module(self) -> str:
-        """The installed module that the digest does not cover anew; empty if there is none."""
+        """Name of the installed module with the agent's code, if ``digest`` returns a stored hash.
+
+        Empty if ``digest`` reads the code itself, or if all code is in ``files``.
+        """
 
     def moved(self, folder: Path) -> Self:
         """Return the same agent with its files in another folder."""
@@ -60,7 +63,7 @@ class Paced(Protocol):
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """Limit linear algebra to one thread, as in a sandbox: the number changes the last bits.
+    """Limit linear algebra to one thread, as in a sandbox: their number changes the last bits.
 
     Only libraries that are already loaded are limited.
     """
@@ -69,7 +72,7 @@ def one_thread() -> Iterator[None]:
 
 
 class InProcess:
-    """The part of a specification that makes its agents in this process, without isolation."""
+    """Base of the specifications whose agents act in this process, without isolation."""
 
     @property
     def isolation(self) -> str:

@@ -101,13 +101,13 @@ def _files(submission: Submission) -> Iterator[Check]:
     wanted = [
         missing
         for missing, wanting in (
-            ("who wrote it", AUTHOR in manifest.authors),
-            ("what it does (the description is the template's)", _undescribed(submission)),
+            ("the authors", AUTHOR in manifest.authors),
+            ("a description (it is the template's)", _undescribed(submission)),
         )
         if wanting
     ]
     if wanted:
-        text += f". Say in policy.toml {' and '.join(wanted)}"
+        text += f". Write in policy.toml {' and '.join(wanted)}"
     yield Check(name="manifest", ok=True, message=text, warning=bool(wanted))
     wrong = list(undeclared(submission.folder, contents, manifest.packages))
     text = "; ".join(wrong) or ", ".join(manifest.packages) or "none but Python's own"

@@ -1,1 +1,1 @@
-"""Policies by name, module or file: how they are found, made and given parameters."""
+"""Policies by name, module or file: their lookup, construction and parameters."""

@@ -1,4 +1,4 @@
-"""The parameters of a policy in words: names, defaults, kinds, meanings."""
+"""Descriptions of a policy's parameters: names, defaults, kinds, meanings."""
 
 import ast
 import inspect
@@ -12,19 +12,19 @@ from .values import kind, write_value
 
 @dataclass(frozen=True, kw_only=True)
 class ParameterText:
-    """One parameter of a policy, in words."""
+    """The description of one parameter of a policy."""
 
     name: str
     default: str
-    """Its default, as a user would write it."""
+    """Its default, as a user writes it."""
     kind: str
-    """What its values are."""
+    """The kind of its values, such as ``a number``."""
     meaning: str
     """The docstring under its field, on one line; empty if there is none."""
 
 
 def described(policy: type) -> tuple[ParameterText, ...]:
-    """Return what can be set of a policy.
+    """Return the descriptions of a policy's parameters.
 
     Raises
     ------

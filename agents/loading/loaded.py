@@ -1,8 +1,8 @@
-"""Colift's policies, with all that they import late: what a fork server loads once for all lifts.
+"""Colift's policies with their late imports, which a fork server loads once for all lifts.
 
-The filters' library takes more than a second to import. Policies import it when they make a
-filter, so that whoever only lists them need not wait; in a process for each episode that would be
-paid again and again.
+The library of filters takes more than a second to import. Policies import it when they make a
+filter, so that listing them stays fast; without this module the process of every episode would
+import it again.
 """
 
 import filterpy.kalman  # noqa: F401

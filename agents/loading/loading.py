@@ -22,11 +22,11 @@ from .parameters import make_with, read_values
 
 @dataclass(frozen=True, kw_only=True)
 class PolicySpec(InProcess):
-    """Where a policy's class is, and its parameters: picklable, so that any process can load it."""
+    """A policy as text: the place of its class, and its parameters; any process can load it."""
 
     text: str
-    """``name``, ``package.module:Class`` or ``path/to/file.py:Class``, and parameters that differ
-    from the default after a comma: ``name,parameter=value,parameter=value``."""
+    """``name``, ``package.module:Class`` or ``path/to/file.py:Class``; after a comma, parameters
+    that differ from the default: ``name,parameter=value,parameter=value``."""
 
     @property
     def name(self) -> str:
@@ -46,7 +46,7 @@ class PolicySpec(InProcess):
         source, colon, name = place.rpartition(":")
         if not colon:
             if Path(place).suffix == ".py" or "/" in place:
-                raise InputError(f"which class of {place}? Say {place}:Class")
+                raise InputError(f"{place} names no class; give {place}:Class")
             return _checked(lookup(POLICIES, place), place)
         module = _from_file(Path(source)) if source.endswith(".py") else _from_module(source)
         if not hasattr(module, name):
@@ -61,9 +61,9 @@ class PolicySpec(InProcess):
                 self.make()
 
     def digest(self) -> str:
-        """Return the hash of what the policy's class does; see :func:`source_digest`.
+        """Return the hash of the policy's class, see :func:`source_digest`, and its parameters.
 
-        It is also over the values of the parameters that are given, however they are written.
+        Parameters count by their values: ``0.5`` and ``.50`` give the same hash.
 
         Raises
         ------
@@ -74,8 +74,8 @@ class PolicySpec(InProcess):
         values = self._values(policy)
         if not values:
             return source_digest(policy)
-        told = ",".join(f"{name}={value!r}" for name, value in sorted(values.items()))
-        return hashlib.sha256(f"{source_digest(policy)},{told}".encode()).hexdigest()[:16]
+        settings = ",".join(f"{name}={value!r}" for name, value in sorted(values.items()))
+        return hashlib.sha256(f"{source_digest(policy)},{settings}".encode()).hexdigest()[:16]
 
     def make(self) -> Agent:
         """Return a new policy object.
@@ -92,8 +92,8 @@ class PolicySpec(InProcess):
         try:
             return cast(Agent, make_with(policy, values))
         except Exception as error:
-            told = error if isinstance(error, ValueError) else f"{type(error).__name__}: {error}"
-            raise InputError(f"policy {self.parts[0]}: {told}") from error
+            reason = error if isinstance(error, ValueError) else f"{type(error).__name__}: {error}"
+            raise InputError(f"policy {self.parts[0]}: {reason}") from error
 
     @property
     def parts(self) -> tuple[str, str, str]:
@@ -115,7 +115,7 @@ class PolicySpec(InProcess):
 
     @property
     def module(self) -> str:
-        """Empty: :meth:`digest` reads an installed module wherever it is called."""
+        """Empty: :meth:`digest` reads the code of an installed module."""
         return ""
 
     def moved(self, folder: Path) -> "PolicySpec":
@@ -135,19 +135,19 @@ class PolicySpec(InProcess):
 
 @dataclass(frozen=True, kw_only=True)
 class InMemorySpec(InProcess):
-    """A policy that is made by a call in this process, such as one with other parameters."""
+    """A policy made by a callable, such as one with an object as parameter."""
 
     name: str
     factory: Callable[[], Agent]
-    """Makes a new agent; goes to worker processes, so it is pickled."""
+    """Makes a new agent; must be picklable, since it goes to worker processes."""
     source: type
-    """The class whose code the digest is of."""
+    """The class whose code is hashed."""
 
     def check(self) -> None:
-        """Accept it: all of it is here."""
+        """Accept it: nothing has to be loaded."""
 
     def digest(self) -> str:
-        """Return the hash of what the class does; see :func:`source_digest`."""
+        """Return the hash of the class; see :func:`source_digest`."""
         return source_digest(self.source)
 
     def make(self) -> Agent:
@@ -156,10 +156,10 @@ class InMemorySpec(InProcess):
 
 
 def source_digest(agent: type) -> str:
-    """Return the hash (16 hexadecimal digits) of what a class does, without names and words.
+    """Return the hash of a class (16 hexadecimal digits), without names, comments and docstrings.
 
-    Of a class of colift it is over the class with all that it uses, what was learned or calibrated
-    for it included; of another class over all that its file defines.
+    For a class of colift it covers the class and everything it uses, learned and calibrated data
+    included; for any other class, everything that its file defines.
     """
     if agent.__module__.partition(".")[0] == __name__.partition(".")[0]:
         return code_hash(agent)
@@ -171,7 +171,7 @@ def _from_module(name: str) -> ModuleType:
     try:
         return importlib.import_module(name)
     except (Exception, SystemExit) as error:
-        raise InputError(f"cannot import module {name!r}: {_told(error)}") from error
+        raise InputError(f"cannot import module {name!r}: {_cause(error)}") from error
 
 
 def _from_file(path: Path) -> ModuleType:
@@ -186,12 +186,12 @@ def _from_file(path: Path) -> ModuleType:
     try:
         spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:
-        raise InputError(f"{path} fails on import: {_told(error)}") from error
+        raise InputError(f"{path} fails on import: {_cause(error)}") from error
     return module
 
 
-def _told(error: BaseException) -> str:
-    """Return what an import raised, and in which line of which file."""
+def _cause(error: BaseException) -> str:
+    """Return the error of an import, with file and line."""
     frames = traceback.extract_tb(error.__traceback__)
     places = [frame for frame in frames if not frame.filename.startswith(("<", __file__))]
     where = f" ({Path(places[-1].filename).name}, line {places[-1].lineno})" if places else ""

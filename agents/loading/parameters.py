@@ -1,8 +1,8 @@
 """Parameters of a policy from text: ``forgetting=0.9,motion.process_noise=1e5``.
 
-What can be set is what the policy's constructor takes by keyword: numbers, words, and dataclasses
-of parameters. The fields of its argument ``parameters`` go by their own names, those of any other
-dataclass by ``outer.inner``. An argument of None stands for a dataclass of defaults.
+Parameters are the keyword arguments of the policy's constructor: numbers, words, and dataclasses of
+these. Fields of its argument ``parameters`` go by their own names, fields of any other dataclass by
+``outer.inner``. A default of None stands for the dataclass with its own defaults.
 """
 
 import dataclasses
@@ -22,7 +22,7 @@ Path = tuple[str, ...]
 
 @dataclass(frozen=True, kw_only=True)
 class Parameter:
-    """One value that can be set."""
+    """One parameter: a single value."""
 
     owner: type
     """The dataclass that has it, or the policy itself."""
@@ -31,24 +31,24 @@ class Parameter:
     hint: Any
     """Its type."""
     default: Any
-    """Its value when nothing is said."""
+    """Its value if it is not set."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Group:
-    """What is made of several parameters: a dataclass of them, or the policy itself."""
+    """Parameters from which one object is made: a dataclass, or the policy itself."""
 
     make: Callable[..., Any]
     members: "dict[str, Parameter | _Group]"
 
 
 def parameters_of(policy: type) -> dict[str, Parameter]:
-    """Return what can be set of a policy, by the names that a user writes.
+    """Return the parameters of a policy, by the names that a user writes.
 
     Raises
     ------
     InputError
-        If the types or defaults of the constructor's arguments cannot be found out.
+        If the types or defaults of the constructor's arguments cannot be determined.
     """
     return {_name(path): parameter for path, parameter in _flat(_constructor(policy))}
 
@@ -59,13 +59,13 @@ def split(text: str) -> dict[str, str]:
     Raises
     ------
     InputError
-        If it is none, or a name is given twice.
+        If the text has another form, or a name is given twice.
     """
     values: dict[str, str] = {}
     for item in text.split(","):
         name, sign, value = (part.strip() for part in item.partition("="))
         if not (name and sign):
-            raise InputError(f"parameters are name=value with commas between, got {item!r}")
+            raise InputError(f"parameters must be name=value, separated by commas; got {item!r}")
         if name in values:
             raise InputError(f"{name} is given twice")
         values[name] = value
@@ -92,16 +92,16 @@ def read_values(policy: type, text: str) -> dict[str, Any]:
     Raises
     ------
     InputError
-        If a name is unknown or given twice, or a value is none of the parameter's type; or as
+        If a name is unknown or given twice, or a value is not of the parameter's type; or as
         :func:`parameters_of`.
     """
     known = parameters_of(policy)
     values: dict[str, Any] = {}
     for name, value in split(text).items():
         if name not in known:
-            told = ", ".join(f"{each}={write_value(known[each].default)}" for each in known)
+            defaults = ", ".join(f"{each}={write_value(known[each].default)}" for each in known)
             near = did_you_mean(name, known)
-            raise InputError(f"no parameter {name!r}; {near}it has {told or 'none'}")
+            raise InputError(f"no parameter {name!r}; {near}it has {defaults or 'none'}")
         hint = known[name].hint
         try:
             values[name] = read_value(hint, value)
@@ -133,7 +133,7 @@ def _constructor(policy: type) -> _Group:
 def _members(
     owner: type, hints: Mapping[str, Any], defaults: Mapping[str, Any]
 ) -> dict[str, Parameter | _Group]:
-    """Return what of an owner can be set; a type that is not said is the default's."""
+    """Return the parameters of an owner; without an annotation the default gives the type."""
     members: dict[str, Parameter | _Group] = {}
     for name, default in defaults.items():
         hint = hints.get(name, type(default))
@@ -157,8 +157,8 @@ def _hints(owner: Any) -> dict[str, Any]:
     try:
         return get_type_hints(owner)
     except Exception as error:
-        told = f"{type(error).__name__}: {error}"
-        raise InputError(f"cannot read the types of {owner.__qualname__}: {told}") from error
+        reason = f"{type(error).__name__}: {error}"
+        raise InputError(f"cannot read the types of {owner.__qualname__}: {reason}") from error
 
 
 def _default(parameters: Any) -> Any:

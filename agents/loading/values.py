@@ -1,7 +1,7 @@
-"""Values of a type from text, as a command line gives them, and back.
+"""Conversion of parameter values from text and to text.
 
-The types are numbers, words, true and false, choices (``Literal``), tuples of one of these with
-``/`` between the items, and each of them or None.
+Supported types are numbers, words, booleans, choices (``Literal``), tuples of one basic type with
+``/`` between the items, and each of these or None.
 """
 
 import math
@@ -9,7 +9,7 @@ import types
 from typing import Any, Final, Literal, Union, get_args, get_origin
 
 NONE: Final = "none"
-"""How no value is written, and a tuple of nothing."""
+"""Text of None, and of an empty tuple."""
 
 _BOOLS: Final = {"true": True, "false": False}
 _KINDS: Final = {float: "a number", int: "a whole number", bool: "true or false", str: "a word"}
@@ -26,14 +26,14 @@ def readable(hint: Any) -> bool:
 
 
 def read_value(hint: Any, text: str) -> Any:
-    """Return the value of a readable type that a text means.
+    """Return the value of a readable type that a text stands for.
 
-    A choice may be given by its beginning, if it is the only one that begins so.
+    A choice may be abbreviated, as long as only one begins that way.
 
     Raises
     ------
     ValueError
-        If it means none.
+        If the text is not a value of the type.
     """
     if not text:
         raise ValueError("no value")
@@ -61,7 +61,7 @@ def write_value(value: Any) -> str:
 
 
 def kind(hint: Any) -> str:
-    """Return in words what the values of a readable type are."""
+    """Return a description of the values of a readable type, such as ``a number``."""
     if _is_union(hint):
         return f"{kind(without_none(hint))}, or {NONE}"
     if get_origin(hint) is Literal:

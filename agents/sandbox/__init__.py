@@ -1,1 +1,1 @@
-"""Sandboxes for other people's policies: each episode runs in a new process with few rights."""
+"""Sandboxes for untrusted policies: each episode runs in a new process with few rights."""

@@ -1,7 +1,7 @@
 """The protocol between the host and the guest of a sandbox: limits, orders and frames.
 
-A frame is its length (4 bytes, big-endian) and a msgpack list of numbers, strings, lists of them.
-No pickle, no arrays, no extension types; whatever arrives is a list, or an error.
+A frame is a length (4 bytes, big-endian) and a msgpack list of numbers, strings and lists of these.
+Pickle, arrays and extension types are not allowed: a received frame is a list, or an error.
 """
 
 import math
@@ -17,18 +17,18 @@ import msgpack
 from ..errors import InputError
 
 AGENTS: Final = Path(__file__).resolve().parents[1]
-"""The package that the guest sees of colift, without the humans."""
+"""The part of colift that the guest sees: ``colift.agents``, without the humans."""
 
 EPISODE: Final = "episode"
 PRELOAD: Final = "preload"
 PROBE: Final = "probe"
-"""What a process is for: an order to the fork server is one of these and a content, as JSON."""
+"""The kinds of orders to the fork server; an order is a kind and its content, as JSON."""
 
 ORDER: Final = 1 << 17
 """Longest order, and longest settings of a fork server [bytes]."""
 
 INTERNALS: Final = 64
-"""Most internals of a policy."""
+"""Largest number of internals of a policy."""
 
 NAME: Final = 64
 """Characters of an internal's name."""
@@ -46,8 +46,8 @@ REASON: Final = 500
 class Limits:
     """Budgets of a policy in one episode. They are backstops: wall clock never enters a score.
 
-    Those of time follow from the control period: a lift of n steps may take ``start_seconds`` and n
-    times ``pace_seconds`` in all, import included.
+    Budgets of time follow from the control period: a lift of n steps may take ``start_seconds + n *
+    pace_seconds`` in all, import included.
     """
 
     memory: int = 2048 * MIB
@@ -57,20 +57,19 @@ class Limits:
     files: int = 256
     """Open files of a process."""
     file_size: int = 64 * MIB
-    """Largest file, and all that its private /tmp and /dev/shm hold each [bytes]."""
+    """Largest file, and size of its private /tmp and of its /dev/shm [bytes]."""
     cpu_seconds: int = 60
-    """Processor time of a process [s]: what the wall time of the longest lift of a suite (10 s)
-    leaves room for."""
+    """Processor time of a process [s]: as much as the wall time of the longest lift of a suite
+    (10 s)."""
     start_seconds: float = 30.0
-    """Wall time for import, constructor and ``reset`` together [s]; what they leave, the steps may
-    use."""
+    """Wall time for import, constructor and ``reset`` together [s]; the steps may use the rest."""
     period: float = 0.1
     """Control period of the episode [s]; that of the suites."""
     step_periods: float = 100.0
-    """Wall time for an action, in control periods: long enough for a machine that does too much at
-    a time; what all actions may take bounds a slow policy."""
+    """Wall time for one action, in control periods: long enough for an overloaded machine. A slow
+    policy is stopped by the budget of all actions together."""
     pace_periods: float = 3.0
-    """Wall time that each action adds to what all may take, in control periods."""
+    """Wall time that each action adds to the budget of all, in control periods."""
 
     def __post_init__(self) -> None:
         """Raise InputError if a limit is not a positive number."""
@@ -85,7 +84,7 @@ class Limits:
 
     @property
     def pace_seconds(self) -> float:
-        """Wall time that each action adds to what all may take [s]."""
+        """Wall time that each action adds to the budget of all [s]."""
         return self.pace_periods * self.period
 
 
@@ -100,22 +99,22 @@ _CHUNK: Final = 4 * 1024
 
 
 class Assignment(NamedTuple):
-    """A policy that is to be served."""
+    """A policy to serve."""
 
     place: str
-    """Where its class is: ``module:Class`` or ``file.py:Class``."""
+    """Place of its class: ``module:Class`` or ``file.py:Class``."""
     parameters: str = ""
-    """What is set of it."""
+    """Its parameters: ``name=value,name=value``."""
     size: int = 1
-    """How many numbers its action is."""
+    """Length of its actions."""
 
 
 class WireError(Exception):
-    """What came is no answer; the message says why."""
+    """A message that breaks the protocol; the text is the reason."""
 
 
 class ClosedError(WireError):
-    """The other side has closed."""
+    """The other side has closed the connection."""
 
 
 class _Local(threading.local):
@@ -124,11 +123,11 @@ class _Local(threading.local):
 
 
 _LOCAL: Final = _Local()
-"""A packer of each thread's own, kept: a new one has to get its buffer anew."""
+"""One packer per thread, kept because a new one must allocate its buffer."""
 
 
 def packed(content: list[Any]) -> bytes:
-    """Return a list as a frame; raise WireError if it is too long or holds what a frame cannot."""
+    """Return a list as a frame; raise WireError if it is too long or has other types."""
     try:
         body: bytes = _LOCAL.pack(content)
     except (TypeError, ValueError, OverflowError) as error:
@@ -168,7 +167,7 @@ class Channel:
         self._end.close()
 
     def send(self, frame: bytes) -> None:
-        """Send a frame, never wait; raise ClosedError if the other side does not take it."""
+        """Send a frame without waiting; raise ClosedError if the other side does not take it."""
         try:
             sent = self._end.send(frame, _FLAGS)
         except BlockingIOError:
@@ -179,7 +178,7 @@ class Channel:
             raise ClosedError("does not read what it is sent")
 
     def fetch(self) -> list[Any] | None:
-        """Wait for what comes next; return the frame, or None if it is not all there yet.
+        """Wait for more bytes; return the frame, or None if it is still incomplete.
 
         Raise WireError if it is too long, is followed by more, or is not msgpack.
         """
@@ -207,7 +206,7 @@ class Channel:
 
     @property
     def partial(self) -> str:
-        """The received part of an unfinished frame, in words; empty if nothing."""
+        """A message about an incomplete frame; empty if there is none."""
         return f"sent {len(self._buffer)} bytes of an answer, then no more" if self._buffer else ""
 
     def receive(self) -> list[Any]:

@@ -1,6 +1,6 @@
 """Validators for the fields of ``policy.toml``, one function per field.
 
-Each raises an InputError that says what would be right; :mod:`.manifest` says where.
+Each raises an InputError with the valid values; :mod:`.manifest` adds the file and the key.
 """
 
 import keyword
@@ -21,17 +21,19 @@ MOST_AUTHORS: Final = 50
 
 
 def name(value: Any) -> str:
-    """Return the name under which the policy is shown."""
+    """Return the display name of the policy."""
     if not (isinstance(value, str) and NAME.fullmatch(value) and value == value.strip()):
         raise _wrong(value, "1 to 40 letters, digits, spaces and . _ + -, a letter or digit first")
     taken = {*own_entries(POLICIES), "human_human"}
     if value.lower().replace(" ", "_").replace("-", "_") in taken:
-        raise InputError(f"must be another than colift's own {', '.join(sorted(taken))}")
+        raise InputError(
+            f"must differ from colift's own names ({', '.join(sorted(taken))}); got {shown(value)}"
+        )
     return value
 
 
 def authors(value: Any) -> tuple[str, ...]:
-    """Return who wrote it."""
+    """Return the names of the authors."""
     if not isinstance(value, list) or not 0 < len(value) <= MOST_AUTHORS:
         raise _wrong(value, f'a list of 1 to {MOST_AUTHORS} names, such as ["Ada Lovelace"]')
     return tuple(line(each) for each in value)
@@ -56,47 +58,47 @@ def text(value: Any) -> str:
 
 
 def link(value: Any) -> str:
-    """Return an address of the web, or nothing."""
+    """Return a web address, or an empty text."""
     if value == "":
         return ""
-    told = "an address that begins with https:// or http://, or empty"
+    valid = "an address that begins with https:// or http://, or empty"
     if not isinstance(value, str) or len(value) > LONGEST_LINE or " " in value:
-        raise _wrong(value, told)
+        raise _wrong(value, valid)
     try:
         address = urlsplit(value)
     except ValueError:
-        raise _wrong(value, told) from None
+        raise _wrong(value, valid) from None
     good = address.scheme in ("https", "http") and address.hostname and "@" not in address.netloc
     if not (good and value.isascii() and value.isprintable()):
-        raise _wrong(value, told)
+        raise _wrong(value, valid)
     return value
 
 
 def entry_point(value: Any) -> str:
-    """Return where the class is: ``module:Class``, the module in the submission's folder."""
-    told = 'module:Class, with the module in this folder, such as "policy:Policy" for policy.py'
+    """Return the place of the class: ``module:Class``, with the module in the folder."""
+    valid = 'module:Class, with the module in this folder, such as "policy:Policy" for policy.py'
     if not isinstance(value, str):
-        raise _wrong(value, told)
+        raise _wrong(value, valid)
     module, colon, policy = value.partition(":")
     parts = [*module.split("."), policy]
     if not colon or not all(part.isascii() and part.isidentifier() for part in parts):
-        raise _wrong(value, told)
+        raise _wrong(value, valid)
     if any(keyword.iskeyword(part) for part in parts):
-        raise _wrong(value, f"{told}, and no keyword of Python")
+        raise _wrong(value, f"{valid}, and no keyword of Python")
     if parts[0] in {*sys.stdlib_module_names, *PACKAGES.values(), "colift"}:
-        raise _wrong(value, f"{told}: {parts[0]} is a module of Python or of a package")
+        raise _wrong(value, f"{valid}: {parts[0]} is a module of Python or of a package")
     return value
 
 
 def parameters(value: Any) -> str:
-    """Return what is set of the class, in the order of the names."""
-    told = 'a text such as "gain=1.2,lead=0.25", or empty'
+    """Return the parameters of the class, sorted by name."""
+    valid = 'a text such as "gain=1.2,lead=0.25", or empty'
     if not isinstance(value, str) or len(value) > LONGEST_TEXT:
-        raise _wrong(value, told)
+        raise _wrong(value, valid)
     try:
         return merged(value)
     except InputError:
-        raise _wrong(value, told) from None
+        raise _wrong(value, valid) from None
 
 
 def packages(value: Any) -> tuple[str, ...]:
@@ -106,7 +108,7 @@ def packages(value: Any) -> tuple[str, ...]:
         raise _wrong(value, f"a list of some of: {known}")
     for each in value:
         if not isinstance(each, str) or each not in PACKAGES:
-            raise InputError(f"has {shown(each)}, which a board need not have; known: {known}")
+            raise InputError(f"has {shown(each)}, which boards do not provide; known: {known}")
         if not installed(each):
             raise InputError(f"has {each!r}, which is not installed here: pip install {each}")
     return tuple(dict.fromkeys(value))
@@ -120,14 +122,14 @@ def flag(value: Any) -> bool:
 
 
 def shown(value: Any) -> str:
-    """Return a value of TOML as a message shows it: short, and safe for a terminal."""
+    """Return a short text of a TOML value, safe for a terminal."""
     if isinstance(value, str):
-        return repr(value) if len(value) <= 60 else f"{value[:60]!r}... ({len(value)} long)"
+        return repr(value) if len(value) <= 60 else f"{value[:60]!r}... ({len(value)} characters)"
     if isinstance(value, bool):
         return str(value).lower()
     kinds = {int: "a number", float: "a number", list: "a list", dict: "a table"}
     return kinds.get(type(value), "a date")
 
 
-def _wrong(value: Any, told: str) -> InputError:
-    return InputError(f"must be {told}; got {shown(value)}")
+def _wrong(value: Any, valid: str) -> InputError:
+    return InputError(f"must be {valid}; got {shown(value)}")

@@ -1,4 +1,4 @@
-"""Reads the folder of a stranger, and copies it, without trusting anything in it."""
+"""Reading and copying of submitted folders, in which nothing is trusted."""
 
 import hashlib
 import os
@@ -13,10 +13,10 @@ from ..errors import InputError
 
 MIB: Final = 2**20
 CHUNK: Final = MIB
-"""Bytes that are read at a time."""
+"""Size of one read [bytes]."""
 
 NAME: Final = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.+-]{0,79}")
-"""What a file or folder may be called: no name needs quoting, on any system."""
+"""Valid names of files and folders: none needs quoting on any system."""
 
 _OPEN: Final = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
 _DIRECTORY: Final = _OPEN | os.O_DIRECTORY
@@ -24,16 +24,16 @@ _DIRECTORY: Final = _OPEN | os.O_DIRECTORY
 
 @dataclass(frozen=True, kw_only=True)
 class FolderLimits:
-    """How large a submission may be."""
+    """Limits on the size of a submission."""
 
     entries: int = 500
-    """Files and folders in all."""
+    """Number of files and folders."""
     file_bytes: int = 128 * MIB
     """Largest file [bytes]."""
     total_bytes: int = 256 * MIB
     """All files together [bytes]."""
     depth: int = 5
-    """Folders inside each other, the submission's own not counted."""
+    """Levels of folders below the submission's own."""
 
 
 LIMITS: Final = FolderLimits()
@@ -44,7 +44,7 @@ class File:
     """A regular file of a folder."""
 
     path: str
-    """Where it is in the folder, with ``/`` between the names."""
+    """Its path in the folder, with ``/`` between the names."""
     size: int
     """Its size [bytes]."""
     sha256: str
@@ -71,42 +71,44 @@ class Contents:
     def digest(self) -> str:
         """SHA-256 (64 hexadecimal digits) over all names and bytes.
 
-        It is the hash of what ``sha256sum`` prints for the files in the order of their paths.
+        It is the hash of the output of ``sha256sum`` for the files in the order of their paths.
         """
         listing = "".join(f"{file.sha256}  {file.path}\n" for file in self.files)
         return hashlib.sha256(listing.encode()).hexdigest()
 
 
 def is_part(name: str) -> bool:
-    """Whether what is called so belongs to a submission: not what tools leave in a folder."""
+    """Whether a file or folder of this name belongs to a submission.
+
+    Hidden ones and ``__pycache__`` do not: tools leave them behind.
+    """
     return not (name.startswith(".") or name == "__pycache__")
 
 
 def read_folder(folder: Path, limits: FolderLimits = LIMITS) -> Contents:
-    """Return what is in a folder.
+    """Return the files of a folder, for which :func:`is_part` holds.
 
-    Regular files only; names that begin with a dot, and ``__pycache__``, are left out. No link is
-    followed, not even one that is put there while the folder is read, and no file is read before
-    its size is known to be within the limits.
+    Only regular files are accepted. No link is followed, not even one that appears during the
+    reading, and no file is read before its size is checked.
 
     Raises
     ------
     InputError
-        If anything else is in it, a name or size is not allowed, or it cannot be read; the message
-        names the file.
+        If it contains anything else, a name or size is not allowed, or it cannot be read; the
+        message names the file.
     """
     return _walk(folder, limits, lambda path, data: None)
 
 
 def copy_folder(folder: Path, target: Path, limits: FolderLimits = LIMITS) -> Contents:
-    """Copy what :func:`read_folder` reads, and return what was copied.
+    """Copy the files that :func:`read_folder` reads, and return them.
 
     Parameters
     ----------
     folder
-        From where.
+        The folder to copy.
     target
-        To where: a folder that is there and empty.
+        An existing, empty folder.
     limits
         As for :func:`read_folder`.
 
@@ -133,12 +135,13 @@ def _walk(folder: Path, limits: FolderLimits, keep: Callable[[str, bytes], None]
     try:
         for path, size, chunks in _files(folder, limits):
             if size > budget:
-                raise _refused(folder, path, f"all files may have {_mib(limits.total_bytes)}")
+                most = _mib(limits.total_bytes)
+                raise _refused(folder, path, f"all files together may have at most {most}")
             sha, length = hashlib.sha256(), 0
             for data in chunks:
                 length += len(data)
                 if length > size:
-                    raise _refused(folder, path, "it grows while it is read")
+                    raise _refused(folder, path, "it grew while it was read")
                 sha.update(data)
                 keep(path, data)
             keep(path, b"")
@@ -166,12 +169,12 @@ def _files(folder: Path, limits: FolderLimits) -> Iterator[tuple[str, int, Itera
             path = above + name
             if not NAME.fullmatch(name):
                 raise _refused(
-                    folder, path, "a name is at most 80 letters, digits and _ . + -, in ASCII"
+                    folder, path, "a name may have at most 80 letters, digits and _ . + -, in ASCII"
                 )
             mode = os.stat(name, dir_fd=directory, follow_symlinks=False).st_mode
             if stat.S_ISDIR(mode):
                 if depth == limits.depth:
-                    raise _refused(folder, path, f"folders may be {limits.depth} deep")
+                    raise _refused(folder, path, f"folders may be at most {limits.depth} deep")
                 inner = os.open(name, _DIRECTORY, dir_fd=directory)
                 try:
                     yield from visit(inner, f"{path}/", depth + 1)
@@ -182,10 +185,10 @@ def _files(folder: Path, limits: FolderLimits) -> Iterator[tuple[str, int, Itera
                 try:
                     status = os.fstat(opened)
                     if not stat.S_ISREG(status.st_mode):
-                        raise _refused(folder, path, "it changes while it is read")
+                        raise _refused(folder, path, "it changed while it was read")
                     if status.st_size > limits.file_bytes:
-                        told = f"a file may have {_mib(limits.file_bytes)}"
-                        raise _refused(folder, path, f"{told}, it has {_mib(status.st_size)}")
+                        most, size = _mib(limits.file_bytes), _mib(status.st_size)
+                        raise _refused(folder, path, f"a file may have at most {most}, got {size}")
                     yield path, status.st_size, _chunks(opened)
                 finally:
                     os.close(opened)

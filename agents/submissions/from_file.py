@@ -1,4 +1,4 @@
-"""A submission from a class in a file: what was tried as ``file.py:Class`` becomes a folder."""
+"""A new submission from a class in a file, ``file.py:Class``."""
 
 import ast
 from pathlib import Path
@@ -13,7 +13,7 @@ from .new import DESCRIPTION, POLICY, write_files
 from .packages import needed
 
 LARGEST: Final = 2**20
-"""Bytes of a source that is taken."""
+"""Largest source file [bytes]."""
 
 
 def classes(path: Path) -> dict[str, ast.ClassDef]:
@@ -28,15 +28,15 @@ def classes(path: Path) -> dict[str, ast.ClassDef]:
 
 
 def write_from(folder: Path, text: str) -> None:
-    """Write a new submission whose policy is that of a file.
+    """Write a new submission with the policy of a file.
 
     Parameters
     ----------
     folder
-        Where to; as for :func:`.write_template`.
+        The folder to write, as for :func:`.write_template`.
     text
-        ``file.py:Class``, and after a comma the parameters that it is to have. The file alone is
-        copied, as ``policy.py``, and not run.
+        ``file.py:Class``, with parameters after a comma if any. The file alone is copied, as
+        ``policy.py``; it is not run.
 
     Raises
     ------

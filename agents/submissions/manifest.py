@@ -1,4 +1,4 @@
-"""``policy.toml``: what a submission says of itself."""
+"""``policy.toml``, the manifest of a submission."""
 
 import tomllib
 from collections.abc import Callable, Mapping
@@ -14,33 +14,33 @@ MANIFEST: Final = "policy.toml"
 """The manifest's name in the folder."""
 
 LONGEST: Final = 16 * 1024
-"""Bytes of a manifest. The time to read TOML can grow with the square of its length."""
+"""Largest manifest [bytes]: the time to read TOML can grow with the square of its length."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Manifest:
-    """The content of ``policy.toml``; what has no default must be there."""
+    """The content of ``policy.toml``; fields without a default are required."""
 
     name: str
-    """What tables call the policy."""
+    """Display name of the policy."""
     authors: tuple[str, ...]
-    """Who wrote it."""
+    """Names of the authors."""
     description: str
-    """What it does, in a few lines."""
+    """Description, in a few lines."""
     licence: str
-    """What others may do with it, such as ``MIT``; best an identifier of the SPDX list."""
+    """Licence, preferably by its SPDX identifier, such as ``MIT``."""
     trained_on: str
-    """What data it was trained on; ``nothing`` is an answer."""
+    """Training data; ``nothing`` if there is none."""
     link: str = ""
-    """Where to read more."""
+    """Address of a page with more information."""
     entry_point: str = "policy:Policy"
-    """``module:Class``, the module a file of the folder."""
+    """``module:Class``, with the module in the folder."""
     parameters: str = ""
-    """What is set of the class: ``name=value,name=value``, as after a comma on the command line."""
+    """Parameters of the class: ``name=value,name=value``, as after a policy's name."""
     packages: tuple[str, ...] = ()
-    """What it needs of :data:`.packages.PACKAGES`."""
+    """Packages that it imports, of :data:`.packages.PACKAGES`."""
     preload: bool = False
-    """Whether its module is imported once for many episodes, because that is slow."""
+    """Whether its module is imported once for many episodes, because the import is slow."""
 
 
 READ: Final[Mapping[str, Callable[[Any], Any]]] = {
@@ -55,13 +55,13 @@ READ: Final[Mapping[str, Callable[[Any], Any]]] = {
     "packages": fields.packages,
     "preload": fields.flag,
 }
-"""What reads the value of each key."""
+"""Validator of each key's value."""
 
 REQUIRED: Final = tuple(field.name for field in fields_of(Manifest) if field.default is MISSING)
 
 
 def read_manifest(data: bytes, where: str = MANIFEST) -> Manifest:
-    """Return what a manifest says.
+    """Return the content of a manifest.
 
     Parameters
     ----------
@@ -73,11 +73,11 @@ def read_manifest(data: bytes, where: str = MANIFEST) -> Manifest:
     Raises
     ------
     InputError
-        If it is too long or no TOML, a key is missing or unknown, or a value is not what it must
-        be; the message names the file, the key, the value and what would be right.
+        If it is too long or not TOML, a key is missing or unknown, or a value is invalid; the
+        message names the file, the key, the value and the valid values.
     """
     if len(data) > LONGEST:
-        raise InputError(f"{where} has {len(data)} bytes; it may have {LONGEST}")
+        raise InputError(f"{where} has {len(data)} bytes; at most {LONGEST} are allowed")
     try:
         content = tomllib.loads(data.decode())
     except UnicodeDecodeError as error:
@@ -85,7 +85,7 @@ def read_manifest(data: bytes, where: str = MANIFEST) -> Manifest:
     except ValueError as error:
         raise InputError(f"{where}: {error}") from error
     except RecursionError as error:
-        raise InputError(f"{where}: lists or tables inside each other too deep") from error
+        raise InputError(f"{where}: lists or tables are nested too deeply") from error
     for key in content:
         if key not in READ:
             near = did_you_mean(key, READ)

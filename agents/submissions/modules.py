@@ -1,4 +1,4 @@
-"""Finds a module's source without running any of it, as an import would."""
+"""Sources of modules, found without an import, which would run their code."""
 
 import importlib.util
 from importlib.machinery import ModuleSpec, PathFinder
@@ -10,7 +10,7 @@ from ..sandbox.host.view import view
 
 
 def module_digest(name: str) -> str:
-    """Return the hash of what a module's source file does; see :func:`.source_hash`.
+    """Return the hash of a module's source file; see :func:`.source_hash`.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def _source(name: str) -> Path:
     if name.startswith("colift."):
         spec = _found(name)
     else:
-        # To find what is inside a package, importlib would run the package.
+        # importlib would run a package to find the modules in it.
         path, *inner = name.split(".")
         spec = _found(path)
         for part in inner:
@@ -45,7 +45,7 @@ def _source(name: str) -> Path:
             path = f"{path}.{part}"
             spec = None if inside is None else PathFinder.find_spec(path, list(inside))
     if spec is None:
-        raise InputError(f"cannot import module {name!r}: there is none of that name")
+        raise InputError(f"cannot import module {name!r}: there is no such module")
     if not (spec.origin and Path(spec.origin).is_file()):
         raise InputError(f"module {name!r} has no source file; name one that has the class")
     return Path(spec.origin).resolve()
@@ -54,5 +54,5 @@ def _source(name: str) -> Path:
 def _found(name: str) -> ModuleSpec | None:
     try:
         return importlib.util.find_spec(name)
-    except (ImportError, ValueError):  # What has been imported may have no specification.
+    except (ImportError, ValueError):  # An imported module may have no specification.
         return None

@@ -1,4 +1,4 @@
-"""A template of a submission, that works as it is."""
+"""The template of a submission, which works unchanged."""
 
 import json
 import re
@@ -15,10 +15,10 @@ PLACEHOLDER: Final = "my-policy"
 """The name of the policy in the template."""
 
 AUTHOR: Final = "Your Name"
-"""Its author there."""
+"""The author in the template."""
 
-DESCRIPTION: Final = "Takes away a fixed share of the height difference that it sees."
-"""Its description there."""
+DESCRIPTION: Final = "Removes a fixed share of the observed height difference."
+"""The description in the template."""
 
 POLICY: Final = "policy.py"
 """The file of the policy."""
@@ -41,13 +41,12 @@ def write_template(folder: Path) -> None:
     Parameters
     ----------
     folder
-        Where to: a new folder, or an empty one. The policy is called as it, if that is a name for
-        a policy.
+        A new or empty folder. The policy gets its name, as far as that is a valid name.
 
     Raises
     ------
     InputError
-        If something is there already, or it cannot be written.
+        If it is not a new or empty folder, or cannot be written.
     """
     write_files(folder, template(POLICY).encode(), {})
 
@@ -60,9 +59,9 @@ def write_files(folder: Path, policy: bytes, content: Mapping[str, Any]) -> None
     folder
         As for :func:`write_template`.
     policy
-        The text of its policy.
+        The source of its policy.
     content
-        What the manifest has otherwise than the template's.
+        Values of the manifest that replace those of the template.
 
     Raises
     ------
@@ -96,7 +95,7 @@ def _manifest(content: Mapping[str, Any]) -> str:
 
 
 def _name(folder: Path) -> str:
-    """Return the folder's name as far as it can be a policy's."""
+    """Return a policy's name after the folder's; the placeholder if none is left."""
     name = re.sub(r"[^A-Za-z0-9 ._+-]+", "-", folder.resolve().name).strip(" ._+-")[:40].strip()
     try:
         return fields.name(name)

@@ -1,4 +1,4 @@
-"""The packages that a submission may need, and which it imports."""
+"""The packages that a submission may import, and those that it does import."""
 
 import ast
 import importlib.util
@@ -15,34 +15,33 @@ PACKAGES: Final[Mapping[str, str]] = {
     "scikit-learn": "sklearn",
     "scipy": "scipy",
 }
-"""What every sandbox has, by the name in package registries, and the name it is imported by.
+"""Packages of every sandbox: the name in package registries, and the name of the module.
 
-All come with colift, but for scikit-learn, which comes with its extra ``learn``."""
+All come with colift, except scikit-learn, which comes with the extra ``learn``."""
 
 ALWAYS: Final = frozenset(sys.stdlib_module_names) | {"colift"}
-"""What every policy may import: the standard library and ``colift.agents``."""
-
+"""Modules that every policy may import: the standard library and ``colift.agents``."""
 
 SOURCE_BYTES: Final = 2**20
-"""Largest source file that is read for its imports [bytes]: Python needs 500 times as much."""
+"""Largest source file that is parsed [bytes]: the parser takes 500 times as much memory."""
 
 
 def installed(package: str) -> bool:
-    """Whether one of :data:`PACKAGES` is installed here; it is not imported for that."""
+    """Whether one of :data:`PACKAGES` is installed here, found without an import."""
     return importlib.util.find_spec(PACKAGES[package]) is not None
 
 
 def undeclared(folder: Path, contents: Contents, packages: tuple[str, ...]) -> Iterator[str]:
-    """Yield, in words, each import of what is neither declared nor always there.
+    """Yield a message for each import that is neither declared nor in :data:`ALWAYS`.
 
-    The source is read, never run: an import by another way than the statement is not seen.
+    The sources are parsed, never run: only ``import`` statements are seen.
 
     Parameters
     ----------
     folder, contents
-        Where the files are, and which.
+        The submission's folder and its files.
     packages
-        The packages that are declared.
+        The declared packages.
     """
     own = {path.partition("/")[0].removesuffix(".py") for path in contents.paths}
     allowed = ALWAYS | own | {PACKAGES[package] for package in packages}
@@ -53,15 +52,15 @@ def undeclared(folder: Path, contents: Contents, packages: tuple[str, ...]) -> I
         with (folder / path).open("rb") as file:
             source = file.read(SOURCE_BYTES + 1)
         if len(source) > SOURCE_BYTES:
-            yield f"{path} is larger than 1 MiB; put its data into a file that is no source"
+            yield f"{path} is larger than 1 MiB; move its data to a data file"
             continue
         for module in sorted(_imported(source) - allowed):
             if module in names:
                 yield f"{path} imports {module}: add {names[module]!r} to packages"
             else:
                 yield (
-                    f"{path} imports {module}, which a submission cannot ask for: whether it is "
-                    f"there differs from board to board; what it can: {', '.join(PACKAGES)}"
+                    f"{path} imports {module}, which boards need not have; "
+                    f"a submission may declare {', '.join(PACKAGES)}"
                 )
 
 

@@ -1,7 +1,7 @@
-"""Private copies of submissions: what is run is what was read, whatever is edited meanwhile.
+"""Private copies of submissions: later edits of a folder do not affect a run.
 
 A copy is named by its digest and lies in the user's cache folder, so that equal submissions have
-equal paths in every run, and a run that is resumed finds its own.
+equal paths in every run, and a resumed run finds its copy.
 """
 
 import os
@@ -16,11 +16,11 @@ from ..errors import InputError
 from .folder import LIMITS, Contents, copy_folder, read_folder
 
 KEPT_DAYS: Final = 7
-"""Days after its last use that a copy is kept."""
+"""Days that a copy is kept after its last use."""
 
 
 def snapshot(folder: Path) -> tuple[Path, Contents]:
-    """Return the private copy of a folder, and what is in it.
+    """Return the private copy of a folder, and its files.
 
     Raises
     ------
@@ -31,7 +31,7 @@ def snapshot(folder: Path) -> tuple[Path, Contents]:
 
 
 def snapshot_file(path: Path) -> tuple[Path, Contents]:
-    """Return a private folder that holds a copy of one file alone, and what is in it.
+    """Return a private folder with a copy of one file alone, and its content.
 
     Raises
     ------
@@ -52,7 +52,7 @@ def snapshot_file(path: Path) -> tuple[Path, Contents]:
 
 
 def _stored(copy: Callable[[Path], Contents]) -> tuple[Path, Contents]:
-    """Return the folder that ``copy`` fills, under the name of its digest, and what is in it."""
+    """Return the folder that ``copy`` fills, named by its digest, and its files."""
     cache = _cache()
     with _folder_in(cache) as made:
         fresh = Path(made) / "submission"
@@ -72,7 +72,7 @@ def _stored(copy: Callable[[Path], Contents]) -> tuple[Path, Contents]:
 
 
 def _cache() -> Path:
-    """Return the folder of all copies, without those that were not used for long."""
+    """Return the folder of all copies, after removal of the old ones."""
     root = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
     cache = (root / "colift" / "submissions").absolute()
     try:

@@ -21,7 +21,7 @@ DIGEST: Final = 16
 
 
 def digest_with(source: str, parameters: str) -> str:
-    """Return the digest of a source with parameters as they are written; of the source if none."""
+    """Return the digest of a source with parameters as written; of the source alone if none."""
     if not parameters:
         return source
     return hashlib.sha256(f"{source},{parameters}".encode()).hexdigest()[:DIGEST]
@@ -29,7 +29,7 @@ def digest_with(source: str, parameters: str) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Submission:
-    """A folder whose manifest and files are as they must be; its code has not been run."""
+    """A folder with a valid manifest and valid files; its code has not been run."""
 
     folder: Path
     """Where the files are; absolute."""
@@ -38,13 +38,13 @@ class Submission:
 
     @property
     def digest(self) -> str:
-        """The digest in tables: the beginning of that of all names and bytes."""
+        """The digest in tables: the first digits of that of all names and bytes."""
         return self.contents.digest[:DIGEST]
 
     def sandboxed(self, level: str | None = None, parameters: str = "") -> SandboxedPolicy:
         """Return the policy at an isolation level; None is the strongest that works here.
 
-        ``parameters`` are set beside those of the manifest, or instead of them.
+        ``parameters`` are added to those of the manifest, or replace them.
         """
         return SandboxedPolicy(
             name=self._name(parameters),
@@ -57,7 +57,7 @@ class Submission:
         )
 
     def trusted(self, parameters: str = "") -> TrustedSubmission:
-        """Return the policy to run in this process, for those who trust it."""
+        """Return the policy to run in this process, without isolation: its code must be trusted."""
         return TrustedSubmission(
             name=self._name(parameters),
             entry_point=self.manifest.entry_point,
@@ -74,7 +74,7 @@ class Submission:
 
 
 def open_submission(folder: Path) -> Submission:
-    """Return the submission in a folder, as a private copy: later changes to the folder are none.
+    """Return the submission in a folder, as a private copy, which later changes do not affect.
 
     Raises
     ------
@@ -84,19 +84,19 @@ def open_submission(folder: Path) -> Submission:
     if folder.is_file():
         raise _a_file(folder)
     if folder.is_dir() and not os.path.lexists(folder / MANIFEST):
-        raise _without_manifest(str(folder))  # Before a large folder of something else is read.
+        raise _without_manifest(str(folder))  # Before a large folder of other files is read.
     place, contents = snapshot(folder)
     return _submission(place, contents, str(folder))
 
 
 def read_submission(folder: Path) -> Submission:
-    """Return the submission in a folder, as it lies there.
+    """Return the submission in a folder, without a copy.
 
     Raises
     ------
     InputError
-        If the folder, its manifest or its files are not what they must be; the message names the
-        file, the key and what would be right.
+        If the folder, its manifest or its files are invalid; the message names the file, the key
+        and the valid values.
     """
     if folder.is_file():
         raise _a_file(folder)
@@ -123,7 +123,7 @@ def _without_manifest(shown: str) -> InputError:
 
 
 def _submission(folder: Path, contents: Contents, shown: str) -> Submission:
-    """Return the submission of files that have been read; ``shown`` is what the user calls it."""
+    """Return the submission of files that have been read; ``shown`` is the user's path."""
     if MANIFEST not in contents.paths:
         raise _without_manifest(shown)
     manifest = read_manifest((folder / MANIFEST).read_bytes(), f"{shown}/{MANIFEST}")

@@ -1,4 +1,4 @@
-"""A submission that is run without isolation."""
+"""A submission that runs without isolation."""
 
 import contextlib
 import importlib
@@ -15,24 +15,24 @@ from ..loading.loading import PolicySpec
 from ..spec import InProcess
 
 _importing: Final = threading.Lock()
-"""Where modules are found, and the folder we are in, belong to all threads."""
+"""The import path and the working directory are shared by all threads."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TrustedSubmission(InProcess):
-    """A submission whose policy acts in this process, made anew for each episode.
+    """A submission whose policy acts in this process, with a new object for each episode.
 
-    Its modules are imported from its folder, where it is also started; both end once the policy
-    is made, so that the next one finds nothing of it.
+    While the policy is made, its folder is the working directory and comes first on the import
+    path. Then its modules are forgotten, so that the next submission cannot import them.
     """
 
     name: str
     folder: Path
     entry_point: str
-    """``module:Class``, the module a file of the folder."""
+    """``module:Class``, with the module in the folder."""
     source_digest: str
     parameters: str = ""
-    """What is set of it: ``parameter=value,parameter=value``."""
+    """Parameters of the class: ``parameter=value,parameter=value``."""
 
     @property
     def files(self) -> Path:

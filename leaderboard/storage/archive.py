@@ -132,7 +132,8 @@ def _entries(archive: zipfile.ZipFile, limits: FolderLimits) -> dict[str, zipfil
         _check_size(entry, limits)
         budget -= entry.file_size
         if budget < 0:
-            raise _refused(entry, f"all files may have {limits.total_bytes // MIB} MiB")
+            most = limits.total_bytes // MIB
+            raise _refused(entry, f"all files together may have at most {most} MiB")
     return files
 
 
@@ -172,9 +173,9 @@ def _check_kind(entry: zipfile.ZipInfo) -> None:
 
 def _check_names(entry: zipfile.ZipInfo, parts: tuple[str, ...], limits: FolderLimits) -> None:
     if not all(map(NAME.fullmatch, parts)):
-        raise _refused(entry, "a name is at most 80 letters, digits and _ . + -, in ASCII")
+        raise _refused(entry, "a name may have at most 80 letters, digits and _ . + -, in ASCII")
     if len(parts) - (not entry.is_dir()) > limits.depth:
-        raise _refused(entry, f"folders may be {limits.depth} deep")
+        raise _refused(entry, f"folders may be at most {limits.depth} deep")
 
 
 def _check_collisions(inside: dict[tuple[str, ...], zipfile.ZipInfo]) -> None:
@@ -194,8 +195,8 @@ def _check_collisions(inside: dict[tuple[str, ...], zipfile.ZipInfo]) -> None:
 
 def _check_size(entry: zipfile.ZipInfo, limits: FolderLimits) -> None:
     if entry.file_size > limits.file_bytes:
-        message = f"a file may have {limits.file_bytes // MIB} MiB"
-        raise _refused(entry, f"{message}, it has {entry.file_size / MIB:.0f} MiB")
+        message = f"a file may have at most {limits.file_bytes // MIB} MiB"
+        raise _refused(entry, f"{message}, got {entry.file_size / MIB:.0f} MiB")
 
 
 @contextmanager

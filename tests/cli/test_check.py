@@ -183,7 +183,7 @@ def test_chance_is_found(checked, source):
         + "    def act(self, observation): return [R.random() / 1000]\n"
     )
     assert not found["determinism"].ok
-    assert "goes another way from step 0 on" in found["determinism"].message
+    assert "differs from step 0 on" in found["determinism"].message
 
 
 def test_what_is_kept_from_one_lift_to_the_next_is_found(checked, mine):
@@ -207,8 +207,8 @@ def test_millimetres_for_metres_are_warned_of(checked):
     found = checked(ACTING + "1000 * (o[0] - o[3])\n")
     assert all(each.ok for each in found.values())
     assert found["actions"].warning
-    assert " % were cut to 0.04 m a step" in found["actions"].message
-    assert "Are they in metres" in found["actions"].message
+    assert " % were clipped: the hands move at most 0.04 m per step" in found["actions"].message
+    assert "An action must be a change of the height" in found["actions"].message
     assert found["score"].warning
     assert "Worse than copy (goes where the human was, " in found["score"].message
 
@@ -227,13 +227,13 @@ def test_a_plain_number_is_an_action_and_a_sound_policy_is_not_warned_of(checked
 
 def test_the_templates_words_about_itself_are_to_be_replaced(checked, mine):
     told = checked((mine / "policy.py").read_text())["manifest"].message
-    assert told.endswith("Say in policy.toml who wrote it")
+    assert told.endswith("Write in policy.toml the authors")
     own = FAILING["no act"][0]
     told = checked(own)["manifest"].message
-    assert told.endswith("who wrote it and what it does (the description is the template's)")
+    assert told.endswith("the authors and a description (it is the template's)")
     manifest = mine / "policy.toml"
     manifest.write_text(
-        manifest.read_text().replace("Your Name", "Ada").replace("Takes away a fixed", "Takes a")
+        manifest.read_text().replace("Your Name", "Ada").replace("Removes a fixed", "Removes a")
     )
     manifested = checked(own)["manifest"]
     assert manifested.message == "mine by Ada; licence MIT"
@@ -247,7 +247,7 @@ def test_printing_much_is_warned_of(checked):
         + "    def act(self, o):\n        print('x' * 200)\n        return 0.0\n"
     )
     assert found["time"].warning
-    assert "It prints much" in found["time"].message
+    assert "It prints over 5000 characters" in found["time"].message
 
 
 def test_an_undeclared_package_fails_though_it_is_installed(checked, mine):

@@ -323,7 +323,7 @@ def test_an_option_that_is_spelt_wrong_is_guessed(colift):
         (["run", "blend", "--seeds", "0:99999999999999999999"], "at most 12 digits"),
         (["run", "blend", "--seeds", "0:999999999"], "100000 seeds at most"),
         (["run", "blend", "--jobs", "100000000"], "jobs must be at most 1024"),
-        (["run", "mine,"], "parameters are name=value with commas between, got ''"),
+        (["run", "mine,"], "parameters must be name=value, separated by commas; got ''"),
         (["run", "x" * 5000], "..."),
         (["render", "blend", "--out", "x.png", "--seed", "-3"], "--seed must not be negative"),
     ],

@@ -87,7 +87,7 @@ def test_a_folders_parameters_change_its_name_and_digest(colift, pd):
     ("text", "told"),
     [
         ("pd.py:Pd", "pd.py has no class 'Pd'; did you mean PD? it has Helper, PD"),
-        ("pd.py:PD,lead", "parameters are name=value with commas between, got 'lead'"),
+        ("pd.py:PD,lead", "parameters must be name=value, separated by commas; got 'lead'"),
         ("nowhere.py:PD", "cannot read nowhere.py: No such file or directory"),
         ("pd.py", "a policy to copy must be file.py:Class, with parameters if any, got 'pd.py'"),
         ("blend", "a policy to copy must be file.py:Class, with parameters if any, got 'blend'"),

@@ -141,7 +141,7 @@ def test_a_module_beside_the_user_is_refused_with_what_to_do(here, monkeypatch):
     [
         ("nonesuch", "unknown policy 'nonesuch'; known: "),
         ("no/such", "no/such: no such folder"),
-        ("policy.py", "which class of policy.py? Say policy.py:Class"),
+        ("policy.py", "policy.py names no class; give policy.py:Class"),
         ("nowhere.py:Class", "no such file: nowhere.py"),
         ("no.such.module:Class", "cannot import module 'no.such.module'"),
         ("numpy.nonesuch:Class", "cannot import module 'numpy.nonesuch'"),

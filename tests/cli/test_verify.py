@@ -134,7 +134,7 @@ def test_scores_of_a_newer_version_are_for_a_newer_colift(colift, folder):
         (["nowhere"], "nowhere: no such folder; name that of a result bundle"),
         (["bundle/results.json"], "no such folder"),
         (["bundle", "--jobs", "0"], "jobs must be at least 1, got 0"),
-        (["bundle", "--rescore", "."], "holds other things (bundle)"),
+        (["bundle", "--rescore", "."], "holds other files (bundle)"),
     ],
 )
 def test_wrong_usage_is_one_clear_line(colift, folder, arguments, told):

@@ -1,1 +1,1 @@
-"""The guest's side: starts a restricted process for each episode, and serves the policy there."""
+"""The guest's side: a restricted process for each episode, and the server of the policy in it."""

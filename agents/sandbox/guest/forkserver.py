@@ -1,7 +1,7 @@
 """The fork server: a small trusted process inside the sandbox that starts each episode's processes.
 
-It has imported NumPy and what serves a policy, and nothing of a stranger's: what an episode's
-process does to its modules dies with it.
+It has imported NumPy and the server of policies, but no untrusted code: changes that the process of
+an episode makes to modules end with that process.
 """
 
 import contextlib
@@ -30,7 +30,7 @@ OURS: Final = "colift.agents."
 LOADED: Final = "colift.agents.loading.loaded"
 
 _TRIAL_SECONDS: Final = 30.0
-"""How long the first process may take on a busy machine [s]."""
+"""Time limit for the trial of a process, for a busy machine [s]."""
 
 
 def main(handle: int) -> None:
@@ -61,14 +61,14 @@ def main(handle: int) -> None:
 
 
 def _service(kind: str, content: Any) -> Callable[[int], None]:
-    """Return what a policy's process does."""
+    """Return the function that the policy's process runs."""
     if kind == PROBE:
         return partial(probe, secrets=content)
     policy = Assignment(*content)
     module = policy.place.partition(":")[0]
     if module.startswith(OURS) and module not in sys.modules:
-        # What is colift's own is no stranger's: imported once for all episodes, with what it
-        # imports late, which may take longer than a step may.
+        # Colift's own code is trusted: imported once for all episodes, late imports included,
+        # which may take longer than the limit of a step.
         with contextlib.suppress(Exception):
             importlib.import_module(module)
             importlib.import_module(LOADED)
@@ -77,7 +77,7 @@ def _service(kind: str, content: Any) -> Callable[[int], None]:
 
 
 def _restrictions(settings: dict[str, Any]) -> Restrictions:
-    """Return the restrictions of a level; raise OSError if they cannot be had here."""
+    """Return the restrictions of a level; raise OSError if they do not work here."""
     kernel = landlock.version() > 0
     if settings["landlock"] and not kernel:
         raise OSError("the kernel has no Landlock")
@@ -101,7 +101,7 @@ def _restrictions(settings: dict[str, Any]) -> Restrictions:
 
 
 def _fault(restrictions: Restrictions) -> str:
-    """Return why a process with these restrictions does not start and end, empty if it does."""
+    """Return the reason why a process with these restrictions fails; empty if it does not."""
     here, status = socket.socketpair()
     data, output = (os.open("/dev/null", os.O_WRONLY) for _ in range(2))
     with here:

@@ -1,4 +1,4 @@
-"""Landlock: a process takes rights to files, TCP and signals away from itself.
+"""Landlock, by which a process gives up rights to files, TCP and signals.
 
 See https://docs.kernel.org/userspace-api/landlock.html for the calls and their versions (ABI).
 """

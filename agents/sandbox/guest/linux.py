@@ -40,7 +40,7 @@ libc.syscall.restype = ctypes.c_long
 
 
 def checked(result: int, what: str) -> int:
-    """Return the result of a call; raise OSError if it is negative, for then the call failed."""
+    """Return the result of a call; raise OSError if it is negative: the call failed."""
     if result < 0:
         number = ctypes.get_errno()
         raise OSError(number, f"{what}: {os.strerror(number)}")
@@ -54,7 +54,7 @@ def syscall(number: int, *arguments: int | bytes | ctypes.Array[ctypes.c_char], 
 
 
 def prctl(option: int, *arguments: int) -> int:
-    """Change something of this process."""
+    """Change an attribute of this process."""
     wide = [ctypes.c_ulong(each) for each in (*arguments, 0, 0, 0, 0)[:4]]
     return checked(libc.prctl(option, *wide), f"prctl {option}")
 
@@ -65,7 +65,7 @@ def unshare(flags: int) -> None:
 
 
 def join(path: str, kind: int) -> None:
-    """Enter a namespace, given as a file; one of processes only for the children."""
+    """Enter a namespace, given as a file; a process namespace is entered by children only."""
     handle = os.open(path, os.O_RDONLY)
     try:
         checked(libc.setns(handle, kind), f"setns {path}")
@@ -89,7 +89,7 @@ def make_read_only(place: str, read_only: bool) -> None:
 
 
 def change_root(place: str) -> None:
-    """Make what is mounted at a place the root directory, and let go of the old one."""
+    """Make the mount at a place the root directory, and detach the old one."""
     os.chdir(place)
     checked(libc.pivot_root(b".", b"."), f"pivot_root {place}")
     checked(libc.umount2(b".", _MNT_DETACH), "umount /")
@@ -97,7 +97,7 @@ def change_root(place: str) -> None:
 
 
 def hide(hidden: bool) -> None:
-    """Set whether other processes of the same user are kept from tracing or reading this one."""
+    """Set whether processes of the same user are prevented from tracing or reading this one."""
     prctl(_PR_SET_DUMPABLE, 0 if hidden else 1)
 
 

@@ -1,4 +1,4 @@
-"""The probe: tries, from a policy's place, what a sandbox must prevent."""
+"""The probe: a process that tries, in place of a policy, all that a sandbox must prevent."""
 
 import contextlib
 import fcntl
@@ -20,7 +20,7 @@ _STATX: Final = {"x86_64": 332, "aarch64": 291}
 
 
 def probe(handle: int, secrets: dict[str, Any]) -> None:
-    """Try what no policy may, and answer the one request on a connection with what was possible.
+    """Try the forbidden actions, and answer the one request with those that succeeded.
 
     The process ends when the other side closes: its end is never seen before its answer. The
     secrets are ``files`` that must not be readable, ``directory`` that must not be writable,
@@ -38,7 +38,7 @@ def probe(handle: int, secrets: dict[str, Any]) -> None:
 
 
 def _attempts(secrets: dict[str, Any]) -> Iterator[tuple[str, Callable[[], object]]]:
-    """Yield what a policy must not do, in words, and how it might."""
+    """Yield forbidden actions, each with its name and a function that tries it."""
     for path in secrets["files"]:
         yield f"reads {path}", Path(path).read_bytes
     yield f"writes {secrets['directory']}", Path(secrets["directory"], "written").touch
@@ -64,7 +64,7 @@ def _attempts(secrets: dict[str, Any]) -> Iterator[tuple[str, Callable[[], objec
         yield f"changes attributes of {path}", partial(os.setxattr, path, "user.x", b"x")
         yield f"changes times of {path}", partial(os.utime, path)
         yield f"changes rights of {path}", partial(path.chmod, 0o755)
-    # Read, so that the time of the last access would tell.
+    # This access would be recorded, if accesses were.
     with shared.open("rb") as file:
         file.read()
         yield "locks files of others", lambda: fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)

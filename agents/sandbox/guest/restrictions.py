@@ -12,7 +12,7 @@ from . import landlock, linux, seccomp
 from .linux import MS_BIND, MS_NODEV, MS_NOEXEC, MS_NOSUID, MS_PRIVATE, MS_RDONLY, MS_REC
 
 FRESH: Final = ("/tmp", "/dev/shm")
-"""Directories that an episode with namespaces has for itself, empty at first."""
+"""Private directories of an episode with namespaces, empty at first."""
 
 DEVICES: Final = ("/dev/null", "/dev/full", "/dev/random", "/dev/urandom")
 """Devices that a policy has; a shared mapping of /dev/zero would be memory of no process."""
@@ -20,42 +20,42 @@ DEVICES: Final = ("/dev/null", "/dev/full", "/dev/random", "/dev/urandom")
 NOBODY: Final = 65534
 
 _BASE: Final = "/tmp"
-"""Where the root directory is made; what is beneath is shown by its handle."""
+"""Place of the new root directory; files that it covers are reached by their handles."""
 
 RESERVED: Final = 2**30
-"""Addresses beyond its memory that a process may have [bytes]: libraries, stacks of threads."""
+"""Addresses of a process beyond its memory [bytes], for libraries and stacks of threads."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Restrictions:
-    """What a policy's process is restricted to."""
+    """The restrictions of a policy's process."""
 
     namespaces: str = ""
     """``root``: made by the superuser; ``user``: by anybody; empty: none."""
     landlock: bool
     readable: tuple[Path, ...]
-    """What it may read."""
+    """Paths that it may read."""
     hidden: tuple[Path, ...]
-    """What of that is covered."""
+    """Directories inside those that are covered."""
     folder: Path | None
-    """Its folder, where it starts."""
+    """Its folder, the working directory."""
     scratch: Path | None = None
-    """Where it may write if it has no private /tmp."""
+    """Its writable directory, if it has no private /tmp."""
     limits: Limits
 
     @property
     def fresh(self) -> tuple[str, ...]:
-        """The directories that it has for itself."""
+        """Its private directories."""
         return FRESH if self.namespaces else ()
 
 
 def enter_root(restrictions: Restrictions) -> int:
     """Make a root directory that shows what the policy may see, and enter it.
 
-    It is new, so that its times and numbers tell of no other episode; all in it is read-only, so
-    that nothing is left on what episodes share, not even the time of a last access; but for a /tmp
-    and a /dev/shm of its own. Return a handle of a /proc that shows all processes of the episode,
-    for the one that watches; raise OSError if the kernel refuses.
+    It is new, so that its times and numbers reveal no other episode. Everything in it is read-only,
+    so that an episode leaves no trace on shared files, not even a time of access; only its own /tmp
+    and /dev/shm are writable. Return a handle of a /proc that shows all processes of the episode,
+    for the process that watches. Raise OSError if the kernel refuses.
     """
     linux.mount("none", "/", "", MS_REC | MS_PRIVATE)
     secure = MS_NOSUID | MS_NODEV | MS_NOEXEC
@@ -86,7 +86,7 @@ def enter_root(restrictions: Restrictions) -> int:
     linux.make_read_only(_BASE, True)
     for place in FRESH:
         linux.make_read_only(f"{_BASE}{place}", False)
-    # Only processes, and only one's own; where that is refused, nothing.
+    # A /proc of the policy's own processes; if that is refused, it stays empty.
     with contextlib.suppress(OSError):
         options = "subset=pid,hidepid=2"
         linux.mount("proc", f"{_BASE}/proc", "proc", secure | MS_RDONLY, options)
@@ -95,7 +95,7 @@ def enter_root(restrictions: Restrictions) -> int:
 
 
 def _show(path: Path, handle: int) -> None:
-    """Bind what a handle names at its path beneath the new root directory."""
+    """Bind the file or directory of a handle at its path beneath the new root directory."""
     source, target = f"/proc/self/fd/{handle}", Path(f"{_BASE}{path}")
     if os.path.isdir(source):  # noqa: PTH112 - a link to follow
         target.mkdir(parents=True, exist_ok=True)
@@ -109,8 +109,8 @@ def drop_privileges(restrictions: Restrictions) -> None:
     """Restrict this process and all that it will start; raise OSError if the kernel refuses."""
     if restrictions.namespaces == "root":
         linux.become(NOBODY, NOBODY)
-        # It is nobody, but reads what only the superuser may of what it sees: folders are private.
-        # The capability holds in its own user namespace only.
+        # Without this capability the user nobody could not read private folders. It holds in the
+        # process's own user namespace only.
         linux.drop_capabilities(1 << linux.CAP_DAC_READ_SEARCH)
     else:
         linux.drop_capabilities()

@@ -1,9 +1,9 @@
-"""A filter of system calls: what a policy of Python, NumPy, SciPy and scikit-learn needs, no more.
+"""A filter of system calls, which allows those that Python, NumPy, SciPy and scikit-learn need.
 
-Refused is, by being on no list, what keeps something for a later lift or tells of an earlier one
-(attributes, times and locks of shared files, the page cache, counters of the kernel), memory that
-no process is charged for (sockets, memory files, System V), programs, namespaces, other processors.
-So are the calls of the x32 interface, whose numbers are others.
+All others are refused: among them calls that leave a trace for a later lift or reveal an earlier
+one (attributes, times and locks of shared files, the page cache, counters of the kernel), that take
+memory of which no process is charged (sockets, memory files, System V), that start programs, make
+namespaces or change the processor, and all calls of the x32 interface, whose numbers differ.
 """
 
 import ctypes
@@ -45,7 +45,7 @@ tgkill 234 131, uname 63 160, getrandom 318 278, arch_prctl 158 -
 """Allowed calls with their numbers on x86_64 and aarch64, from the kernel's tables of calls."""
 
 _ABSENT_CALLS: Final = {"clone3": (435, 435), "statx": (332, 291)}
-"""Calls that are said not to exist: the C library then takes an older one."""
+"""Calls that are reported as missing: the C library then uses an older one."""
 
 _EPERM, _EINVAL, _ENOSYS = 1, 22, 38
 _NUMBER, _ARCH, _ARGUMENTS = 0, 4, 16
@@ -63,14 +63,14 @@ _ONE_OF: Final = {
     "madvise": ((28, 233), 2, _EINVAL, (0, 4, 8, 10, 11, 14, 15)),
     # PR_SET_NAME, PR_GET_NAME.
     "prctl": ((157, 167), 0, _EPERM, (15, 16)),
-    # Of itself only.
+    # Of the calling process only.
     "prlimit64": ((302, 261), 0, _EPERM, (0,)),
 }
-"""Calls of which an argument must be one of some: numbers, which argument, error, values."""
+"""Calls with an argument that must have an allowed value: numbers, argument, error, values."""
 
 
 def instruction(code: int, value: int, *, yes: int = 0, no: int = 0) -> bytes:
-    """Return an instruction: code, how many to skip if a test holds or does not, and a value."""
+    """Return an instruction; a test skips ``yes`` instructions if it holds, else ``no``."""
     return struct.pack("HBBI", code, yes, no, value)
 
 
@@ -79,16 +79,16 @@ _ALLOWED: Final = instruction(_RETURN, _ALLOW)
 _UNLESS: Final = {
     # All CLONE_NEW, CLONE_PARENT, CLONE_PIDFD.
     "clone": ((56, 220), 0, [instruction(_ANY_BIT, 0x7E029000, no=1)]),
-    # Shared and anonymous: memory that stays when no process has it.
+    # Shared and anonymous: memory that outlives its processes.
     "mmap": ((9, 222), 3, [instruction(_AND, 0x21), instruction(_EQUAL, 0x21, no=1)]),
 }
-"""Calls that are refused if an argument's bits pass a test: numbers, which argument, the test."""
+"""Calls that are refused if an argument passes a test of its bits: numbers, argument, test."""
 
 
 def install() -> bool:
-    """Filter this process and all it will start, for good; return whether it can be done here.
+    """Filter this process and its descendants, irrevocably; return whether that works here.
 
-    It must have forbidden new privileges before.
+    The process must have given up new privileges before (``PR_SET_NO_NEW_PRIVS``).
     """
     machine = os.uname().machine
     if machine not in _ARCHITECTURE:

@@ -1,8 +1,8 @@
-"""The server of a policy, in its restricted process: one answer to a request.
+"""The server of a policy, in its restricted process: one answer per request.
 
 Requests are ``[serial, "make"]``, ``[serial, "reset", seed]`` and ``[serial, "act", numbers]``, or
 ``[serial, "describe"]``. The answer is ``[serial, "made", explains]``, ``[serial, "ready"]``,
-``[serial, "action", numbers]`` (with names and values of the internals behind it if it explains),
+``[serial, "action", numbers]`` (with names and values of the internals, if the policy has any),
 ``[serial, "described", line, parameters]`` or ``[serial, "failed", reason]``.
 """
 
@@ -28,7 +28,7 @@ from ...registry import summary
 from ..protocol import INTERNALS, NAME, REASON, Assignment, Channel, ClosedError, WireError, packed
 
 _OURS: Final = f"{Path(__file__).parent}/"
-"""Our own files: what called the policy says nothing to its author."""
+"""Colift's own files, whose lines in a traceback would not help the policy's author."""
 
 _ORDER: Final = 1000
 
@@ -57,17 +57,17 @@ def serve(handle: int, policy: Assignment, loaded: type[Agent] | None = None) ->
 def serve_forks(handle: int, policy: Assignment) -> None:
     """Import the policy's module, then fork a process for each order on a socket.
 
-    This process belongs to the policy: what the module started or shared when it was imported
-    survives an episode. So two runs of the same episodes in another order, in fresh sandboxes, must
-    agree. The first message on the socket is answered by ``[1, "loaded"]``, or by why it cannot be.
-    An order brings the ends of a connection and of the output.
+    This process belongs to the policy: anything that the module starts or shares on import survives
+    an episode. Therefore an audit plays episodes again, in another order and in fresh sandboxes.
+    The answer to the first message is ``[1, "loaded"]``, or the reason of a failure. Each order
+    brings the policy's ends of a connection and of the output.
     """
     orders = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET, 0, handle)
     orders.recv(_ORDER)
     try:
         loaded = _load(policy.place)
-    except BaseException as error:  # Whatever the module does, it does to itself.
-        reason = str(error) if isinstance(error, InputError) else _safely_told(error)
+    except BaseException as error:  # A module can raise anything.
+        reason = str(error) if isinstance(error, InputError) else _safe_text(error)
         orders.send(packed([1, "failed", reason[:REASON]]))
         return
     orders.send(packed([1, "loaded"]))
@@ -99,7 +99,7 @@ class _Server:
         self._explains = False
 
     def answer(self, kind: str, values: list[Any]) -> list[Any]:
-        """Return the answer to a request; whatever the policy raises is a failure."""
+        """Return the answer to a request; anything that the policy raises is its failure."""
         try:
             if kind == "act":
                 return self._act(values[0])
@@ -114,7 +114,7 @@ class _Server:
         except BaseException as error:  # SystemExit and KeyboardInterrupt too are the policy's.
             with contextlib.suppress(BaseException):
                 print(_own_traceback(error), end="", file=sys.stderr)
-            return ["failed", _safely_told(error)]
+            return ["failed", _safe_text(error)]
 
     def _make(self) -> list[Any]:
         policy, parameters = self._loaded or _load(self._policy.place), self._policy.parameters
@@ -145,8 +145,8 @@ def _load(place: str) -> type[Agent]:
     return PolicySpec(text=place).load()
 
 
-def _safely_told(error: BaseException) -> str:
-    """Return an error in a line; its text is the policy's code, which may fail too."""
+def _safe_text(error: BaseException) -> str:
+    """Return an error on one line; its ``__str__`` is the policy's code, which may fail too."""
     try:
         return error_text(error)[:REASON]
     except BaseException:

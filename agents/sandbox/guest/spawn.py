@@ -1,8 +1,8 @@
-"""The processes of an episode: one that watches, and in it the policy's, restricted.
+"""The processes of an episode: one that watches, and its child, the policy's, restricted.
 
 The fork server forks the first process of new namespaces, which mounts fresh file systems and
-watches; its child drops all privileges and runs the policy. Where namespaces cannot be had, the
-other restrictions are what is left: Landlock, the filter, the limits.
+watches; its child drops all privileges and runs the policy. Without namespaces the other
+restrictions remain: Landlock, the filter, the limits.
 """
 
 import contextlib
@@ -31,16 +31,16 @@ class Ends(NamedTuple):
     data: int
     """The policy's end of the connection."""
     output: int
-    """Where its stdout and stderr go."""
+    """Its stdout and stderr."""
     status: int
-    """Where the first process reports: a stream socket; when its other side closes, all ends."""
+    """Stream socket for the first process's report; if its other side closes, all processes end."""
 
 
 def spawn(restrictions: Restrictions, ends: Ends, serve: Callable[[int], None]) -> None:
-    """Start the processes of an episode and return at once; they have the ends then.
+    """Start the processes of an episode and return at once; the ends are theirs, and closed here.
 
-    The superuser's first process is forked into its namespace directly; another must first become
-    one that may make namespaces, which cannot be undone: so a process between does.
+    The superuser forks the first process directly into its namespace. Any other user must first
+    enter a user namespace, which cannot be undone: an intermediate process does that.
     """
     first = restrictions.namespaces == "root"
     try:
@@ -59,7 +59,7 @@ def spawn(restrictions: Restrictions, ends: Ends, serve: Callable[[int], None]) 
 
 
 def _guarded(status: int, step: Callable[[], None]) -> None:
-    """Take a step and end this process; report what failed: it is the machine's fault."""
+    """Take a step and end this process; a failure is reported as a fault of the machine."""
     try:
         step()
         os._exit(0)
@@ -70,10 +70,10 @@ def _guarded(status: int, step: Callable[[], None]) -> None:
 
 
 def _detach(restrictions: Restrictions, ends: Ends, serve: Callable[[int], None]) -> None:
-    """Leave the user and the processes of the fork server: what the process between does."""
+    """Enter new user and process namespaces, as the intermediate process."""
     if restrictions.namespaces:
         user, group = os.geteuid(), os.getegid()
-        linux.hide(False)  # Files in /proc of a hidden process are the superuser's.
+        linux.hide(False)  # A hidden process's files in /proc belong to the superuser.
         linux.unshare(linux.CLONE_NEWUSER | linux.CLONE_NEWPID)
         Path("/proc/self/setgroups").write_text("deny")
         Path("/proc/self/uid_map").write_text(f"{user} {user} 1")
@@ -83,7 +83,7 @@ def _detach(restrictions: Restrictions, ends: Ends, serve: Callable[[int], None]
 
 
 def _supervise(restrictions: Restrictions, ends: Ends, serve: Callable[[int], None]) -> None:
-    """Make the root directory, start the policy, watch it: what the first process does."""
+    """Make the root directory, start the policy and watch it, as the first process."""
     linux.hide(True)
     if restrictions.namespaces:
         linux.unshare(linux.CLONE_OTHERS)
@@ -129,7 +129,7 @@ def _tell(processes: int, path: str, words: str) -> None:
 def _serve(
     restrictions: Restrictions, ends: Ends, serve: Callable[[int], None], first: int
 ) -> None:
-    """Drop all privileges, and serve: what the policy's process does."""
+    """Drop all privileges and serve, as the policy's process."""
     os.setsid()
     if restrictions.namespaces == "root":
         linux.unshare(linux.CLONE_NEWUSER)

@@ -1,4 +1,4 @@
-"""The watch over a policy's processes: what they use together, why they ended, their end."""
+"""The watch over a policy's processes: their total use, the reason of their end, their end."""
 
 import contextlib
 import itertools
@@ -19,7 +19,7 @@ _PAGE: Final = os.sysconf("SC_PAGE_SIZE")
 _TICKS: Final = os.sysconf("SC_CLK_TCK")
 _PARENT, _USER, _SYSTEM, _THREADS, _RESIDENT = 1, 11, 12, 17, 21
 _PASSES: Final = 3
-"""How often threads are listed to be moved: one may start another meanwhile."""
+"""Passes over the threads when they are moved: one may start another meanwhile."""
 
 
 @dataclass(frozen=True)
@@ -29,18 +29,18 @@ class Watch:
     child: int
     """The policy's first process."""
     status: int
-    """A stream socket. What happened is written to it: ``exit CODE``, ``signal NUMBER``, ``memory
-    BYTES``, ``processes NUMBER`` or ``processor SECONDS``. What comes from it is the number of the
-    one processor that the policy may use."""
+    """A stream socket. The reason of the end is written to it: ``exit CODE``, ``signal NUMBER``,
+    ``memory BYTES``, ``processes NUMBER`` or ``processor SECONDS``. Each number read from it is the
+    one processor that the policy may use from then on."""
     processes: int
     """Handle of a /proc with the processes."""
     limits: Limits
-    """What they may use up."""
+    """Their budgets."""
     fresh: tuple[str, ...]
-    """Where file systems in memory are that count as the policy's."""
+    """Mounted file systems in memory that count as the policy's memory."""
 
     def run(self) -> None:
-        """Watch until the first process ends, a limit is passed or nobody listens; then end all."""
+        """Watch until the first process ends, a limit is passed or the host ends; then end all."""
         report = ""
         waiting = select.poll()
         waiting.register(self.status, select.POLLIN)
@@ -61,7 +61,7 @@ class Watch:
         self._end_all()
 
     def _ended(self) -> str:
-        """Return how the policy's first process ended, empty if it has not; reap all that have."""
+        """Return how the policy's first process ended, empty if it runs; reap all ended ones."""
         how = ""
         with contextlib.suppress(ChildProcessError):
             while True:
@@ -97,7 +97,7 @@ class Watch:
         try:
             words = self._read(f"{process}/smaps_rollup").split()
         except PermissionError:
-            return figures[_RESIDENT] * _PAGE  # Who hides is not believed to share anything.
+            return figures[_RESIDENT] * _PAGE  # A process that hides is not assumed to share.
         except OSError:
             return 0
         sizes = dict(itertools.pairwise(words))
@@ -172,6 +172,6 @@ class Watch:
 
 
 def _used(place: str) -> int:
-    """Return what a file system holds [bytes]."""
+    """Return the used space of a file system [bytes]."""
     figures = os.statvfs(place)
     return (figures.f_blocks - figures.f_bfree) * figures.f_frsize

@@ -1,1 +1,1 @@
-"""The host's side: chooses an isolation level, starts sandboxes, distrusts what comes from them."""
+"""The host's side: isolation levels, the start of sandboxes, and checks of their answers."""

@@ -15,24 +15,24 @@ from ..protocol import INTERNALS, NAME, REASON, Limits
 from .connection import Connection, clean
 
 TURNS: Final = 8
-"""Turns from one free moment to the next."""
+"""Turns on one processor before the scheduler may choose another."""
 
 _libc = ctypes.CDLL(None)
 
 
 @functools.cache
 def allowed() -> frozenset[int]:
-    """Return the processors that this process may run on, as found before any is held."""
+    """Return the processors that this process may run on, read before a thread is pinned."""
     return frozenset(os.sched_getaffinity(0))
 
 
 class Caller:
-    """The thread that asks a policy; both take turns on one processor.
+    """The calling thread of a policy; both take turns on one processor.
 
-    If each had a processor to itself, every turn would have to wake an idle one, which takes longer
-    than the turn: a step would cost twice as much. Every few turns the thread is free to be moved
-    by the scheduler, and the policy is moved after it: else two pairs might share a processor
-    beside an idle one. The policy itself cannot leave its processor.
+    On two processors every turn would have to wake an idle one, which takes longer than the turn
+    itself: a step would cost twice as much. Every few turns the scheduler may move the thread, and
+    the policy follows; otherwise two pairs could share one processor while another is idle. The
+    policy itself cannot leave its processor.
     """
 
     def __init__(self) -> None:
@@ -41,7 +41,7 @@ class Caller:
         self._turns = 0
 
     def begin(self) -> int:
-        """Begin a turn on the processor whose number is returned."""
+        """Begin a turn, and return the number of its processor."""
         if self._turns == 0:
             self._here = _libc.sched_getcpu()
             os.sched_setaffinity(0, (self._here,))
@@ -61,12 +61,10 @@ class Caller:
 
 
 class RemoteAgent:
-    """An agent whose policy runs elsewhere.
+    """An agent whose policy runs in a sandbox.
 
-    Its methods raise PolicyError if the policy could not be made, fails, or answers anything else
-    than it must, and EvaluatorFault if the sandbox fails.
-
-    Its action is so many numbers as ``size`` says.
+    Its methods raise PolicyError if the policy could not be made, fails or gives an invalid answer,
+    and EvaluatorFault if the sandbox fails. Its actions have ``size`` numbers.
     """
 
     def __init__(self, connection: Connection, limits: Limits, size: int) -> None:
@@ -76,7 +74,7 @@ class RemoteAgent:
         self._caller = Caller()
         self._processor = -1
         self.failure: PolicyError | None = None
-        """Why the policy could not be made, or failed."""
+        """The failure of the policy, or of its construction."""
 
     def close(self) -> None:
         """Let this thread run on any processor again."""
@@ -84,7 +82,7 @@ class RemoteAgent:
 
     @property
     def printed(self) -> str:
-        """The last 10,000 characters of what the policy has printed in this episode."""
+        """The last 10,000 characters of the policy's output in this episode."""
         return self._connection.output.text
 
     def reset(self, seed: int) -> None:
@@ -111,7 +109,7 @@ class RemoteAgent:
         return np.array(numbers)
 
     def described(self) -> tuple[str, tuple[ParameterText, ...]]:
-        """Return the first line of the policy's docstring, and what can be set of it."""
+        """Return the first line of the policy's docstring, and its parameters."""
         content = self._asked(["describe"], "described", self._limits.start_seconds)
         line, texts = (*content, None, None)[:2]
         if not (
@@ -128,7 +126,7 @@ class RemoteAgent:
         )
 
     def _keep(self, names: Any, values: Any) -> None:
-        """Take in the internals behind an action; this agent has none."""
+        """Keep the internals of an action; this agent has none."""
 
     def _asked(self, request: list[Any], kind: str, seconds: float, more: float = 0.0) -> list[Any]:
         """Return the content of the answer to a request."""
@@ -151,12 +149,12 @@ class RemoteAgent:
 
 
 class ExplainingRemoteAgent(RemoteAgent):
-    """A remote agent whose policy says what its actions were based on."""
+    """A remote agent whose policy has internals."""
 
     _internals: dict[str, float] | None = None
 
     def internals(self) -> dict[str, float]:
-        """Return what the last action was based on."""
+        """Return the internals of the last action."""
         return dict(self._internals or {})
 
     def _keep(self, names: Any, values: Any) -> None:
@@ -173,7 +171,7 @@ class ExplainingRemoteAgent(RemoteAgent):
 
 
 def remote_agent(connection: Connection, limits: Limits, size: int) -> RemoteAgent:
-    """Return the agent for a connection; if its policy cannot be made, its reset says why.
+    """Return the agent for a connection; if its policy cannot be made, ``reset`` raises the reason.
 
     Raise EvaluatorFault if the sandbox fails.
     """

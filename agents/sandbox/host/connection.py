@@ -1,4 +1,4 @@
-"""A connection to a policy's process: requests with deadlines, its output, and why it ended."""
+"""A connection to a policy's process: requests with deadlines, output, reason of its end."""
 
 import contextlib
 import os
@@ -16,31 +16,30 @@ from ...errors import EvaluatorFault, PolicyError
 from ..protocol import MIB, OUTPUT, Channel, ClosedError, Limits, WireError, packed
 
 _REPORT_SECONDS: Final = 1.0
-"""How long a process that has closed the connection may take to say why [s]."""
+"""Time limit for the report of a process that has closed the connection [s]."""
 
 _SLICE: Final = struct.pack("ll", 0, 5000)
-"""How long to wait for an answer before the output is looked at [s, us]: a policy that prints more
-than a pipe holds waits that long. To wait for both at once would make every step longer."""
+"""Time for an answer before the output is read [s, us]: a policy that fills the pipe waits that
+long. Waiting for both at once would make every step longer."""
 
 _END_SECONDS: Final = 5.0
-"""How long the processes of an episode may take to end [s]."""
-
+"""Time limit for the processes of an episode to end [s]."""
 
 _CHUNK: Final = 64 * 1024
 _CHUNKS: Final = 16
-"""Chunks read at a time at most: a policy that never stops must not hold up who reads."""
+"""Most chunks per read: a policy that prints without end must not block the reader."""
 
 _SEQUENCE: Final = re.compile(r"\x1b\[[0-?]*[ -/]*[@-~]")
 
 _UNSEEN: Final = frozenset({"Cc", "Cf", "Cn", "Co", "Cs", "Zl", "Zp"})
-"""Unicode categories of what has no shape of its own: it may turn, hide or break up a text."""
+"""Unicode categories of invisible characters, which can reverse, hide or split a text."""
 
 
 def clean(text: str) -> str:
-    """Return a stranger's text without what has no shape of its own, but for line ends and tabs.
+    """Return an untrusted text without invisible characters, except line ends and tabs.
 
-    That is control characters, marks and isolates of the direction of text, separators of lines and
-    paragraphs, private characters, and those that Unicode does not have.
+    Invisible are control characters, marks and isolates of the direction of text, separators of
+    lines and paragraphs, and private and unassigned characters.
     """
     shown = _SEQUENCE.sub("", text.encode(errors="replace").decode())
     if shown.isascii() and shown.isprintable():
@@ -49,7 +48,7 @@ def clean(text: str) -> str:
 
 
 class Output:
-    """The reading end of a pipe; memory does not grow with what is written."""
+    """The reading end of a pipe; only the end of the output is kept."""
 
     def __init__(self, handle: int) -> None:
         os.set_blocking(handle, False)
@@ -57,7 +56,7 @@ class Output:
         self._tail = b""
 
     def drain(self) -> None:
-        """Take in what has come, without waiting."""
+        """Read the output so far, without waiting."""
         if self._handle is None:
             return
         with contextlib.suppress(BlockingIOError):
@@ -69,7 +68,7 @@ class Output:
                 self._tail = (self._tail + chunk)[-4 * OUTPUT :]
 
     def close(self) -> None:
-        """Take in what has come, and close."""
+        """Read the output so far, and close."""
         self.drain()
         if self._handle is not None:
             os.close(self._handle)
@@ -77,31 +76,31 @@ class Output:
 
     @property
     def text(self) -> str:
-        """The last characters of what has come."""
+        """The last characters of the output."""
         self.drain()
         return clean(self._tail.decode(errors="replace"))[-OUTPUT:]
 
 
 @dataclass(eq=False, kw_only=True)
 class Connection:
-    """The host's ends of an episode: nothing that comes from them is trusted."""
+    """The host's ends of an episode's channels: nothing that they deliver is trusted."""
 
     data: socket.socket
     output: Output
     status: socket.socket
     limits: Limits
-    """What the policy may use up."""
+    """The policy's budgets."""
     sure: bool
     """Whether the policy cannot end the process that watches it."""
     shared: bool = False
-    """Whether the processes go on after this episode, unless it fails."""
+    """Whether the processes outlive this episode, unless it fails."""
     failure: PolicyError | EvaluatorFault | None = None
-    """Why nothing more can be asked."""
+    """The failure that ends all requests."""
     _serial: int = 0
     _paced: bool = False
 
     def __post_init__(self) -> None:
-        """Take the own ends over."""
+        """Set the time limits of the socket."""
         for option in (socket.SO_RCVTIMEO, socket.SO_SNDTIMEO):
             self.data.setsockopt(socket.SOL_SOCKET, option, _SLICE)
         self._channel = Channel(self.data)
@@ -110,9 +109,9 @@ class Connection:
     def request(self, content: list[Any], seconds: float, more: float = 0.0) -> list[Any]:
         """Return the answer to a request, without its serial number.
 
-        It may take so many seconds; ``more`` is what the request adds to the time that all answers
-        may take together [s]. PolicyError if the answer is late, malformed, out of turn or not
-        there; EvaluatorFault if the sandbox has failed.
+        The answer may take ``seconds`` [s]; ``more`` is the time that the request adds to the
+        budget of all answers [s]. Raise PolicyError if the answer is late, malformed, out of turn
+        or missing, and EvaluatorFault if the sandbox has failed.
         """
         if self.failure is not None:
             raise self.failure
@@ -137,7 +136,7 @@ class Connection:
         return answer[1:]
 
     def move(self, processor: int) -> None:
-        """Let the policy run on this processor alone, from about now on."""
+        """Pin the policy to a processor, without waiting until it is."""
         with contextlib.suppress(OSError):
             self.status.send(f"{processor}\n".encode(), socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
 
@@ -161,7 +160,7 @@ class Connection:
         return f"{what} within {seconds:g} s"
 
     def _failure(self, reason: str, seconds: float) -> PolicyError | EvaluatorFault:
-        """Return the error for a reason, or for the better one that is reported; keep it."""
+        """Return and keep the error for a reason; a reported reason takes precedence."""
         self.failure = self._reported(reason, seconds)
         return self.failure
 

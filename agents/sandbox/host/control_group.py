@@ -1,4 +1,4 @@
-"""Memory control groups: the kernel's bound on what a sandbox's processes use together."""
+"""Memory control groups: the kernel's limit on the memory of all processes of a sandbox."""
 
 import contextlib
 import os
@@ -12,7 +12,7 @@ _PREFIX: Final = "colift"
 _LIMITS: Final = ("memory.max", "memory.limit_in_bytes")
 """File with the limit, in version 2 and 1 of control groups."""
 _SWAP: Final = {"memory.swap.max": "0", "memory.swappiness": "0"}
-"""Swapped memory would not be charged: there is to be none."""
+"""Settings against swapping: swapped memory would not be charged."""
 _REMOVE_SECONDS: Final = 1.0
 
 _ENTER: Final = 'echo 0 >"$0/cgroup.procs" && exec "$@"'
@@ -22,8 +22,8 @@ class ControlGroup:
     """A control group below this process's own, with a limit on memory.
 
     The limit is on all memory [bytes] of its processes together, files in memory and page tables
-    included. OSError if this process may not make one: the usual case but for root and for
-    delegated groups.
+    included. Raise OSError if this process may not make one, which usually only root and processes
+    in delegated groups may.
     """
 
     def __init__(self, memory: int) -> None:
@@ -48,7 +48,7 @@ class ControlGroup:
         return ["/bin/sh", "-c", _ENTER, str(self.folder), *command]
 
     def remove(self) -> None:
-        """Remove the group; its processes have ended, or will within a moment."""
+        """Remove the group, whose processes have ended or are about to."""
         end = time.monotonic() + _REMOVE_SECONDS
         while not _removed(self.folder) and time.monotonic() < end:
             time.sleep(0.01)

@@ -24,28 +24,28 @@ LEVELS: Final = {
     LANDLOCK: "namespaces of file systems, processes, network and users; Landlock, filter",
     LIMITS: "no namespaces: resource limits; Landlock and the filter where the kernel has them",
 }
-"""The levels and what they consist of."""
+"""The levels with their parts."""
 
 VERIFIABLE: Final = frozenset({BUBBLEWRAP, LANDLOCK})
 """Levels whose results can be called verified: on the others a policy can cheat."""
 
 TRIES: Final = 3
-"""How often a level is tried before it is believed not to work."""
+"""Attempts after which a level counts as not working."""
 
 _PAUSE_SECONDS: Final = 0.2
-"""Pause before it is tried again [s]; then twice as long."""
+"""Pause before the second attempt [s]; before the third it is twice as long."""
 
 _KEPT_SECONDS: Final = 60.0
-"""How long a failure is believed [s]: what has failed may work later."""
+"""Time after which a level that failed is tried again [s]."""
 
 _SECONDS: Final = 60.0
-"""How long the probe may take on a busy machine [s]."""
+"""Time limit of the probe, for a busy machine [s]."""
 
 _SECRETS: Final = ("humans/__init__.py", "../benchmark/__init__.py")
 """Files of colift, beside the agents, that no policy may read."""
 
 _found: Final[dict[str, tuple[float, str | None]]] = {}
-"""Until when (monotonic clock) what is known of a level holds: why it does not work, if so."""
+"""Findings by level: expiry (monotonic clock), and the reason if the level does not work."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,10 +54,10 @@ class Choice:
 
     level: str
     passed: Mapping[str, str]
-    """Why each of those does not work."""
+    """The stronger levels, each with the reason why it does not work."""
 
     def __str__(self) -> str:
-        """Return a line that says both."""
+        """Return level and reasons on one line."""
         return "; ".join([f"isolation {self.level}", *_faults(self.passed)])
 
 
@@ -73,8 +73,8 @@ def working_levels() -> tuple[str, ...]:
 def choose(*, verifiable: bool = False) -> Choice:
     """Return the strongest level that works here, and why stronger ones do not.
 
-    ``verifiable`` levels alone are for policies of strangers. Raise EvaluatorFault with all reasons
-    if no level works.
+    With ``verifiable`` only the levels of :data:`VERIFIABLE` are considered. Raise EvaluatorFault
+    with all reasons if none works.
     """
     passed: dict[str, str] = {}
     for name in LEVELS:
@@ -99,10 +99,10 @@ def check_level(name: str) -> None:
 
 
 def fault(name: str) -> str | None:
-    """Return why a level does not work here, None if it does: found out by trying.
+    """Return the reason why a level does not work here, None if it does: a probe tries it.
 
-    A failure is believed if it comes :data:`TRIES` times, and for a minute. Raise InputError if
-    there is no such level.
+    A failure counts after :data:`TRIES` attempts, and for a minute. Raise InputError if there is no
+    such level.
     """
     check_level(name)
     until, reason = _found.get(name, (-math.inf, None))
@@ -114,12 +114,12 @@ def fault(name: str) -> str | None:
 
 
 def forget() -> None:
-    """Find out anew what works when it is asked for next."""
+    """Forget all findings: every level is tried again when it is needed next."""
     _found.clear()
 
 
 def _tried(name: str) -> str | None:
-    """Return why a level fails again and again, None as soon as it does not."""
+    """Return the reason why a level fails in all attempts; None as soon as one succeeds."""
     reason = None
     for number in range(TRIES):
         if number:
@@ -136,7 +136,7 @@ def _tried(name: str) -> str | None:
 
 
 def holes(name: str) -> list[str]:
-    """Return what a policy can do at a level that it should not: a probe tries.
+    """Return the forbidden actions that a policy can do at a level: a probe tries them.
 
     Raise EvaluatorFault or PolicyError if the level does not work here.
     """
@@ -152,7 +152,7 @@ def holes(name: str) -> list[str]:
         secret, shared = Path(directory, "secret"), Path(seen, "shared")
         for path in (secret, shared):
             path.write_text("colift")
-        os.utime(shared, (1, 2))  # Last read before it was written: the next time would be noted.
+        os.utime(shared, (1, 2))  # Read before written: the next access would be recorded.
         local.bind(str(Path(directory, "socket")))
         local.listen()
         files = (secret, "/etc/shadow", *(AGENTS / each for each in _SECRETS))
@@ -175,6 +175,6 @@ def holes(name: str) -> list[str]:
             other.kill()
         marked = shared.stat().st_atime != 1
     if kind != "found":
-        return [f"the probe says {kind}"]
+        return [f"the probe answered {kind}"]
     marks = ["leaves the time of its last access on files"] if marked else []
     return [*map(str, found), *marks]

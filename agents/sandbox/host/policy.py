@@ -1,4 +1,4 @@
-"""A policy that runs in a sandbox, as a runner takes it."""
+"""The specification of a policy that runs in a sandbox."""
 
 import contextlib
 import os
@@ -18,7 +18,7 @@ from .levels import strongest
 from .sandbox import Sandbox
 
 KEPT: Final = 4
-"""Sandboxes that a thread keeps running: those that it used last."""
+"""Sandboxes that a thread keeps running: the most recently used."""
 
 _local = threading.local()
 
@@ -27,30 +27,30 @@ _local = threading.local()
 class SandboxedPolicy:
     """A policy in a sandbox, each episode in a fresh process; goes to worker processes.
 
-    It is what a runner takes: see :class:`colift.benchmark.execution.runner.AgentSpec`. Its methods
-    raise EvaluatorFault if there is no sandbox to be had.
+    It is a :class:`colift.agents.spec.AgentSpec`. Its methods raise EvaluatorFault if no sandbox
+    can be started.
     """
 
     name: str
     """The policy's name, for tables."""
     place: str
-    """Where its class is: ``module:Class``, or ``file.py:Class`` with a path that is absolute or
+    """Place of its class: ``module:Class``, or ``file.py:Class`` with a path that is absolute or
     relative to the folder."""
     parameters: str = ""
-    """What is set of it: ``parameter=value,parameter=value``."""
+    """Its parameters: ``parameter=value,parameter=value``."""
     folder: Path | None = None
-    """The submission's folder: seen read-only, and where the policy starts."""
+    """The submission's folder: read-only, and the policy's working directory."""
     source_digest: str = ""
-    """Hash of all that the policy is made of, parameters included."""
+    """Hash of the policy's files and parameters."""
     preload: bool = False
     """Whether its module is imported once and the episodes are forked from that process, so that
     they have to be audited."""
     isolation: str = field(default_factory=strongest)
-    """Its isolation level: chosen where the policy is named, and the same in all workers."""
+    """Its isolation level: chosen when the policy is named, and the same in all workers."""
     limits: Limits = LIMITS
-    """What it may use up in an episode."""
+    """Its budgets in an episode."""
     size: int = 1
-    """How many numbers its action is."""
+    """Length of its actions."""
 
     @property
     def files(self) -> Path | None:
@@ -81,7 +81,7 @@ class SandboxedPolicy:
                 raise InputError(f"policy {self.name}: {agent.failure}")
 
     def described(self) -> tuple[str, tuple[ParameterText, ...]]:
-        """Return the first line of the policy's docstring, and what can be set of it.
+        """Return the first line of the policy's docstring, and its parameters.
 
         Raise InputError as :meth:`check`.
         """
@@ -95,7 +95,7 @@ class SandboxedPolicy:
     def agent(self) -> Iterator[RemoteAgent]:
         """Yield a new agent for one episode; its processes end with it.
 
-        If the policy cannot be made, its ``reset`` says why.
+        If the policy cannot be made, ``reset`` raises the reason.
         """
         seen, policy = self._assignment()
         sandbox = _kept(self.isolation, seen, self.limits)
@@ -106,7 +106,7 @@ class SandboxedPolicy:
                 yield agent
 
     def _assignment(self) -> tuple[Path | None, Assignment]:
-        """Return the file or folder that the policy sees, and what is to be served."""
+        """Return the file or folder that the policy sees, and the policy to serve."""
         file, colon, name = self.place.rpartition(":")
         seen, place = self.folder.resolve() if self.folder else None, self.place
         if seen is None and colon and file.endswith(".py"):

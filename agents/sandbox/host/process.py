@@ -25,11 +25,11 @@ LANDLOCK: Final = "landlock"
 LIMITS: Final = "limits"
 
 READY_SECONDS: Final = 60.0
-"""How long a fork server may take to start [s]."""
+"""Time limit for the start of a fork server [s]."""
 
 HEADROOM: Final = 256 * MIB
-"""Memory of a control group beyond the policy's: the fork server with what it has imported, and the
-processes that watch [bytes]."""
+"""Memory of a control group beyond the policy's [bytes]: for the fork server with its imports, and
+for the processes that watch."""
 
 _CLOSE_SECONDS: Final = 5.0
 
@@ -49,7 +49,7 @@ spec.loader.exec_module(colift.agents)
 from colift.agents.sandbox.guest.forkserver import main
 main(int(handle))
 """
-"""Makes a ``colift`` that has nothing but ``colift.agents``, whatever is beside it."""
+"""Makes a package ``colift`` of ``colift.agents`` alone, whatever else is installed."""
 
 _PRIVILEGES: Final = [
     "SYS_ADMIN",
@@ -60,23 +60,34 @@ _PRIVILEGES: Final = [
     "KILL",
     "DAC_READ_SEARCH",
 ]
-"""What the superuser's fork server needs to make namespaces."""
+"""Capabilities with which the superuser's fork server makes namespaces."""
 
 
 class ForkServer:
-    """A running fork server; it ends when this object does, or its owner.
+    """A running fork server; it ends with this object, or with the process that made it.
 
-    It serves at an isolation level; policies see a file or a folder beside Python, in which they
-    start, and may use up the limits in an episode. Raise EvaluatorFault if it does not start.
+    Parameters
+    ----------
+    isolation
+        Its isolation level.
+    seen
+        The file or folder that policies see besides Python; a folder is their working directory.
+    limits
+        The budgets of a policy in one episode.
+
+    Raises
+    ------
+    EvaluatorFault
+        If it does not start.
     """
 
     def __init__(self, isolation: str, seen: Path | None, limits: Limits) -> None:
         visible = view(seen)
         group = None
-        with contextlib.suppress(OSError):  # There are none to be had everywhere.
+        with contextlib.suppress(OSError):  # Not every machine allows one.
             group = ControlGroup(limits.memory + HEADROOM)
         self.orders, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        """Where it takes orders."""
+        """The socket on which it takes orders."""
         with tempfile.TemporaryFile() as errors, contextlib.closing(theirs):
             try:
                 words = command(isolation, visible, theirs.fileno(), superuser=os.geteuid() == 0)
@@ -103,7 +114,7 @@ class ForkServer:
             try:
                 settings = _settings(isolation, visible, seen, limits)
                 self.namespaces = self._introduce(settings)
-                """Which an episode has: made by ``root``, by the ``user``, or none (empty)."""
+                """Namespaces of an episode: made by ``root``, by the ``user``, or none (empty)."""
             except (OSError, ValueError) as error:
                 self.close()
                 errors.seek(0)
@@ -113,7 +124,7 @@ class ForkServer:
                 ) from error
 
     def _introduce(self, content: dict[str, Any]) -> str:
-        """Tell the fork server what it is for, and return which namespaces it makes."""
+        """Send the fork server its settings, and return which namespaces it makes."""
         self.orders.settimeout(READY_SECONDS)
         self.orders.send(json.dumps(content).encode())
         answer = self.orders.recv(ORDER)
@@ -130,7 +141,7 @@ class ForkServer:
 def _end(
     owner: int, process: subprocess.Popen[bytes], orders: socket.socket, group: ControlGroup | None
 ) -> None:
-    """End a fork server; in a fork of its owner, only let go of it."""
+    """End a fork server; in a fork of its owner, only close the socket."""
     orders.close()
     if os.getpid() != owner:
         process.returncode = 0
@@ -146,7 +157,7 @@ def _end(
 
 
 def _settings(isolation: str, visible: View, seen: Path | None, limits: Limits) -> dict[str, Any]:
-    """Return what the fork server must know: :class:`.Restrictions` in JSON."""
+    """Return the settings of a fork server, for its :class:`.Restrictions`."""
     covered = isolation != LIMITS
     shown = visible.outermost() if covered else visible.visible()
     return {
@@ -162,8 +173,8 @@ def _settings(isolation: str, visible: View, seen: Path | None, limits: Limits) 
 def command(isolation: str, visible: View, handle: int, *, superuser: bool) -> list[str]:
     """Return the command that starts a fork server.
 
-    It sees what is visible and takes its orders at the file descriptor ``handle``; ``superuser`` is
-    whether the superuser will start it. FileNotFoundError if a program is not installed.
+    It sees the ``visible`` files and takes orders on the file descriptor ``handle``; ``superuser``
+    is whether the superuser will start it. Raise FileNotFoundError if bubblewrap is not installed.
     """
     packages = [str(each) for each in visible.packages]
     options = ["-s", "-P", "-S", "-u", "-c", _BOOTSTRAP]
@@ -176,8 +187,8 @@ def _bubblewrap(visible: View, superuser: bool) -> Iterator[str]:
     if program is None:
         raise FileNotFoundError("bwrap is not installed")
     yield program
-    # The superuser's fork server keeps what it needs to make namespaces of processes that then
-    # are nobody outside too, which a user namespace of bubblewrap's own would not allow.
+    # The superuser's fork server keeps the capabilities to make processes that are nobody outside
+    # their namespaces too, which a user namespace of bubblewrap's own would not allow.
     yield from ("--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts")
     if superuser:
         yield from ("--cap-drop", "ALL")

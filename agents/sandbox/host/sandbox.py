@@ -13,7 +13,7 @@ from .process import ForkServer
 
 
 class Sandbox:
-    """A fork server that is started again when it has ended; use it from one thread.
+    """A fork server, started again whenever it has ended; for use by one thread.
 
     The parameters are those of :class:`.ForkServer`. The constructor and all methods that return a
     connection raise EvaluatorFault if it does not start.
@@ -31,7 +31,7 @@ class Sandbox:
         return self._started(EPISODE, policy)
 
     def probe(self, secrets: dict[str, Any]) -> Connection:
-        """Return the connection to a process that tries what no policy may."""
+        """Return the connection to a process that tries the forbidden actions."""
         return self._started(PROBE, secrets)
 
     def preloaded(self, policy: Assignment) -> Connection:

@@ -1,6 +1,6 @@
 """The visible files of a sandboxed policy: a Python with its packages, and the policy's folder.
 
-Of colift it is ``colift.agents`` without the humans: no suite, scenario, plan or seed.
+Of colift only ``colift.agents`` is visible, without the humans: no suite, scenario, plan or seed.
 """
 
 import os
@@ -24,19 +24,19 @@ _SYSTEM: Final = (
 
 @dataclass(frozen=True, kw_only=True)
 class View:
-    """Paths that are visible, at the place where they are outside, and read-only."""
+    """The visible paths: read-only, and at the same place as outside."""
 
     python: Path
     """The interpreter."""
     packages: tuple[Path, ...]
-    """Where installed packages are."""
+    """Folders with installed packages."""
     readable: tuple[Path, ...]
-    """Files and directories, the first of them outermost."""
+    """Files and directories; an outer one comes before those inside it."""
     hidden: tuple[Path, ...]
-    """Directories inside of those that are not visible, but for :data:`AGENTS` in one of them."""
+    """Directories inside those that are covered, except :data:`AGENTS` in one of them."""
 
     def visible(self) -> Iterator[Path]:
-        """Yield the readable paths without what is hidden, as few as possible."""
+        """Yield the readable paths without the hidden ones, as few as possible."""
         found = list(self.readable)
         for path in found:
             if path in self.hidden:
@@ -54,8 +54,8 @@ class View:
 
 
 def view(folder: Path | None) -> View:
-    """Return what a policy in a submission's folder (absolute, resolved; None: no folder) sees."""
-    # Where the packages of this environment are, and where those that are needed come from.
+    """Return the view of a policy with a folder (absolute, resolved), or with none."""
+    # The packages of this environment, and the folders that needed ones really come from.
     named = [Path(sysconfig.get_path(name)) for name in ("purelib", "platlib")]
     used = [Path(str(module.__file__)).parents[1] for module in (np, msgpack)]
     packages = tuple(each for each in _distinct([*named, *used]) if each.is_dir())

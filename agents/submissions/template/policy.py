@@ -1,7 +1,7 @@
 """A proportional controller for the NAO at one end of the table; a human lifts the other.
 
-Ten times a second it sees five numbers and says how far the robot's hands shall go. Try it with
-``colift check``, change it, try again.
+Ten times a second it observes five numbers and returns how far the robot's hands should move.
+Try it with ``colift check``, change it, and try again.
 """
 
 from pathlib import Path
@@ -14,9 +14,9 @@ HERE = Path(__file__).parent
 
 
 class Policy:
-    """Takes away a fixed share of the height difference that it sees."""
+    """Removes a fixed share of the observed height difference."""
 
-    gain = 1.8  # 1 goes to where the human was; more goes beyond, as the human is still moving
+    gain = 1.8  # 1 moves to where the human was; more moves beyond, since the human moves on
 
     def reset(self, seed: int) -> None:
         """Begin a lift: forget the last one. Random numbers, if any, are drawn from ``seed``."""
@@ -24,9 +24,9 @@ class Policy:
     def act(self, observation: np.ndarray) -> float:
         """Return the change of the hands' height [m] in this step, up is positive.
 
-        The hands go 0.04 m in a step at most; a larger change is cut to that.
+        The hands move at most 0.04 m in a step; a larger change is clipped.
         """
         human = observation[RobotObservation.HUMAN_END]  # where the human's end was 0.1 s ago
-        hand = observation[RobotObservation.HAND_HEIGHT]  # where the own hands are now
+        hand = observation[RobotObservation.HAND_HEIGHT]  # where the robot's hands are now
         # There are also ROBOT_END, HAND_COMMAND and TIME; heights are in m from the start.
         return float(self.gain * (human - hand))

@@ -86,8 +86,8 @@ def test_digest_is_of_what_the_source_does(written):
         ("colift.agents.control.q_learning:state_of", r"is not a class"),
         ("colift.agents.control.q_learning:QLearner", r"has no method reset\(\)"),
         ("no/such/file.py:Mine", r"no such file: no/such/file\.py"),
-        ("mine.py", r"which class of mine\.py\? Say mine\.py:Class"),
-        ("folder/mine", r"which class of folder/mine\?"),
+        ("mine.py", r"mine\.py names no class; give mine\.py:Class"),
+        ("folder/mine", r"folder/mine names no class"),
     ],
 )
 def test_what_cannot_be_found_is_named(text, message):
@@ -175,7 +175,7 @@ def test_digest_covers_the_parameters_however_they_are_written():
 @pytest.mark.parametrize(
     ("parameters", "message"),
     [
-        ("", r"policy .*mine\.py:Mine: parameters are name=value with commas between, got ''"),
+        ("", r"policy .*mine\.py:Mine: parameters must be name=value, separated by commas; got ''"),
         (
             "gian=1",
             r"policy .*mine\.py:Mine: no parameter 'gian'; did you mean gain\? it has gain=0.5",
@@ -200,7 +200,7 @@ def test_wrong_parameters_are_refused_before_a_run(written, parameters, message)
         ("blend,forgeting=1", r"policy blend: no parameter 'forgeting'; .*forgetting=0.45"),
         ("hold,gain=1", r"policy hold: no parameter 'gain'; it has none"),
         ("nobody,gain=1", r"unknown policy 'nobody'; known: "),
-        ("mine.py,gain=1", r"which class of mine\.py\? Say mine\.py:Class"),
+        ("mine.py,gain=1", r"mine\.py names no class; give mine\.py:Class"),
     ],
 )
 def test_wrong_variants_are_named(text, message):

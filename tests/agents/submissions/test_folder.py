@@ -103,16 +103,16 @@ HOSTILE = {
     link_upwards: "up: a symbolic link",
     pipe: "pipe: a pipe",
     bound_socket: "talk: a socket",
-    two_gigabytes: "weights.npz: a file may have 128 MiB, it has 2048 MiB",
+    two_gigabytes: "weights.npz: a file may have at most 128 MiB, got 2048 MiB",
     ten_thousand_files: "more than 500 files and folders",
     many_hidden_files: "more than 500 files and folders",
-    deep_folders: "d/d/d/d/d/d: folders may be 5 deep",
-    no_utf8: r"caf\udce9.py': a name is at most 80 letters, digits",
-    terminal_codes: r"\x1b[2J.py': a name is",
-    line_end: r"a\nb': a name is",
-    space: "my weights.npz: a name is",
-    dash: "-rf: a name is",
-    long_name: "aaa: a name is",
+    deep_folders: "d/d/d/d/d/d: folders may be at most 5 deep",
+    no_utf8: r"caf\udce9.py': a name may have at most 80 letters, digits",
+    terminal_codes: r"\x1b[2J.py': a name may have",
+    line_end: r"a\nb': a name may have",
+    space: "my weights.npz: a name may have",
+    dash: "-rf: a name may have",
+    long_name: "aaa: a name may have",
 }
 
 
@@ -191,7 +191,7 @@ def test_a_file_that_grows_meanwhile_is_refused(mine, monkeypatch):
 
     monkeypatch.setattr(folders.os, "fstat", grow)
     (mine / "data" / "weights.bin").unlink()
-    with pytest.raises(InputError, match=r"policy.py: it grows while it is read"):
+    with pytest.raises(InputError, match=r"policy.py: it grew while it was read"):
         read_folder(mine)
 
 

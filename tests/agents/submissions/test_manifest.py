@@ -74,9 +74,9 @@ WRONG = [
     ("name", '"<b>mine</b>"', "got '<b>mine</b>'"),
     ("name", '"[red]mine"', "1 to 40"),
     ("name", '"../mine"', "1 to 40"),
-    ("name", '"blend"', "another than colift's own"),
-    ("name", '"Minimum-Jerk"', "another than colift's own"),
-    ("name", '"human human"', "another than colift's own"),
+    ("name", '"blend"', "differ from colift's own"),
+    ("name", '"Minimum-Jerk"', "differ from colift's own"),
+    ("name", '"human human"', "differ from colift's own"),
     ("authors", '"Ada"', "a list of 1 to 50 names"),
     ("authors", "[]", "a list of 1 to 50 names"),
     ("authors", '[""]', "1 to 200 characters"),
@@ -85,7 +85,7 @@ WRONG = [
     ("authors", r'["\u001b[2J"]', r"without control characters; got '\x1b[2J'"),
     ("authors", r'["a\u202eb"]', r"without control characters; got 'a\u202eb'"),
     ("description", '"  "', "1 to 1000 characters"),
-    ("description", f'"{"a" * 1001}"', "(1001 long)"),
+    ("description", f'"{"a" * 1001}"', "(1001 characters)"),
     ("description", r'"\u0007"', "without control characters"),
     ("licence", "true", "got true"),
     ("licence", r'"a\nb"', "on one line"),
@@ -110,7 +110,7 @@ WRONG = [
     ("entry_point", '"colift.benchmark.episode.lift:Lift"', "colift is a module"),
     ("entry_point", "{ module = 1 }", "got a table"),
     ("packages", '"numpy"', "a list of some of: filterpy, numpy, scikit-learn, scipy"),
-    ("packages", '["torch"]', "'torch', which a board need not have; known: filterpy, numpy"),
+    ("packages", '["torch"]', "'torch', which boards do not provide; known: filterpy, numpy"),
     ("packages", "[[]]", "has a list, which"),
     ("preload", '"true"', "true or false, without quotes"),
     ("preload", "1", "true or false"),
@@ -143,7 +143,7 @@ def test_what_is_missing_is_named(key):
         ("package", "did you mean packages?"),
         ("zzz", "known: name, authors, description, licence, trained_on, link, entry_point"),
         ('"\\u001b[2J"', r"unknown key '\x1b[2J'"),
-        ("a" * 9000, "(9000 long)"),
+        ("a" * 9000, "(9000 characters)"),
     ],
 )
 def test_unknown_keys_are_refused_with_the_nearest(key, told):
@@ -154,7 +154,7 @@ def test_unknown_keys_are_refused_with_the_nearest(key, told):
 
 
 BOMBS = {
-    "too long": (b"#" * (LONGEST + 1), f"it may have {LONGEST}"),
+    "too long": (b"#" * (LONGEST + 1), f"at most {LONGEST} are allowed"),
     "deep lists": (b"name = " + b"[" * 8000, "too deep"),
     "deep tables": (b"name = " + b"{a=" * 4000, "too deep"),
     "dotted keys": (written(name=None) + b"name" + b".a" * 4000 + b" = 1", "got a table"),

@@ -44,8 +44,8 @@ def test_what_is_not_declared_is_told_with_what_to_declare(found):
 def test_what_no_sandbox_has_is_told_with_what_it_has(found):
     (told,) = found("import torch.nn\n")
     assert told == (
-        "policy.py imports torch, which a submission cannot ask for: whether it is there differs "
-        "from board to board; what it can: filterpy, numpy, scikit-learn, scipy"
+        "policy.py imports torch, which boards need not have; "
+        "a submission may declare filterpy, numpy, scikit-learn, scipy"
     )
 
 
@@ -56,4 +56,4 @@ def test_what_is_no_python_is_left_to_the_sandbox(found, source):
 
 def test_a_source_that_would_take_memory_to_read_is_told_and_not_read(found):
     told = found("import sklearn\n" + "1," * 2**20)
-    assert told == ["policy.py is larger than 1 MiB; put its data into a file that is no source"]
+    assert told == ["policy.py is larger than 1 MiB; move its data to a data file"]

@@ -145,7 +145,7 @@ def test_a_file_alone_is_copied_alone(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "told"), [("nowhere.py", "no such file"), ("my policy.py", "a name is at most")]
+    ("name", "told"), [("nowhere.py", "no such file"), ("my policy.py", "a name may have at most")]
 )
 def test_a_file_that_cannot_be_a_policy_is_refused(tmp_path, name, told):
     (tmp_path / "my policy.py").touch()

@@ -95,14 +95,14 @@ def test_an_archive_with_a_comment_is_read(out):
         (["/etc/passwd"], r"zip entry /etc/passwd: a name may not begin with /"),
         (["a//b"], "zip entry a//b: .*empty name"),
         (["a", "b\\c"], r"zip entry b\\c: .*backslash"),
-        (["a", "C:b"], "zip entry C:b: a name is"),
-        (["a", "b c"], "zip entry b c: a name is"),
-        (["a", "<script>"], "zip entry <script>: a name is"),
-        (["a", "\u202eb"], r"zip entry '\\u202eb': a name is"),
-        (["a", "b" * 81], "a name is at most 80"),
-        (["x/y/z/a", "b"], "zip entry x/y/z/a: folders may be 2 deep"),
-        (["a/" * 30_000 + "b", "c"], "folders may be 2 deep"),
-        (["x/y/z/", "b"], "zip entry x/y/z/: folders may be 2 deep"),
+        (["a", "C:b"], "zip entry C:b: a name may have"),
+        (["a", "b c"], "zip entry b c: a name may have"),
+        (["a", "<script>"], "zip entry <script>: a name may have"),
+        (["a", "\u202eb"], r"zip entry '\\u202eb': a name may have"),
+        (["a", "b" * 81], "a name may have at most 80"),
+        (["x/y/z/a", "b"], "zip entry x/y/z/a: folders may be at most 2 deep"),
+        (["a/" * 30_000 + "b", "c"], "folders may be at most 2 deep"),
+        (["x/y/z/", "b"], "zip entry x/y/z/: folders may be at most 2 deep"),
         (["a", "b/policy.py", "B/other.py"], "zip entry B/other.py: .*'b'.*case"),
         (["policy.py", "Policy.py"], "zip entry Policy.py: .*'policy.py'.*case"),
         (["a", "a/b"], "zip entry a/b: 'a' is a file and a folder"),
@@ -113,7 +113,7 @@ def test_an_archive_with_a_comment_is_read(out):
         ([special("a", stat.S_IFIFO)], "zip entry a: a device"),
         ([special("a", stat.S_IFCHR)], "zip entry a: a device"),
         ([special("a", stat.S_IFDIR)], "zip entry a: a device"),
-        ([("a", bytes(2**21 + 1))], "zip entry a: a file may have 2 MiB, it has 2 MiB"),
+        ([("a", bytes(2**21 + 1))], "zip entry a: a file may have at most 2 MiB, got 2 MiB"),
     ],
 )
 def test_an_entry_that_is_not_allowed_is_named_and_nothing_is_written(
@@ -141,7 +141,7 @@ def test_a_name_that_is_there_twice_is_refused(out):
 
 def test_files_that_are_too_large_together_are_refused(out):
     noise = [(name, bytes(range(256)) * 4096 * 2) for name in "ab"]
-    with pytest.raises(InputError, match="zip entry b: all files may have 3 MiB"):
+    with pytest.raises(InputError, match="zip entry b: all files together may have at most 3 MiB"):
         out(archive(*noise, compression=zipfile.ZIP_STORED))
 
 
