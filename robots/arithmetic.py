@@ -2,7 +2,7 @@
 
 NumPy's ``@`` takes its code, and with it the order of a sum, from BLAS, which chooses by processor,
 environment variables and threads; NumPy's ``exp`` or ``arccos`` choose by vector extensions. Here
-each product and each sum is rounded by itself in one order, and a function is the C library's.
+each product and each sum is rounded by itself in one order, and each function is the C library's.
 """
 
 from collections.abc import Callable

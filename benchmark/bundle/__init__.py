@@ -1,14 +1,14 @@
-"""The result bundle: a folder with a policy's scores, and all that they follow from.
+"""The result bundle: a folder with a policy's scores, and everything they follow from.
 
 ================== ===============================================================================
 file               content
 ================== ===============================================================================
 ``results.json``   the summary; see :func:`.results`
-``episodes.csv``   one row per episode: who lifts, seed, scores, why it failed
+``episodes.csv``   one row per episode: human, seed, scores, reason of a failure
 ``traces.npz``     both agents' actions, a hash of each step's state, the heights and forces
-``manifest.json``  what re-makes the episodes, the platform, the SHA-256 of every other file
-``recordings.csv`` the recordings, if people's recorded lifts were played
-``logs.json``      what failed policies had printed, if they had
+``manifest.json``  the recipe of the suite, the platform, the SHA-256 of every other file
+``recordings.csv`` the recordings, if recorded lifts were played
+``logs.json``      the output of failed policies, if any
 ================== ===============================================================================
 """
 

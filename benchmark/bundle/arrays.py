@@ -13,23 +13,23 @@ from numpy.typing import NDArray
 from ...agents.errors import InputError, error_text
 
 MOST_BYTES: Final = 2**30
-"""Bytes that all arrays of a file may take together, unpacked."""
+"""Largest size of all arrays of a file together, unpacked [bytes]."""
 
 MOST_RATIO: Final = 20
-"""Bytes that arrays may take for each byte of their file. Those of lifts take less than 5, since
+"""Largest ratio of the size of the arrays to that of their file. It is below 5 for lifts, since
 heights and forces have random last bits."""
 
 MOST_ARRAYS: Final = 200
-"""Arrays that a file may have."""
+"""Largest number of arrays in a file."""
 
 _ENTRY, _LISTED, _END = 30, 46, 22
-"""Bytes that a zip file has before an entry, of an entry at its end, and after those, beside the
-entries' names."""
+"""Sizes in a zip file [bytes], without names: the head of an entry, its row in the directory, and
+the end of the directory."""
 
 _DATE: Final = (1980, 1, 1, 0, 0, 0)
 
 DTYPES: Final = ("<f8", "<i8", "|u1")
-"""Types that an array may have."""
+"""Allowed types of an array."""
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -50,7 +50,7 @@ def dump_arrays(arrays: Mapping[str, NDArray[Any]]) -> bytes:
 def parse_arrays(data: bytes, file: str, most: int = MOST_BYTES) -> Arrays:
     """Return the arrays of an ``.npz`` file by name.
 
-    What each array claims to be is checked before memory is taken for it.
+    The claimed type and size of an array are checked before memory is allocated for it.
 
     Parameters
     ----------
@@ -59,13 +59,13 @@ def parse_arrays(data: bytes, file: str, most: int = MOST_BYTES) -> Arrays:
     file
         Its name, for messages.
     most
-        Bytes that all arrays may take together.
+        Largest size of all arrays together [bytes].
 
     Raises
     ------
     InputError
-        If it is not such a file, has anything else in it, or an array is of another type or larger
-        than it may be.
+        If it is not such a file, has any other content, or an array has a type or size that is not
+        allowed.
     """
     try:
         with warnings.catch_warnings(), zipfile.ZipFile(io.BytesIO(data)) as archive:
@@ -81,7 +81,7 @@ def parse_arrays(data: bytes, file: str, most: int = MOST_BYTES) -> Arrays:
     except (InputError, MemoryError):
         raise
     except Exception as error:
-        # A broken archive raises whatever its broken part makes the reader do.
+        # A damaged archive can raise anything.
         raise InputError(f"{file}: damaged, or not an .npz file: {error_text(error)}") from None
 
 
@@ -104,16 +104,16 @@ def _check_directory(entries: list[zipfile.ZipInfo], file: str, most: int) -> No
 def _check_layout(
     archive: zipfile.ZipFile, entries: list[zipfile.ZipInfo], size: int, file: str
 ) -> None:
-    """Refuse bytes before, between or after the entries, and whatever else no array needs."""
+    """Refuse bytes before, between or after the entries, and unneeded parts of entries."""
     place = 0
     for entry in entries:
         bare = not (entry.extra or entry.comment) and entry.date_time == _DATE
         if entry.header_offset != place or not bare:
-            raise InputError(f"{file}: there is more than arrays at {entry.filename!r:.80}")
+            raise InputError(f"{file}: only arrays are allowed, got more at {entry.filename!r:.80}")
         place += _ENTRY + len(entry.filename.encode()) + entry.compress_size
     place += sum(_LISTED + len(entry.filename.encode()) for entry in entries)
     if archive.comment or place + _END != size:
-        raise InputError(f"{file}: there is more than arrays at its end")
+        raise InputError(f"{file}: only arrays are allowed, got more at its end")
 
 
 def _array(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, file: str) -> NDArray[Any]:
@@ -129,5 +129,5 @@ def _array(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, file: str) -> NDArr
         size = math.prod(shape) * dtype.itemsize
         if size != entry.file_size - stream.tell():
             raise InputError(f"{what} claims the shape {shape}, but has another size")
-        # Without a size, zipfile would unpack first and see afterwards how much was claimed.
+        # Without a size, zipfile would unpack everything before it compares sizes.
         return np.frombuffer(stream.read(size), dtype).reshape(shape)

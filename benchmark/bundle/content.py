@@ -38,7 +38,7 @@ class Results:
     policy_digest: str
     isolation: str
     evaluator_faults: int
-    """How often episodes were played again because the machine had failed."""
+    """Number of episodes that were played again because the machine had failed."""
     summary: Summary
     strata: tuple[StratumScores, ...]
     baselines: Mapping[str, Baseline]
@@ -70,7 +70,7 @@ def _plain_baseline(baseline: Baseline) -> dict[str, Any]:
 def results(run: Run, baselines: Mapping[str, Baseline]) -> Results:
     """Return the results of a run.
 
-    Everything follows from the episodes, except what :func:`with_circumstances` names.
+    Everything follows from the episodes, except the claims of :func:`with_circumstances`.
 
     Parameters
     ----------
@@ -100,8 +100,8 @@ def results(run: Run, baselines: Mapping[str, Baseline]) -> Results:
 def real_time(p99_ms: float | None, suite: Suite) -> bool | None:
     """Return whether a policy keeps up with a real robot; None if it never acted.
 
-    It does if the 99th percentile of its time per step [ms], over all steps of all lifts, is no
-    more than the share of the control period that the real-time loop waits for an answer.
+    It does if the 99th percentile of its time per step [ms], over all steps of all lifts, is at
+    most :data:`.POLICY_SHARE` of the control period: so long does the real-time loop wait.
     """
     if p99_ms is None:
         return None
@@ -110,7 +110,7 @@ def real_time(p99_ms: float | None, suite: Suite) -> bool | None:
 
 
 def with_circumstances(content: Results, claimed: Mapping[str, Any], suite: Suite) -> Results:
-    """Return results with the circumstances that a bundle claims, which no simulation can show.
+    """Return results with those claims of a bundle that no simulation can verify.
 
     They are the version of colift that wrote it, and the policy's times per step. (The policy's
     name and digest, the isolation and the faults come with the run.)

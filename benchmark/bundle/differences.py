@@ -12,19 +12,19 @@ class _Absent:
 
 
 ABSENT: Final = _Absent()
-"""Stands for a value that is not there."""
+"""A missing value."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Difference:
-    """A value that is not what it should be."""
+    """A value that differs from the correct one."""
 
     path: str
-    """Where, such as ``groups[2].rmse_mm.mean``."""
+    """Its place, such as ``groups[2].rmse_mm.mean``."""
     claimed: Any
-    """What is there."""
+    """The value found."""
     true: Any
-    """What should be there."""
+    """The correct value."""
 
     def __str__(self) -> str:
         return f"{self.path} says {self.claimed!r:.80}, should be {self.true!r:.80}"
@@ -33,16 +33,16 @@ class Difference:
 def differences(
     claimed: Any, true: Any, *, tolerance: float = 0.0, path: str = ""
 ) -> Iterator[Difference]:
-    """Yield where a JSON-like content is not another, in the order of the other.
+    """Yield the differences of two JSON-like contents, in the order of the second.
 
     Parameters
     ----------
     claimed, true
-        Dictionaries, lists, texts, numbers, booleans and None; an int is no float.
+        Dictionaries, lists, texts, numbers, booleans and None; an int never equals a float.
     tolerance
-        Relative and absolute difference that floats may have; 0: not one bit.
+        Allowed relative and absolute difference of floats; 0 demands equal bits.
     path
-        Where they are, for the result.
+        The place of both contents, which begins every path.
     """
     if isinstance(claimed, dict) and isinstance(true, dict):
         prefix = f"{path}." if path else ""

@@ -29,7 +29,7 @@ LARGEST: Final[Mapping[str, int]] = {
     RECORDINGS: 2**26,
     LOGS: 2**24,
 }
-"""All files that a bundle can have, and the bytes beyond which they are not read."""
+"""All files that a bundle can have, and their largest sizes [bytes]."""
 
 
 def check_bundle_folder(folder: Path) -> None:
@@ -38,14 +38,14 @@ def check_bundle_folder(folder: Path) -> None:
     Raises
     ------
     InputError
-        If it holds something else than a bundle, or cannot be created or written to.
+        If it holds other files than a bundle's, or cannot be created or written to.
     """
     if folder.exists():
         if not folder.is_dir():
             raise InputError(f"{folder} is a file, must be a folder")
         others = sorted({path.name for path in folder.iterdir()} - set(LARGEST))
         if others:
-            raise InputError(f"{folder} holds other things ({others[0]}); name a new folder")
+            raise InputError(f"{folder} holds other files ({others[0]}); name a new folder")
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=folder.parent):

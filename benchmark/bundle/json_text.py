@@ -1,4 +1,4 @@
-"""JSON, read as strictly as it is written."""
+"""JSON in one form: written, and read strictly."""
 
 import json
 import math
@@ -21,7 +21,8 @@ def parse_json(data: bytes, file: str) -> dict[str, Any]:
     Raises
     ------
     InputError
-        If it is none, or written in any other way, which other readers might take differently.
+        If it is not an object, or in any other form, which other readers might understand
+        differently.
     """
     try:
         content = json.loads(
@@ -32,7 +33,7 @@ def parse_json(data: bytes, file: str) -> dict[str, Any]:
         )
         as_written = dump_json(content)
     except (ValueError, RecursionError) as error:
-        raise InputError(f"{file}: not JSON as it must be: {error}") from None
+        raise InputError(f"{file}: not valid JSON: {error}") from None
     if not isinstance(content, dict):
         raise InputError(f"{file}: must be one object {{...}}")
     if as_written != data:
@@ -75,21 +76,21 @@ def pick(content: Any, path: str, kind: type[T] | tuple[type[T], ...], file: str
 
 
 def of_type(value: Any, kind: type[T] | tuple[type[T], ...], what: str) -> T:
-    """Return a value, of the type it must have.
+    """Return a value of the required type.
 
     Raises
     ------
     InputError
-        If it has another; ``what`` begins the message.
+        If its type is another; ``what`` begins the message.
     """
     kinds = kind if isinstance(kind, tuple) else (kind,)
     if type(value) not in kinds:
-        raise InputError(f"{what} must be {_told(kinds)}, got {value!r:.80}")
+        raise InputError(f"{what} must be {_kinds_text(kinds)}, got {value!r:.80}")
     found: T = value
     return found
 
 
-def _told(kinds: Sequence[type]) -> str:
+def _kinds_text(kinds: Sequence[type]) -> str:
     names = {
         str: "a text",
         int: "a whole number",

@@ -19,32 +19,32 @@ from .traces import LARGEST_LIFT, parse_traces
 from .writing import FORMAT, kept_logs
 
 LONGEST_LINE: Final = 1000
-"""Characters that a name of a policy, a version or an isolation may have."""
+"""Longest name of a policy, version or isolation level [characters]."""
 
 MOST_COUNTED: Final = 10**6
-"""Largest number of what is only counted, such as faults of the machine."""
+"""Largest count, such as of faults of the machine."""
 
 MOST_PLATFORM: Final = 100
-"""Entries that a platform's fingerprint may have."""
+"""Largest number of entries in a platform's fingerprint."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Bundle:
-    """The claims of a bundle. They are well formed; whether they are true is for a verification."""
+    """The claims of a bundle: well formed, but not verified."""
 
     results: dict[str, Any]
     """The content of ``results.json``."""
     episodes: tuple[Episode, ...]
     """The episodes, without step times."""
     places: tuple[int, ...]
-    """Where in the suite each episode is, counted from 0."""
+    """The place of each episode in the suite, counted from 0."""
     recipe: Recipe
-    """What re-makes the suite."""
+    """The recipe of the suite."""
     platform: dict[str, str]
     """The fingerprint of the platform that simulated the episodes."""
 
     def run(self) -> Run:
-        """Return the run that the bundle claims to be of.
+        """Return the run that the bundle claims.
 
         Raises
         ------
@@ -100,7 +100,7 @@ def wrong_hashes(files: Mapping[str, bytes]) -> list[tuple[str, str]]:
 
 
 def parse(files: Mapping[str, bytes]) -> Bundle:
-    """Return what files say, without a look at their hashes.
+    """Return the claims of a bundle's files; their hashes are not checked.
 
     Raises
     ------
@@ -110,7 +110,7 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
     manifest = parse_json(files[MANIFEST], MANIFEST)
     form = pick(manifest, "format", int, MANIFEST)
     if form == FORMAT and [*manifest] != ["format", "platform", "recipe", "sha256"]:
-        raise InputError(f"{MANIFEST}: it has other names than colift writes: {_shown(manifest)}")
+        raise InputError(f"{MANIFEST}: it has other keys than colift writes: {_shown(manifest)}")
     if form != FORMAT:
         raise InputError(f"{MANIFEST}: the bundle has format {form}, must be {FORMAT}")
     if manifest.get("recipe", 0) is None:
@@ -133,7 +133,7 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
     episodes = parse_table(files[EPISODES], traces, logs, recipe.metrics())
     kept = kept_logs(episodes)
     if LOGS in files and (not kept or files[LOGS] != dump_json(kept)):
-        raise InputError(f"{LOGS}: not the end of what was printed in lifts that failed, in order")
+        raise InputError(f"{LOGS}: must be the end of each failed lift's output, in order")
     return Bundle(
         results=_results(files[RESULTS], acted=any(len(trace.action) for trace in traces)),
         episodes=episodes,
@@ -181,7 +181,7 @@ def _shown(names: Iterable[str]) -> str:
 
 
 def _logs(data: bytes, episodes: int) -> list[str]:
-    """Return what the policy had printed in each episode."""
+    """Return the policy's output in each episode."""
     content = parse_json(data, LOGS)
     rows = {str(row): "" for row in range(1, episodes + 1)}
     for row, log in content.items():

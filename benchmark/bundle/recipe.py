@@ -19,10 +19,10 @@ from .files import MANIFEST, RECORDINGS
 from .json_text import of_type, pick
 
 MOST_EPISODES: Final = 100_000
-"""Episodes a bundle may have."""
+"""Largest number of episodes in a bundle."""
 
 SEED_BITS: Final = 128
-"""Seeds are smaller than two to the power of this."""
+"""Largest number of bits of a seed."""
 
 LONGEST_NAME: Final = 1000
 
@@ -41,14 +41,14 @@ class Recipe:
     latency: float
     task: str = LEVEL.name
     recordings: bytes | None = None
-    """The recordings as a CSV file, if people's recorded lifts are played."""
+    """The recordings as a CSV file, if recorded lifts are played."""
 
     @classmethod
     def of(cls, suite: Suite) -> Self | None:
         """Return the recipe of a suite; None if it cannot be made from names.
 
-        That is so of behaviours and subjects that are not registered, or whose parameters were
-        changed, and of scenarios that differ in partner, control period, latency or task.
+        That holds for behaviours and subjects that are not registered, or whose parameters were
+        changed, and for scenarios that differ in partner, control period, latency or task.
         """
         first = suite.scenarios[0]
         recipe = cls(
@@ -108,7 +108,7 @@ class Recipe:
                 latency=self.latency,
                 task=make_task(self.task),
             )
-        # A name with a colon would be that of a file.
+        # A name with a colon would name a file.
         if trial or ":" in behaviour:
             raise InputError(f"there is no behaviour {behaviour!r:.80} with trial {trial!r:.80}")
         return make_scenario(
@@ -116,7 +116,7 @@ class Recipe:
         )
 
     def plain(self) -> dict[str, Any]:
-        """Return what JSON can hold of it: all but the recordings."""
+        """Return the recipe for JSON: everything except the recordings."""
         return {
             "suite": self.name,
             "partner": self.partner,
@@ -129,7 +129,7 @@ class Recipe:
 
     @classmethod
     def parse(cls, content: dict[str, Any], recordings: bytes | None) -> Self:
-        """Return the recipe that :meth:`plain` and the recordings came from.
+        """Return the recipe from the content of :meth:`plain` and the recordings.
 
         Raises
         ------
@@ -179,7 +179,7 @@ def _names(name: str) -> tuple[str, str, str]:
 
 
 def _recordings(scenarios: tuple[Scenario, ...]) -> bytes | None:
-    """Return the recordings of the scenarios as the file that they could have come from."""
+    """Return the recordings of the scenarios as a CSV file; None if there are none."""
     recordings = {
         scenario.human.recording.name: scenario.human.recording
         for scenario in scenarios

@@ -17,7 +17,7 @@ LONGEST_REASON: Final = 1000
 
 
 def one_line(text: str) -> str:
-    """Return a text that may be printed anywhere: in a line, without control characters."""
+    """Return a text on one line, without control characters."""
     shown = (c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
     return "".join(shown)[:LONGEST_REASON]
 
@@ -42,7 +42,7 @@ def table_row(episode: Episode, metrics: Metrics) -> dict[str, object]:
 
 
 def dump_table(episodes: Sequence[Episode], metrics: Metrics) -> bytes:
-    """Return one row per episode; a field without a value is empty."""
+    """Return the table as a CSV file; the field of a missing score is empty."""
     text = io.StringIO()
     writer = csv.DictWriter(text, fieldnames=columns(metrics), lineterminator="\n")
     writer.writeheader()
@@ -68,7 +68,7 @@ def parse_table(
     data
         The file.
     traces, logs
-        What goes with each row.
+        The trace and the output of each row's episode.
     metrics
         The metrics of the task.
 

@@ -22,11 +22,11 @@ _PLAIN_NAME: Final = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,63}", re.ASCII)
 _NAN: Final = np.array(math.nan, dtype="<f8").view("<u8")
 
 MOST_INTERNALS: Final = 100
-"""Numbers a policy may report of itself that are kept."""
+"""Largest number of internals that are kept."""
 
 LARGEST_LIFT: Final = 2**24
-"""Bytes that a lift's arrays may take: 120 s with a decision every frame and as many internals as
-there may be take 11 MB."""
+"""Largest size of a lift's arrays [bytes]: 120 s with a decision every frame and the largest number
+of internals take 11 MB."""
 
 
 def dump_traces(traces: Sequence[Trace], places: Sequence[int]) -> Arrays:
@@ -34,9 +34,9 @@ def dump_traces(traces: Sequence[Trace], places: Sequence[int]) -> Arrays:
 
     ``places``, ``frames`` and ``steps`` (k,) are each episode's place in the suite, counted from 0,
     and its numbers of frames and steps. Then follow the series of :class:`.Trace`; ``task/NAME``,
-    the series that the task adds; ``state``; and ``internals/NAME``, the policy's own explanation,
-    NaN where there is none. Names with characters other than letters, digits and ``_.-`` are left
-    out.
+    the series that the task adds; ``state``; and ``internals/NAME``, the policy's internals, NaN
+    where it reports none. Internals whose names have characters other than letters, digits and
+    ``_.-`` are left out.
     """
     arrays: dict[str, NDArray[Any]] = {
         "places": np.array(places, dtype="<i8"),
@@ -56,7 +56,7 @@ def dump_traces(traces: Sequence[Trace], places: Sequence[int]) -> Arrays:
             trace.internals.get(name, np.full(len(trace.action), math.nan)) for trace in traces
         ]
         values = np.concatenate(parts).astype("<f8")
-        values[np.isnan(values)] = math.nan  # There are 2^53 of them.
+        values[np.isnan(values)] = math.nan  # Any of the 2^53 NaNs becomes the same one.
         arrays[INTERNALS + name] = values
     return arrays
 
@@ -73,7 +73,7 @@ def parse_traces(arrays: Arrays) -> tuple[tuple[Trace, ...], tuple[int, ...]]:
     places, frames, steps = (_counts(arrays, name) for name in ("places", "frames", "steps"))
     episodes = len(places)
     if not episodes or len(frames) != episodes or len(steps) != episodes:
-        raise InputError(f"{TRACES}: places, frames and steps must have one number an episode")
+        raise InputError(f"{TRACES}: places, frames and steps must have one number per episode")
     if any(b <= a for a, b in itertools.pairwise(places)):
         raise InputError(f"{TRACES}: places must increase")
     series = {
@@ -88,13 +88,16 @@ def parse_traces(arrays: Arrays) -> tuple[tuple[Trace, ...], tuple[int, ...]]:
     per_step = series["human_action"].shape[1]
     for episode, (n, m) in enumerate(zip(frames, steps, strict=True)):
         if n != m * per_step:
-            raise InputError(f"{TRACES}: episode {episode} has {n} frames in {m} steps")
+            raise InputError(
+                f"{TRACES}: episode {episode} has {n} frames in {m} steps, must be {m * per_step}"
+            )
     state = _taken(arrays, "state", "|u1", 2)
-    if state.shape != (sum(steps), HASH_BYTES):
-        raise InputError(f"{TRACES}: state has the shape {state.shape}")
+    due = (sum(steps), HASH_BYTES)
+    if state.shape != due:
+        raise InputError(f"{TRACES}: state has the shape {state.shape}, must be {due}")
     if len(arrays) > MOST_INTERNALS:
         raise InputError(f"{TRACES}: {len(arrays)} internals, at most {MOST_INTERNALS} are kept")
-    internals = {name: _said(arrays, name, sum(steps)) for name in sorted(arrays)}
+    internals = {name: _internal(arrays, name, sum(steps)) for name in sorted(arrays)}
     traces = []
     last_frame = last_step = 0
     for n, m in zip(frames, steps, strict=True):
@@ -137,10 +140,10 @@ def _series(arrays: Arrays, name: str, length: int) -> NDArray[np.float64]:
     return array
 
 
-def _said(arrays: Arrays, name: str, length: int) -> NDArray[np.float64]:
+def _internal(arrays: Arrays, name: str, length: int) -> NDArray[np.float64]:
     plain = name.startswith(INTERNALS) and _PLAIN_NAME.fullmatch(name.removeprefix(INTERNALS))
     if not plain:
-        raise InputError(f"{TRACES}: {name!r:.80} does not belong there")
+        raise InputError(f"{TRACES}: {name!r:.80} is not an array of a bundle")
     array: NDArray[np.float64] = _taken(arrays, name, "<f8", 1)
     if len(array) != length:
         raise InputError(f"{TRACES}: {name} has {len(array)} rows, must have {length}")

@@ -1,4 +1,4 @@
-"""Writing a bundle."""
+"""Writing of bundles."""
 
 import hashlib
 from collections.abc import Mapping, Sequence
@@ -19,10 +19,10 @@ FORMAT: Final = 1
 """Number of the bundle's format."""
 
 LONGEST_LOG: Final = 10_000
-"""Characters of a failed episode's printed lines that are kept, from the end."""
+"""Kept part of a failed episode's output [characters], from the end."""
 
 MOST_LOGS: Final = 100
-"""Failed episodes whose printed lines are kept, from the first."""
+"""Number of failed episodes whose output is kept, from the first."""
 
 
 def write_bundle(
@@ -34,13 +34,13 @@ def write_bundle(
 ) -> None:
     """Write the bundle of a run: everything, or nothing.
 
-    Equal runs give equal files, bit for bit, up to the step times in ``results.json`` (and with
-    them its hash in the manifest).
+    Equal runs give equal files, bit for bit, except for the step times in ``results.json``, and
+    with them its hash in the manifest.
 
     Parameters
     ----------
     folder
-        Where to; an older bundle there is replaced.
+        The folder to write; an older bundle there is replaced.
     run
         The episodes, at least one.
     content
@@ -75,7 +75,7 @@ def write_bundle(
 
 
 def places(run: Run) -> list[int]:
-    """Return where in the suite each episode of a run is, counted from 0."""
+    """Return the place in the suite of each episode of a run, counted from 0."""
     names = [
         (scenario.behaviour, scenario.subject.name, scenario.trial, seed)
         for scenario in run.suite.scenarios
@@ -89,7 +89,7 @@ def places(run: Run) -> list[int]:
 
 
 def kept_logs(episodes: Sequence[Episode]) -> dict[str, str]:
-    """Return what failed policies had printed, by the row of ``episodes.csv``, from 1."""
+    """Return the output of failed policies, by the row of ``episodes.csv``, from 1."""
     failed = [
         (row, episode.log)
         for row, episode in enumerate(episodes, 1)

@@ -18,8 +18,8 @@ from ..suites.hidden import keyed
 from ..suites.suite import Suite
 
 SEEDS_PER_BATCH: Final = 5
-"""Seeds of one scenario that a worker plays at a time: few enough that progress shows, many
-enough that building the world (some milliseconds) does not."""
+"""Seeds of one scenario that a worker plays at a time: few enough for visible progress, many enough
+that the time to build the world (some milliseconds) does not count."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +30,7 @@ class Batch:
     scenario: Scenario
     seeds: tuple[int, ...]
     places: tuple[int, ...]
-    """Where in the suite each episode is, counted from 0."""
+    """The place of each episode in the suite, counted from 0."""
 
     def play(self) -> Iterator[tuple[int, Episode]]:
         """Yield the place and the episode of each seed; see :func:`play`."""
@@ -109,10 +109,10 @@ def batches(policy: AgentSpec, suite: Suite, done: Container[int] = ()) -> list[
 def shuffled_batches(
     policy: AgentSpec, suite: Suite, secret: bytes, done: Container[int] = ()
 ) -> list[Batch]:
-    """Return the same, each episode a batch of its own, in an order that follows from a secret.
+    """Return the rest of a suite, one episode per batch, in an order that follows from a secret.
 
-    The number of an episode then does not reveal which one it is, and the order of one policy
-    reveals nothing about that of another.
+    The position of an episode then does not reveal which one it is, and the order for one policy
+    reveals nothing about the order for another.
     """
     labels = ("order", policy.name, policy.digest(), suite.digest)
 
@@ -140,12 +140,12 @@ ATTEMPTS: Final = 3
 
 @dataclass
 class Faults:
-    """Counts the times that the machine has failed."""
+    """A counter of the machine's failures."""
 
     count: int = 0
 
     def add(self, attempt: int, error: BaseException) -> None:
-        """Count one, in the n-th attempt of a batch.
+        """Count a failure in the n-th attempt at a batch.
 
         Raises
         ------
@@ -174,10 +174,10 @@ def run_batches(
     Raises
     ------
     EvaluatorFault
-        If a batch failed :data:`ATTEMPTS` times and it was not the policy's fault, or the executor
-        takes no more.
+        If the machine failed in :data:`ATTEMPTS` attempts at a batch, or the executor accepts no
+        more.
     InputError
-        If a worker is of another origin; see :func:`.cluster.call`.
+        If the origin of a worker is another; see :func:`.cluster.call`.
     """
     return _alone(batches, faults) if executor is None else _pooled(batches, executor, faults)
 

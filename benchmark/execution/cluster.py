@@ -15,7 +15,7 @@ from ...agents.errors import EvaluatorFault
 from .provenance import compare, origin
 
 LARGE: Final = 2**16
-"""Bytes of a value beyond which it is sent apart from the calls that it is in: once."""
+"""Size from which a value is sent once, apart from the calls that contain it [bytes]."""
 
 _turn: Final = threading.Lock()
 
@@ -23,14 +23,14 @@ _turn: Final = threading.Lock()
 def parcel(
     fn: Callable[..., Any], args: Any, kwargs: Any, send: Callable[[bytes], Any]
 ) -> tuple[bytes, dict[str, Any]]:
-    """Return a pickled call without its large values, and these by their hashes.
+    """Return a pickled call without its large values, and the large values by their hashes.
 
     Parameters
     ----------
     fn, args, kwargs
         The call.
     send
-        Sends a large value, and returns what stands for it on the cluster.
+        Sends a large value, and returns its future on the cluster.
     """
     from cloudpickle import Pickler
 
@@ -58,7 +58,7 @@ def call(data: bytes, large: Mapping[str, bytes], wanted: Mapping[str, str]) -> 
     Raises
     ------
     InputError
-        If this worker is not of the wanted origin.
+        If the origin of this worker is not the wanted one.
     """
     compare(origin(), wanted, "on a worker that has joined", "on the others")
 
@@ -75,7 +75,7 @@ P = ParamSpec("P")
 T = TypeVar("T")
 
 LONELY_SECONDS: Final = 60.0
-"""Time that a cluster may be without any worker during a run [s]; a dead one is restarted."""
+"""Longest time without any worker during a run [s]: Dask restarts workers that die."""
 
 WATCH_SECONDS: Final = 0.2
 """Period of the checks that the scheduler is alive [s]."""
@@ -93,9 +93,9 @@ class Cluster(Executor):
     client
         Dask's client, connected.
     address
-        Of its scheduler.
+        Address of its scheduler.
     origin
-        What :func:`.origin` is on every worker.
+        The :func:`.origin` of every worker.
     """
 
     shares_files: Final = False
@@ -105,7 +105,7 @@ class Cluster(Executor):
         self._client = client
         self._address = address
         self.origin = dict(origin)
-        """What :func:`.origin` is on every worker."""
+        """The :func:`.origin` of every worker."""
         self.idle_threads = sum(threads - 1 for threads in client.nthreads().values())
         """Idle threads of the workers: all but one of each worker."""
         self._waiting: dict[str, tuple[Any, Future[Any]]] = {}
@@ -133,7 +133,7 @@ class Cluster(Executor):
         return waiting
 
     def _sent(self, value: bytes) -> Any:
-        """Return a large value on the cluster: computed there, it is not lost with a worker."""
+        """Return the future of a large value: computed by a call, it is not lost with a worker."""
         import dask
 
         digest = hashlib.sha256(value).digest()
@@ -194,7 +194,7 @@ class Cluster(Executor):
             waiting.set_exception(error)
 
     def _heard(self, event: tuple[float, Mapping[str, Any]]) -> None:
-        """Take note of an event of the scheduler's."""
+        """Handle an event of the scheduler."""
         _, message = event
         if message.get("action") == "add-worker":
             self._workers.add(message["worker"])

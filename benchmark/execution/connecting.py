@@ -1,4 +1,4 @@
-"""Connection to a Dask cluster; one whose workers would give other results is refused."""
+"""Connection to a Dask cluster, if all workers would give the same results as this machine."""
 
 import asyncio
 import logging
@@ -25,7 +25,7 @@ def dask_pool(address: str) -> Iterator[Cluster]:
     Parameters
     ----------
     address
-        Of the scheduler, such as ``tcp://host:8786``.
+        Address of the scheduler, such as ``tcp://host:8786``.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def _reach(address: str) -> None:
 
 
 async def _kind(address: str) -> str:
-    """Return what is at an address: ``Scheduler``, ``Worker`` or ``Nanny``."""
+    """Return the kind of server at an address: ``Scheduler``, ``Worker`` or ``Nanny``."""
     from distributed import rpc
     from distributed.security import Security
 
@@ -90,12 +90,12 @@ def _quiet(logger: logging.Logger) -> Iterator[None]:
 
 
 def _agreed(client: Any, address: str) -> dict[str, str]:
-    """Return the provenance that all workers share, or raise an InputError for a difference."""
+    """Return the origin that all workers share; raise an InputError for a difference."""
     found = client.run(origin, on_error="return")
     agreed: dict[str, str] | None = None
     for worker, answer in found.items():
         if isinstance(answer, OSError):
-            continue  # It has just died; the next one is looked at when it works.
+            continue  # It has just died; its successor is compared when it works.
         if isinstance(answer, BaseException):
             raise InputError(f"Dask worker {worker} cannot run colift: {error_text(answer)}")
         compare(answer, {COLIFT: origin()[COLIFT]}, f"on worker {worker}", "here")

@@ -1,4 +1,4 @@
-"""The journal of a run: it keeps finished episodes, and an interrupted run resumes from it.
+"""The journal of a run, with its finished episodes: an interrupted run resumes from it.
 
 A record of the file is ``length of the payload (4 bytes) | CRC-32 of length and payload (4 bytes)
 | payload``, numbers little-endian, the payload msgpack. The file only grows: what was written
@@ -67,16 +67,16 @@ def open_journal(bundle: Path, run: Mapping[str, str], *, resume: bool) -> Itera
     bundle
         The folder that the run will write.
     run
-        What its episodes depend on, by name: policy, suite, isolation, platform and so on.
+        Everything its episodes depend on, by name: policy, suite, isolation, platform and so on.
     resume
-        Whether to go on with an interrupted run.
+        Whether to continue an interrupted run.
 
     Raises
     ------
     InputError
-        If there is an interrupted run but ``resume`` is not asked for, or the other way round; if
-        the interrupted run is another than ``run``: the message names what differs; if another
-        process writes to the journal, or it cannot be written.
+        If there is an interrupted run and ``resume`` is false, or none and it is true; if the
+        interrupted run differs from ``run``, with the difference in the message; if another process
+        writes to the journal; or if it cannot be written.
     """
     path = journal_path(bundle)
     if resume and not path.exists():
@@ -97,11 +97,11 @@ def _lock(handle: int, path: Path) -> None:
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        raise InputError(f"another process is at this run: it writes to {path}") from None
+        raise InputError(f"another process writes to {path}: the same run") from None
 
 
 def _begin(path: Path, handle: int, run: Mapping[str, str], resume: bool) -> dict[int, Episode]:
-    """Return the episodes that are there; the file then ends with a whole record."""
+    """Return the episodes in the file, which then ends with a complete record."""
     data = path.read_bytes()
     found = list(records(data))
     if data and not (found and isinstance(found[0][0], dict) and "format" in found[0][0]):
@@ -144,7 +144,7 @@ def record_of(episode: Episode) -> dict[str, Any]:
     trace = episode.trace
     return {
         **{each.name: getattr(episode, each.name) for each in fields(Episode)},
-        "seed": str(episode.seed),  # A hidden seed has more bits than a number here may have.
+        "seed": str(episode.seed),  # A hidden seed has more bits than a number in msgpack.
         "scores": dict(episode.scores),
         "trace": {
             **{name: _packed(getattr(trace, name)) for name in (*Trace.series(), "state")},
@@ -155,7 +155,7 @@ def record_of(episode: Episode) -> dict[str, Any]:
 
 
 def episode_of(content: dict[str, Any]) -> Episode:
-    """Return the episode that :func:`record_of` was given."""
+    """Return the episode of a record; the inverse of :func:`record_of`."""
     arrays = dict(content["trace"])
     added, internals = (
         {name: _unpacked(values) for name, values in arrays.pop(kind).items()}
@@ -185,7 +185,7 @@ HEAD: Final = struct.Struct("<II")
 
 
 def append_record(handle: int, content: Any) -> None:
-    """Write a record to the end of an open file, and hand it to the operating system.
+    """Append a record to an open file, without a buffer in this process.
 
     Raises
     ------
@@ -199,9 +199,9 @@ def append_record(handle: int, content: Any) -> None:
 
 
 def records(data: bytes) -> Iterator[tuple[Any, int]]:
-    """Yield the content of each whole record, and where it ends.
+    """Yield the content of each complete record, and the offset of its end.
 
-    A record that was cut off, or does not fit its checksum, is the end: so is what comes after.
+    Reading stops at the first record that is cut off or does not match its checksum.
     """
     begin = 0
     while begin + HEAD.size <= len(data):
@@ -215,5 +215,5 @@ def records(data: bytes) -> Iterator[tuple[Any, int]]:
 
 
 def _checksum(payload: bytes) -> int:
-    # With the length, since zeros, which a crash can leave, must not be a record.
+    # With the length, so that zeros, which a crash can leave, are not a valid record.
     return zlib.crc32(payload, zlib.crc32(len(payload).to_bytes(4, "little")))

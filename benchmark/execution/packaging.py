@@ -21,7 +21,7 @@ from ...agents.submissions.snapshot import snapshot, snapshot_file
 
 @dataclass(frozen=True, kw_only=True)
 class PackagedPolicy:
-    """A policy with its files inside, as :class:`.AgentSpec`: the same agent on every machine."""
+    """An :class:`.AgentSpec` with the policy's files inside: the same agent on every machine."""
 
     spec: AgentSpec
     """The policy on the machine where it was packaged."""

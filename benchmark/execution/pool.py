@@ -31,7 +31,7 @@ def default_jobs() -> int:
     Raises
     ------
     InputError
-        If :data:`JOBS` is no number of processes.
+        If :data:`JOBS` is not a positive number.
     """
     asked = os.environ.get(JOBS, "")
     if not asked:
@@ -57,11 +57,11 @@ def checked_jobs(jobs: int | None) -> int:
 
 
 class LocalPool(Executor):
-    """Worker processes on this machine, of which any may die: its call then fails, no other.
+    """Worker processes on this machine; if one dies, only its own call fails.
 
-    The standard library's pool fails every waiting call with the one whose worker died, takes no
-    more, and leaves its processes behind when this process is killed. Here each worker has a pipe
-    of its own: at its end the worker ends.
+    In the standard library's pool the death of a worker fails all waiting calls and ends the pool,
+    and its processes survive if this process is killed. Here each worker has a pipe of its own, and
+    ends when that is closed.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ class LocalPool(Executor):
         return [process.pid for process in found if process is not None and process.pid]
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """End the pool; with ``cancel_futures`` at once, and what the workers do is lost."""
+        """End the pool; with ``cancel_futures`` at once, without the results of running calls."""
         if cancel_futures:
             self._threads.shutdown(wait=False, cancel_futures=True)
             self._kill()
@@ -111,14 +111,14 @@ class LocalPool(Executor):
 
 
 class _Worker:
-    """A process that answers one call at a time; started when there is one."""
+    """A process that answers one call at a time; started at the first one."""
 
     def __init__(self) -> None:
         self.process: multiprocessing.process.BaseProcess | None = None
         self._ended = False
 
     def call(self, call: bytes) -> Any:
-        """Return what a pickled call returns, or raise what it raises."""
+        """Return the result of a pickled call, or raise its error."""
         process = self._started() if self.process is None else self.process
         try:
             self._pipe.send_bytes(call)
@@ -156,8 +156,8 @@ class _Worker:
 
 
 def _serve(pipe: Connection) -> None:
-    """Answer calls until the pipe ends: what a worker process does."""
-    # Ctrl-C is the parent's, which keeps what is finished.
+    """Answer calls until the pipe is closed; worker processes run this."""
+    # Ctrl-C is handled by the parent, which keeps the finished episodes.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     with contextlib.suppress(EOFError, OSError):
         while True:
@@ -176,7 +176,7 @@ def _outcome(call: bytes) -> bytes:
             return data
         return pickle.dumps((True, EvaluatorFault(error_text(error))))
     except BaseException as error:
-        # Whatever a policy raises to end this process, or as if someone had pressed Ctrl-C.
+        # A policy may raise SystemExit or KeyboardInterrupt.
         return pickle.dumps((True, EvaluatorFault(error_text(error))))
 
 
@@ -202,12 +202,12 @@ def process_pool(jobs: int) -> Iterator[LocalPool]:
 def local_pool(jobs: int | None) -> Iterator[Executor | None]:
     """Yield a pool of ``jobs`` processes, or None for one job, which needs no pool.
 
-    None is :func:`default_jobs`.
+    ``jobs`` of None is :func:`default_jobs`.
 
     Raises
     ------
     InputError
-        If ``jobs`` is not positive.
+        If ``jobs`` is not positive, or too large.
     """
     jobs = checked_jobs(jobs)
     if jobs == 1:

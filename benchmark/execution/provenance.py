@@ -1,4 +1,4 @@
-"""Provenance of results besides policy and suite: the platform, and colift's code as it is here."""
+"""Provenance of results besides policy and suite: the platform, and the code of colift."""
 
 import functools
 import hashlib
@@ -22,7 +22,7 @@ from .batches import Batch
 from .packaging import PackagedPolicy
 
 POLICIES_ONLY: Final = ("vector_extensions", "linear_algebra")
-"""What only policies may use: no bit of a simulation or of a score depends on it."""
+"""Entries on which only policies depend: no bit of a simulation or score does."""
 
 
 @functools.cache
@@ -45,11 +45,11 @@ def _fingerprint() -> tuple[tuple[str, str], ...]:
 
 
 def fingerprint() -> dict[str, str]:
-    """Return what the bits of a simulation or of a policy may depend on, by name.
+    """Return everything that the bits of a simulation or policy may depend on, by name.
 
-    Where all but :data:`POLICIES_ONLY` is equal, equal actions give equal bits. Elsewhere they
-    often do, but no more than a tolerance can be asked for. Where all is equal, policies act alike
-    too.
+    On platforms that agree in all entries but :data:`POLICIES_ONLY`, equal actions give equal bits.
+    On others they often do, but only a tolerance can be demanded. On platforms that agree in all
+    entries, policies act alike too.
     """
     return dict(_fingerprint())
 
@@ -103,16 +103,16 @@ def _binaries(*names: str) -> str:
 
 
 PLAYS: Final[tuple[Root, ...]] = (Batch, PackagedPolicy, forkserver.main)
-"""What makes an episode of a policy: in this process, and in a sandbox."""
+"""The code that plays an episode: in this process, and in a sandbox."""
 
 COLIFT: Final = "colift"
 
 
 def origin() -> dict[str, str]:
-    """Return whatever else can change a result, by name.
+    """Return everything besides policy and suite that can change a result, by name.
 
-    It is the platform's :func:`.fingerprint`, and ``colift``: a hash of the code that plays
-    and scores, since of it the fingerprint has only what simulates. Policies have their own.
+    It is the platform's :func:`.fingerprint`, and under ``colift`` a hash of the code that plays
+    and scores: the fingerprint covers only the code that simulates. Policies have digests.
     """
     return {**fingerprint(), COLIFT: _code()}
 
@@ -128,9 +128,9 @@ def compare(found: Mapping[str, str], wanted: Mapping[str, str], where: str, oth
     Parameters
     ----------
     found, wanted
-        The origins; only what is in the second is compared.
+        The origins; only entries of the second are compared.
     where, other
-        Where they are, in words: ``on worker 3``, ``here``.
+        Their places, in words: ``on worker 3``, ``here``.
     """
     for name, value in wanted.items():
         if found.get(name) != value:

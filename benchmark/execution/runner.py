@@ -1,4 +1,4 @@
-"""Runs a policy through a suite, alone or on any executor."""
+"""The run of a policy on a suite, in this process or on any executor."""
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
@@ -22,9 +22,9 @@ class Run:
     suite: Suite
     episodes: tuple[Episode, ...]
     isolation: str = "none"
-    """What kept the policy from the process that scores."""
+    """The policy's isolation level."""
     faults: int = 0
-    """How often episodes had to be played again because the machine had failed."""
+    """Number of episodes that were played again because the machine had failed."""
 
     @property
     def complete(self) -> bool:
@@ -64,16 +64,16 @@ def run_suite(
     """Evaluate a policy on a suite.
 
     The result depends on the policy and the suite only: not on the executor, its workers or the
-    order in which they finish. What fails because a worker died is played again.
+    order in which they finish. Episodes that are lost with a worker are played again.
 
     Parameters
     ----------
     policy
-        Where the policy's class is.
+        The policy's specification.
     suite
-        The episodes.
+        The suite.
     executor
-        Runs the tasks, at most its own number at a time; None runs everything in this process.
+        Plays the batches; None plays them in this process.
     progress
         Called with the number of episodes that were finished since the last call.
     done
@@ -94,7 +94,7 @@ def run_suite(
     InputError
         If the policy cannot be loaded.
     EvaluatorFault
-        If the machine fails again and again; what was finished went to ``keep``.
+        If the machine fails repeatedly; the finished episodes went to ``keep``.
     InterruptedRunError
         After Ctrl-C, even during the last episode; with the episodes that were finished by then.
     """

@@ -26,7 +26,7 @@ class Deviation:
     """An episode whose actions differed when it was played again."""
 
     place: int
-    """Where in the suite the episode is, counted from 0."""
+    """The place of the episode in the suite, counted from 0."""
     step: int
     """The first step whose action differs, or that only one of the two has."""
     reason: str
@@ -52,12 +52,12 @@ def audit(
 
     The secret chooses the episodes and their order, so that no policy can know them. An episode
     that differs is played a third time. If that agrees with the second, the first was influenced by
-    other episodes; if not, the policy is left to chance.
+    other episodes; if not, the policy is not deterministic.
 
     Parameters
     ----------
     policy
-        What was run, now in a fresh process for every episode: nothing is loaded beforehand.
+        The policy of the run, with a fresh process for every episode: nothing is preloaded.
     run
         The complete run.
     secret
@@ -84,7 +84,7 @@ def audit(
             continue
         third = _again(policy, run, [place], executor, keep)[place]
         if second.failure is not None and first_differing_step(first, third) is None:
-            continue  # The machine held the second up for so long that it ran out of time.
+            continue  # The second ran out of time because the machine was busy.
         repeats = first_differing_step(second, third) is None
         return Deviation(place=place, step=step, reason=STATE if repeats else CHANCE)
     return None
@@ -96,7 +96,7 @@ def audited(episodes: int) -> int:
 
 
 def sampled(run: Run, secret: bytes) -> list[int]:
-    """Return the places of the episodes to play again, in the order in which it is done."""
+    """Return the places of the episodes to play again, in the order of playing."""
     labels = ("audit", run.policy_digest, run.suite.digest)
 
     def lot(place: int) -> bytes:
@@ -109,8 +109,7 @@ def sampled(run: Run, secret: bytes) -> list[int]:
 def first_differing_step(episode: Episode, again: Episode) -> int | None:
     """Return the first step in which two episodes' actions differ in a bit, or None.
 
-    A failed episode counts as worst from there on, which no policy gains by: only the steps that
-    both have are compared.
+    If the first episode failed, only common steps are compared: a failure is never an advantage.
     """
     first, second = (np.ascontiguousarray(each.trace.action) for each in (episode, again))
     steps = min(len(first), len(second))

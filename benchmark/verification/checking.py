@@ -28,16 +28,16 @@ LIFTS: Final = (("smooth", "S1"), ("changing_goal", "S4"))
 """Behaviour and subject of the lifts that are played twice."""
 
 MEANINGS: Final = {"hold": "never moves", "copy": "goes where the human was"}
-"""What the policies do that every score is set against."""
+"""Descriptions of the simple policies that every score is compared with."""
 
 SEED: Final = 7000
-"""Their seed, which no suite has."""
+"""Seed of these lifts, which no suite has."""
 
 MACHINE: Final = "machine"
 """Name of the check that reports a failure of this machine, not of the policy."""
 
 MUCH_PRINTED: Final = 5000
-"""Characters printed in a lift that are worth a word: printing takes time."""
+"""Output in a lift that deserves a warning [characters]: printing takes time."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,7 +53,7 @@ class Check:
     results: Results | None = None
     """The results, if the check is the score."""
     warning: bool = False
-    """Whether it is no failure, but something to look at."""
+    """Whether the check passed with a remark."""
 
 
 def presubmission_checks(
@@ -64,16 +64,16 @@ def presubmission_checks(
     Parameters
     ----------
     policy
-        What is checked.
+        The policy to check.
     fresh
-        The same policy, with a process of its own for each episode: nothing is loaded beforehand.
+        The same policy, with a fresh process for each episode: nothing is preloaded.
     evaluate
         Plays a suite; see :func:`.run_suite`.
 
     Yields
     ------
     Check
-        interface, lifts, determinism, score, actions, time; a machine that fails ends them.
+        interface, lifts, determinism, score, actions, time; a failure of the machine ends them.
     """
     try:
         yield from _checks(policy, fresh, evaluate)
@@ -145,7 +145,7 @@ def _determinism(first: Sequence[Episode], again: Sequence[Episode]) -> Check:
         step = first_differing_step(one, other)
         if step is not None:
             message = (
-                f"the same lift again ({_where(one)}) goes another way from step {step} on: "
+                f"the same lift again ({_where(one)}) differs from step {step} on: "
                 "actions must follow from the seed and the observations of the lift alone"
             )
             return Check(name="determinism", ok=False, message=message, printed=other.log)
@@ -171,7 +171,7 @@ def _score(run: Run, content: Results) -> Check:
 
 
 def _worse(content: Results) -> str:
-    """Say which simple policies are better: one that never moves, one that only copies."""
+    """Return a sentence on the simple policies that are better; empty if none is."""
     error = content.summary.rmse_mm.mean
     means = {
         name: baseline.mean
@@ -185,15 +185,15 @@ def _worse(content: Results) -> str:
 
 
 def _actions(summary: Summary) -> Check:
-    """Report how many actions were larger than the hands can go."""
+    """Report the share of clipped actions."""
     share = summary.metrics["clipped"].mean
     if share is None:
-        return Check(name="actions", ok=False, message="there is none")
+        return Check(name="actions", ok=False, message="the policy never acted")
     limit = action_limit(CONTROL_PERIOD)
-    message = f"{100 * share:.1f} % were cut to {limit:g} m a step, the most that the hands can go"
+    message = f"{100 * share:.1f} % were clipped: the hands move at most {limit:g} m per step"
     warning = share > MOSTLY_CLIPPED
     if warning:
-        message += ". Are they in metres, and changes of the height?"
+        message += ". An action must be a change of the height, in metres"
     return Check(name="actions", ok=True, message=message, warning=warning)
 
 
@@ -201,7 +201,7 @@ def _time(summary: Summary, episodes: Sequence[Episode]) -> Check:
     """Report whether a real robot, which does not wait, could run the policy; it need not."""
     p50, p99 = summary.step_ms.p50, summary.step_ms.p99
     if p50 is None or p99 is None:
-        return Check(name="time", ok=False, message="no step came to an end")
+        return Check(name="time", ok=False, message="no step was completed")
     message = (
         f"a step takes {p50:.3f} ms (median), {p99:.3f} ms (99th percentile): "
         f"{'' if summary.real_time else 'not '}real-time capable "
@@ -209,7 +209,7 @@ def _time(summary: Summary, episodes: Sequence[Episode]) -> Check:
     )
     printed = max(len(episode.log) for episode in episodes)
     if printed >= MUCH_PRINTED:
-        message += f". It prints much (over {MUCH_PRINTED} characters in a lift), which takes time"
+        message += f". It prints over {MUCH_PRINTED} characters in a lift, which takes time"
     return Check(name="time", ok=True, message=message, warning=printed >= MUCH_PRINTED)
 
 

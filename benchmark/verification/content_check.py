@@ -23,9 +23,9 @@ _FROM_BASELINES: Final = ("baselines", "summary.vs_human", "human_human_rmse_mm"
 
 
 def suite_label(suite: Suite) -> str:
-    """Return a verified label of a suite: the name of a shipped one, by its digest, or its size.
+    """Return a verified label of a suite: the registered name of its digest, or its size.
 
-    Any other has its name from who made the bundle.
+    The name in a bundle is only a claim of its author.
     """
     digest = suite.digest
     for name in entries(SUITES):
@@ -39,9 +39,9 @@ def suite_label(suite: Suite) -> str:
 
 
 def suite_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
-    """Yield what is wrong with the names and digests of the suite that the recipe makes."""
+    """Yield the faults in the claimed name and digest of the suite that the recipe makes."""
     claimed, digest = bundle.results["suite_digest"], suite.digest
-    # The constants of the metrics are in the digest: those of older scores may have been others.
+    # The digest includes the constants of the metrics, which older scores may not share.
     if claimed != digest and bundle.results["scoring"] == SCORING:
         message = (
             f"suite_digest is {claimed!r:.80}, but {MANIFEST} makes a suite of digest {digest!r}: "
@@ -52,14 +52,14 @@ def suite_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
         message = f"suite is {bundle.results['suite']!r:.80}, in {MANIFEST} {suite.name!r:.80}"
         yield Finding(file=RESULTS, message=message)
     if suite.name in entries(SUITES) and digest != make_suite(suite.name).digest:
-        message = f"its episodes are not those of {suite.name}, whose name it has"
+        message = f"the suite has the name {suite.name}, but other episodes"
         yield Finding(file=MANIFEST, message=message)
 
 
 def episode_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
-    """Yield the first episode that is not what the suite has at its place, and the first missing.
+    """Yield the first episode that is not the suite's at its place, and the first missing one.
 
-    An incomplete run is wrong in any case: there is no score on part of a suite.
+    An incomplete run is a fault in any case: there is no score on part of a suite.
     """
     names = [
         _name(scene.behaviour, scene.subject.name, scene.trial, seed)
@@ -93,7 +93,7 @@ def _name(behaviour: str, subject: str, trial: str, seed: int) -> str:
 def rebuilt(bundle: Bundle, run: Run, executor: Executor | None) -> Results:
     """Return the results that follow from a run.
 
-    What no simulation can verify is as the bundle claims; so is the choice of baselines.
+    Claims that no simulation can verify are taken from the bundle, as is the choice of baselines.
 
     Raises
     ------
@@ -116,14 +116,14 @@ def _baselines(bundle: Bundle, run: Run, executor: Executor | None) -> dict[str,
 
 
 def score_findings(bundle: Bundle, run: Run, content: Results, *, exact: bool) -> Iterator[Finding]:
-    """Yield every score of an episode and every number of the summary that is not what it should.
+    """Yield every wrong score of an episode and every wrong number of the summary.
 
     Parameters
     ----------
     bundle
-        What is claimed.
+        The claims.
     run, content
-        What follows from the actions: the episodes, and :func:`rebuilt`.
+        The episodes that follow from the actions, and their results by :func:`rebuilt`.
     exact
         Whether equal bits are demanded; else :data:`.SCORES` holds, and :data:`.REFERENCES` for
         baselines that are not shipped.

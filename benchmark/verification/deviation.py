@@ -10,14 +10,14 @@ from ..episode.replay import Simulated
 from ..episode.trace import Trace
 
 Place = tuple[int, str]
-"""A step, and what is wrong there."""
+"""A step, and a message about the difference there."""
 
 HEIGHT: Final = 1e-5
 """Tolerance of heights [m]: of each action of the human, and of the table's ends, rms.
 
-A table in two pairs of hands forgets small differences. Noise of 1e-15 m on each of the human's
-actions, more than last bits make, moves the ends by 1e-15 m rms; 1e-6 m of noise by 1e-6 m, and by
-1e-5 m/s and 1e-3 N. The tolerances are ten times those of the latter."""
+A table in two pairs of hands damps small differences. Noise of 1e-15 m on each of the human's
+actions, more than the last bits differ by, moves the ends by 1e-15 m rms; noise of 1e-6 m moves
+them by 1e-6 m, with 1e-5 m/s and 1e-3 N. The tolerances are ten times the latter values."""
 
 TOLERANCES: Final[Mapping[str, tuple[float, str]]] = {
     "target": (HEIGHT, "m"),
@@ -39,8 +39,8 @@ REFERENCES: Final = 0.01
 def first_difference(logged: Trace, found: Simulated) -> Place | None:
     """Return the first step in which a log differs from its replay, and how; None if in no bit.
 
-    The human's action comes first within a step, for the rest follows from it. Both are of equally
-    many steps.
+    Within a step the human's action is compared first, since the rest follows from it. Both have
+    the same number of steps.
     """
     differing = [
         _human_bits(logged, found),

@@ -1,4 +1,4 @@
-"""Simulation of the episodes of a bundle once more, here or on any executor, and their check."""
+"""The replay of a bundle's episodes, in this process or on any executor, and their checks."""
 
 import contextlib
 from collections.abc import Callable, Iterator, Sequence
@@ -22,10 +22,10 @@ from .verdict import Finding
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Checked:
-    """What the replay of an episode has shown."""
+    """The result of an episode's replay."""
 
     place: int
-    """Where in the suite the episode is."""
+    """The place of the episode in the suite."""
     scores: Scores | None = None
     """The scores that follow from the actions; None if they are not those of an episode."""
     failure: str | None = None
@@ -33,7 +33,7 @@ class Checked:
     bit_equal: bool = False
     """Whether every bit of the log is the simulation's."""
     finding: Finding | None = None
-    """What is wrong with the log."""
+    """The fault of the log; None if there is none."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -43,18 +43,18 @@ class EpisodeCheck:
     scenario: Scenario
     seeds: tuple[int, ...]
     places: tuple[int, ...]
-    """Where in the suite each episode is."""
+    """The place of each episode in the suite."""
     episodes: tuple[Episode, ...]
-    """What is claimed of each."""
+    """The claimed episodes."""
     same_platform: bool
     """Whether equal bits are demanded."""
 
     def __call__(self) -> list[Checked]:
-        """Return what each replay shows: what a worker process runs."""
+        """Return the result of each replay; worker processes run this."""
         return list(self.results())
 
     def results(self) -> Iterator[Checked]:
-        """Yield what each replay shows."""
+        """Yield the result of each replay."""
         with contextlib.closing(Lift(self.scenario)) as lift:
             for claim in zip(self.places, self.seeds, self.episodes, strict=True):
                 yield _check(lift, *claim, same_platform=self.same_platform)
@@ -78,7 +78,7 @@ def _check(lift: Lift, place: int, seed: int, claim: Episode, *, same_platform: 
     if not (bit_equal or same_platform):
         difference = beyond_tolerance(logged, found)
         if difference is None:
-            # The log is near enough; then it is what the scores must follow from.
+            # The log is within the tolerance: then the scores must follow from it.
             scores = lift.task.score(lift, logged, failed=found.failure is not None)
     wrong = None
     if difference is not None:
@@ -93,7 +93,7 @@ def _check(lift: Lift, place: int, seed: int, claim: Episode, *, same_platform: 
 
 
 def _first(logged: Trace, error: ReplayError, *, same_platform: bool) -> Place:
-    """Return where actions that cannot be replayed to the end are wrong first, and how."""
+    """Return the first fault of actions that cannot be replayed to the end."""
     differs = first_difference if same_platform else beyond_tolerance
     return differs(logged.until(error.step), error.found) or (error.step, error.message)
 
@@ -106,7 +106,7 @@ def simulate(
     executor: Executor | None,
     progress: Callable[[int], None],
 ) -> list[Checked]:
-    """Return what the replay of each episode shows, in the order of the bundle.
+    """Return the result of each episode's replay, in the order of the bundle.
 
     Raises
     ------
@@ -121,7 +121,7 @@ def simulate(
 
 
 def episode_checks(bundle: Bundle, suite: Suite, same_platform: bool) -> list[EpisodeCheck]:
-    """Return the work, cut as :func:`.batches.batches` cuts that of a run."""
+    """Return the checks, divided as :func:`.batches.batches` divides a run."""
     seeds = len(suite.seeds)
     members: dict[tuple[int, int], list[int]] = {}
     for i, place in enumerate(bundle.places):

@@ -28,12 +28,12 @@ ACTIONS_FROM_LOG: Final = (
 
 @dataclass(frozen=True, kw_only=True)
 class Finding:
-    """Something in a bundle that is wrong."""
+    """A fault of a bundle."""
 
     file: str
     """The file with the claim."""
     message: str
-    """What is wrong, in words."""
+    """A description of the fault."""
     episode: str = ""
     """Such as ``pause/S3 seed 4``; empty if it is about no single episode."""
     step: int | None = None
@@ -41,7 +41,7 @@ class Finding:
 
     def __str__(self) -> str:
         place = [self.file, self.episode, "" if self.step is None else f"step {self.step}"]
-        # Names and values in it are the bundle's: no control sequence of theirs meets a terminal.
+        # Names and values come from the bundle: their control sequences must not reach a terminal.
         return one_line(f"{', '.join(filter(None, place))}: {self.message}")
 
 
@@ -50,19 +50,19 @@ class Verdict:
     """The outcome of a verification."""
 
     findings: tuple[Finding, ...]
-    """What is wrong; empty if the bundle is verified."""
+    """The faults; empty if the bundle is verified."""
     suite: str = ""
-    """What was played: the name of a shipped suite by its digest, or what suite it is in words."""
+    """The played suite: its registered name, found by its digest, or a description."""
     run: Run | None = None
-    """The episodes with the scores that the present code finds; None if a replay failed."""
+    """The episodes with the scores of the present code; None if a replay failed."""
     results: Results | None = None
     """The results that follow from the actions; None as ``run``."""
     bit_equal: bool = False
-    """Whether every simulated bit is the logged one."""
+    """Whether every simulated bit equals the logged one."""
     tolerance_mm: float | None = None
     """The tolerance that was applied instead, if so."""
     other_platform: Mapping[str, tuple[str, str]] = field(default_factory=dict)
-    """In what the platform of the bundle differs from this one: there, and here."""
+    """Differences of the platforms by name: the entry of the bundle, and the entry here."""
     platform: Mapping[str, str] = field(default_factory=dict)
     """The fingerprint of the platform that the bundle comes from."""
     scoring: tuple[int, int] | None = None
@@ -71,7 +71,7 @@ class Verdict:
 
     @property
     def policies_differ(self) -> bool:
-        """Whether a policy that is asked again may act otherwise here than there."""
+        """Whether the policy, played again here, could act differently."""
         return any(name in POLICIES_ONLY for name in self.other_platform)
 
     @property
@@ -109,7 +109,7 @@ class Verdict:
             if self.scoring is None
             else {"bundle": self.scoring[0], "here": self.scoring[1]},
             "actions": ACTIONS_FROM_LOG if self.policies_differ else None,
-            # A suite of one's own may have any name, such as one that looks like a shipped one's.
+            # A suite can have any name, even one that looks like that of a shipped suite.
             "results": self.results and {**self.results.plain(), "suite": self.suite},
             "proves": PROVES,
             "unproven": UNPROVEN,

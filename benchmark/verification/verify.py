@@ -20,7 +20,7 @@ from .episode_check import Checked, simulate
 from .verdict import Finding, Verdict
 
 MOST_FINDINGS: Final = 20
-"""Findings that a verdict has at most."""
+"""Largest number of findings in a verdict."""
 
 
 def verify(
@@ -33,7 +33,7 @@ def verify(
 
     Every file's hash is checked, the suite is made again from its recipe, every episode is
     simulated again (:func:`.replay`) and scored again, and every number is compared. Every bit must
-    be equal; only lifts from another platform that differ in some have a tolerance.
+    be equal; a tolerance applies only to lifts from another platform.
     Baselines that are not shipped are played again.
 
     Parameters
@@ -110,7 +110,7 @@ def _malformed(error: InputError) -> Finding:
 
 
 def _other_platform(bundle: Bundle) -> dict[str, tuple[str, str]]:
-    """Return in what the bundle's platform differs from this one: there, and here."""
+    """Return the differences of the platforms by name: the bundle's entry, and the one here."""
     there, here = bundle.platform, fingerprint()
     return {
         name: (there.get(name, "unknown"), here.get(name, "unknown"))
@@ -120,7 +120,7 @@ def _other_platform(bundle: Bundle) -> dict[str, tuple[str, str]]:
 
 
 def _rescored(run: Run, checked: Sequence[Checked]) -> Run | None:
-    """Return the run with what was found to follow from its actions; None if a replay failed."""
+    """Return the run with the scores that follow from its actions; None if a replay failed."""
     episodes = []
     for episode, each in zip(run.episodes, checked, strict=True):
         if each.scores is None:

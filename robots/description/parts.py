@@ -22,7 +22,7 @@ class Shape:
     """A box (x, y, z lengths), cylinder (radius, length; along its own z) or sphere (radius)."""
 
     size: tuple[float, ...]
-    """Dimensions [m]; their number says which solid it is."""
+    """Dimensions [m]; their number determines the solid."""
     at: Vector
     """Centre in the link's frame [m]."""
     colour: Colour = GREY
@@ -78,9 +78,9 @@ class Link:
     inertia: Inertia
     """Moments and products of inertia about the centre of mass, in the link's axes."""
     visuals: tuple[Shape, ...] = ()
-    """What is seen of it."""
+    """Its visible shapes."""
     collisions: tuple[Shape, ...] = ()
-    """What of it touches things."""
+    """Its shapes in contacts."""
 
 
 def mirrored_name(name: str) -> str:

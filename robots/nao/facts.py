@@ -168,7 +168,7 @@ def _joint(
 
 
 def _right(joint: Joint) -> Joint:
-    """Mirror a joint, with what is published as different on the right."""
+    """Mirror a joint, with the published differences of the right side."""
     mirrored = mirrored_joint(joint)
     if mirrored.name == "RHipYawPitch":  # one motor turns both hips
         return replace(mirrored, mimic="LHipYawPitch")

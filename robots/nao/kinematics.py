@@ -1,7 +1,7 @@
 """Kinematics and statics of NAO's arms, and the one path on which its hands lift the table.
 
-Everything is said for the left arm in the torso's frame (x forward, y left, z up); the right arm
-is its mirror image. Joint angles are in the order of ``nao_facts.ARM``.
+Everything is given for the left arm in the torso's frame (x forward, y left, z up); the right arm
+is its mirror image. Joint angles are in the order of ``facts.ARM``.
 """
 
 import cmath
@@ -79,7 +79,7 @@ def _lever(point: Array, position: Array, axis: Array) -> Array:
 
 
 def hand_position(joints: ArrayLike) -> Array:
-    """Return where the left hand point (the end of HandOffset) is in the torso's frame [m].
+    """Return the position of the left hand point (the end of HandOffset) in the torso's frame [m].
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def hand_position(joints: ArrayLike) -> Array:
 
 
 def joint_positions(joints: ArrayLike) -> Array:
-    """Return where the left arm's five joints are in the torso's frame [m], shape (..., 5, 3).
+    """Return the positions of the left arm's five joints in the torso's frame [m], (..., 5, 3).
 
     ``joints`` are its angles [rad], shape (..., 5). Shoulder pitch and roll are in one place, elbow
     yaw and roll in another; the last is the wrist.
@@ -160,7 +160,7 @@ def lifting_angles(z: ArrayLike) -> Array:
 
 
 def _lifting_angles(rise: float) -> list[float]:
-    """Return the angles [rad] for a hand that is so far above the shoulder [m]."""
+    """Return the angles [rad] for a hand ``rise`` above the shoulder [m]."""
     ahead, aside = hypot(GRIP_X, rise), GRIP_Y - SHOULDER_OFFSET_Y
     upper = complex(UPPER_ARM_LENGTH, ELBOW_OFFSET_Y)
     lower = complex(LOWER_ARM_LENGTH + HAND_OFFSET_X, -HAND_OFFSET_Z)

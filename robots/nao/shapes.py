@@ -122,7 +122,7 @@ _ALL_COLLISIONS: Final = _COLLISIONS | {
 
 
 def dressed(link: Link) -> Link:
-    """Return a link of the NAO with what is seen of it and, for the main ones, a solid to touch."""
+    """Return a link of the NAO with its visible shapes and, for main links, a collision shape."""
     solid = _ALL_COLLISIONS.get(link.name)
     return replace(
         link, visuals=_ALL_VISUALS.get(link.name, ()), collisions=(solid,) if solid else ()

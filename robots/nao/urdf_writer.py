@@ -1,4 +1,4 @@
-"""Write the NAO's URDF from its facts and shapes: ``python -m colift.robots.nao.urdf_writer``."""
+"""The writer of the NAO's URDF; as a program, ``python -m colift.robots.nao.urdf_writer``."""
 
 from collections.abc import Iterable
 from math import isfinite
