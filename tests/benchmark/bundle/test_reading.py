@@ -198,7 +198,10 @@ def at(index, value):
     [
         (lambda arrays: arrays.pop("action"), "action is missing"),
         (lambda arrays: arrays.update(extra=np.zeros(1)), "'extra' is not an array"),
-        (lambda arrays: arrays.update({"internals/a b": np.zeros(1)}), "is not an array of a bundle"),
+        (
+            lambda arrays: arrays.update({"internals/a b": np.zeros(1)}),
+            "is not an array of a bundle",
+        ),
         (lambda arrays: arrays.update({"internals/a": np.zeros(1)}), "internals/a has 1 rows"),
         (replaced("human_end", lambda a: a[:-1]), "human_end has"),
         (replaced("human_end", lambda a: a.reshape(1, -1)), "1 dimension"),

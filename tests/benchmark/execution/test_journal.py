@@ -163,7 +163,7 @@ def test_the_file_of_another_is_left_alone(bundle, content, resume):
 def test_two_processes_cannot_be_at_one_run(interrupted):
     with (
         open_journal(interrupted, RUN, resume=True),
-        pytest.raises(InputError, match="another process writes to .*: the same run"),
+        pytest.raises(InputError, match=r"another process writes to .*: the same run"),
         open_journal(interrupted, RUN, resume=True),
     ):
         pass
