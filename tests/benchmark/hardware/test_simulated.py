@@ -1,5 +1,7 @@
 """The laboratory in simulated time, against the simulation that the suites are made of."""
 
+from contextlib import ExitStack, closing
+
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
@@ -24,20 +26,27 @@ SMOOTH = make_scenario("smooth", "S1")
 SEEDS = (0, 1, 2)
 
 
-def session(**conditions):
-    """Return a session in the simulated laboratory, and what it tells the operator."""
-    button, told = StopButton(), []
-    lab = SimulatedLaboratory(Conditions(scenario=SMOOTH, **conditions), button)
-    made = Session(
-        arm=NaoqiArm(lab),
-        capture=lab,
-        clock=lab,
-        tell=told.append,
-        confirm=told.append,
-        button=button,
-        asked_by=Inline,
-    )
-    return made, told
+@pytest.fixture
+def session():
+    """Return what begins a session in the simulated laboratory, and lists what it tells."""
+    with ExitStack() as worlds:
+
+        def begin(**conditions):
+            button, told = StopButton(), []
+            lab = SimulatedLaboratory(Conditions(scenario=SMOOTH, **conditions), button)
+            worlds.enter_context(closing(lab))
+            made = Session(
+                arm=NaoqiArm(lab),
+                capture=lab,
+                clock=lab,
+                tell=told.append,
+                confirm=told.append,
+                button=button,
+                asked_by=Inline,
+            )
+            return made, told
+
+        yield begin
 
 
 def lift(made, policy, number):
@@ -52,7 +61,7 @@ def lift(made, policy, number):
 
 
 @pytest.mark.parametrize("policy", ["blend", "reactive", "task_model"])
-def test_the_error_is_that_of_pure_simulation(policy):
+def test_the_error_is_that_of_pure_simulation(session, policy):
     made, _ = session()
     made.set_up()
     logs = [lift(made, policy, number + 1) for number in SEEDS]
@@ -67,7 +76,7 @@ def test_the_error_is_that_of_pure_simulation(policy):
         assert measured == pytest.approx(simulated, rel=0.15)
 
 
-def test_the_set_up_takes_hold_and_finds_zero():
+def test_the_set_up_takes_hold_and_finds_zero(session):
     made, told = session()
     made.set_up()
     assert made.arm.weight_offset == pytest.approx(0.0042, abs=0.0005)
@@ -93,14 +102,14 @@ def test_the_set_up_takes_hold_and_finds_zero():
         ("swap", 0.0, "the ends are taken for each other"),
     ],
 )
-def test_a_set_up_that_is_wrong_is_refused_with_what_to_do(kind, value, told):
+def test_a_set_up_that_is_wrong_is_refused_with_what_to_do(session, kind, value, told):
     made, _ = session()
     made.capture.request(f"{kind}@0:1000:{value}")
     with pytest.raises(InputError, match=told):
         made.set_up()
 
 
-def test_an_operator_may_stop_the_set_up():
+def test_an_operator_may_stop_the_set_up(session):
     made, _ = session()
     made.button.press("the Enter key")
     with pytest.raises(StopTrialError, match="the Enter key") as stopped:
@@ -108,7 +117,7 @@ def test_an_operator_may_stop_the_set_up():
     assert stopped.value.stop is Stop.OPERATOR
 
 
-def test_planned_faults_come_with_the_first_lift():
+def test_planned_faults_come_with_the_first_lift(session):
     fault = Fault(kind="dropout", start=1.0, duration=9.0, value=0.0)
     made, _ = session(faults=(fault,))
     made.set_up()
