@@ -182,7 +182,7 @@ def test_an_object_is_not_sandboxed_in_silence():
 
 def test_a_class_of_the_script_has_one_process_alone(monkeypatch):
     monkeypatch.setattr(Copy, "__module__", "__main__")
-    with pytest.raises(InputError, match="put it into a module, or say jobs=1"):
+    with pytest.raises(InputError, match="move it to a module, or use jobs=1"):
         colift.evaluate(Copy, jobs=2)
 
 

@@ -62,7 +62,7 @@ class TestSuite:
         edit_json(bundle, "manifest.json", lambda m: m["recipe"].update(suite="standard-v1"))
         edit_json(bundle, "results.json", lambda r: r.update(suite="standard-v1"))
         mend(bundle)
-        assert "not those of standard-v1" in refused(bundle, file="manifest.json")
+        assert "the name standard-v1, but other episodes" in refused(bundle, file="manifest.json")
 
     def test_another_name_in_the_results_is_refused(self, bundle):
         edit_json(bundle, "results.json", lambda r: r.update(suite="standard-v1"))
