@@ -65,11 +65,6 @@ def happened(laboratory, before):
 
 
 @pytest.fixture(scope="module")
-def laboratory(emulate):
-    return emulate("--human", "smooth", "--subject", "S1")
-
-
-@pytest.fixture(scope="module")
 def lifted(laboratory, tmp_path_factory):
     """Lift once with the emulated NAO, and return the process and what it wrote."""
     folder = tmp_path_factory.mktemp("trials")

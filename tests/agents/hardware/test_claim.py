@@ -11,11 +11,6 @@ from colift.agents.hardware.nao.session import NaoqiSession
 from colift.agents.hardware.ports import RobotTakenError
 
 
-@pytest.fixture(scope="module")
-def laboratory(emulate):
-    return emulate()
-
-
 @pytest.fixture
 def connect(laboratory):
     """Open sessions with the robot."""

@@ -74,11 +74,6 @@ class Faulty(AfterDuration):
 
 
 @pytest.fixture(scope="module")
-def laboratory(emulate):
-    return emulate()
-
-
-@pytest.fixture(scope="module")
 def capture(laboratory):
     made = LslCapture(laboratory.stream, Layout())
     rest = measure_rest(made, MonotonicClock())
