@@ -73,19 +73,22 @@ class RobotObservation(IntEnum):
 class HumanObservation:
     """Index table of the human's observation, for ``n`` frames a step (10 by default).
 
-    Histories hold the last ten frames, oldest first. ``[0:10]`` own end height [m],
-    ``[10:20]`` own end velocity [m/s], ``[20:30]`` the other end's height [m], as old as the
-    visual delay, ``[30:40]`` force at the hand [N], as old as the haptic delay (upwards on the
-    hand is positive), ``[40:40 + n]`` the private target: the intended height [m] in each of the
-    next ``n`` frames, ``[40 + n]`` time since the episode began [s].
+    Histories hold the last ten frames, oldest first.
     """
 
     OWN_HEIGHT: Final = slice(0, HISTORY)
+    """Height of the own table end [m] in the last ten frames."""
     OWN_VELOCITY: Final = slice(HISTORY, 2 * HISTORY)
+    """Velocity of the own table end [m/s] in the last ten frames."""
     OTHER_END: Final = slice(2 * HISTORY, 3 * HISTORY)
+    """Height of the other table end [m] in ten frames, as old as the visual delay."""
     HAND_FORCE: Final = slice(3 * HISTORY, 4 * HISTORY)
+    """Force at the hand [N], upwards on the hand positive, in ten frames as old as the haptic
+    delay."""
     TARGET: Final = slice(4 * HISTORY, -1)
+    """The private target: the intended height [m] in each of the next ``n`` frames."""
     TIME: Final = -1
+    """Time since the episode began [s]."""
 
     @staticmethod
     def size(frames: int) -> int:

@@ -86,9 +86,12 @@ def replan(state: Sequence[float] | NDArray[np.float64], goal: float, duration: 
 
     Parameters
     ----------
-    state : position [m], velocity [m/s] and acceleration [m/s^2] at time 0.
-    goal : position [m] at the end.
-    duration : [s], rounded to whole frames.
+    state
+        Position [m], velocity [m/s] and acceleration [m/s^2] at time 0.
+    goal
+        Position at the end [m].
+    duration
+        Duration [s], rounded to whole frames.
     """
     frames = max(round(duration / FRAME), 1)
     total = frames * FRAME

@@ -74,9 +74,8 @@ def templates(package: str) -> Environment:
 
 
 def style() -> str:
-    """Return the style sheet of pages that are one file, with the colours of all pages."""
-    places = ("static", "palette.css"), ("templates", "page.css")
-    return "".join(files(__package__).joinpath(*each).read_text("utf-8") for each in places)
+    """Return the style sheet of pages that are one file."""
+    return files(__package__).joinpath("templates", "page.css").read_text(encoding="utf-8")
 
 
 def content_hash(text: str) -> Markup:

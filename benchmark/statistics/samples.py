@@ -50,6 +50,7 @@ Members = list[NDArray[np.intp]]
 """The indices of the episodes of each stratum."""
 
 Deviate = TypeVar("Deviate", float, FloatArray)
+"""One standard normal deviate, or many."""
 
 
 def members_of(strata: Iterable[Hashable], episodes: int) -> Members:

@@ -7,7 +7,7 @@ name                   what it is
 :func:`list_policies`  names that :func:`evaluate` takes; also ``list_suites``, ``list_humans``
 :func:`parallel_env`   the PettingZoo environment, both agents at once; :func:`env` takes turns
 :func:`make`           the Gymnasium environment: the robot is the agent
-:mod:`colift_v0`       the environment as a module, as PettingZoo's own are
+``colift_v0``          the environment as a module, as PettingZoo's own are
 ====================== ==========================================================================
 
 Importing it loads none of its parts: each is loaded when it is first used. It registers
