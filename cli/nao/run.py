@@ -87,10 +87,9 @@ def run_on_robot(
 ) -> None:
     """Let a policy lift with a person, and score it; Ctrl-C or Enter stops the robot.
 
-    Exit code 0: done; 2: wrong usage or set-up. A trial was stopped by:
-    10 the operator; 11 loss of the robot; 12 loss of the motion capture;
-    13 implausible motion capture; 14 the policy;
-    15 the motors, or another program that commands the robot.
+    Exit code 0: done; 2: wrong usage or set-up. A stopped trial: 10 by the operator, 11 robot lost,
+    12 motion capture lost, 13 motion capture not plausible, 14 by the policy, 15 by the motors or
+    another program that commands the robot.
     """
     spec = choose_policy(policy, isolation)
     spec.check()

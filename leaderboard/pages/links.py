@@ -1,11 +1,7 @@
 """Addresses of the pages: at the service, and in a folder of files."""
 
 from dataclasses import dataclass
-from typing import Final
 from urllib.parse import quote
-
-STATIC: Final = ("colift.leaderboard", "colift.benchmark.rendering")
-"""Packages whose folders ``static`` hold the files of :meth:`ServiceLinks.asset`."""
 
 
 @dataclass(frozen=True)

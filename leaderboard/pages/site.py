@@ -22,7 +22,7 @@ from ..views.method import method_view
 from ..views.policy import PolicyView, policy_view
 from ..views.scenario import scenario_view, scenarios_view
 from .formats import badge_text
-from .links import STATIC, SiteLinks
+from .links import SiteLinks
 from .rendering import prose, render_page, template_archive
 
 MARK: Final = "colift-site.txt"
@@ -59,9 +59,8 @@ def write_site(board: Board, folder: Path) -> None:
 def _write(board: Board, folder: Path) -> None:
     (folder / "data").mkdir(parents=True)
     (folder / MARK).write_text("The pages of a colift board.\n", encoding="utf-8")
-    for package in STATIC:
-        with as_file(files(package) / "static") as static:
-            shutil.copytree(static, folder / "static", dirs_exist_ok=True)
+    with as_file(files("colift.leaderboard") / "static") as static:
+        shutil.copytree(static, folder / "static")
     seasons = ordered_seasons(board)
     links = SiteLinks(seasons[0].name)
     for info in seasons:

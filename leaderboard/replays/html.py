@@ -58,7 +58,7 @@ def replay_page(replays: Sequence[Mapping[str, Any]]) -> str:
     if not replays:
         raise ValueError("there must be a replay")
     first = replays[0]
-    title = f"{first['policy']} lifts a table with a person"
+    title = f"{first['policy']} lifts a table with a human"
     suite = f"Suite {first['suite']}, digest {first['suite_digest']}. " if first["suite"] else ""
     return render(
         __package__,

@@ -13,7 +13,6 @@ from fastapi.middleware.gzip import GZipMiddleware
 from fastapi.staticfiles import StaticFiles
 
 from ..board.tokens import Tokens
-from ..pages.links import STATIC
 from ..practice.season_import import open_with_practice
 from ..queue import Queue, Quota
 from . import page_routes as pages
@@ -100,7 +99,7 @@ def create_app(
     app.include_router(api_router())
     app.include_router(reference.router)
     app.include_router(pages.router)
-    app.mount("/static", StaticFiles(packages=[(each, "static") for each in STATIC]))
+    app.mount("/static", StaticFiles(packages=[("colift.leaderboard", "static")]))
     app.get("/healthz", responses={429: {"model": Problem}})(health)
     return app
 

@@ -1,0 +1,99 @@
+"""Directives about the environment, answered by the environment itself.
+
+``environment`` is the table of its agents and spaces; ``observation AGENT`` the index table of an
+agent's observation, with the names, meanings and units of the index class and the bounds of the
+space.
+"""
+
+import re
+from typing import Any, Final
+
+import colift
+import numpy as np
+from colift.agents.agent import HumanObservation, RobotObservation
+from docutils import nodes
+from gymnasium.spaces import Box
+from markdown_text import attribute_docs, table
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+INDICES: Final = {"robot": RobotObservation, "human": HumanObservation}
+
+UNIT: Final = re.compile(r" \[([^\]]*)\]")
+
+
+class Environment(SphinxDirective):
+    """The agents of ``colift.parallel_env`` with its default settings, and their spaces."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return the table."""
+        env = colift.parallel_env()
+        names = ", ".join(f"`{name}`" for name in env.possible_agents)
+        rows = [
+            ("Import", "`from colift import colift_v0`, or `colift.parallel_env` and `colift.env`"),
+            ("Agents", names),
+            ("Parallel API", "yes: `parallel_env()`; in turns: `env()`; the robot alone: `make()`"),
+            *(
+                (f"{kind} of `{name}`", _box(space(name)))
+                for kind, space in (
+                    ("Actions", env.action_space),
+                    ("Observations", env.observation_space),
+                )
+                for name in env.possible_agents
+            ),
+            ("Render modes", ", ".join(f"`{mode}`" for mode in env.metadata["render_modes"])),
+        ]
+        env.close()
+        return self.parse_text_to_nodes(table(("", "`colift_v0`"), rows))
+
+
+class ObservationTable(SphinxDirective):
+    """The index table of an agent's observation."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """Return the table."""
+        agent = self.arguments[0]
+        indices = INDICES[agent]
+        env = colift.parallel_env()
+        space = env.observation_space(agent)
+        env.close()
+        assert isinstance(space, Box)
+        rows = [
+            self._row(getattr(indices, name), name, meaning, space)
+            for name, meaning in attribute_docs(indices).items()
+        ]
+        head = ("Index", f"`{indices.__name__}`", "Meaning", "Unit", "Range")
+        return self.parse_text_to_nodes(table(head, rows))
+
+    def _row(self, place: int | slice, name: str, meaning: str, space: Box) -> tuple[str, ...]:
+        """Return the row of one number, or of several in a row."""
+        count = space.shape[0]
+        at = np.arange(count)[place] if isinstance(place, slice) else np.array([place % count])
+        unit = UNIT.search(meaning)
+        if unit is None:
+            raise self.severe(f"{name} of {self.arguments[0]} has no unit")
+        index = f"{at[0]}" if len(at) == 1 else f"{at[0]} to {at[-1]}"
+        low, high = (np.unique(bound[at]) for bound in (space.low, space.high))
+        if len(low) != 1 or len(high) != 1:
+            raise self.severe(f"{name} of {self.arguments[0]} has numbers with different bounds")
+        return index, f"`{name}`", UNIT.sub("", meaning), unit[1], _range(low[0], high[0])
+
+
+def _box(space: Any) -> str:
+    """Return shape, type and bounds of a space."""
+    low, high = np.unique(space.low), np.unique(space.high)
+    bounds = f", in {_range(low[0], high[0])}" if len(low) == len(high) == 1 else ", bounds below"
+    return f"`{space.shape}`, {space.dtype}{bounds}"
+
+
+def _range(low: float, high: float) -> str:
+    return f"[{low:g}, {high:g}]"
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Register the directives."""
+    app.add_directive("environment", Environment)
+    app.add_directive("observation", ObservationTable)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

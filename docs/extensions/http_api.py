@@ -1,0 +1,75 @@
+"""The directive ``http_api``: the HTTP interface of a board, from its OpenAPI document."""
+
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from colift.leaderboard.service.app import create_app
+from colift.leaderboard.service.openapi import Operation, Schema, operations, schemas
+from docutils import nodes
+from markdown_text import table
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+
+class HttpApi(SphinxDirective):
+    """``operations``: a section for each method and path; ``schemas``: one for each object."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """Return the sections."""
+        document = _document()
+        parts = {
+            "operations": lambda: map(_operation, operations(document)),
+            "schemas": lambda: map(_schema, schemas(document)),
+        }
+        text = "\n\n".join(parts[self.arguments[0]]())
+        return self.parse_text_to_nodes(text, allow_section_headings=True)
+
+
+def _document() -> dict[str, Any]:
+    """Return the OpenAPI document of a new board."""
+    with tempfile.TemporaryDirectory(prefix="colift-docs-") as folder:
+        app = create_app(Path(folder, "board"))
+        app.state.service.board.close()
+        return app.openapi()
+
+
+def _operation(operation: Operation) -> str:
+    """Return the section of an operation."""
+    return "\n\n".join(_parts(operation))
+
+
+def _parts(operation: Operation) -> Iterator[str]:
+    yield f"### `{operation.method} {operation.path}`"
+    yield operation.description
+    if operation.needs_token:
+        yield "Needs the header `Authorization: Bearer TOKEN`."
+    if operation.body:
+        yield f"Body: {operation.body}"
+    if operation.parameters:
+        yield table(
+            ("Parameter", "In", "Type", "Meaning"),
+            [
+                (f"`{each.name}`", each.place, each.kind, each.meaning)
+                for each in operation.parameters
+            ],
+        )
+    yield table(
+        ("Response", "Meaning", "Content"),
+        [(each.status, each.meaning, ", ".join(each.kinds)) for each in operation.responses],
+    )
+
+
+def _schema(schema: Schema) -> str:
+    """Return the section of an object in bodies and responses."""
+    rows = [(f"`{each.name}`", each.kind, each.meaning) for each in schema.properties]
+    return f"### {schema.name}\n\n{schema.meaning}\n\n{table(('Key', 'Type', 'Meaning'), rows)}"
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Register the directive."""
+    app.add_directive("http-api", HttpApi)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
