@@ -83,7 +83,7 @@ class HumanObservation:
     OTHER_END: Final = slice(2 * HISTORY, 3 * HISTORY)
     """Height of the other table end [m] in ten frames, as old as the visual delay."""
     HAND_FORCE: Final = slice(3 * HISTORY, 4 * HISTORY)
-    """Force at the hand [N], upwards on the hand positive, in ten frames as old as the haptic
+    """Force of the hands on the table [N], upwards positive, in ten frames as old as the haptic
     delay."""
     TARGET: Final = slice(4 * HISTORY, -1)
     """The private target: the intended height [m] in each of the next ``n`` frames."""

@@ -1,4 +1,4 @@
-"""Text in Markdown that the directives of the reference write: tables, docstrings in their cells."""
+"""Markdown that the directives of the reference write: tables, and docstrings in their cells."""
 
 import re
 from collections.abc import Iterable, Sequence

@@ -1,4 +1,4 @@
-"""The OpenAPI document of the service in the terms of a page: operations, and the objects in them."""
+"""The OpenAPI document of the service, as pages show it: operations, and the objects in them."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
