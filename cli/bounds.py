@@ -45,7 +45,7 @@ RecordedLifts = Annotated[
 def bounds(
     people: People = 20,
     each: LiftsEach = 5,
-    seed: Annotated[int, typer.Option(help="Seed of the first lift.")] = FIRST_SEED,
+    seed: Annotated[int, typer.Option(metavar="N", help="Seed of the first lift.")] = FIRST_SEED,
     recordings: RecordedLifts = None,
     jobs: Jobs = None,
 ) -> None:

@@ -59,6 +59,10 @@ class Commands(TyperGroup):
     def __init__(self, **attributes: Any) -> None:
         super().__init__(**{**attributes, "commands": _Loaded()})
 
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Return the options of ``colift`` itself."""
+        return _untyped(super().get_params(ctx))
+
 
 class _Loaded(Mapping[str, Any]):
     """Typer's commands by name, imported when they are looked up."""
@@ -73,6 +77,7 @@ class _Loaded(Mapping[str, Any]):
             app = typer.Typer(add_completion=False)
             app.command()(found)
             command = typer.main.get_command(app)
+        _without_types(command)
         command.name = name
         command.rich_help_panel = next(panel for panel, names in PANELS.items() if name in names)
         return command
@@ -82,3 +87,22 @@ class _Loaded(Mapping[str, Any]):
 
     def __len__(self) -> int:
         return len(COMMANDS)
+
+
+def _without_types(command: Any) -> None:
+    """Leave types out of a help: a flag takes no value, and an argument's name says what it takes.
+
+    Typer would print ``<bool>`` beside each flag and ``<list[str]>`` beside arguments.
+    """
+    for inner in getattr(command, "commands", {}).values():
+        _without_types(inner)
+    every = command.get_params
+    command.get_params = lambda context: _untyped(every(context))
+
+
+def _untyped(parameters: list[Any]) -> list[Any]:
+    """Return the parameters of a command; flags and arguments have no type."""
+    for parameter in parameters:
+        if parameter.param_type_name == "argument" or parameter.is_flag:
+            parameter.display_type_rich = lambda ctx: None
+    return parameters

@@ -43,7 +43,7 @@ def compare_policies(
     policies: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="POLICY...",
+            metavar="POLICY",
             help="Policies as for 'colift run', or result bundles of 'colift run --out', which are "
             "not simulated again.",
             autocompletion=named,

@@ -20,7 +20,7 @@ from .progress import workers
 def demonstrate_lifts(
     out: Annotated[Path, typer.Option(metavar="FILE.csv", help="File for the lifts.")],
     lifts: Annotated[int, typer.Option(metavar="N", help="Number of lifts.")] = LIFTS,
-    seed: Annotated[int, typer.Option(help="Seed of the first lift.")] = FIRST_SEED,
+    seed: Annotated[int, typer.Option(metavar="N", help="Seed of the first lift.")] = FIRST_SEED,
     jobs: Jobs = None,
 ) -> None:
     """Record simulated human-human lifts: drawn subjects, all behaviours, seeds of no suite."""

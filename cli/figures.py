@@ -17,7 +17,7 @@ from .printing import left, show, table
 def figures(
     names: Annotated[
         list[str] | None,
-        typer.Argument(metavar="NAME...", help="Figures; default: all, or those that are due."),
+        typer.Argument(metavar="NAME", help="Figures; default: all, or those that are due."),
     ] = None,
     again: Annotated[
         bool,

@@ -33,7 +33,7 @@ from .tables.learning import anticipation_table, convergence_text, q_table, task
 
 Lifts = Annotated[int, typer.Option(metavar="N", help="Lifts per round.")]
 Rounds = Annotated[int, typer.Option(metavar="N", help="Rounds of lifting and fitting.")]
-Seed = Annotated[int, typer.Option(help="Seed of the first lift.")]
+Seed = Annotated[int, typer.Option(metavar="N", help="Seed of the first lift.")]
 Out = Annotated[
     Path | None, typer.Option(metavar="FILE.json", help="File for the learned numbers.")
 ]
@@ -60,7 +60,7 @@ def reactive(
     trials: Annotated[
         int, typer.Option(metavar="N", help="Independent learning trials; the first is shown.")
     ] = 1,
-    seed: Annotated[int, typer.Option(help="Seed of the first trial.")] = 0,
+    seed: Annotated[int, typer.Option(metavar="N", help="Seed of the first trial.")] = 0,
     out: Annotated[
         Path | None, typer.Option(metavar="FILE", help="File for the first trial's table.")
     ] = None,
@@ -92,7 +92,7 @@ def task_model(
     components: Annotated[
         int, typer.Option(metavar="N", help="Gaussians of the mixture.")
     ] = COMPONENTS,
-    seed: Annotated[int, typer.Option(help="Seed of the mixture's fit.")] = 0,
+    seed: Annotated[int, typer.Option(metavar="N", help="Seed of the mixture's fit.")] = 0,
     practice: Annotated[
         int, typer.Option(metavar="N", help="Lifts in which the impedance is learned.")
     ] = TUNING_LIFTS,

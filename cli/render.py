@@ -42,7 +42,7 @@ def render_episode(
             metavar="NAME", help="The human's body: S1 to S5, or draw-N.", autocompletion=people
         ),
     ] = "S1",
-    seed: Annotated[int, typer.Option(help="The lift's seed.")] = 0,
+    seed: Annotated[int, typer.Option(metavar="N", help="The lift's seed.")] = 0,
     latency: Annotated[float, LATENCY_OPTION] = LATENCY,
     control_period: Annotated[float, PERIOD_OPTION] = CONTROL_PERIOD,
 ) -> None:

@@ -26,10 +26,13 @@ ENDING = (signal.SIGINT, signal.SIGTERM)
 def serve_board(
     board: BoardFolder = BOARD,
     host: Annotated[
-        str, typer.Option(help="Address to listen on; 0.0.0.0: all of this machine's.")
+        str,
+        typer.Option(
+            metavar="ADDRESS", help="Address to listen on; 0.0.0.0: all of this machine's."
+        ),
     ] = "127.0.0.1",
     port: Annotated[
-        int, typer.Option(min=0, max=65535, help="Port to listen on; 0: any free one.")
+        int, typer.Option(metavar="N", min=0, max=65535, help="Port to listen on; 0: any free one.")
     ] = 8000,
     workers: Annotated[
         int, typer.Option(metavar="N", min=0, help="Processes that evaluate submissions.")

@@ -53,7 +53,9 @@ def submit_policy(
     token: Annotated[
         str,
         typer.Option(
-            envvar="COLIFT_TOKEN", help="Your token for a board on the web, from its maintainer."
+            metavar="TOKEN",
+            envvar="COLIFT_TOKEN",
+            help="Your token for a board on the web, from its maintainer.",
         ),
     ] = "",
 ) -> None:

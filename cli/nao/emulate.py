@@ -35,7 +35,7 @@ def emulate(
     stream: Annotated[
         str, typer.Option(metavar="NAME", help="Name of the motion-capture stream.")
     ] = "colift",
-    seed: Annotated[int, typer.Option(help="Seed of the first lift.", min=0)] = 0,
+    seed: Annotated[int, typer.Option(metavar="N", help="Seed of the first lift.", min=0)] = 0,
     capture_latency: Annotated[
         float,
         typer.Option(

@@ -40,3 +40,4 @@ def test_the_help_of_a_command_is_shown_in_full(path):
     page = letters(shown.output)
     for parameter in ALL[path].params:
         assert letters(getattr(parameter, "help", None) or "") in page
+    assert re.findall(r"<[a-z]+[^<>]*>", shown.output) == []  # A type; values have names.
