@@ -21,6 +21,7 @@ extensions = [
     "sphinx_design",
     "sphinx_gallery.gen_gallery",
     "commands",
+    "formulas",
     "recorded",
     "session",
 ]
@@ -55,6 +56,7 @@ sphinx_gallery_conf = {
     "min_reported_time": 1e9,
 }
 
+html_math_renderer = "formulas"
 html_theme = "furo"
 html_title = "colift"
 html_static_path = ["static"]
