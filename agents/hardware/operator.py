@@ -86,7 +86,7 @@ def await_enter(button: StopButton) -> None:
         if button.reason is not None:
             raise StopTrialError(Stop.OPERATOR, f"stopped by the operator: {button.reason}")
     if not sys.stdin.readline():
-        raise InputError("there is no terminal for confirmation; use --yes to confirm in advance")
+        raise InputError("there is no terminal on which to press Enter")
 
 
 def _line_waits() -> bool:

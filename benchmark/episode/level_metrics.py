@@ -101,8 +101,8 @@ LEVEL_METRICS: Final = metric_table(
             name="clipped",
             symbol="clipped",
             label="Clipped actions",
-            meaning="share of the robot's actions that were larger than its hands can go in a step "
-            "(0.04 m in 100 ms) and cut to that: nearly 1 where millimetres were meant for metres",
+            meaning="share of the robot's actions that exceeded the speed of its hands (0.04 m in "
+            "100 ms) and were clipped: nearly 1 where millimetres were meant for metres",
         ),
     )
 )

@@ -109,7 +109,8 @@ def run_on_robot(
         _report_line(line)
         if not unattended:
             _report_line("  Enter when ready, Ctrl-C to stop.")
-            await_enter(button)
+            with naming("confirmation", "--yes confirms in advance"):
+                await_enter(button)
 
     place = open_place(robot, mocap, layout, button)
     unattended = yes or dry_run or place.simulated

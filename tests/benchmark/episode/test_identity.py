@@ -28,6 +28,8 @@ from colift.benchmark.execution.provenance import PLAYS
 from colift.benchmark.suites.suite import make_suite
 
 LOOSE = ("agents.actions", "agents.agent")
+APPEARANCE = ("colift.robots.nao.shapes",)
+"""What a robot looks like: no lift depends on it, so that no number there changes a digest."""
 SUITE = (*PLAYS_AND_SCORES, *PLANS, Scenario, humans.Subject, humans.Recording)
 """The roots of what a suite's digest has of the code."""
 
@@ -109,7 +111,8 @@ def test_every_number_changes_the_digest_or_no_bit_of_a_lift(tmp_path):
     """Those that change no digest are all changed at once, and the suite is played."""
     count, left = survivors(mutated())
     assert count > 1000
-    assert 0 < sum(map(len, left.values())) < count / 20
+    physical = [places for name, places in left.items() if name not in APPEARANCE]
+    assert 0 < sum(map(len, physical)) < count / 20
     root = Path(colift.__path__[0])
     shutil.copytree(
         root, tmp_path / "colift", ignore=shutil.ignore_patterns("__pycache__", "leaderboard")
