@@ -23,6 +23,7 @@ extensions = [
     "commands",
     "formulas",
     "recorded",
+    "rooms",
     "session",
 ]
 exclude_patterns = ["extensions", "generated/gallery/*.ipynb", "generated/gallery/*.py"]
