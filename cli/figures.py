@@ -72,11 +72,12 @@ def _list(chosen: Mapping[str, FigureStatus]) -> None:
 
 
 def _state(status: FigureStatus) -> str:
-    """Return the state of a figure in words: due with the reasons, by name, or current."""
-    if status.due:
-        first, *more = status.reasons
-        return f"due: {first}" + (f" and {len(more)} more" if more else "")
-    return "of its machine" if status.figure.machine else "current"
+    """Return the state of a figure in words: current, or due with the first reason."""
+    word = "by name" if status.figure.machine else "due" if status.due else "current"
+    if not status.due:
+        return word
+    first, *more = status.reasons
+    return f"{word}: {first}" + (f" and {len(more)} more" if more else "")
 
 
 def _remake(root: Path, wanted: Iterable[FigureStatus], recordings: Path | None) -> bool:
