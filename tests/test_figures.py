@@ -13,6 +13,7 @@ FIGURES = read_figures(ROOT / FOLDER)
 PAGES = [ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))]
 QUESTIONS = ROOT / "leaderboard" / "pages" / "templates" / "open.md"
 
+MINUS = "\N{MINUS SIGN}"
 INCLUDED = r"^```\{literalinclude\} /figures/(\S+)$"
 PICTURE = r"!\[[^\]]*\]\([^)]*figures/([^)]+)\)"
 QUOTED = r"\{figure\}`([^|`]+)\|([^`]+)`"
@@ -100,7 +101,7 @@ def test_the_open_questions_quote_what_their_commands_print():
         if any(map(is_pending, names)):
             continue
         output = "".join(map(printed, names))
-        for number in re.findall(r"[−+]?\d+\.\d+", known):
-            assert number.replace("−", "-") in output, f"{number} in {row}"
+        for number in re.findall(rf"[{MINUS}+]?\d+\.\d+", known):
+            assert number.replace(MINUS, "-") in output, f"{number} in {row}"
             numbers += 1
     assert numbers > 10
