@@ -13,12 +13,14 @@ from matplotlib import pyplot as plt
 
 
 class Follow:
-    """Go to where the human will be, at the speed between the last two samples."""
+    """Go beyond the human's last height by 1.5 times its last change."""
 
     def reset(self, seed):
+        """Begin a lift."""
         self.last = 0.0
 
     def act(self, observation):
+        """Return the change of the hand command [m]."""
         human = observation[RobotObservation.HUMAN_END]
         goal = human + 1.5 * (human - self.last)
         self.last = human

@@ -19,7 +19,11 @@ for policy in POLICIES:
     axes.plot(error.ci95, [smoothness] * 2, color=FAINT, linewidth=1, alpha=0.6)
     axes.plot(error.mean, smoothness, "o", color=ROBOT)
     axes.annotate(
-        policy, (error.mean, smoothness), xytext=(0, 6), textcoords="offset points", ha="center",
+        policy,
+        (error.mean, smoothness),
+        xytext=(0, 6),
+        textcoords="offset points",
+        ha="center",
         color=INK,
     )
 axes.set_xlabel("RMSE [mm], with its 95 % interval: less is better")
