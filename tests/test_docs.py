@@ -68,16 +68,6 @@ def test_the_recipe_for_a_trained_net_plays_what_the_net_says(tmp_path):
     assert action == pytest.approx(wanted, rel=1e-9)
 
 
-def test_the_loop_of_the_environments_page_plays_a_lift(capsys):
-    [loop] = python_blocks("docs/reference/environment.md")
-    exec(loop, {})
-    apart, steps = re.fullmatch(
-        r"(\d+) mm apart at most, in (\d+) steps", capsys.readouterr().out.strip()
-    ).groups()
-    assert 20 < int(apart) < 100
-    assert 40 < int(steps) < 120
-
-
 def pages():
     """Return the documentation, each page relative to the repository."""
     names = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md"]

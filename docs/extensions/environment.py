@@ -2,10 +2,12 @@
 
 ``environment`` is the table of its agents and spaces; ``observation AGENT`` the index table of an
 agent's observation, with the names, meanings and units of the index class and the bounds of the
-space.
+space; ``arguments MODULE:FUNCTION`` the table of a function's arguments.
 """
 
+import inspect
 import re
+from importlib import import_module
 from typing import Any, Final
 
 import colift
@@ -13,11 +15,14 @@ import numpy as np
 from colift.agents.agent import HumanObservation, RobotObservation
 from docutils import nodes
 from gymnasium.spaces import Box
-from markdown_text import attribute_docs, table
+from markdown_text import attribute_docs, from_docstring, table
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 INDICES: Final = {"robot": RobotObservation, "human": HumanObservation}
+
+ARGUMENT: Final = re.compile(r"^(\w+)\n((?:    .*\n?)+)", re.MULTILINE)
+"""A parameter in a docstring, and its meaning."""
 
 UNIT: Final = re.compile(r" \[([^\]]*)\]")
 
@@ -81,6 +86,23 @@ class ObservationTable(SphinxDirective):
         return index, f"`{name}`", UNIT.sub("", meaning), unit[1], _range(low[0], high[0])
 
 
+class Arguments(SphinxDirective):
+    """The arguments of a function: defaults from its signature, meanings from its docstring."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """Return the table."""
+        module, _, name = self.arguments[0].partition(":")
+        function = getattr(import_module(module), name)
+        meanings = dict(ARGUMENT.findall(inspect.getdoc(function) or ""))
+        rows = [
+            (f"`{each}`", f"`{parameter.default!r}`", from_docstring(meanings[each]))
+            for each, parameter in inspect.signature(function).parameters.items()
+        ]
+        return self.parse_text_to_nodes(table(("Argument", "Default", "Meaning"), rows))
+
+
 def _box(space: Any) -> str:
     """Return shape, type and bounds of a space."""
     low, high = np.unique(space.low), np.unique(space.high)
@@ -94,6 +116,7 @@ def _range(low: float, high: float) -> str:
 
 def setup(app: Sphinx) -> dict[str, Any]:
     """Register the directives."""
+    app.add_directive("arguments", Arguments)
     app.add_directive("environment", Environment)
     app.add_directive("observation", ObservationTable)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

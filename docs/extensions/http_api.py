@@ -1,5 +1,7 @@
 """The directive ``http_api``: the HTTP interface of a board, from its OpenAPI document."""
 
+import functools
+import logging
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -29,8 +31,10 @@ class HttpApi(SphinxDirective):
         return self.parse_text_to_nodes(text, allow_section_headings=True)
 
 
+@functools.cache
 def _document() -> dict[str, Any]:
     """Return the OpenAPI document of a new board."""
+    logging.getLogger("alembic").setLevel(logging.WARNING)
     with tempfile.TemporaryDirectory(prefix="colift-docs-") as folder:
         app = create_app(Path(folder, "board"))
         app.state.service.board.close()

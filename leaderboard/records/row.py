@@ -17,9 +17,11 @@ class PublicScores:
     """Scores on the public episodes."""
 
     episodes: int
+    """Episodes played."""
     failed: int
     """Episodes that failed; they count with the worst error."""
     rmse_mm: Estimate
+    """Mean RMSE [mm]."""
     vs_human: Estimate
     """Ratio of the RMSE to the human-human baseline's: 1 is as good as a human partner."""
     metrics: Mapping[str, MeanWithMissing]
@@ -40,12 +42,16 @@ class HiddenScores:
     """
 
     episodes: int
+    """Episodes played."""
     failed: int
+    """Episodes that failed; they count with the worst error."""
     failures: Mapping[str, int]
     """Failures by kind: at the ``start``, in a ``step`` of the policy, or the ``table`` was lost.
     Messages of the policy are not published."""
     rmse_mm: Estimate
+    """Mean RMSE [mm]."""
     vs_human: Estimate
+    """Ratio of the RMSE to the human-human baseline's."""
     real_time: bool | None
     """The same as for the public episodes."""
     better_than_human: float
@@ -57,14 +63,21 @@ class BoardRow:
     """A policy's results in a season."""
 
     season: str
+    """Name of the season."""
     commitment: str
     """SHA-256 of the season's secret."""
     suite: str
+    """Name of the public suite."""
     suite_digest: str
+    """Digest of the public suite."""
     name: str
+    """Name of the policy."""
     authors: tuple[str, ...]
+    """Names of its authors."""
     description: str
+    """Description, in its authors' words."""
     link: str
+    """Address of a page with more information; may be empty."""
     licence: str
     """Licence, in its authors' words."""
     trained_on: str
@@ -72,7 +85,9 @@ class BoardRow:
     submission: str
     """Digest of the submission's content."""
     public: PublicScores
+    """Scores on the public episodes."""
     hidden: HiddenScores
+    """Scores on the hidden episodes."""
     gap_mm: Estimate
     """Hidden minus public mean RMSE [mm]. Other people lift there, so the gap of an honest policy
     is not zero, but similar for all policies."""

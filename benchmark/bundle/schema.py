@@ -1,0 +1,127 @@
+"""The JSON Schema of ``results.json``."""
+
+from collections.abc import Mapping
+from typing import Any, Final
+
+from ..episode.level import LEVEL
+from ..episode.metric import LEADING, Metric, Metrics, on_boards
+
+DIALECT: Final = "https://json-schema.org/draft/2020-12/schema"
+
+Schema = dict[str, Any]
+
+COUNT: Final[Schema] = {"type": "integer", "minimum": 0}
+NUMBER: Final[Schema] = {"type": "number"}
+NUMBER_OR_NULL: Final[Schema] = {"type": ["number", "null"]}
+TEXT: Final[Schema] = {"type": "string"}
+FLAG: Final[Schema] = {"type": "boolean"}
+INTERVAL: Final[Schema] = {
+    "type": "array",
+    "prefixItems": [NUMBER, NUMBER],
+    "items": False,
+    "minItems": 2,
+}
+
+
+def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
+    """Return the JSON Schema of ``results.json``, the content of :meth:`.Results.plain`.
+
+    Every key is required, and no other key is allowed.
+
+    Parameters
+    ----------
+    metrics
+        The metrics of the suite's task.
+    """
+    estimate = _object({"mean": NUMBER, "ci95": INTERVAL})
+    means = {
+        name: _object(
+            {
+                "mean": _of(NUMBER_OR_NULL, "Mean over the lifts with a value, null without any."),
+                "missing": _of(COUNT, "Lifts without a value."),
+            },
+            _label(metric),
+        )
+        for name, metric in metrics.items()
+    }
+    summary = {
+        "episodes": _of(COUNT, "Lifts."),
+        "failed": _of(COUNT, "Failed lifts."),
+        "goal_missed": _of(COUNT, "Lifts in which the human did not reach the intended height."),
+        LEADING: _object(
+            {
+                "mean": NUMBER,
+                "iqm": _of(NUMBER, "Interquartile mean."),
+                "ci95": _of(INTERVAL, "95 % confidence interval of the mean."),
+            },
+            _label(metrics[LEADING]),
+        ),
+        "vs_human": {
+            "anyOf": [estimate, {"type": "null"}],
+            "description": "Mean RMSE divided by that of the human-human baseline.",
+        },
+        **{name: mean for name, mean in means.items() if name != LEADING},
+        "step_ms": _object(
+            {"p50": NUMBER_OR_NULL, "p99": NUMBER_OR_NULL},
+            "Percentiles of the policy's time per step [ms]; null if it never acted.",
+        ),
+        "real_time": _of(
+            {"type": ["boolean", "null"]},
+            "Whether the policy is real-time capable; null if it never acted.",
+        ),
+    }
+    group = {
+        "behaviour": TEXT,
+        "subject": TEXT,
+        "episodes": _of(COUNT, "Lifts."),
+        "failed": _of(COUNT, "Failed lifts."),
+        **means,
+        "human_human_rmse_mm": _object(
+            {"mean": NUMBER_OR_NULL}, "RMSE of the human-human baseline in the stratum [mm]."
+        ),
+    }
+    baseline = {
+        LEADING: estimate,
+        **{metric.name: _object({"mean": NUMBER_OR_NULL}) for metric in on_boards(metrics)},
+    }
+    content = {
+        "colift": _of(TEXT, "Version of colift."),
+        "suite": _of(TEXT, "Name of the suite."),
+        "suite_digest": _of(TEXT, "Digest of the suite."),
+        "scoring": _of(COUNT, "Version of the scores."),
+        "complete": _of(FLAG, "Whether every lift of the suite was played."),
+        "policy": _object({"name": TEXT, "digest": TEXT}, "The policy and its digest."),
+        "isolation": _of(TEXT, "Isolation level of the policy."),
+        "evaluator_faults": _of(COUNT, "Lifts played again because the machine had failed."),
+        "summary": _object(summary, "The numbers of the run."),
+        "groups": {
+            "type": "array",
+            "items": _object(group),
+            "description": "The means in each stratum.",
+        },
+        "baselines": {
+            "type": "object",
+            "additionalProperties": _object(baseline),
+            "description": "The baselines on the same lifts, by name.",
+        },
+    }
+    return {"$schema": DIALECT, "title": "results.json of a colift bundle", **_object(content)}
+
+
+def _label(metric: Metric) -> str:
+    return f"{metric.label} [{metric.unit}]." if metric.unit else f"{metric.label}."
+
+
+def _of(kind: Schema, description: str) -> Schema:
+    return {**kind, "description": description}
+
+
+def _object(properties: Mapping[str, Schema], description: str = "") -> Schema:
+    """Return the schema of an object with these keys, no more and no less."""
+    made = {
+        "type": "object",
+        "properties": dict(properties),
+        "required": list(properties),
+        "additionalProperties": False,
+    }
+    return _of(made, description) if description else made
