@@ -50,6 +50,13 @@ def serve_board(
         str,
         typer.Option(metavar="TEXT", help="How to reach you; shown on the submission page."),
     ] = "",
+    docs: Annotated[
+        str,
+        typer.Option(
+            metavar="URL_OR_FOLDER",
+            help="Documentation to link to: an address, or a folder to serve under /docs/.",
+        ),
+    ] = "",
     root: Annotated[
         str,
         typer.Option(metavar="/PATH", help="Path of the board behind a reverse proxy."),
@@ -58,11 +65,13 @@ def serve_board(
     """Serve a board on the web: its pages, its JSON interface, and uploads."""
     try:
         from ..leaderboard.service.app import create_app
+        from ..leaderboard.service.documentation import Documentation
         from ..leaderboard.service.server import make_server, running
     except ModuleNotFoundError as error:
         raise InputError(
             f"{error.name} is not installed; a board on the web needs: {how_to_install('board')}"
         ) from error
+    documentation = Documentation.at(docs) if docs else None
     quota = Quota(rows=rows_a_day, size=kept * MIB)
     if isolation != AUTO:
         check_level(isolation)  # Rather than by each worker, again and again.
@@ -74,7 +83,8 @@ def serve_board(
         signal.signal(number, _leave)  # uvicorn raises it again after closing.
     try:
         with _listening(host, port) as listener:
-            server = make_server(create_app(board, contact=contact, quota=quota), root.rstrip("/"))
+            app = create_app(board, contact=contact, quota=quota, docs=documentation)
+            server = make_server(app, root.rstrip("/"))
             with running(command, workers):
                 print(f"Board {board}: {_url(listener)} (Ctrl-C ends it)", flush=True)
                 server.run(sockets=[listener])

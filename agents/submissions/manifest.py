@@ -22,23 +22,23 @@ class Manifest:
     """The content of ``policy.toml``; fields without a default are required."""
 
     name: str
-    """Display name of the policy."""
+    """Display name: up to 40 letters, digits, spaces and ``. _ + -``; not a built-in policy's."""
     authors: tuple[str, ...]
     """Names of the authors."""
     description: str
-    """Description, in a few lines."""
+    """Description of the method, in a few lines."""
     licence: str
     """Licence, preferably by its SPDX identifier, such as ``MIT``."""
     trained_on: str
-    """Training data; ``nothing`` if there is none."""
+    """Training data, and where to find it; ``nothing`` if there is none."""
     link: str = ""
-    """Address of a page with more information."""
+    """Address of a page, paper or repository with more information."""
     entry_point: str = "policy:Policy"
     """``module:Class``, with the module in the folder."""
     parameters: str = ""
     """Parameters of the class: ``name=value,name=value``, as after a policy's name."""
     packages: tuple[str, ...] = ()
-    """Packages that it imports, of :data:`.packages.PACKAGES`."""
+    """Packages that it imports: any of ``filterpy``, ``numpy``, ``scikit-learn``, ``scipy``."""
     preload: bool = False
     """Whether its module is imported once for many episodes, because the import is slow."""
 

@@ -1,14 +1,27 @@
 """The directive ``fields``: the fields of a dataclass as a table, for pages on file formats."""
 
 import dataclasses
-import inspect
+import json
 from importlib import import_module
-from typing import Any
+from typing import Any, Final
 
 from docutils import nodes
-from markdown_text import attribute_docs, table
+from markdown_text import attribute_docs, attribute_types, table
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
+
+KINDS: Final = {
+    "str": "text",
+    "int": "integer",
+    "float": "number",
+    "bool": "boolean",
+    "tuple[str, ...]": "list of texts",
+    "Mapping[str, str]": "texts by name",
+    "Mapping[str, int]": "integers by name",
+    "float | None": "number or null",
+    "bool | None": "boolean or null",
+}
+"""Types of Python as those of JSON and TOML; others keep their name."""
 
 
 class Fields(SphinxDirective):
@@ -21,7 +34,7 @@ class Fields(SphinxDirective):
         module, _, name = self.arguments[0].partition(":")
         owner = getattr(import_module(module), name)
         fields = dataclasses.fields(owner)
-        docs = attribute_docs(owner)
+        docs, types = attribute_docs(owner), attribute_types(owner)
         undocumented = [each.name for each in fields if each.name not in docs]
         if undocumented:
             raise self.severe(f"fields of {name} without a docstring: {', '.join(undocumented)}")
@@ -30,7 +43,7 @@ class Fields(SphinxDirective):
         rows = [
             (
                 f"`{each.name}`",
-                f"`{inspect.formatannotation(each.type)}`",
+                KINDS.get(types[each.name], f"`{types[each.name]}`"),
                 *([_default(each)] if has_default else []),
                 docs[each.name],
             )
@@ -40,7 +53,8 @@ class Fields(SphinxDirective):
 
 
 def _default(field: "dataclasses.Field[Any]") -> str:
-    return "" if field.default is dataclasses.MISSING else f"`{field.default!r}`"
+    """Return the default as JSON and TOML write it."""
+    return "" if field.default is dataclasses.MISSING else f"`{json.dumps(field.default)}`"
 
 
 def setup(app: Sphinx) -> dict[str, Any]:

@@ -41,8 +41,6 @@ def _kind(schema: dict[str, Any]) -> str:
         return " or ".join(map(_kind, schema["anyOf"]))
     if "prefixItems" in schema:
         return f"{len(schema['prefixItems'])} numbers"
-    if schema.get("properties", {}).keys() == {"mean", "missing"}:
-        return "`mean`, `missing`"
     kind = schema["type"]
     return kind if isinstance(kind, str) else " or ".join(kind)
 

@@ -25,6 +25,17 @@ def from_docstring(text: str) -> str:
     return ROLE.sub(r"`\1`", text).replace("``", "`")
 
 
+def attribute_types(owner: type) -> dict[str, str]:
+    """Return the annotations of a class's attributes by name, as the source has them."""
+    analyzer = ModuleAnalyzer.for_module(owner.__module__)
+    analyzer.analyze()
+    return {
+        name: text
+        for (place, name), text in analyzer.annotations.items()
+        if place == owner.__qualname__
+    }
+
+
 def attribute_docs(owner: type) -> dict[str, str]:
     """Return the docstrings of a class's attributes by name, in their order."""
     docs = ModuleAnalyzer.for_module(owner.__module__).find_attr_docs()

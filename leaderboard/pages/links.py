@@ -10,6 +10,8 @@ class ServiceLinks:
 
     root: str = ""
     """Path below which it is served, without a slash at its end."""
+    documentation: str = ""
+    """Address of the documentation, if there is one."""
 
     @property
     def live(self) -> bool:
@@ -87,6 +89,10 @@ class ServiceLinks:
     def api(self) -> str:
         """Return ``/api``."""
         return f"{self.root}/api"
+
+    def docs(self) -> str:
+        """Return the address of the documentation; nothing without one."""
+        return self.documentation
 
     def asset(self, name: str) -> str:
         """Return ``/static/NAME``."""
@@ -177,6 +183,10 @@ class SiteLinks:
         return "data/template.zip"
 
     def api(self) -> str:
+        """Return nothing."""
+        return ""
+
+    def docs(self) -> str:
         """Return nothing."""
         return ""
 

@@ -19,6 +19,7 @@ from . import page_routes as pages
 from . import published, reference, submitting
 from .answers import Health
 from .dependencies import PREFIX, Rates, Service, State
+from .documentation import PLACE, Documentation, Pages
 from .errors import FaultHandler, Problem, answer_errors, log
 from .security import Guard, RateLimit
 from .uploads import remove_orphans
@@ -36,6 +37,7 @@ def create_app(
     *,
     contact: str = "",
     quota: Quota | None = None,
+    docs: Documentation | None = None,
 ) -> FastAPI:
     """Return the service of the board in a folder.
 
@@ -49,6 +51,8 @@ def create_app(
         How the maintainer is reached, to be shown with the rules.
     quota
         How much a submitter may ask for.
+    docs
+        The documentation that the pages link to.
 
     Raises
     ------
@@ -91,6 +95,7 @@ def create_app(
         tokens=Tokens(board),
         uploads=RateLimit(rate=rates.submitter),
         contact=contact,
+        docs=docs,
     )
     answer_errors(app)
     app.add_middleware(GZipMiddleware)
@@ -100,6 +105,8 @@ def create_app(
     app.include_router(reference.router)
     app.include_router(pages.router)
     app.mount("/static", StaticFiles(packages=[("colift.leaderboard", "static")]))
+    if docs is not None and docs.folder is not None:
+        app.mount(PLACE, Pages(directory=docs.folder, html=True))
     app.get("/healthz", responses={429: {"model": Problem}})(health)
     return app
 

@@ -8,7 +8,9 @@ from fastapi import Depends, Path, Query, Request
 
 from ..board.board import Board
 from ..board.tokens import Tokens
+from ..pages.links import ServiceLinks
 from ..queue import Queue
+from .documentation import Documentation
 from .errors import Problem
 from .security import Rate, RateLimit
 from .slots import Slots
@@ -41,6 +43,8 @@ class State:
     """By submitter."""
     contact: str = ""
     """How the maintainer is reached."""
+    docs: Documentation | None = None
+    """The documentation that the pages link to."""
     receiving: Slots = field(
         default_factory=lambda: Slots(what="uploads", each=2, total=32, patience_s=PATIENCE_S)
     )
@@ -116,3 +120,10 @@ UNKNOWN: Final[dict[int | str, dict[str, Any]]] = {
 def api_root(request: Request) -> str:
     """Return where the API is, as the client sees it: a proxy may have put it below a path."""
     return f"{request.scope.get('root_path', '').rstrip('/')}{PREFIX}"
+
+
+def links_of(request: Request) -> ServiceLinks:
+    """Return the addresses of the pages, as the client sees them."""
+    root = str(request.scope.get("root_path", "")).rstrip("/")
+    docs = service_state(request).docs
+    return ServiceLinks(root, "" if docs is None else docs.link(root))

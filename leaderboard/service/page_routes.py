@@ -8,7 +8,6 @@ from fastapi.responses import HTMLResponse, Response
 
 from ...agents.errors import InputError
 from ..pages.formats import badge_text
-from ..pages.links import ServiceLinks
 from ..pages.rendering import prose, render_page, template_archive
 from ..replays.chosen import has_replays, replays_of
 from ..replays.html import KEYS, SCRIPTS, replay_data, replay_files, replay_page
@@ -19,7 +18,7 @@ from ..views.job import STAGES, job_view, open_jobs
 from ..views.method import method_view
 from ..views.policy import PolicyView, policy_view
 from ..views.scenario import scenario_view, scenarios_view
-from .dependencies import Service, State
+from .dependencies import Service, State, links_of
 from .published import rules_of
 
 SUBMISSIONS: Final = "/api/v1/submissions"
@@ -64,7 +63,7 @@ def badge_svg(service: Service, request: Request, season: SeasonName, digest: Di
     found = [s for s in service.board.standings(season) if s.row.submission == digest]
     if not found:
         return _missing(service, request, f"Season {season} has no row {digest[:16]}.")
-    svg = render_page("badge.svg", _links(request), text=badge_text(found[0]))
+    svg = render_page("badge.svg", links_of(request), text=badge_text(found[0]))
     headers = {"Cross-Origin-Resource-Policy": "cross-origin", "Cache-Control": "max-age=300"}
     return Response(svg, media_type="image/svg+xml", headers=headers)
 
@@ -75,7 +74,7 @@ def feed(service: Service, request: Request, season: SeasonName) -> Response:
     news = news_of(service.board, season)
     if news is None:
         return _missing(service, request, f"There is no season {season}.")
-    text = render_page("feed.xml", _links(request), news=news, prefix=_origin(request))
+    text = render_page("feed.xml", links_of(request), news=news, prefix=_origin(request))
     return Response(text, media_type="application/atom+xml")
 
 
@@ -170,7 +169,7 @@ def template_zip() -> Response:
 def submit_page(service: Service, request: Request) -> HTMLResponse:
     """Show the form for submissions, and the queue."""
     view = method_view(service.board)
-    root = _links(request).root
+    root = links_of(request).root
     return _page(
         request,
         "submit.html",
@@ -193,7 +192,7 @@ def job_page(
     if view is None:
         return _missing(service, request, "There is no such job.")
     info = find_season(ordered_seasons(service.board), view.job.season)
-    api = f"{_links(request).root}{JOBS}/{job}"
+    api = f"{links_of(request).root}{JOBS}/{job}"
     return _page(request, "job.html", season=info, view=view, stages=STAGES, api=api)
 
 
@@ -219,13 +218,9 @@ def _missing(service: State, request: Request, message: str) -> HTMLResponse:
 
 
 def _page(request: Request, template: str, *, status: int = 200, **content: Any) -> HTMLResponse:
-    return HTMLResponse(render_page(template, _links(request), **content), status)
+    return HTMLResponse(render_page(template, links_of(request), **content), status)
 
 
 def _origin(request: Request) -> str:
     """Return the service's address as clients see it, without a path."""
     return f"{request.url.scheme}://{request.url.netloc}"
-
-
-def _links(request: Request) -> ServiceLinks:
-    return ServiceLinks(str(request.scope.get("root_path", "")).rstrip("/"))

@@ -5,9 +5,8 @@ from typing import Final
 from fastapi import APIRouter, Request
 from fastapi.responses import HTMLResponse
 
-from ..pages.links import ServiceLinks
 from ..pages.rendering import render_page
-from .dependencies import Service
+from .dependencies import Service, links_of
 from .openapi import operations, schemas
 
 router: Final = APIRouter(include_in_schema=False)
@@ -17,14 +16,14 @@ router: Final = APIRouter(include_in_schema=False)
 def api_page(service: Service, request: Request) -> HTMLResponse:
     """Return the page."""
     document = request.app.openapi()
-    root = str(request.scope.get("root_path", "")).rstrip("/")
+    links = links_of(request)
     current = next(season for season in service.board.seasons() if season.current)
     return HTMLResponse(
         render_page(
             "api.html",
-            ServiceLinks(root),
+            links,
             season=current,
-            root=root,
+            root=links.root,
             url=request.app.openapi_url,
             info=document["info"],
             operations=operations(document),

@@ -146,6 +146,30 @@ def test_an_address_that_is_not_here_is_named(serve):
     assert len(err.splitlines()) == 1
 
 
+def test_it_serves_a_folder_of_documentation_below_its_root(serve, tmp_path):
+    (tmp_path / "index.html").write_text("<title>The manual</title>")
+    options = ("--port", "0", "--workers", "0", "--root", "/lab", "--docs", str(tmp_path))
+    _, line = serve(*options)
+    url = re.search(r"http://127\.0\.0\.1:\d+", line)[0]
+    assert '<a href="/lab/docs/">Documentation</a>' in httpx.get(f"{url}/", timeout=30).text
+    assert "The manual" in httpx.get(f"{url}/docs/").text
+
+
+def test_it_links_to_documentation_elsewhere(serve):
+    _, line = serve("--port", "0", "--workers", "0", "--docs", "https://lab.example/manual")
+    url = re.search(r"http://127\.0\.0\.1:\d+", line)[0]
+    page = httpx.get(f"{url}/", timeout=30).text
+    assert '<a href="https://lab.example/manual">Documentation</a>' in page
+    assert httpx.get(f"{url}/docs/").status_code == 404
+
+
+def test_documentation_that_is_not_there_is_named(serve):
+    process, _ = serve("--workers", "0", "--docs", "nowhere")
+    _, err = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert "got 'nowhere'" in err
+
+
 def test_without_its_libraries_it_says_how_to_get_them(folder):
     code = (
         "import sys; sys.modules['fastapi'] = None\n"

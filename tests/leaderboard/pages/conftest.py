@@ -16,6 +16,7 @@ from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.seasons import ImportedSeason
 from colift.leaderboard.pages.site import write_site
 from colift.leaderboard.service.app import create_app
+from colift.leaderboard.service.documentation import Documentation
 from colift.leaderboard.service.server import make_server
 from playwright.sync_api import Browser, Page
 
@@ -23,10 +24,10 @@ from .boards import BEGAN, digest, practice, renamed
 
 
 @contextmanager
-def running(folder: Path) -> Iterator[str]:
+def running(folder: Path, docs: Documentation | None = None) -> Iterator[str]:
     """Serve a board from a thread of this process; yield its URL."""
     listener = socket.create_server(("127.0.0.1", 0))
-    server = make_server(create_app(folder))
+    server = make_server(create_app(folder, docs=docs))
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
     thread.start()
     try:
