@@ -42,6 +42,10 @@ nb_execution_raise_on_error = True
 nb_execution_timeout = 300
 
 autosummary_generate = True
+listed = (DOCS / "reference" / "api.rst").read_text(encoding="utf-8").split()
+for page in (DOCS / "generated" / "api").glob("*.rst"):
+    if page.stem not in listed:
+        page.unlink()  # Of a module that has been renamed: Sphinx would keep its page.
 autodoc_default_options = {"members": True, "show-inheritance": True}
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
