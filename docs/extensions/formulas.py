@@ -11,8 +11,10 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util import logging
 
-SIZE: Final = 100.0
-"""Size at which formulas are drawn; on the page they have that of the text around them."""
+SIZE: Final = 1000.0
+"""Size at which formulas are drawn; on the page they have that of the text around them.
+
+The library makes tall brackets too tall at sizes below that of the font's own units, 1000."""
 
 SCALE: Final = 1.1
 """Size of a formula relative to the text: this font is smaller than those of browsers."""
