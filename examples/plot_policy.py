@@ -34,7 +34,7 @@ found = colift.evaluate(Follow, suite="quick-v1")
 found
 
 # %%
-# The first lift: the start, the human's highest point, and the largest difference.
+# The first lift at its start, at the largest difference, and at the human's highest point.
 
 episode, scenario = found.run.episodes[0], found.run.suite.scenarios[0]
 figure = plt.figure(figsize=(10, 6.9))

@@ -154,6 +154,12 @@ def test_what_a_notebook_shows(copied):
     assert "<pre>copy on quick-v1" in page
 
 
+def test_the_text_in_jupyter_is_that_of_a_terminal(copied, monkeypatch):
+    text = str(copied)
+    monkeypatch.setattr("rich.console._is_jupyter", lambda: True)
+    assert str(copied) == text
+
+
 def test_the_failures_of_a_policy_are_told():
     failed = colift.evaluate(Failing)
     assert len(failed.failures) == 12

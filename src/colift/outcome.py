@@ -74,7 +74,10 @@ class Evaluation:
 
     def __str__(self) -> str:
         """Return the table and the lines below it."""
-        console = Console(file=io.StringIO(), width=WIDTH, no_color=True, _environ={})
+        # In Jupyter a console would show the text in the cell instead of writing it to its file.
+        console = Console(
+            file=io.StringIO(), width=WIDTH, no_color=True, force_jupyter=False, _environ={}
+        )
         show(results_table(self.results, self.run.suite.metrics), *self._lines(), console=console)
         assert isinstance(console.file, io.StringIO)
         return console.file.getvalue().strip("\n")
