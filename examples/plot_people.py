@@ -24,7 +24,8 @@ def value(person, name):
 
 
 # %%
-# Means and covariances are those of the five: a stiff arm is also a heavy one.
+# Parameters vary together as they do among the five: a stiff arm is also a heavy one. People beyond
+# the limits of a healthy person are drawn again, which cuts the heights at 270 mm.
 
 figure = plt.figure(figsize=(10, 3.5), layout="constrained")
 for axes, (x, y, x_label, y_label) in zip(figure.subplots(1, 3), PAIRS, strict=True):
