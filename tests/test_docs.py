@@ -4,6 +4,7 @@ import ast
 import importlib
 import math
 import re
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -114,3 +115,11 @@ def test_paths_in_the_documentation_exist(page):
         (ROOT / page).read_text(),
     )
     assert [path for path in found if not (ROOT / path).exists()] == []
+
+
+@pytest.mark.parametrize(
+    ("page", "line"),
+    [("CITATION.cff", "version: {}\n"), ("docs/background/cite.md", "version = {{{}}},\n")],
+)
+def test_the_version_to_cite_is_that_of_the_package(page, line):
+    assert line.format(version("colift")) in (ROOT / page).read_text()
