@@ -1,4 +1,4 @@
-"""The paper's confidence in a prediction (eqs. 6 and 7)."""
+"""The paper's confidence in a prediction (equations 6 and 7)."""
 
 import math
 from typing import Literal

@@ -1,4 +1,4 @@
-"""Behaviour gain control: who leads (eq. 8)."""
+"""Behaviour gain control: who leads (equation 8)."""
 
 
 def gain_control(confidence: float, proactive: float, reactive: float) -> float:

@@ -1,4 +1,4 @@
-"""The paper's Kalman filter of the human's motion: nearly constant acceleration (eqs. 2 to 5)."""
+"""The paper's Kalman filter of human motion: nearly constant acceleration (equations 2 to 5)."""
 
 import math
 from dataclasses import dataclass
