@@ -9,7 +9,9 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
 import tempfile
+import venv
 from pathlib import Path
 from typing import Any, ClassVar, Final
 
@@ -36,9 +38,13 @@ class Session:
         self.path = Path(self._folder.name) / "lab"
         self.path.mkdir()
         cache = Path(self._folder.name) / "cache"
-        programs = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+        own, shared = _python(Path(self._folder.name) / "python"), Path(sys.executable).parent
         self._environment = os.environ | {
-            "PATH": programs,
+            "PATH": os.pathsep.join(map(str, (own / "bin", shared, os.environ["PATH"]))),
+            "VIRTUAL_ENV": str(own),
+            "UV_OFFLINE": "1",
+            "UV_NO_BUILD_ISOLATION": "1",
+            "UV_CACHE_DIR": str(cache / "uv"),
             "COLUMNS": str(WIDTH),
             "NO_COLOR": "1",
             "TERM": "dumb",
@@ -96,6 +102,22 @@ class Session:
             assert server.stdout is not None
             server.stdout.close()
         self._folder.cleanup()
+
+
+def _python(folder: Path) -> Path:
+    """Make an environment that has the packages of this one: a page may install its own there."""
+    venv.create(folder, symlinks=True)
+    (installed,) = folder.glob("lib/python*/site-packages")
+    shared = sysconfig.get_path("purelib")
+    (installed / "shared.pth").write_text(f"import site; site.addsitedir({shared!r})\n")
+    program = folder / "bin" / "colift"
+    program.write_text(
+        f"#!{folder}/bin/python\n"
+        "from colift.cli.main import main\n\n"
+        "if __name__ == '__main__':\n    main()\n"
+    )
+    program.chmod(0o755)
+    return folder
 
 
 class _InSession(SphinxDirective):
