@@ -26,6 +26,9 @@ WIDTH: Final = 96
 LONGEST: Final = 600
 """Time that a command may take [s]."""
 
+ADDRESS: Final = "http://127.0.0.1:8000"
+"""Address of a board on a page."""
+
 TERMINAL: Final = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 """Control sequences of a terminal."""
 
@@ -52,11 +55,16 @@ class Session:
             "XDG_CACHE_HOME": str(cache),
         }
         self._servers: list[subprocess.Popen[str]] = []
+        self._free: str | None = None
+
+    def real(self, text: str) -> str:
+        """Return a text with the address of the page's board instead of :data:`ADDRESS`."""
+        return text.replace(ADDRESS, self._free) if self._free else text
 
     def run(self, command: str) -> tuple[str, int]:
         """Run a command and return what a terminal shows of it, and its exit code."""
         done = subprocess.run(
-            ["bash", "-c", command],
+            ["bash", "-c", self.real(command)],
             cwd=self.path,
             env=self._environment,
             stdin=subprocess.DEVNULL,
@@ -68,7 +76,12 @@ class Session:
         return self._shown(done.stdout), done.returncode
 
     def serve(self, command: str, ready: str) -> str:
-        """Start a command that runs until the page ends; return its output until ``ready``."""
+        """Start a command that runs until the page ends; return its output until ``ready``.
+
+        A board listens on any free port: pages are built in parallel. They show :data:`ADDRESS`.
+        """
+        if command.startswith("colift serve") and "--port" not in command:
+            command += " --port 0"
         server = subprocess.Popen(
             ["bash", "-c", f"exec {command}"],
             cwd=self.path,
@@ -84,12 +97,16 @@ class Session:
         for line in server.stdout:
             printed += line
             if ready in line:
+                address = re.search(r"http://127\.0\.0\.1:\d+", line)
+                self._free = address[0] if address else self._free
                 return self._shown(printed)
         raise RuntimeError(f"{command!r} ended before it printed {ready!r}:\n{printed}")
 
     def _shown(self, output: str) -> str:
         """Return an output without control sequences, with the folder's name as ``~/lab``."""
         plain = TERMINAL.sub("", output).replace(str(self.path), "~/lab")
+        if self._free:
+            plain = plain.replace(self._free, ADDRESS)
         return "\n".join(line.rsplit("\r", 1)[-1].rstrip() for line in plain.splitlines()).strip(
             "\n"
         )
@@ -250,7 +267,7 @@ class Screenshot(Picture):
         with sync_playwright() as playwright:
             browser = playwright.chromium.launch(executable_path=shutil.which("chromium"))
             page = browser.new_page(viewport=size)
-            page.goto(address, wait_until="networkidle")
+            page.goto(self.session.real(address), wait_until="networkidle")
             page.screenshot(path=made)
             browser.close()
         return [self._shown(made)]
