@@ -249,11 +249,15 @@ class Picture(_InSession):
 
 
 class Screenshot(Picture):
-    """Show a page of a server in a browser: ``{screenshot} ADDRESS``, with the width in pixels."""
+    """Show a page of a server in a browser: ``{screenshot} ADDRESS``, with its size in pixels.
+
+    ``:follow:`` is the text of a link on the page that leads to the one that is shown.
+    """
 
     option_spec: ClassVar[dict[str, Any]] = {
         "width": directives.positive_int,
         "height": directives.positive_int,
+        "follow": directives.unchanged_required,
     }
 
     def run(self) -> list[nodes.Node]:
@@ -261,13 +265,17 @@ class Screenshot(Picture):
         from playwright.sync_api import sync_playwright
 
         address = self.arguments[0]
-        name = re.sub(r"\W+", "-", address.partition("://")[2]).strip("-")
+        words = f"{address.partition('://')[2]} {self.options.get('follow', '')}"
+        name = re.sub(r"\W+", "-", words).strip("-")
         made = self.session.path / f"{name}.png"
         size = {"width": self.options.get("width", 1100), "height": self.options.get("height", 700)}
         with sync_playwright() as playwright:
             browser = playwright.chromium.launch(executable_path=shutil.which("chromium"))
             page = browser.new_page(viewport=size)
             page.goto(self.session.real(address), wait_until="networkidle")
+            if "follow" in self.options:
+                page.get_by_role("link", name=self.options["follow"], exact=True).first.click()
+                page.wait_for_load_state("networkidle")
             page.screenshot(path=made)
             browser.close()
         return [self._shown(made)]
