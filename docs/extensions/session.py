@@ -46,7 +46,6 @@ class Session:
             "PATH": os.pathsep.join(map(str, (own / "bin", shared, os.environ["PATH"]))),
             "VIRTUAL_ENV": str(own),
             "UV_OFFLINE": "1",
-            "UV_NO_BUILD_ISOLATION": "1",
             "UV_CACHE_DIR": str(cache / "uv"),
             "COLUMNS": str(WIDTH),
             "NO_COLOR": "1",
