@@ -11,6 +11,7 @@ import subprocess
 import sys
 import sysconfig
 import tempfile
+import time
 import venv
 from pathlib import Path
 from typing import Any, ClassVar, Final
@@ -53,7 +54,7 @@ class Session:
             "MPLBACKEND": "agg",
             "XDG_CACHE_HOME": str(cache),
         }
-        self._servers: list[subprocess.Popen[str]] = []
+        self._servers: list[subprocess.Popen[bytes]] = []
         self._free: str | None = None
 
     def real(self, text: str) -> str:
@@ -81,24 +82,27 @@ class Session:
         """
         if command.startswith("colift serve") and "--port" not in command:
             command += " --port 0"
-        server = subprocess.Popen(
-            ["bash", "-c", f"exec {command}"],
-            cwd=self.path,
-            env=self._environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-        )
+        log = Path(self._folder.name) / f"server-{len(self._servers)}.log"
+        with log.open("w") as output:
+            server = subprocess.Popen(
+                ["bash", "-c", f"exec {command}"],
+                cwd=self.path,
+                env=self._environment,
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+            )
         self._servers.append(server)
-        assert server.stdout is not None
-        printed = ""
-        for line in server.stdout:
-            printed += line
-            if ready in line:
-                address = re.search(r"http://127\.0\.0\.1:\d+", line)
+        running = True
+        while running:
+            running = server.poll() is None
+            printed = log.read_text()
+            begin, found, rest = printed.partition(ready)
+            if found and "\n" in rest:
+                address = re.search(r"http://127\.0\.0\.1:\d+", printed)
                 self._free = address[0] if address else self._free
-                return self._shown(printed)
+                return self._shown(begin + found + rest.partition("\n")[0])
+            time.sleep(0.05)
         raise RuntimeError(f"{command!r} ended before it printed {ready!r}:\n{printed}")
 
     def _shown(self, output: str) -> str:
@@ -115,8 +119,6 @@ class Session:
         for server in self._servers:
             server.terminate()
             server.wait(30)
-            assert server.stdout is not None
-            server.stdout.close()
         self._folder.cleanup()
 
 
@@ -271,7 +273,9 @@ class Screenshot(Picture):
         with sync_playwright() as playwright:
             browser = playwright.chromium.launch(executable_path=shutil.which("chromium"))
             page = browser.new_page(viewport=size)
-            page.goto(self.session.real(address), wait_until="networkidle")
+            response = page.goto(self.session.real(address), wait_until="networkidle")
+            if response is None or not response.ok:
+                raise self.severe(f"{address} cannot be shown: {response and response.status}")
             if "follow" in self.options:
                 page.get_by_role("link", name=self.options["follow"], exact=True).first.click()
                 page.wait_for_load_state("networkidle")
