@@ -33,6 +33,7 @@ extensions = [
 ]
 exclude_patterns = ["extensions", "generated/gallery/*.ipynb", "generated/gallery/*.py"]
 nitpicky = True
+smartquotes = False  # It would make a dash of the two hyphens of an option.
 nitpick_ignore_regex = [("py:.*", "(?!colift).*")]  # Other projects' sites cannot be asked offline.
 templates_path = ["templates"]
 

@@ -1,7 +1,8 @@
 """The directive ``commands``: the commands of the program, with their arguments and options."""
 
+import re
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, Final
 
 import typer
 from colift.cli.commands import PANELS
@@ -9,6 +10,9 @@ from colift.cli.main import app as program
 from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
+
+CODE: Final = re.compile(r"('colift [^']*'|(?<![\w-])--[a-z][a-z-]*)")
+"""A command or an option in a help text."""
 
 
 class Commands(SphinxDirective):
@@ -36,20 +40,20 @@ class Commands(SphinxDirective):
         section += nodes.title(path, path)
         for paragraph in (command.help or "").split("\n\n"):
             section += self._parsed(paragraph)
-        context = typer.Context(command, info_name=path)
         parts = [piece for parameter in command.params for piece in _usage(parameter)]
         usage = " ".join([path, *parts])
         section += nodes.literal_block(usage, usage, language="text")
-        rows = [row for row in (_row(each, context) for each in command.params) if row]
+        rows = [row for row in map(_row, command.params) if row]
         if rows:
             section += self._table(rows)
         return section
 
     def _parsed(self, text: str) -> nodes.paragraph:
+        """Return a paragraph in which options and quoted commands are code."""
         paragraph = nodes.paragraph()
-        found, messages = self.state.inline_text(" ".join(text.split()), self.lineno)
-        paragraph += found
-        paragraph += messages
+        for index, part in enumerate(CODE.split(" ".join(text.split()))):
+            word = part.strip("'")
+            paragraph += nodes.literal(word, word) if index % 2 else nodes.Text(part)
         return paragraph
 
     def _table(self, rows: list[tuple[str, str]]) -> nodes.table:
@@ -85,7 +89,7 @@ def _usage(parameter: Any) -> Iterator[str]:
         yield f"{parameter.opts[0]} {parameter.metavar or 'VALUE'}"
 
 
-def _row(parameter: Any, context: Any) -> tuple[str, str] | None:
+def _row(parameter: Any) -> tuple[str, str] | None:
     """Return a parameter as it is written, and its meaning; nothing for ``--help``."""
     if parameter.name == "help" or getattr(parameter, "hidden", False):
         return None
@@ -94,7 +98,11 @@ def _row(parameter: Any, context: Any) -> tuple[str, str] | None:
     name = ", ".join([*parameter.opts, *parameter.secondary_opts])
     if not parameter.is_flag:
         name += f" {parameter.metavar or 'VALUE'}"
-    return name, parameter.help or ""
+    meaning = parameter.help or ""
+    shown = isinstance(parameter.default, str | int | float) and not parameter.is_flag
+    if shown and str(parameter.default) and parameter.show_default:
+        meaning += f" Default: {parameter.default}."
+    return name, meaning
 
 
 def setup(app: Sphinx) -> dict[str, Any]:

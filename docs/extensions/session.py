@@ -21,7 +21,7 @@ from docutils.parsers.rst import directives
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-WIDTH: Final = 96
+WIDTH: Final = 88
 """Columns of the terminal that commands print for."""
 
 LONGEST: Final = 600
