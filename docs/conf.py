@@ -26,6 +26,7 @@ extensions = [
     "fields",
     "formulas",
     "http_api",
+    "metrics_table",
     "json_schema",
     "recorded",
     "rooms",

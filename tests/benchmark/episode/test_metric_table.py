@@ -1,7 +1,6 @@
 """The table of metrics, and what is written from it."""
 
 import contextlib
-from pathlib import Path
 
 from colift.agents.policies.copy import Copy
 from colift.benchmark.episode.episode import run_episode
@@ -10,24 +9,12 @@ from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.metric import on_boards
 from colift.benchmark.suites.catalogue import make_scenario
 
-DOCS = Path(__file__).parents[3] / "docs" / "metrics.md"
-
-
 METRICS = LEVEL.metrics
 
 
 def test_every_score_has_its_entry_in_the_same_order():
     with contextlib.closing(Lift(make_scenario("smooth"))) as lift:
         assert [*METRICS] == [*run_episode(lift, Copy(), 0).scores]
-
-
-def test_the_docs_have_the_table():
-    rows = [
-        f"| `{each.name}` | {each.unit} | {each.better} | "
-        f"{'' if each.missing == 'never' else each.missing} | {each.meaning} |"
-        for each in METRICS.values()
-    ]
-    assert "\n".join(rows) in DOCS.read_text()
 
 
 def test_symbols_name_one_metric_each_and_boards_show_none_twice():

@@ -1,0 +1,34 @@
+"""The directive ``metrics``: the metrics of the task that the suites play, a row each."""
+
+from typing import Any
+
+from colift.benchmark.episode.level_metrics import LEVEL_METRICS
+from docutils import nodes
+from markdown_text import table
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+
+class MetricsTable(SphinxDirective):
+    """Name, unit, better direction, treatment of a missing value, and meaning of each metric."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return the table."""
+        head = ("name", "unit", "better", "without a value", "meaning")
+        rows = [
+            (
+                f"`{each.name}`",
+                each.unit,
+                each.better,
+                "" if each.missing == "never" else each.missing,
+                each.meaning,
+            )
+            for each in LEVEL_METRICS.values()
+        ]
+        return self.parse_text_to_nodes(table(head, rows))
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Register the directive."""
+    app.add_directive("metrics", MetricsTable)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
