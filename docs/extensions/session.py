@@ -4,138 +4,17 @@ The directives of a page work in one folder of its own, in the order of the page
 fails, or that prints something else than the page expects, fails the build.
 """
 
-import os
 import re
 import shutil
 import subprocess
-import sys
-import sysconfig
-import tempfile
-import time
-import venv
 from pathlib import Path
-from typing import Any, ClassVar, Final
+from typing import Any, ClassVar
 
 from docutils import nodes
 from docutils.parsers.rst import directives
+from page_session import Session
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
-
-WIDTH: Final = 88
-"""Columns of the terminal that commands print for."""
-
-LONGEST: Final = 600
-"""Time that a command may take [s]."""
-
-ADDRESS: Final = "http://127.0.0.1:8000"
-"""Address of a board on a page."""
-
-TERMINAL: Final = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
-"""Control sequences of a terminal."""
-
-
-class Session:
-    """The folder of a page, and the servers that run there until the page ends."""
-
-    def __init__(self) -> None:
-        self._folder = tempfile.TemporaryDirectory(prefix="colift-docs-")
-        self.path = Path(self._folder.name) / "lab"
-        self.path.mkdir()
-        cache = Path(self._folder.name) / "cache"
-        own, shared = _python(Path(self._folder.name) / "python"), Path(sys.executable).parent
-        self._environment = os.environ | {
-            "PATH": os.pathsep.join(map(str, (own / "bin", shared, os.environ["PATH"]))),
-            "VIRTUAL_ENV": str(own),
-            "UV_OFFLINE": "1",
-            "UV_CACHE_DIR": str(cache / "uv"),
-            "COLUMNS": str(WIDTH),
-            "NO_COLOR": "1",
-            "TERM": "dumb",
-            "MPLBACKEND": "agg",
-            "XDG_CACHE_HOME": str(cache),
-        }
-        self._servers: list[subprocess.Popen[bytes]] = []
-        self._free: str | None = None
-
-    def real(self, text: str) -> str:
-        """Return a text with the address of the page's board instead of :data:`ADDRESS`."""
-        return text.replace(ADDRESS, self._free) if self._free else text
-
-    def run(self, command: str) -> tuple[str, int]:
-        """Run a command and return what a terminal shows of it, and its exit code."""
-        done = subprocess.run(
-            ["bash", "-c", self.real(command)],
-            cwd=self.path,
-            env=self._environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            timeout=LONGEST,
-        )
-        return self._shown(done.stdout), done.returncode
-
-    def serve(self, command: str, ready: str) -> str:
-        """Start a command that runs until the page ends; return its output until ``ready``.
-
-        A board listens on any free port: pages are built in parallel. They show :data:`ADDRESS`.
-        """
-        if command.startswith("colift serve") and "--port" not in command:
-            command += " --port 0"
-        log = Path(self._folder.name) / f"server-{len(self._servers)}.log"
-        with log.open("w") as output:
-            server = subprocess.Popen(
-                ["bash", "-c", f"exec {command}"],
-                cwd=self.path,
-                env=self._environment,
-                stdin=subprocess.DEVNULL,
-                stdout=output,
-                stderr=subprocess.STDOUT,
-            )
-        self._servers.append(server)
-        running = True
-        while running:
-            running = server.poll() is None
-            printed = log.read_text()
-            begin, found, rest = printed.partition(ready)
-            if found and "\n" in rest:
-                address = re.search(r"http://127\.0\.0\.1:\d+", printed)
-                self._free = address[0] if address else self._free
-                return self._shown(begin + found + rest.partition("\n")[0])
-            time.sleep(0.05)
-        raise RuntimeError(f"{command!r} ended before it printed {ready!r}:\n{printed}")
-
-    def _shown(self, output: str) -> str:
-        """Return an output without control sequences, with the folder's name as ``~/lab``."""
-        plain = TERMINAL.sub("", output).replace(str(self.path), "~/lab")
-        if self._free:
-            plain = plain.replace(self._free, ADDRESS)
-        return "\n".join(line.rsplit("\r", 1)[-1].rstrip() for line in plain.splitlines()).strip(
-            "\n"
-        )
-
-    def close(self) -> None:
-        """End the servers and remove the folder."""
-        for server in self._servers:
-            server.terminate()
-            server.wait(30)
-        self._folder.cleanup()
-
-
-def _python(folder: Path) -> Path:
-    """Make an environment that has the packages of this one: a page may install its own there."""
-    venv.create(folder, symlinks=True)
-    (installed,) = folder.glob("lib/python*/site-packages")
-    shared = sysconfig.get_path("purelib")
-    (installed / "shared.pth").write_text(f"import site; site.addsitedir({shared!r})\n")
-    program = folder / "bin" / "colift"
-    program.write_text(
-        f"#!{folder}/bin/python\n"
-        "from colift.cli.main import main\n\n"
-        "if __name__ == '__main__':\n    main()\n"
-    )
-    program.chmod(0o755)
-    return folder
 
 
 class _InSession(SphinxDirective):
@@ -194,7 +73,10 @@ class Run(_InSession):
         shown = []
         for command in "\n".join(self.content).replace("\\\n", "\\\0").splitlines():
             line = command.replace("\0", "\n")
-            output, code = self.session.run(line)
+            try:
+                output, code = self.session.run(line)
+            except subprocess.TimeoutExpired as error:
+                raise self.severe(f"{line!r} did not end within {error.timeout:.0f} s") from error
             if code != self.options.get("exit", 0):
                 raise self.severe(f"{line!r} ended with exit code {code}:\n{output}")
             shown += [f"$ {line}", *self._part(output)]
