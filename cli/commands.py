@@ -11,8 +11,10 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
     "Use": {
         "run": "run:run",
         "compare": "compare:compare_policies",
+        "validity": "validity:validity",
         "list": "listing:list_all",
         "render": "render:render_episode",
+        "play": "play:play",
         "demonstrate": "demonstrate:demonstrate_lifts",
         "paper": "paper:paper",
     },

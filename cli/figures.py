@@ -1,9 +1,10 @@
 """``colift figures``: the recorded figures of the documentation."""
 
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated
+from textwrap import shorten
+from typing import Annotated, Final
 
 import typer
 
@@ -12,6 +13,9 @@ from ..benchmark.figures.making import FigureStatus, remake, statuses
 from ..benchmark.figures.registry import clone
 from .options import check_exclusive
 from .printing import left, show, table
+
+SHOWN: Final = 48
+"""Characters of a command in the list of all figures; the list of one figure has all of it."""
 
 
 def figures(
@@ -29,23 +33,26 @@ def figures(
     ] = False,
     check: Annotated[bool, typer.Option("--check", help="Exit with 1 if a figure is due.")] = False,
     recordings: Annotated[
-        Path | None,
+        list[Path] | None,
         typer.Option(
             metavar="CSV",
-            help="File for the figures of recorded lifts, which colift does not contain.",
+            help="Recorded lifts, which colift does not contain; repeatable, in the order in which "
+            "the commands name them.",
         ),
     ] = None,
 ) -> None:
     """List the recorded figures of the documentation, or make them again.
 
     A figure is due if what it depends on has changed since it was made: a suite, a policy, other
-    code, or its command. Figures of a machine's speed are made again only by name.
+    code, a script, or its command. Figures of a machine's speed are made again only by name.
     """
     check_exclusive(remake=again, check=check)
-    if recordings is not None and not again:
+    files = recordings or []
+    if files and not again:
         raise InputError("--recordings needs --remake")
-    if recordings is not None and not recordings.is_file():
-        raise InputError(f"--recordings: there is no file {recordings}")
+    for file in files:
+        if not file.is_file():
+            raise InputError(f"--recordings: there is no file {file}")
     root = clone()
     found = statuses(root)
     unknown = [name for name in names or () if name not in found]
@@ -54,7 +61,7 @@ def figures(
     chosen = {name: found[name] for name in names or found}
     if again:
         wanted = [each for each in chosen.values() if names or _is_due(each)]
-        if not _remake(root, wanted, recordings):
+        if not _remake(root, wanted, files):
             raise typer.Exit(1)
         return
     _list(chosen)
@@ -67,7 +74,10 @@ def _is_due(status: FigureStatus) -> bool:
 
 
 def _list(chosen: Mapping[str, FigureStatus]) -> None:
-    rows = ((name, _state(status), status.figure.command) for name, status in chosen.items())
+    commands = [status.figure.command for status in chosen.values()]
+    if len(commands) > 1:
+        commands = [shorten(command, SHOWN, placeholder=" ...") for command in commands]
+    rows = zip(chosen, map(_state, chosen.values()), commands, strict=True)
     show(table("", ("figure", left("state"), left("command")), rows))
 
 
@@ -80,18 +90,16 @@ def _state(status: FigureStatus) -> str:
     return f"{word}: {first}" + (f" and {len(more)} more" if more else "")
 
 
-def _remake(root: Path, wanted: Iterable[FigureStatus], recordings: Path | None) -> bool:
+def _remake(root: Path, wanted: Iterable[FigureStatus], recordings: Sequence[Path]) -> bool:
     """Make figures again, print the changes of each, and return whether all could be made."""
     complete = True
     for status in wanted:
-        name, needed = status.figure.name, status.figure.recordings
-        if needed and recordings is None:
-            complete = False
-            message = f"{name} needs {needed}, which colift does not contain: give --recordings"
-            print(message, file=sys.stderr)
-            continue
+        name = status.figure.name
         try:
             changes = remake(root, status.figure, recordings)
+        except InputError as error:
+            complete = False
+            print(f"{error}: give --recordings", file=sys.stderr)
         except EvaluatorFault as fault:
             complete = False
             print(fault, file=sys.stderr)

@@ -28,6 +28,7 @@ A benchmark for human-robot cooperative lifting.
   colift run blend                evaluate a policy on the standard suite
   colift list                     policies, behaviours, subjects, suites
   colift compare blend copy       compare policies, lift by lift
+  colift play                     lift with a policy yourself, in the browser
   colift new mine                 start a policy of your own in a folder
   colift check mine               check that it works, and score it
   colift submit mine --board DIR  get a verified row on a board

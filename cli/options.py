@@ -12,7 +12,8 @@ import typer
 from ..agents.errors import InputError
 from ..benchmark.execution.connecting import dask_pool
 from ..benchmark.execution.pool import JOBS, local_pool
-from ..benchmark.suites.suite import Suite, make_suite, recorded_suite
+from ..benchmark.live.people import real_lifts
+from ..benchmark.suites.suite import Suite, make_suite
 from .completion import behaviours, policies, suites
 from .remedies import opened
 
@@ -46,7 +47,9 @@ Seeds = Annotated[
 Recordings = Annotated[
     Path | None,
     typer.Option(
-        metavar="CSV", help="Recorded human motion (columns trial,t_s,z_m) instead of a suite."
+        metavar="CSV",
+        help="Recorded human motion (columns trial,t_s,z_m) instead of a suite; or the folder of "
+        "a session of 'colift play', whose people move as they did.",
     ),
 ]
 Behaviours = Annotated[
@@ -115,7 +118,7 @@ def chosen_suite(
         raise InputError("--behaviour and --recordings exclude each other: people move as recorded")
     if seeds is not None:
         raise InputError("--seeds and --recordings exclude each other: a recording has no seed")
-    return recorded_suite(recordings)
+    return real_lifts(recordings)
 
 
 def check_exclusive(**options: object) -> None:

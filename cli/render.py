@@ -7,8 +7,9 @@ from typing import Annotated, Final
 import typer
 
 from ..agents.errors import InputError
-from ..benchmark.episode.episode import START, STEP, Episode
+from ..benchmark.episode.episode import Episode
 from ..benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
+from ..benchmark.episode.turns import START, STEP
 from ..benchmark.execution.batches import play
 from ..benchmark.suites.catalogue import make_scenario
 from .completion import behaviours, people

@@ -1,12 +1,10 @@
 """``colift serve``: a board on the web, and the workers that evaluate its submissions."""
 
-import errno
 import logging
-import signal
-import socket
 import sys
-from types import FrameType
-from typing import Annotated
+from asyncio import Protocol
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
@@ -18,22 +16,21 @@ from ..benchmark.execution.pool import default_jobs
 from ..leaderboard.evaluation.entrant import AUTO
 from ..leaderboard.queue import Quota
 from .board_options import BOARD, BoardFolder, BoardIsolation
+from .listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
+from .partners import partners
 
-ENDING = (signal.SIGINT, signal.SIGTERM)
-"""Signals that end the service."""
+if TYPE_CHECKING:
+    from fastapi import FastAPI
+
+
+LIVE: Final = "live"
+"""Folder of the sessions of live lifts in that of a board."""
 
 
 def serve_board(
     board: BoardFolder = BOARD,
-    host: Annotated[
-        str,
-        typer.Option(
-            metavar="ADDRESS", help="Address to listen on; 0.0.0.0: all of this machine's."
-        ),
-    ] = "127.0.0.1",
-    port: Annotated[
-        int, typer.Option(metavar="N", min=0, max=65535, help="Port to listen on; 0: any free one.")
-    ] = 8000,
+    host: Host = LOOPBACK,
+    port: Port = 8000,
     workers: Annotated[
         int, typer.Option(metavar="N", min=0, help="Processes that evaluate submissions.")
     ] = 1,
@@ -61,12 +58,25 @@ def serve_board(
         str,
         typer.Option(metavar="/PATH", help="Path of the board behind a reverse proxy."),
     ] = "",
+    rooms: Annotated[
+        int,
+        typer.Option(
+            "--play",
+            metavar="N",
+            min=0,
+            max=64,
+            help="Rooms in which visitors lift with policies, under /play/; 0: none.",
+        ),
+    ] = 0,
 ) -> None:
     """Serve a board on the web: its pages, its JSON interface, and uploads."""
     try:
         from ..leaderboard.service.app import create_app
         from ..leaderboard.service.documentation import Documentation
         from ..leaderboard.service.server import make_server, running
+
+        if rooms:
+            import websockets  # noqa: F401
     except ModuleNotFoundError as error:
         raise InputError(
             f"{error.name} is not installed; a board on the web needs: {how_to_install('board')}"
@@ -79,46 +89,35 @@ def serve_board(
     command = [sys.executable, "-m", "colift.cli", "worker", "--board", str(board.absolute())]
     command += ["--jobs", str(max(1, default_jobs() // max(1, workers)))]  # They share the cores.
     command += ["--isolation", isolation]
-    for number in ENDING:
-        signal.signal(number, _leave)  # uvicorn raises it again after closing.
+    interrupted_by_signals()  # uvicorn raises them again after closing.
     try:
-        with _listening(host, port) as listener:
-            app = create_app(board, contact=contact, quota=quota, docs=documentation)
-            server = make_server(app, root.rstrip("/"))
+        with listening_at(host, port) as listener:
+            app = create_app(
+                board, contact=contact, quota=quota, docs=documentation, play=rooms > 0
+            )
+            sockets = _offer_rooms(app, board, rooms) if rooms else None
+            server = make_server(app, root.rstrip("/"), sockets)
             with running(command, workers):
-                print(f"Board {board}: {_url(listener)} (Ctrl-C ends it)", flush=True)
+                print(f"Board {board}: {url_of(listener)} (Ctrl-C ends it)", flush=True)
                 server.run(sockets=[listener])
     except KeyboardInterrupt:
         pass  # Requested, and done.
 
 
-def _listening(host: str, port: int) -> socket.socket:
-    """Return a listening socket.
+def _offer_rooms(app: "FastAPI", board: Path, rooms: int) -> "type[Protocol]":
+    """Let visitors of a board lift with all policies; return the protocol of their sockets."""
+    from ..leaderboard.live.app import create_play, mount_play
+    from ..leaderboard.live.keeper import PlayConfig
+    from ..leaderboard.live.web import SmallBuffers
+    from ..leaderboard.service.dependencies import PLAY
 
-    Raises
-    ------
-    InputError
-        If the address or the port cannot be used.
-    """
-    from ..leaderboard.service.server import listening
-
-    try:
-        return listening(host, port)
-    except OSError as error:
-        reason = {
-            errno.EADDRINUSE: f"port {port} is taken; choose another by --port (0: any free one)",
-            errno.EACCES: f"port {port} needs more rights; choose one above 1023 by --port",
-            errno.EADDRNOTAVAIL: "this machine has no such address; 127.0.0.1 and 0.0.0.0 are",
-        }.get(error.errno or 0, error.strerror)
-        raise InputError(f"cannot listen on {host}:{port}: {reason}") from error
-
-
-def _url(listener: socket.socket) -> str:
-    host, port = listener.getsockname()[:2]
-    return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
-
-
-def _leave(number: int, frame: FrameType | None) -> None:
-    for each in ENDING:
-        signal.signal(each, signal.SIG_IGN)  # A second one would cut the workers' last seconds.
-    raise KeyboardInterrupt
+    named, lines = partners()
+    config = PlayConfig(
+        folder=(board / LIVE).absolute(),
+        policies=named,
+        descriptions=lines,
+        rooms=rooms,
+        strict=True,
+    )
+    mount_play(app, create_play(config, path=PLAY), PLAY)
+    return SmallBuffers

@@ -2,19 +2,22 @@
 
 import itertools
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Final
 
 import typer
 
-from ..agents.errors import EvaluatorFault
+from ..agents.errors import EvaluatorFault, InputError
 from ..benchmark.bundle import check_bundle_folder, check_unfinished, one_line, write_bundle
 from ..benchmark.execution.pool import checked_jobs, process_pool
 from ..benchmark.execution.runner import Run
+from ..benchmark.live.session import is_session, lift_folders
 from ..benchmark.results.headline import headline
 from ..benchmark.verification import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Verdict, verify
 from .options import AsJson, Jobs
-from .printing import print_json
+from .printing import print_json, show
 from .progress import progress_bar
 from .remedies import naming
 
@@ -26,7 +29,9 @@ def verify_bundle(
     bundle: Annotated[
         Path,
         typer.Argument(
-            metavar="BUNDLE", help="A result bundle of 'colift run --out' or of a board."
+            metavar="BUNDLE",
+            help="A result bundle of 'colift run --out' or of a board, or the session of "
+            "live lifts of 'colift play'.",
         ),
     ],
     jobs: Jobs = None,
@@ -54,15 +59,13 @@ def verify_bundle(
         if not force:
             with naming("--rescore", hint="--force replaces it"):
                 check_unfinished(rescore)
-    try:
-        with (
-            process_pool(count) as pool,
-            progress_bar(f"verify {bundle.name}", None) as progress,
-        ):
-            verdict = verify(bundle, executor=pool, progress=progress)
-    except EvaluatorFault as fault:
-        print(f"not verified: {fault}; this is no finding about the bundle", file=sys.stderr)
-        raise typer.Exit(1) from None
+    if is_session(bundle):
+        if rescore is not None:
+            raise InputError("--rescore takes one bundle, not a session: name one of its lifts")
+        _verify_session(bundle, count, as_json=as_json)
+        return
+    with _checking(bundle, count) as check:
+        verdict = check(bundle)
     written = rescore is not None and (verdict.ok or verdict.rescorable)
     if rescore is not None and written:
         _write(rescore, verdict)
@@ -70,6 +73,7 @@ def verify_bundle(
         print_json(verdict.plain())
     elif verdict.run is not None and not verdict.findings:
         print(_proof(bundle, verdict, verdict.run))
+        show(PROVES, UNPROVEN)
         if written:
             print(f"Rescored bundle: {rescore}")
     if verdict.findings:
@@ -79,6 +83,37 @@ def verify_bundle(
     elif verdict.scoring is not None and not written:
         print(_outdated(bundle, *verdict.scoring), file=sys.stderr)
     if not (verdict.ok or written):
+        raise typer.Exit(1)
+
+
+@contextmanager
+def _checking(shown: Path, jobs: int) -> Iterator[Callable[[Path], Verdict]]:
+    """Return the verification of a bundle by several processes, with its progress."""
+    try:
+        with process_pool(jobs) as pool, progress_bar(f"verify {shown.name}", None) as progress:
+            yield lambda folder: verify(folder, executor=pool, progress=progress)
+    except EvaluatorFault as fault:
+        print(f"not verified: {fault}; this is no finding about the bundle", file=sys.stderr)
+        raise typer.Exit(1) from None
+
+
+def _verify_session(session: Path, jobs: int, *, as_json: bool) -> None:
+    """Verify each lift of a session of live lifts, and print a line for each."""
+    with _checking(session, jobs) as check:
+        verdicts = {folder.name: check(folder) for folder in lift_folders(session)}
+    refused = [name for name, verdict in verdicts.items() if not verdict.ok]
+    if as_json:
+        print_json({name: verdict.plain() for name, verdict in verdicts.items()})
+    for name, verdict in {} if as_json else verdicts.items():
+        if verdict.ok and verdict.run is not None:
+            rmse = verdict.run.episodes[0].scores["rmse_mm"]
+            how = "equal to the bit" if verdict.bit_equal else "within the tolerance"
+            print(f"{name}: {rmse:.2f} mm, {how}")
+        for finding in verdict.findings:
+            print(f"{name}: {finding}", file=sys.stderr)
+    if not as_json:
+        print(f"{len(verdicts) - len(refused)} of {len(verdicts)} live lifts are verified.")
+    if refused:
         raise typer.Exit(1)
 
 
@@ -107,7 +142,7 @@ def _proof(bundle: Path, verdict: Verdict, run: Run) -> str:
     if verdict.ok:
         lines.append(f"{bundle} is verified.")
     # Names and versions come from the bundle: control sequences must not reach a terminal.
-    return "\n".join([*map(one_line, lines), PROVES, UNPROVEN])
+    return "\n".join(map(one_line, lines))
 
 
 def _outdated(bundle: Path, there: int, here: int) -> str:

@@ -20,6 +20,7 @@ extensions = [
     "sphinx_copybutton",
     "sphinx_design",
     "sphinx_gallery.gen_gallery",
+    "array_types",
     "attributes",
     "commands",
     "environment",
@@ -60,6 +61,7 @@ copybutton_exclude = ".linenos, .go"
 sphinx_gallery_conf = {
     "examples_dirs": "../examples",
     "gallery_dirs": "generated/gallery",
+    "within_subsection_order": "gallery_order.SimpleFirst",
     "filename_pattern": "/plot_",
     "abort_on_example_error": True,
     "download_all_examples": False,

@@ -42,3 +42,4 @@ for panel, label in zip(panels, ("RMSE [mm]", "SPARC", "mean confidence"), stric
     style_axes(panel)
 panels[0].set_yticks(range(len(READINGS)), READINGS)
 panels[0].set_ylim(len(READINGS) - 0.5, -0.5)
+plt.show()

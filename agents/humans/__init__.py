@@ -4,10 +4,15 @@ A subject and a behaviour make a plan from a seed; ``ScriptedHuman`` carries a p
 """
 
 from .changing_goal import ChangingGoal
+from .cued import Cue, Cued
+from .hand_log import Hand, HandLog, LoggedHand, Resampler
 from .jerky import Jerky
+from .live import LIVE_SUBJECT
 from .partner import PARTNER_SUBJECT, Partner
 from .pause import Pause
-from .plan import Behaviour, Plan
+from .person_as_robot import PersonAsRobot
+from .plan import Behaviour, Embodied, Plan
+from .played import Played, PlayedHand
 from .recorded import Recorded
 from .recordings import Recording, load_recordings
 from .scripted import ScriptedHuman
@@ -17,16 +22,27 @@ from .subject import BOUNDS, GOAL_RANGE, SUBJECTS, Subject
 __all__ = [
     "BOUNDS",
     "GOAL_RANGE",
+    "LIVE_SUBJECT",
     "PARTNER_SUBJECT",
     "SUBJECTS",
     "Behaviour",
     "ChangingGoal",
+    "Cue",
+    "Cued",
+    "Embodied",
+    "Hand",
+    "HandLog",
     "Jerky",
+    "LoggedHand",
     "Partner",
     "Pause",
+    "PersonAsRobot",
     "Plan",
+    "Played",
+    "PlayedHand",
     "Recorded",
     "Recording",
+    "Resampler",
     "ScriptedHuman",
     "Smooth",
     "Subject",

@@ -1,12 +1,12 @@
 """A plan: the height a person means to be at, for a whole episode, and how one is put together."""
 
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..agent import FRAME
+from ..agent import FRAME, Agent
 from .subject import Subject
 
 LENGTH_STEP = 10
@@ -36,6 +36,14 @@ class Behaviour(Protocol):
 
     def plan(self, subject: Subject, seed: int) -> Plan:
         """Return the plan of one episode; the same arguments always give the same plan."""
+
+
+@runtime_checkable
+class Embodied(Protocol):
+    """A behaviour whose plans are carried out by a person of its own, not a scripted human."""
+
+    def person(self, subject: Subject) -> Agent:
+        """Return the agent that carries out the plans of the behaviour."""
 
 
 class Segment(NamedTuple):

@@ -16,6 +16,7 @@ EPISODES: Final = "episodes.csv"
 TRACES: Final = "traces.npz"
 MANIFEST: Final = "manifest.json"
 RECORDINGS: Final = "recordings.csv"
+INPUTS: Final = "inputs.npz"
 LOGS: Final = "logs.json"
 
 FILES: Final = (RESULTS, EPISODES, TRACES, MANIFEST)
@@ -27,6 +28,7 @@ LARGEST: Final[Mapping[str, int]] = {
     TRACES: 2**30,
     MANIFEST: 2**24,
     RECORDINGS: 2**26,
+    INPUTS: 2**27,
     LOGS: 2**24,
 }
 """All files that a bundle can have, and their largest sizes [bytes]."""

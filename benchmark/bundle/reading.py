@@ -11,7 +11,7 @@ from ...agents.errors import InputError
 from ..episode.episode import Episode
 from ..execution.runner import Run
 from .arrays import parse_arrays
-from .files import EPISODES, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, read_files
+from .files import EPISODES, INPUTS, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, read_files
 from .json_text import dump_json, of_type, parse_json, pick
 from .recipe import Recipe
 from .table import parse_table
@@ -118,7 +118,9 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
             f"{MANIFEST}: there is no recipe: the suite cannot be made again from names, since "
             "its behaviours or subjects are not registered ones with their own parameters"
         )
-    recipe = Recipe.parse(pick(manifest, "recipe", dict, MANIFEST), files.get(RECORDINGS))
+    recipe = Recipe.parse(
+        pick(manifest, "recipe", dict, MANIFEST), files.get(RECORDINGS), files.get(INPUTS)
+    )
     platform = {
         name: _line(value, f"{MANIFEST}: platform.{name!r:.80}")
         for name, value in pick(manifest, "platform", dict, MANIFEST).items()

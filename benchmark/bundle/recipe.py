@@ -3,19 +3,21 @@
 import csv
 import io
 import tempfile
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Self
 
 from ...agents.errors import InputError
-from ...agents.humans import Recorded, load_recordings
+from ...agents.humans import Behaviour, Recorded, load_recordings
 from ...agents.humans.recordings import COLUMNS
 from ..episode.level import LEVEL
 from ..episode.metric import Metrics
 from ..episode.scenario import Scenario
-from ..suites.catalogue import RECORDED, make_scenario, make_subject, make_task
+from ..suites.catalogue import PLAYED, RECORDED, make_scenario, make_subject, make_task
 from ..suites.suite import LONGEST_SUITE_NAME, Suite, plain_name
-from .files import MANIFEST, RECORDINGS
+from .files import INPUTS, MANIFEST, RECORDINGS
+from .inputs import dump_inputs, parse_inputs
 from .json_text import of_type, pick
 
 MOST_EPISODES: Final = 100_000
@@ -25,6 +27,9 @@ SEED_BITS: Final = 128
 """Largest number of bits of a seed."""
 
 LONGEST_NAME: Final = 1000
+
+FILES: Final = {RECORDED: RECORDINGS, PLAYED: INPUTS}
+"""The file that a behaviour's trials come from."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,6 +47,8 @@ class Recipe:
     task: str = LEVEL.name
     recordings: bytes | None = None
     """The recordings as a CSV file, if recorded lifts are played."""
+    inputs: bytes | None = None
+    """The hands of live lifts, if those are played; see :mod:`.inputs`."""
 
     @classmethod
     def of(cls, suite: Suite) -> Self | None:
@@ -60,9 +67,10 @@ class Recipe:
             latency=float(first.latency),
             task=first.task.name,
             recordings=_recordings(suite.scenarios),
+            inputs=dump_inputs(suite.scenarios),
         )
         try:
-            made = cls.parse(recipe.plain(), recipe.recordings).suite()
+            made = cls.parse(recipe.plain(), recipe.recordings, recipe.inputs).suite()
         except InputError:
             return None
         return recipe if made.digest == suite.digest else None
@@ -75,9 +83,18 @@ class Recipe:
         InputError
             If a name is unknown, a number out of range, or the recordings cannot be used.
         """
-        recorded = {} if self.recordings is None else _load(self.recordings)
+        humans: dict[tuple[str, str], Behaviour] = {}
+        if self.recordings is not None:
+            recorded = _load(self.recordings)
+            humans.update({(RECORDED, trial): human for trial, human in recorded.items()})
+        if self.inputs is not None:
+            played = parse_inputs(self.inputs, len(self.scenarios))
+            trials = [trial for _, _, trial in self.scenarios]
+            humans.update(
+                {(PLAYED, trial): human for trial, human in zip(trials, played, strict=True)}
+            )
         try:
-            scenarios = tuple(self._scenario(*names, recorded) for names in self.scenarios)
+            scenarios = tuple(self._scenario(*names, humans) for names in self.scenarios)
         except InputError as error:
             raise InputError(f"{MANIFEST}: {error}") from None
         return Suite(name=self.name, scenarios=scenarios, seeds=self.seeds)
@@ -93,14 +110,19 @@ class Recipe:
         return make_task(self.task).metrics
 
     def _scenario(
-        self, behaviour: str, subject: str, trial: str, recorded: dict[str, Recorded]
+        self,
+        behaviour: str,
+        subject: str,
+        trial: str,
+        humans: Mapping[tuple[str, str], Behaviour],
     ) -> Scenario:
-        if behaviour == RECORDED:
-            if trial not in recorded:
-                raise InputError(f"{RECORDINGS} has no trial {trial!r:.80}")
+        if behaviour in FILES:
+            human = humans.get((behaviour, trial))
+            if human is None:
+                raise InputError(f"{FILES[behaviour]} has no trial {trial!r:.80}")
             return Scenario(
-                behaviour=RECORDED,
-                human=recorded[trial],
+                behaviour=behaviour,
+                human=human,
                 trial=trial,
                 subject=make_subject(subject),
                 partner=self.partner,
@@ -116,7 +138,7 @@ class Recipe:
         )
 
     def plain(self) -> dict[str, Any]:
-        """Return the recipe for JSON: everything except the recordings."""
+        """Return the recipe for JSON: everything except recordings and hands."""
         return {
             "suite": self.name,
             "partner": self.partner,
@@ -128,8 +150,10 @@ class Recipe:
         }
 
     @classmethod
-    def parse(cls, content: dict[str, Any], recordings: bytes | None) -> Self:
-        """Return the recipe from the content of :meth:`plain` and the recordings.
+    def parse(
+        cls, content: dict[str, Any], recordings: bytes | None, inputs: bytes | None = None
+    ) -> Self:
+        """Return the recipe from the content of :meth:`plain`, the recordings and the hands.
 
         Raises
         ------
@@ -165,6 +189,7 @@ class Recipe:
             latency=pick(content, "latency", float, MANIFEST),
             task=pick(content, "task", str, MANIFEST),
             recordings=recordings,
+            inputs=inputs,
         )
         if recipe.plain() != content:
             raise InputError(f"{MANIFEST}: the recipe is not as colift writes it")

@@ -9,7 +9,7 @@ from ..episode.episode import Episode
 from ..execution.provenance import fingerprint
 from ..execution.runner import Run
 from .arrays import dump_arrays
-from .files import EPISODES, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, replace_folder
+from .files import EPISODES, INPUTS, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, replace_folder
 from .json_text import dump_json
 from .recipe import Recipe
 from .table import dump_table
@@ -62,6 +62,8 @@ def write_bundle(
     }
     if recipe is not None and recipe.recordings is not None:
         files[RECORDINGS] = recipe.recordings
+    if recipe is not None and recipe.inputs is not None:
+        files[INPUTS] = recipe.inputs
     logs = kept_logs(run.episodes)
     if logs:
         files[LOGS] = dump_json(logs)

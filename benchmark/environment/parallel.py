@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 from pettingzoo import AECEnv, ParallelEnv
 from pettingzoo.utils import OrderEnforcingWrapper, parallel_to_aec
 
-from ...agents.agent import Action, Observation
-from ...agents.humans import ScriptedHuman
+from ...agents.agent import Action, Agent, Observation
 from ..episode.lift import Lift
 from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..rendering.scene import Scene, check_render_mode
@@ -169,7 +168,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         self._render_in_window()
         return result
 
-    def scripted_human(self) -> ScriptedHuman:
+    def scripted_human(self) -> Agent:
         """Return the agent that carries out the current episode's private plan."""
         return self.lift.scripted_human()
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...agents.agent import FRAME, HumanObservation, Observation, RobotObservation
+from ..world import BodyParameters, BulletWorld, FarEnd, World
 from ..world.table import TABLE_LENGTH, WEIGHT_SHARE
 from . import metrics
 from .level_metrics import LEVEL_METRICS
@@ -51,6 +52,10 @@ class Level:
 
     name: ClassVar[str] = "level"
     metrics: ClassVar[Metrics] = LEVEL_METRICS
+
+    def world(self, human: BodyParameters, far_end: FarEnd) -> World:
+        """Return the world of the table alone."""
+        return BulletWorld(human, far_end)
 
     def robot_observation(self, lift: Playing) -> Observation:
         """Return the robot's senses."""

@@ -1,15 +1,15 @@
 """The lift: sensors, actions and time on top of a world, independent of PettingZoo."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...agents.actions import action_limit, checked_action
-from ...agents.agent import FRAME, HISTORY, HumanObservation, Observation
-from ...agents.humans import PARTNER_SUBJECT, Plan, ScriptedHuman, Subject
-from ..world import HISTORY_FRAMES, BodyParameters, BulletWorld, FarEnd, World
+from ...agents.agent import FRAME, HISTORY, Agent, HumanObservation, Observation
+from ...agents.humans import Embodied, Plan, ScriptedHuman, Subject
+from ..world import HISTORY_FRAMES, BodyParameters, FarEnd, World
 from .scenario import Scenario
 from .seat import body_parameters, within_range
 from .seeding import derive_seed
@@ -27,17 +27,19 @@ class Lift:
 
     A step is one control period of the robot: ``frames_per_step`` frames. The robot's action
     changes its hand command, which moves at constant speed over the period; the human's action
-    is a hand reference for each frame.
+    is a hand reference for each frame. A step is made whole, by :meth:`step`, or frame by frame
+    while a person moves: :meth:`commands`, :meth:`move` for each frame, :meth:`end`. The bits are
+    the same.
 
     Parameters
     ----------
     scenario
         The people, the task and the timing.
     world
-        Makes the world of the human's body and the far end.
+        Makes the world of the human's body and the far end; the task's own world if None.
     """
 
-    def __init__(self, scenario: Scenario, *, world: MakeWorld = BulletWorld) -> None:
+    def __init__(self, scenario: Scenario, *, world: MakeWorld | None = None) -> None:
         self.scenario = scenario
         self.task = scenario.task
         self.seat = seat = scenario.seat
@@ -45,30 +47,31 @@ class Lift:
         self.partner_size = seat.action_size(self.frames_per_step)
         self.step_limit = action_limit(scenario.control_period)
         self._human_delays = _delays(scenario.subject)
-        self._partner_delays = _delays(PARTNER_SUBJECT)
-        self.world: World = world(body_parameters(scenario.subject), seat.body)
+        self._partner_delays = (0, 0) if seat.person is None else _delays(seat.person)
+        make = world or self.task.world
+        self.world: World = make(body_parameters(scenario.subject), seat.body)
 
     def reset(self, seed: int) -> None:
         """Begin the episode ``seed``: draw the human's plan and the sensors' noise."""
         scenario = self.scenario
         self.world.reset()
         self.seed = seed
-        self.plan: Plan = scenario.human.plan(scenario.subject, self._role_seed("plan"))
+        self.plan: Plan = scenario.human.plan(scenario.subject, self.role_seed("plan"))
         size = self.frames_per_step
         steps = -(-len(self.plan.target) // size)
         self.horizon = steps * size
         target = np.full(self.horizon, self.plan.target[-1])
         target[: len(self.plan.target)] = self.plan.target
         self.target = target
-        rng = np.random.default_rng(self._role_seed("sensor"))
+        rng = np.random.default_rng(self.role_seed("sensor"))
         noise = rng.normal(0.0, MOCAP_NOISE, (2, HISTORY_FRAMES + self.horizon))
         self._human_noise, self._robot_noise = noise.tolist()
         self.frame = 0
         self.command = 0.0
         self.dropped: str | None = None
 
-    def _role_seed(self, role: str) -> int:
-        """Return the seed of a role, independent of those of other scenarios."""
+    def role_seed(self, role: str) -> int:
+        """Return the episode's seed of a role, independent of those of other scenarios."""
         return derive_seed(self.seed, f"{role}/{self.scenario.name}")
 
     @property
@@ -81,10 +84,13 @@ class Lift:
         """Whether the episode is over, by the horizon or by a drop."""
         return self.dropped is not None or self.frame >= self.horizon
 
-    def scripted_human(self) -> ScriptedHuman:
+    def scripted_human(self) -> Agent:
         """Return the agent that executes the human's plan, reset for the current episode."""
-        human = ScriptedHuman(subject=self.scenario.subject)
-        human.reset(self._role_seed("human"))
+        behaviour, subject = self.scenario.human, self.scenario.subject
+        human: Agent = ScriptedHuman(subject=subject)
+        if isinstance(behaviour, Embodied):
+            human = behaviour.person(subject)
+        human.reset(self.role_seed("human"))
         return human
 
     def step(self, human: ArrayLike, partner: ArrayLike) -> None:
@@ -110,9 +116,21 @@ class Lift:
 
     def carry_out(self, human: list[float], partner: list[float]) -> None:
         """Advance by one control period, by two actions that :func:`.checked_action` returned."""
-        commands = self.seat.commands(self, partner)
+        commands = self.commands(partner)
+        self.move(human, commands)
+        self.end(commands[-1])
+
+    def commands(self, partner: list[float]) -> Sequence[float]:
+        """Return the heights to reach at the far end, one a frame, for an action of its holder."""
+        return self.seat.commands(self, partner)
+
+    def move(self, human: Sequence[float], commands: Sequence[float]) -> None:
+        """Advance by a frame for each hand reference and command of the far end [m]."""
         self.world.advance(within_range(human), commands)
-        self.command = commands[-1]
+
+    def end(self, command: float) -> None:
+        """End the control period, all of whose frames have been made, with its last command [m]."""
+        self.command = command
         self.frame += self.frames_per_step
         self.dropped = self.task.failure(self)
 

@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 
 from ...agents.actions import ActionError
 from ...agents.errors import InputError
-from .episode import START
 from .lift import Lift
 from .metric import Scores
 from .recorder import Recorder
 from .trace import Trace
+from .turns import START
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -1,15 +1,16 @@
 """The seat at the robot's end: taken by a NAO or by a second human."""
 
 import math
-from collections.abc import Mapping
-from typing import Final, Protocol
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import ClassVar, Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...agents.actions import action_limit
 from ...agents.agent import Observation
-from ...agents.humans import PARTNER_SUBJECT, Subject
+from ...agents.humans import LIVE_SUBJECT, PARTNER_SUBJECT, Subject
 from ...robots.nao.kinematics import STROKE
 from ..world import BodyParameters, FarEnd, HumanFarEnd, NaoFarEnd
 from .task import Playing, Task
@@ -31,7 +32,7 @@ def body_parameters(person: Subject) -> BodyParameters:
     )
 
 
-def within_range(references: list[float]) -> list[float]:
+def within_range(references: Sequence[float]) -> Sequence[float]:
     """Return a human's references, clipped to the range of heights."""
     low, high = REFERENCE_RANGE
     if min(references) < low or max(references) > high:
@@ -70,13 +71,17 @@ class Seat(Protocol):
     def body(self) -> FarEnd:
         """The holder in the world."""
 
+    @property
+    def person(self) -> Subject | None:
+        """The second human; None if the holder is a robot."""
+
     def action_size(self, frames: int) -> int:
         """Return the length of an action, for ``frames`` frames per step."""
 
     def action_range(self, control_period: float) -> tuple[float, float]:
         """Return the lowest and the highest number of an action [m]."""
 
-    def commands(self, lift: Playing, action: list[float]) -> list[float]:
+    def commands(self, lift: Playing, action: list[float]) -> Sequence[float]:
         """Return the height to reach at the end of each frame of the step [m]."""
 
     def observation(self, task: Task, lift: Playing) -> Observation:
@@ -92,6 +97,7 @@ class NaoSeat:
     label: Final = "robot"
     is_robot: Final = True
     body: Final = NaoFarEnd()
+    person: Final = None
 
     def action_size(self, frames: int) -> int:
         """Return 1."""
@@ -102,7 +108,7 @@ class NaoSeat:
         limit = action_limit(control_period)
         return -limit, limit
 
-    def commands(self, lift: Playing, action: list[float]) -> list[float]:
+    def commands(self, lift: Playing, action: list[float]) -> Sequence[float]:
         """Return a ramp from the present command, clipped to the hands' speed and stroke."""
         start, size = lift.command, lift.frames_per_step
         change = limited_command(start, action[0], lift.step_limit) - start
@@ -117,12 +123,18 @@ class NaoSeat:
         return int((np.abs(actions) > limit).sum()) / len(actions) if len(actions) else math.nan
 
 
+@dataclass(frozen=True, kw_only=True)
 class HumanSeat:
     """A second human: an action is a hand reference for each frame [m]."""
 
-    label: Final = "partner"
-    is_robot: Final = False
-    body: Final = HumanFarEnd(body_parameters(PARTNER_SUBJECT))
+    person: Subject
+    label: ClassVar[str] = "partner"
+    is_robot: ClassVar[bool] = False
+
+    @property
+    def body(self) -> FarEnd:
+        """The person's arms."""
+        return HumanFarEnd(body_parameters(self.person))
 
     def action_size(self, frames: int) -> int:
         """Return one number per frame."""
@@ -132,7 +144,7 @@ class HumanSeat:
         """Return the range of heights [m]."""
         return REFERENCE_RANGE
 
-    def commands(self, lift: Playing, action: list[float]) -> list[float]:
+    def commands(self, lift: Playing, action: list[float]) -> Sequence[float]:
         """Return the references, clipped to the range of heights."""
         return within_range(action)
 
@@ -145,5 +157,9 @@ class HumanSeat:
         return math.nan
 
 
-SEATS: Final[Mapping[str, Seat]] = {"nao": NaoSeat(), "human": HumanSeat()}
-"""The holders of the robot's end by name."""
+SEATS: Final[Mapping[str, Seat]] = {
+    "nao": NaoSeat(),
+    "human": HumanSeat(person=PARTNER_SUBJECT),
+    "live": HumanSeat(person=LIVE_SUBJECT),
+}
+"""The holders of the robot's end by name: a NAO, the simulated second human, and a real one."""

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...agents.agent import Observation
 from ...agents.humans import Plan
-from ..world import World
+from ..world import BodyParameters, FarEnd, World
 from .metric import Metrics, Scores
 from .trace import Trace
 
@@ -35,6 +35,9 @@ class Playing(Protocol):
     """Frames since its beginning."""
     command: float
     """The robot's hand command [m]."""
+
+    def role_seed(self, role: str) -> int:
+        """Return the episode's seed of a role such as ``"sensor"``."""
 
     def robot_view(self) -> Observation:
         """Return the robot's senses, laid out as :class:`.RobotObservation`."""
@@ -67,6 +70,9 @@ class Task(Protocol):
     @property
     def metrics(self) -> Metrics:
         """Its metrics by name; the first is the leading one, ``rmse_mm``."""
+
+    def world(self, human: BodyParameters, far_end: FarEnd) -> World:
+        """Return a world of a person and a holder of the far end."""
 
     def robot_observation(self, lift: Playing) -> Observation:
         """Return the robot's observation at the beginning of a step."""

@@ -65,7 +65,7 @@ def play(policy: AgentSpec, scenario: Scenario, seeds: tuple[int, ...]) -> Itera
         for seed in seeds:
             with contextlib.ExitStack() as stack:
                 begin = time.perf_counter()
-                agent = _entered(stack, policy)
+                agent = entered(stack, policy)
                 made = time.perf_counter() - begin
                 episode = run_episode(lift, agent, seed)
                 taken = made + episode.policy_time
@@ -85,7 +85,11 @@ class _Unmade:
         raise self._error
 
 
-def _entered(stack: contextlib.ExitStack, policy: AgentSpec) -> Agent:
+def entered(stack: contextlib.ExitStack, policy: AgentSpec) -> Agent:
+    """Return a new agent of a policy, to be left with the stack.
+
+    The agent of a policy that cannot be made fails at its reset, with the same error.
+    """
     try:
         return stack.enter_context(policy.agent())
     except EvaluatorFault:

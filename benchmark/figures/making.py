@@ -6,6 +6,7 @@ import subprocess
 import sys
 import sysconfig
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -44,14 +45,14 @@ def statuses(root: Path) -> dict[str, FigureStatus]:
         name: FigureStatus(
             figure=figure,
             reasons=reasons_due(
-                figure, origin_of(figure), records.get(name), file_hashes(folder, figure)
+                figure, origin_of(figure, root), records.get(name), file_hashes(folder, figure)
             ),
         )
         for name, figure in read_figures(folder).items()
     }
 
 
-def remake(root: Path, figure: RecordedFigure, recordings: Path | None = None) -> list[str]:
+def remake(root: Path, figure: RecordedFigure, recordings: Sequence[Path] = ()) -> list[str]:
     """Run the command of a figure, record its output, and return the changes; none if equal.
 
     Parameters
@@ -61,16 +62,16 @@ def remake(root: Path, figure: RecordedFigure, recordings: Path | None = None) -
     figure
         The figure.
     recordings
-        File that stands for the figure's recordings.
+        Files that stand for the figure's recordings, in its order; further ones are not used.
 
     Raises
     ------
     InputError
-        If the figure needs recordings and there are none.
+        If the figure needs more recordings.
     EvaluatorFault
         If the command fails, or a file is missing afterwards: nothing is recorded.
     """
-    folder, origin = root / FOLDER, origin_of(figure)
+    folder, origin = root / FOLDER, origin_of(figure, root)
     found = command_output(root, figure, recordings)
     changes = []
     for name, content in found.items():
@@ -84,7 +85,7 @@ def remake(root: Path, figure: RecordedFigure, recordings: Path | None = None) -
 
 
 def command_output(
-    root: Path, figure: RecordedFigure, recordings: Path | None = None
+    root: Path, figure: RecordedFigure, recordings: Sequence[Path] = ()
 ) -> dict[str, bytes]:
     """Run the command of a figure and return the content of its files, by name.
 
@@ -92,13 +93,14 @@ def command_output(
     interpreter's ``colift`` and ``python``, on a terminal of :data:`COLUMNS` without colour.
     Arguments and errors are as for :func:`remake`.
     """
-    if figure.recordings and recordings is None:
-        raise InputError(f"{figure.name} needs {figure.recordings}, which colift does not contain")
+    missing = figure.recordings[len(recordings) :]
+    if missing:
+        raise InputError(f"{figure.name} needs {', '.join(missing)}, which colift does not contain")
     with tempfile.TemporaryDirectory(prefix="colift-figure-") as made:
         place = Path(made)
         (place / EXAMPLES).symlink_to(root / EXAMPLES)
-        if figure.recordings and recordings is not None:
-            shutil.copyfile(recordings, place / figure.recordings)
+        for file, name in zip(recordings, figure.recordings, strict=False):
+            shutil.copyfile(file, place / name)
         done = subprocess.run(
             ["bash", "-euc", figure.command],
             cwd=place,
@@ -118,8 +120,9 @@ def command_output(
 
 
 def _environment() -> dict[str, str]:
-    """Return the environment of a command: the same width everywhere, and no colour."""
+    """Return the environment of a command: the same width everywhere, no colour, no window."""
     scripts = (sysconfig.get_path("scripts"), str(Path(sys.executable).parent))
     path = os.pathsep.join((*dict.fromkeys(scripts), os.environ.get("PATH", os.defpath)))
     kept = {name: value for name, value in os.environ.items() if name != "FORCE_COLOR"}
-    return {**kept, "PATH": path, "COLUMNS": str(COLUMNS), "NO_COLOR": "1", "TERM": "dumb"}
+    fixed = {"COLUMNS": str(COLUMNS), "MPLBACKEND": "agg", "NO_COLOR": "1", "TERM": "dumb"}
+    return {**kept, **fixed, "PATH": path}

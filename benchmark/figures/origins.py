@@ -1,8 +1,11 @@
 """The origin of a figure: digests of all that its numbers depend on."""
 
 import functools
+import hashlib
 import importlib
+import re
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, Final
 
 from ...agents.errors import InputError
@@ -14,19 +17,24 @@ from .registry import ALL, RecordedFigure
 
 COLIFT: Final = __name__.partition(".")[0]
 
+SCRIPT: Final = re.compile(r"\bexamples/[\w/]+\.py\b")
+"""A script of the clone in a command."""
+
 Origin = dict[str, str]
-"""Digests, by what they are of: ``suite standard-v1``, ``policy blend``, ``command``."""
+"""Digests, by what they are of: ``suite standard-v1``, ``policy blend``, ``command``,
+``script examples/plot_plans.py``."""
 
 
-def origin_of(figure: RecordedFigure) -> Origin:
-    """Return the origin of a figure, as the code is now.
+def origin_of(figure: RecordedFigure, root: Path) -> Origin:
+    """Return the origin of a figure of the clone in the folder ``root``, as the code is now.
 
-    The command is part of it. A figure of the machine depends on nothing else that has a digest.
+    The command is part of it, and so are the scripts of ``examples`` that it names. A figure of
+    the machine depends on nothing else that has a digest.
 
     Raises
     ------
     InputError
-        If a suite, a policy or a definition does not exist.
+        If a suite, a policy, a definition or a script does not exist.
     """
     policies = own_entries(POLICIES) if ALL in figure.policies else figure.policies
     return {
@@ -34,6 +42,7 @@ def origin_of(figure: RecordedFigure) -> Origin:
         **{f"suite {name}": _suite(name) for name in figure.suites},
         **{f"policy {name}": _policy(name) for name in policies},
         **{f"code {place}": _code(place) for place in figure.code},
+        **{f"script {name}": _script(root, name) for name in SCRIPT.findall(figure.command)},
     }
 
 
@@ -55,3 +64,10 @@ def _code(place: str) -> str:
     except (ImportError, AttributeError):
         raise InputError(f"figures: there is no {name!r} in {COLIFT}.{module}") from None
     return code_hash(found)
+
+
+def _script(root: Path, name: str) -> str:
+    path = root / name
+    if not path.is_file():
+        raise InputError(f"figures: there is no {name!r} in {root}")
+    return hashlib.sha256(path.read_bytes()).hexdigest()[:16]

@@ -37,9 +37,8 @@ class RecordedFigure:
     """Other definitions that the numbers depend on, each as ``module:name`` without ``colift.``."""
     machine: bool = False
     """Whether the numbers are speeds of a machine: they are made again only on request."""
-    recordings: str = ""
-    """Name in the command of a file of recorded lifts that colift does not contain; empty if the
-    command needs none."""
+    recordings: tuple[str, ...] = ()
+    """Names in the command of files of recorded lifts that colift does not contain."""
 
     @property
     def files(self) -> tuple[str, ...]:

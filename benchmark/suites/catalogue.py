@@ -3,7 +3,14 @@
 from pathlib import Path
 
 from ...agents.errors import InputError
-from ...agents.humans import SUBJECTS, Behaviour, Recording, Subject, load_recordings
+from ...agents.humans import (
+    LIVE_SUBJECT,
+    SUBJECTS,
+    Behaviour,
+    Recording,
+    Subject,
+    load_recordings,
+)
 from ...agents.near_names import did_you_mean
 from ...agents.registry import HUMANS, TASKS, lookup
 from ..episode.level import LEVEL
@@ -12,9 +19,12 @@ from ..episode.task import Task
 
 RECORDED = "recorded"
 
+PLAYED = "played"
+"""The behaviour of live lifts; it needs their hands, so that it is not registered."""
+
 
 def make_subject(name: str) -> Subject:
-    """Return the subject of that name: one of the five, or ``draw-N``, a new person by seed N.
+    """Return a subject by name: one of the five, ``draw-N`` (a new person by seed N), or ``live``.
 
     Raises
     ------
@@ -23,6 +33,8 @@ def make_subject(name: str) -> Subject:
     """
     if name in SUBJECTS:
         return SUBJECTS[name]
+    if name == LIVE_SUBJECT.name:
+        return LIVE_SUBJECT
     kind, _, seed = name.partition("-")
     if kind == "draw" and seed.isdecimal():
         return Subject.draw(int(seed))

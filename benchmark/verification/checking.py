@@ -9,9 +9,10 @@ from ...agents.errors import EvaluatorFault
 from ...agents.hardware.decisions import POLICY_SHARE
 from ...agents.spec import AgentSpec
 from ..bundle import Results, results
-from ..episode.episode import START, Episode
+from ..episode.episode import Episode
 from ..episode.level_metrics import MOSTLY_CLIPPED
 from ..episode.scenario import CONTROL_PERIOD
+from ..episode.turns import START
 from ..execution.batches import play
 from ..execution.runner import Run
 from ..results.baselines import HUMAN_HUMAN, SPECS, Baseline, shipped_baselines

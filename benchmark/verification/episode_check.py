@@ -5,6 +5,8 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass
 
+import numpy as np
+
 from ...agents.errors import EvaluatorFault, InputError, error_text
 from ..bundle import Bundle, one_line
 from ..bundle.files import EPISODES, MANIFEST, TRACES
@@ -17,6 +19,7 @@ from ..episode.trace import Trace
 from ..execution.batches import SEEDS_PER_BATCH
 from ..suites.suite import Suite
 from .deviation import Place, beyond_tolerance, first_difference
+from .far_hand import far_actions
 from .verdict import Finding
 
 
@@ -66,6 +69,10 @@ def _check(lift: Lift, place: int, seed: int, claim: Episode, *, same_platform: 
     def finding(message: str, file: str = TRACES, step: int | None = None) -> Finding:
         return Finding(file=file, episode=one_line(name), step=step, message=message)
 
+    other = _other_hand(lift.scenario, logged)
+    if other is not None:
+        step, message = other
+        return Checked(place=place, finding=finding(message, step=step))
     try:
         found = replay(lift, seed, logged.human_action, logged.action, claim.failure)
     except ReplayError as error:
@@ -90,6 +97,20 @@ def _check(lift: Lift, place: int, seed: int, claim: Episode, *, same_platform: 
     return Checked(
         place=place, scores=scores, failure=found.failure, bit_equal=bit_equal, finding=wrong
     )
+
+
+def _other_hand(scenario: Scenario, logged: Trace) -> Place | None:
+    """Return the first step whose action is not that of the hand of a second person, or None."""
+    steps = len(logged.action)
+    expected = far_actions(scenario, steps)
+    if expected is None:
+        return None
+    equal = (expected.view(np.uint64) == np.ascontiguousarray(logged.action).view(np.uint64)).all(
+        axis=1
+    )
+    if equal.all():
+        return None
+    return int(equal.argmin()), "the action is not that of the hand at the far end"
 
 
 def _first(logged: Trace, error: ReplayError, *, same_platform: bool) -> Place:

@@ -35,7 +35,6 @@ class NaoArms:
     """Middle between the hands at rest, in the torso frame [m]."""
 
     def __init__(self, client: int, tree: int, physics: Physics, servo: Servo) -> None:
-        self._client = client
         self._path = path = arm_path()
         self._angles = path.joints
         weight_sag = -path.levers * path.gravity_torques / servo.stiffness

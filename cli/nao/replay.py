@@ -8,7 +8,7 @@ import typer
 
 from ...agents.hardware.rerun import logged_commands, rerun_trial
 from ...agents.hardware.trial_log import read_trial
-from ...benchmark.episode.episode import policy_seed
+from ...benchmark.episode.turns import policy_seed
 from ..options import PolicyIsolation
 from ..policies import AUTO, choose_policy
 

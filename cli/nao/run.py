@@ -18,7 +18,7 @@ from ...agents.hardware.trial_end import AfterDuration, AfterLift
 from ...agents.hardware.trial_log import LoggedTrial, TrialLog, write_trial
 from ...agents.spec import AgentSpec
 from ...benchmark.bundle import check_bundle_folder, results, write_bundle
-from ...benchmark.episode.episode import policy_seed
+from ...benchmark.episode.turns import policy_seed
 from ...benchmark.execution.runner import Run
 from ...benchmark.hardware.timing import timing_report
 from ...benchmark.hardware.trial import episode, hardware_run, hardware_suite

@@ -21,6 +21,9 @@ NAMES: Final = {
     "copy": "copy (goes where the human was)",
 }
 
+ON_ONE_LINE: Final = 5
+"""Metrics beside which a terminal of 80 columns has room for a heading of two words."""
+
 TIMES: Final = {
     "sensing_age_ms": "age of the newest frame",
     "state_ms": "reading the robot",
@@ -43,9 +46,10 @@ def results_table(content: Results, metrics: Metrics) -> Table:
     summary, strata = content.summary, content.strata
     shown = [each for each in metrics.values() if each.shown != "file" and each.name != LEADING]
     behaviours = dict.fromkeys(each.behaviour for each in strata)
+    people = "two people" if len(shown) <= ON_ONE_LINE else "two\npeople"
     return table(
         f"{content.policy} on {content.suite}",
-        ("human", "RMSE mm", "two people", *(metric.heading for metric in shown)),
+        ("human", "RMSE mm", people, *(metric.heading for metric in shown)),
         [
             *(
                 (name, *_row([each for each in strata if each.behaviour == name], shown))

@@ -302,7 +302,10 @@ class Board:
                 self._book.begin(FIRST, wanted, LOCAL)
         current = self._book.current()
         if suite not in (None, current.suite):
-            raise InputError(f"{self.folder} is a board of {current.suite}, not of {suite}")
+            raise InputError(
+                f"{self.folder} is a board of {current.suite}, not of {suite}: give another folder "
+                f"with --board, or begin a season with colift season begin NAME --suite {suite}"
+            )
         self.store.secrets(current.name).secret()
 
     @contextmanager

@@ -12,6 +12,8 @@ class ServiceLinks:
     """Path below which it is served, without a slash at its end."""
     documentation: str = ""
     """Address of the documentation, if there is one."""
+    lifting: str = ""
+    """Address of live lifts, if there are any."""
 
     @property
     def live(self) -> bool:
@@ -90,9 +92,15 @@ class ServiceLinks:
         """Return ``/api``."""
         return f"{self.root}/api"
 
-    def docs(self) -> str:
-        """Return the address of the documentation; nothing without one."""
-        return self.documentation
+    def docs(self, page: str = "") -> str:
+        """Return the address of the documentation, or of one of its pages; nothing without one."""
+        if not (self.documentation and page):
+            return self.documentation
+        return f"{self.documentation.removesuffix('index.html').rstrip('/')}/{page}.html"
+
+    def play(self) -> str:
+        """Return ``/play/``; nothing without live lifts."""
+        return self.lifting
 
     def asset(self, name: str) -> str:
         """Return ``/static/NAME``."""
@@ -186,8 +194,12 @@ class SiteLinks:
         """Return nothing."""
         return ""
 
-    def docs(self) -> str:
+    def docs(self, page: str = "") -> str:
         """Return nothing."""
+        return ""
+
+    def play(self) -> str:
+        """Return nothing: lifts need a service."""
         return ""
 
     def asset(self, name: str) -> str:

@@ -38,7 +38,7 @@ SUITES: Final = (STANDARD, "paper-v1")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Played:
+class PracticeRun:
     """A built-in policy's evaluation in a practice season."""
 
     entry: BoardEntry
@@ -67,7 +67,7 @@ def play_policy(
     *,
     executor: Executor | None = None,
     watch: Callbacks | None = None,
-) -> Played:
+) -> PracticeRun:
     """Evaluate a built-in policy like a submission.
 
     Parameters
@@ -105,14 +105,14 @@ def play_policy(
         row=evaluation.row,
         refusal=None,
     )
-    return Played(
+    return PracticeRun(
         entry=entry,
         hidden_rmse_mm=evaluation.hidden_rmse_mm,
         files={**files, FILE: json.dumps(replays, separators=(",", ":")).encode()},
     )
 
 
-def is_current(played: Played, season: Season) -> bool:
+def is_current(played: PracticeRun, season: Season) -> bool:
     """Return whether policy, suite and versions are still those of an evaluation."""
     row = played.entry.row
     return (

@@ -22,7 +22,7 @@ from ...benchmark.suites.suite import make_suite
 from ..board.board import SUITE, Board
 from ..board.seasons import ImportedEntry, ImportedSeason
 from ..records.season import BoardEntry, SeasonInfo
-from .practice import SUITES, Played, practice_season
+from .practice import SUITES, PracticeRun, practice_season
 
 FORMAT: Final = 2
 
@@ -42,7 +42,7 @@ class PlayedSeason:
     began_at: datetime
     human_human: Baseline
     """The human-human baseline on the hidden episodes."""
-    played: tuple[Played, ...]
+    played: tuple[PracticeRun, ...]
     """In the order of their names."""
 
     @classmethod
@@ -85,7 +85,7 @@ class PlayedSeason:
             partial.write_bytes(data)
             partial.replace(target)
 
-    def with_played(self, new: Played) -> Self:
+    def with_played(self, new: PracticeRun) -> Self:
         """Return the same with a policy's evaluation added, or in the place of an older one."""
         others = [each for each in self.played if each.entry.name != new.entry.name]
         played = sorted([*others, new], key=lambda each: each.entry.name)
@@ -145,11 +145,11 @@ def practice_import(
         yield ImportedSeason(info=info, entries=entries, human_human=found.human_human)
 
 
-def _played(content: dict[str, Any], packed: zipfile.ZipFile) -> Played:
+def _played(content: dict[str, Any], packed: zipfile.ZipFile) -> PracticeRun:
     entry = BoardEntry.read(content["entry"])
     prefix = f"{entry.name}/"
     names = [name for name in packed.namelist() if name.startswith(prefix)]
-    return Played(
+    return PracticeRun(
         entry=entry,
         hidden_rmse_mm=tuple(content["hidden_rmse_mm"]),
         files={name.removeprefix(prefix): packed.read(name) for name in names},

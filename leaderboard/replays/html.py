@@ -18,6 +18,7 @@ from .geometry import geometry
 SCRIPTS: Final = (
     "replay-words.js",
     "replay-lift.js",
+    "replay-bodies.js",
     "replay-scene.js",
     "replay-curves.js",
     "replay-charts.js",

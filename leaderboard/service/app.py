@@ -38,6 +38,7 @@ def create_app(
     contact: str = "",
     quota: Quota | None = None,
     docs: Documentation | None = None,
+    play: bool = False,
 ) -> FastAPI:
     """Return the service of the board in a folder.
 
@@ -53,6 +54,8 @@ def create_app(
         How much a submitter may ask for.
     docs
         The documentation that the pages link to.
+    play
+        Whether the pages link to live lifts, under :data:`.PLAY`.
 
     Raises
     ------
@@ -96,6 +99,7 @@ def create_app(
         uploads=RateLimit(rate=rates.submitter),
         contact=contact,
         docs=docs,
+        play=play,
     )
     answer_errors(app)
     app.add_middleware(GZipMiddleware)

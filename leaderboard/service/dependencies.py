@@ -15,6 +15,9 @@ from .errors import Problem
 from .security import Rate, RateLimit
 from .slots import Slots
 
+PLAY: Final = "/play"
+"""Path of live lifts, below the board's root."""
+
 PATIENCE_S: Final = 20.0
 """How long an upload or download waits for its turn [s]."""
 
@@ -45,6 +48,8 @@ class State:
     """How the maintainer is reached."""
     docs: Documentation | None = None
     """The documentation that the pages link to."""
+    play: bool = False
+    """Whether the pages link to live lifts."""
     receiving: Slots = field(
         default_factory=lambda: Slots(what="uploads", each=2, total=32, patience_s=PATIENCE_S)
     )
@@ -125,5 +130,9 @@ def api_root(request: Request) -> str:
 def links_of(request: Request) -> ServiceLinks:
     """Return the addresses of the pages, as the client sees them."""
     root = str(request.scope.get("root_path", "")).rstrip("/")
-    docs = service_state(request).docs
-    return ServiceLinks(root, "" if docs is None else docs.link(root))
+    state = service_state(request)
+    return ServiceLinks(
+        root,
+        "" if state.docs is None else state.docs.link(root),
+        f"{root}{PLAY}/" if state.play else "",
+    )

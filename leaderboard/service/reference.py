@@ -26,7 +26,7 @@ def api_page(service: Service, request: Request) -> HTMLResponse:
             root=links.root,
             url=request.app.openapi_url,
             info=document["info"],
-            operations=operations(document),
-            schemas=schemas(document),
+            operations=list(operations(document)),
+            schemas=list(schemas(document)),
         )
     )

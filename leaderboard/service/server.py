@@ -1,5 +1,6 @@
 """The server process: its socket, its HTTP server and its worker processes."""
 
+import asyncio
 import contextlib
 import logging
 import os
@@ -37,6 +38,13 @@ GRACE_S: Final = 3
 """What open connections have to end, when the service does [s]."""
 
 
+SOCKET_BYTES: Final = 4096
+"""Longest message that a client may send on a WebSocket."""
+
+PING_S: Final = 10.0
+"""How often a WebSocket is pinged, and how long it may take to answer [s]."""
+
+
 class _Server(uvicorn.Server):
     """A server that ignores further signals while it ends: a second one would not wait."""
 
@@ -45,7 +53,9 @@ class _Server(uvicorn.Server):
             super().handle_exit(sig, frame)
 
 
-def make_server(app: FastAPI, root: str = "") -> uvicorn.Server:
+def make_server(
+    app: FastAPI, root: str = "", sockets: type[asyncio.Protocol] | None = None
+) -> uvicorn.Server:
     """Return a server of an application; it logs by the loggers that there are.
 
     Parameters
@@ -54,6 +64,8 @@ def make_server(app: FastAPI, root: str = "") -> uvicorn.Server:
         The application.
     root
         Path below which a proxy shows it, such as ``/board``; the proxy takes it away.
+    sockets
+        Protocol of WebSockets; without it there are none.
     """
     config = uvicorn.Config(
         app,
@@ -62,6 +74,11 @@ def make_server(app: FastAPI, root: str = "") -> uvicorn.Server:
         access_log=False,
         server_header=False,
         timeout_graceful_shutdown=GRACE_S,
+        ws="none" if sockets is None else sockets,
+        ws_max_size=SOCKET_BYTES,
+        ws_per_message_deflate=False,  # Frames are small, and come 100 times a second.
+        ws_ping_interval=PING_S,
+        ws_ping_timeout=PING_S,
     )
     return _Server(config)
 

@@ -2,128 +2,13 @@
 // The lift from the side: robot, table, person, and the human-human baseline as a ghost.
 // Lengths are in m; x goes from the robot to the human, z upwards (see replays/geometry.py).
 (function () {
-  const SVG = "http://www.w3.org/2000/svg";
   const VIEW = { left: -0.66, right: 1.72, top: 0.93, bottom: -0.95 };
   const LEVEL = { x: 0.56, z: 0.7, half: 0.36, height: 0.085, full: 40 };
   const LETTERS = 13; // pixels
   const NARROW = 480; // pixels: below it there is no room for numbers in the scene
-  const ARC = 20; // pieces of a half circle
 
-  function make(name, attributes, parent) {
-    const node = document.createElementNS(SVG, name);
-    for (const key of Object.keys(attributes || {})) node.setAttribute(key, attributes[key]);
-    if (parent) parent.appendChild(node);
-    return node;
-  }
-
-  // A tapered rod between two balls, as a path; `depth` is its width as a fraction.
-  function rod(a, b, depth) {
-    const length = Math.hypot(b.x - a.x, b.z - a.z);
-    const slope = length > Math.abs(a.r - b.r) ? Math.asin((a.r - b.r) / length) : 0;
-    const along = length ? { x: (b.x - a.x) / length, z: (b.z - a.z) / length } : { x: 0, z: 1 };
-    const points = [];
-    for (const [ball, from, to] of [
-      [{ v: length, r: b.r }, slope, Math.PI - slope],
-      [{ v: 0, r: a.r }, Math.PI - slope, 2 * Math.PI + slope],
-    ]) {
-      for (let i = 0; i <= ARC; i++) {
-        const angle = from + ((to - from) * i) / ARC;
-        const u = depth * ball.r * Math.cos(angle);
-        const v = ball.v + ball.r * Math.sin(angle);
-        points.push([a.x + u * along.z + v * along.x, a.z - u * along.x + v * along.z]);
-      }
-    }
-    return "M" + points.map(([x, z]) => x.toFixed(4) + " " + (-z).toFixed(4)).join("L") + "Z";
-  }
-
-  // Neighbours of one colour: drawn with all outlines first, they melt into one shape.
-  function groups(body) {
-    const found = [];
-    for (const part of body) {
-      const last = found[found.length - 1];
-      if (last && last[0][7] === part[7]) last.push(part);
-      else found.push([part]);
-    }
-    return found;
-  }
-
-  // Where the joints of an arm are when its hands are at a height above rest.
-  function armAt(arm, height) {
-    const last = arm.rows.length - 1;
-    const place = Math.min(Math.max((height - arm.lowest) / arm.step, 0), last);
-    const row = Math.min(Math.floor(place), last - 1);
-    const part = place - row;
-    return arm.rows[row].map((low, i) => {
-      const high = arm.rows[row + 1][i];
-      return { x: low[0] + part * (high[0] - low[0]), z: low[1] + part * (high[1] - low[1]) };
-    });
-  }
-
-  class Person {
-    constructor(parent, geometry, x, facing, kind) {
-      this.group = make("g", { class: "replay-person " + kind }, parent);
-      this.arm = geometry.person.arm;
-      this.at = (p) => ({ x: x + facing * p.x, z: geometry.floor + p.z });
-      for (const parts of groups(geometry.person.body)) {
-        const paths = parts.map(([x0, z0, r0, x1, z1, r1, depth]) =>
-          rod({ ...this.at({ x: x0, z: z0 }), r: r0 }, { ...this.at({ x: x1, z: z1 }), r: r1 }, depth)
-        );
-        const paint = "paint-" + parts[0][7];
-        for (const kind of ["outline", paint]) {
-          for (const d of paths) make("path", { d, class: kind }, this.group);
-        }
-      }
-      const part = (paint) => make("path", { class: "paint-" + paint }, this.front);
-      this.front = make("g", { class: "replay-front" }, this.group);
-      this.limbs = ["shirt", "skin", "skin"].map(part);
-    }
-
-    pose(height) {
-      const [shoulder, elbow, wrist, hand] = armAt(this.arm, height).map(this.at);
-      const draw = (limb, a, ra, b, rb) =>
-        limb.setAttribute("d", rod({ ...a, r: ra }, { ...b, r: rb }, 1));
-      draw(this.limbs[0], shoulder, 0.066, elbow, 0.046);
-      draw(this.limbs[1], elbow, 0.042, wrist, 0.03);
-      draw(this.limbs[2], wrist, 0.035, hand, 0.033);
-    }
-  }
-
-  class Nao {
-    constructor(parent, geometry) {
-      for (const link of geometry.nao.body) {
-        const group = make("g", { class: "replay-nao" }, parent);
-        for (const kind of ["outline", ""]) {
-          for (const [x, z, w, h, turn, rx, paint] of link) {
-            const place = { x: x - w / 2, y: -z - h / 2, width: w, height: h, rx };
-            const turned = { transform: `rotate(${turn} ${x} ${-z})` };
-            make("rect", { ...place, ...turned, class: kind || "paint-" + paint }, group);
-          }
-        }
-      }
-    }
-  }
-
-  class NaoArm {
-    constructor(parent, geometry) {
-      this.arm = geometry.nao.arm;
-      const group = make("g", { class: "replay-nao" }, parent);
-      const part = (paint) => make("path", { class: "paint-" + paint }, group);
-      this.parts = ["white", "orange", "grey", "white", "orange", "white"].map(part);
-    }
-
-    pose(height) {
-      const [shoulder, elbow, wrist, hand] = armAt(this.arm, height);
-      const between = (a, b, t) => ({ x: a.x + t * (b.x - a.x), z: a.z + t * (b.z - a.z) });
-      const draw = (i, a, ra, b, rb) =>
-        this.parts[i].setAttribute("d", rod({ ...a, r: ra }, { ...b, r: rb }, 1));
-      draw(0, shoulder, 0.036, elbow, 0.026);
-      draw(1, shoulder, 0.019, shoulder, 0.019);
-      draw(2, elbow, 0.0255, elbow, 0.0255);
-      draw(3, between(elbow, wrist, 0.25), 0.027, wrist, 0.025);
-      draw(4, between(wrist, hand, 0.05), 0.022, between(wrist, hand, 0.2), 0.022);
-      draw(5, between(wrist, hand, 0.45), 0.02, hand, 0.017);
-    }
-  }
+  const colift = window.coliftReplay;
+  const { make, Nao, NaoArm, Person } = colift;
 
   // The table between its two ends; with one shape for the board and one for each end's colour.
   class Table {
@@ -155,7 +40,7 @@
   class Level {
     constructor(parent) {
       const { x, z, half, height } = LEVEL;
-      const group = make("g", { class: "replay-level" }, parent);
+      const group = (this.group = make("g", { class: "replay-level" }, parent));
       const tube = { x: x - half, y: -z - height / 2, width: 2 * half, height, rx: height / 2 };
       make("rect", { ...tube, class: "tube" }, group);
       for (const mm of [-20, -10, 10, 20]) {
@@ -177,20 +62,20 @@
       this.real.setAttribute("cx", at(difference));
       this.ghost.setAttribute("cx", at(ghost));
       this.real.classList.toggle("none", over);
-      this.text.textContent = over ? "the lift is over" : coliftReplay.differenceWords(difference);
+      const words = over ? "the lift is over" : colift.differenceWords(difference);
+      if (this.words !== words) this.text.textContent = this.words = words;
     }
   }
 
   class Scene {
     constructor(host, geometry) {
-      const { left, right, top, bottom } = VIEW;
       this.svg = make("svg", {
         class: "replay-scene",
-        viewBox: `${left} ${-top} ${right - left} ${top - bottom}`,
         role: "img",
         "aria-label": "The robot, the table and the person from the side",
       });
       host.appendChild(this.svg);
+      this.look(VIEW);
       const svg = this.svg;
       const { floor, pedestal, grip, table } = geometry;
       const robotX = grip[0];
@@ -222,6 +107,13 @@
       this.humanX = humanX;
     }
 
+    // What is seen of the scene.
+    look(view) {
+      const { left, right, top, bottom } = view;
+      this.view = view;
+      this.svg.setAttribute("viewBox", `${left} ${-top} ${right - left} ${top - bottom}`);
+    }
+
     // A scale at each end of the table.
     rulers(svg, robotX, humanX, rest) {
       this.labels = [];
@@ -245,7 +137,7 @@
     fit() {
       const width = this.svg.getBoundingClientRect().width;
       if (!width) return;
-      const pixel = (VIEW.right - VIEW.left) / width;
+      const pixel = (this.view.right - this.view.left) / width;
       const size = (pixels) => Math.min(pixels * pixel, 0.075).toFixed(4);
       for (const label of this.labels) {
         label.classList.toggle("none", width < NARROW);
@@ -276,7 +168,5 @@
     }
   }
 
-  window.coliftReplay = window.coliftReplay || {};
-  window.coliftReplay.Scene = Scene;
-  window.coliftReplay.make = make;
+  colift.Scene = Scene;
 })();

@@ -11,6 +11,8 @@
     jerky: "lifts in jerks",
     changing_goal: "changes the goal on the way",
     recorded: "repeats a recorded lift",
+    cued: "follows cues",
+    played: "lifted live",
   };
   const EVENTS = {
     ready: "waits",

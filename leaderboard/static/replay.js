@@ -267,6 +267,7 @@
     }
 
     key(event) {
+      if (!this.root.getClientRects().length) return; // It is not shown.
       if (event.ctrlKey || event.altKey || event.metaKey || event.defaultPrevented) return;
       const { target } = event;
       const typing = target.matches && target.matches("select, textarea, input:not([type=range], [type=checkbox])");
@@ -291,6 +292,8 @@
       does();
     }
   }
+
+  colift.Player = Player;
 
   function start() {
     document.querySelectorAll("[data-replay]").forEach((root, index) => {

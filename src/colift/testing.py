@@ -24,6 +24,9 @@ from .benchmark.episode.task import Task
 from .benchmark.suites.catalogue import make_scenario
 from .benchmark.suites.suite import Suite, plain_name
 
+ROUNDING: Final = 1e-9
+"""Rounding of heights [m]."""
+
 PLANS: Final = 60
 """Plans of a behaviour that are checked."""
 
@@ -106,12 +109,16 @@ def _check_plan(plan: Plan, which: str) -> None:
     velocity = np.diff(target, prepend=0.0) / FRAME
     lowest, highest = GOAL_RANGE
     _require(
-        lowest <= plan.goal <= highest and plan.goal == target.max(),
-        f"{which}: the goal is {plan.goal:.3f} m; must be the highest target, {target.max():.3f}, "
-        f"and in [{lowest}, {highest}] m",
+        plan.goal == target.max(),
+        f"{which}: the goal is {plan.goal} m; must be the highest target, {target.max()} m",
+    )
+    _require(
+        lowest - ROUNDING <= plan.goal <= highest + ROUNDING,
+        f"{which}: the highest target is {plan.goal:.4f} m; must be in GOAL_RANGE, {lowest} to "
+        f"{highest} m",
     )
     ends = max(abs(float(target[0])), abs(float(target[-1])))
-    _require(ends < 1e-9, f"{which}: the plan must begin and end at height 0")
+    _require(ends < ROUNDING, f"{which}: the plan must begin and end at height 0")
     speed, change = np.abs(velocity).max(), np.abs(np.diff(velocity)).max() / FRAME
     _require(speed < FASTEST, f"{which}: {speed:.2f} m/s is too fast; at most {FASTEST} m/s")
     _require(change < STEEPEST, f"{which}: the velocity has a step of {change * FRAME:.3f} m/s")

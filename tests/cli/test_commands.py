@@ -282,7 +282,7 @@ def test_alone_it_says_how_to_begin(colift):
     assert len(lines) < 15
     assert all(len(line) <= 80 for line in lines)
     told = [line.split()[1] for line in lines if line.startswith("  colift ")]
-    assert told == ["run", "list", "compare", "new", "check", "submit", "serve"]
+    assert told == ["run", "list", "compare", "play", "new", "check", "submit", "serve"]
     assert set(told) <= set(COMMANDS)
 
 

@@ -10,7 +10,7 @@ suites = ["quick-v1"]
 
 [lifts]
 command = "cat lifts.csv"
-recordings = "lifts.csv"
+recordings = ["lifts.csv"]
 suites = ["quick-v1"]
 
 [speed]

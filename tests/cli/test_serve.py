@@ -15,6 +15,8 @@ from colift.agents.extras import how_to_install
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.tokens import Tokens
 
+from ..leaderboard.live.pages import Page, new_session
+
 
 def parent(process):
     """Return the id of a process's parent, and whether it is still there."""
@@ -180,3 +182,27 @@ def test_without_its_libraries_it_says_how_to_get_them(folder):
     assert done.returncode == 2
     assert how_to_install("board") in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_visitors_lift_if_the_board_offers_rooms(serve, folder):
+    _, line = serve("--port", "0", "--workers", "0", "--play", "1", "--root", "/lab")
+    url = re.search(r"http://127\.0\.0\.1:\d+", line)[0]
+    assert '<a href="/lab/play/">Lift</a>' in httpx.get(f"{url}/", timeout=30).text
+    page = httpx.get(f"{url}/play/")
+    assert page.headers["Cross-Origin-Embedder-Policy"] == "require-corp"
+    assert page.headers["Content-Security-Policy"].startswith("default-src 'self'")
+    assert 'class="brand" href="/lab/"' in page.text
+    for place in re.findall(r'(?:src|href)="/lab(/play/\S+)"', page.text):
+        assert httpx.get(f"{url}{place}").status_code == 200
+    session = new_session(f"{url}/play")
+    with Page(f"{url}/play", *session) as visitor:
+        visitor.until("joined", "queued")  # As busy as this machine is.
+    assert (folder / "live" / session[0] / "session.json").is_file()
+
+
+def test_a_board_without_rooms_has_no_sockets(serve):
+    _, line = serve("--port", "0", "--workers", "0")
+    url = re.search(r"http://127\.0\.0\.1:\d+", line)[0]
+    assert ">Lift</a>" not in httpx.get(f"{url}/", timeout=30).text
+    upgrade = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13"}
+    assert httpx.get(f"{url}/play/socket", headers=upgrade).status_code == 404

@@ -36,9 +36,10 @@ def test_it_conforms():
 
 
 def test_its_metric_is_in_the_table_the_csv_and_the_json_and_its_bundle_verifies(colift, tmp_path):
-    done = colift("run", "copy", "--suite", "slope-v1", "--out", "mine", COLUMNS="140")
+    done = colift("run", "copy", "--suite", "slope-v1", "--out", "mine", COLUMNS="82")
     assert done.returncode == 0, done.stderr
     assert "slope mm" in done.stdout
+    assert all(f"\n  {name} " in done.stdout for name in ("smooth", "changing_goal"))
     rows = list(csv.DictReader((tmp_path / "mine/episodes.csv").read_text().splitlines()))
     errors = [float(row["slope_error_mm"]) for row in rows]
     assert len(errors) == 12

@@ -30,8 +30,9 @@ from colift.benchmark.suites.suite import make_suite
 LOOSE = ("agents.actions", "agents.agent")
 APPEARANCE = ("colift.robots.nao.shapes",)
 """What a robot looks like: no lift depends on it, so that no number there changes a digest."""
-SUITE = (*PLAYS_AND_SCORES, *PLANS, Scenario, humans.Subject, humans.Recording)
-"""The roots of what a suite's digest has of the code."""
+LIVE = (humans.Played, humans.Cued, humans.HandLog, humans.PersonAsRobot)
+SUITE = (*PLAYS_AND_SCORES, *PLANS, Scenario, humans.Subject, humans.Recording, *LIVE)
+"""The roots of what a suite's digest has of the code, live lifts included."""
 
 PLAY = """
 import json, sys

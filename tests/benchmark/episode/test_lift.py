@@ -225,3 +225,22 @@ class TestSettings:
         while not made.done:
             made.step(human.act(made.human_observation()), NO_CHANGE)
         assert made.truncated
+
+
+@pytest.mark.parametrize("partner", ["nao", "human", "live"])
+def test_a_step_made_frame_by_frame_has_the_same_bits(partner):
+    whole, parts = lift(partner=partner), lift(partner=partner)
+    human = whole.scripted_human()
+    for _ in range(40):
+        references = human.act(whole.human_observation()).tolist()
+        action = [0.008] if partner == "nao" else [0.9 * each for each in references]
+        whole.carry_out(references, action)
+        commands = parts.commands(action)
+        for reference, command in zip(references, commands, strict=True):
+            parts.move([reference], [command])
+        parts.end(commands[-1])
+        assert parts.world.state() == whole.world.state()
+    assert since_reset(parts.world.robot_force).tolist() == (
+        since_reset(whole.world.robot_force).tolist()
+    )
+    assert (parts.frame, parts.command, parts.dropped) == (400, whole.command, None)

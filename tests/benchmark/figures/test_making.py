@@ -21,7 +21,7 @@ policies = ["copy"]
 
 [recorded]
 command = "wc -l < lifts.csv; ls examples; echo $COLUMNS $NO_COLOR; ls /proc/self/fd/0 >&2"
-recordings = "lifts.csv"
+recordings = ["lifts.csv"]
 suites = ["quick-v1"]
 
 [failing]
@@ -81,7 +81,7 @@ def test_recordings_come_from_outside(root, figures, tmp_path):
         remake(root, figures["recorded"])
     lifts = tmp_path / "any name.csv"
     lifts.write_text("1\n2\n3\n")
-    found = command_output(root, figures["recorded"], lifts)
+    found = command_output(root, figures["recorded"], [lifts, tmp_path / "not used.csv"])
     assert found == {"recorded.txt": b"3\none.py\n120 1\n"}
 
 

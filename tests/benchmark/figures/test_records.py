@@ -23,23 +23,37 @@ FILES = {"table.txt": "c"}
 RECORD = FigureRecord(origin=ORIGIN, files=FILES)
 
 
-def test_an_origin_has_the_digests_of_suites_policies_and_code():
+def test_an_origin_has_the_digests_of_suites_policies_and_code(tmp_path):
     figure = dataclasses.replace(FIGURE, code=("benchmark.bounds.oracle:foreknow",))
-    origin = origin_of(figure)
+    origin = origin_of(figure, tmp_path)
     assert origin["command"] == "colift list"
     assert origin["suite quick-v1"] == make_suite("quick-v1").digest
     assert origin["policy copy"] == PolicySpec(text="copy").digest()
     assert len(origin["code benchmark.bounds.oracle:foreknow"]) == 16
-    everything = origin_of(dataclasses.replace(FIGURE, policies=("*",)))
+    everything = origin_of(dataclasses.replace(FIGURE, policies=("*",)), tmp_path)
     assert sum(name.startswith("policy ") for name in everything) == len(own_entries(POLICIES))
 
 
 @pytest.mark.parametrize(
     "place", ["benchmark.bounds.oracle:nothing", "benchmark.nowhere:x", "benchmark"]
 )
-def test_code_that_does_not_exist_is_an_error(place):
+def test_code_that_does_not_exist_is_an_error(place, tmp_path):
     with pytest.raises(InputError, match="there is no"):
-        origin_of(dataclasses.replace(FIGURE, code=(place,)))
+        origin_of(dataclasses.replace(FIGURE, code=(place,)), tmp_path)
+
+
+def test_a_script_of_the_command_is_part_of_the_origin(tmp_path):
+    figure = dataclasses.replace(FIGURE, command="python examples/one.py > /dev/null")
+    with pytest.raises(InputError, match=r"there is no 'examples/one\.py'"):
+        origin_of(figure, tmp_path)
+    (tmp_path / "examples").mkdir()
+    script = tmp_path / "examples" / "one.py"
+    script.write_text("print(1)")
+    before = origin_of(figure, tmp_path)
+    assert len(before["script examples/one.py"]) == 16
+    script.write_text("print(2)")
+    after = origin_of(figure, tmp_path)
+    assert {name for name in after if after[name] != before[name]} == {"script examples/one.py"}
 
 
 def test_a_figure_with_the_same_origin_and_files_is_current():

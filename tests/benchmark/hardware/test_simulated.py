@@ -13,7 +13,7 @@ from colift.agents.hardware.session import Session
 from colift.agents.hardware.stops import Stop, StopTrialError
 from colift.agents.hardware.trial_end import AfterLift
 from colift.agents.loading.loading import PolicySpec
-from colift.benchmark.episode.episode import policy_seed
+from colift.benchmark.episode.turns import policy_seed
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.hardware.faults import Fault
 from colift.benchmark.hardware.laboratory import Conditions

@@ -10,7 +10,7 @@ from colift.agents.humans import SUBJECTS
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.registry import SUITES, own_entries
 from colift.agents.spec import InProcess
-from colift.benchmark.episode.episode import policy_seed
+from colift.benchmark.episode.turns import policy_seed
 from colift.benchmark.execution.batches import shuffled_batches
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import human_human_run

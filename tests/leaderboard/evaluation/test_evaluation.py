@@ -11,7 +11,7 @@ from colift.agents.errors import EvaluatorFault, InputError
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.spec import InProcess
 from colift.benchmark.bundle import read_bundle
-from colift.benchmark.episode.episode import policy_seed
+from colift.benchmark.episode.turns import policy_seed
 from colift.benchmark.execution.batches import play
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.hidden import commitment

@@ -3,6 +3,7 @@
 import httpx
 import pytest
 from colift.agents.errors import InputError
+from colift.leaderboard.pages.links import ServiceLinks
 from colift.leaderboard.service.documentation import Documentation
 from playwright.sync_api import Page, expect
 
@@ -52,6 +53,30 @@ def test_files_outside_the_folder_are_not_served(folder, manual):
 def test_without_documentation_there_is_no_link(url):
     assert "Documentation" not in httpx.get(f"{url}/").text
     assert httpx.get(f"{url}/docs/").status_code == 404
+
+
+def test_the_table_links_to_the_page_on_real_people(folder, manual, page: Page):
+    (manual / "background").mkdir()
+    (manual / "background" / "validity.html").write_text("<!doctype html><h1>Real people</h1>")
+    with running(folder, Documentation.at(str(manual))) as url:
+        for path in ("/", "/method"):
+            page.goto(f"{url}{path}")
+            page.get_by_role("link", name="How far to believe this table").click()
+            expect(page).to_have_url(f"{url}/docs/background/validity.html")
+            expect(page.get_by_role("heading", name="Real people")).to_be_visible()
+
+
+def test_without_documentation_the_table_names_the_command(url):
+    text = httpx.get(f"{url}/").text
+    assert "How far to believe this table" in text
+    assert "<code>colift validity FILE.csv</code>" in text
+    assert "validity.html" not in text
+
+
+@pytest.mark.parametrize("place", ["https://host/docs", "https://host/docs/index.html"])
+def test_a_page_of_the_documentation_has_an_address(place):
+    links = ServiceLinks("", Documentation.at(place).link(""))
+    assert links.docs("background/validity") == "https://host/docs/background/validity.html"
 
 
 @pytest.mark.parametrize("place", ["nowhere", "ftp://host/docs", "javascript:alert(1)"])

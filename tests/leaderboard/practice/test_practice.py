@@ -7,11 +7,14 @@ from datetime import UTC, datetime
 
 import pytest
 from colift.agents.errors import InputError
+from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.execution.runner import run_suite
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.evaluation.entrant import builtin_entrant, builtin_names
 from colift.leaderboard.evaluation.evaluation import play_human_human
 from colift.leaderboard.practice.practice import is_current, play_policy, practice_season
 from colift.leaderboard.practice.season_import import DATA, PlayedSeason, practice_import
+from colift.leaderboard.practice.shipped_scores import shipped_scores
 from colift.leaderboard.replays.chosen import replays_of
 
 SUITE = "tiny"
@@ -138,3 +141,21 @@ def test_what_the_project_ships_is_of_its_suites(suite):
     assert found.suite_digest == season.suite.digest
     assert {each.entry.name for each in found.played} == set(builtin_names())
     assert all(each.entry.row.commitment == season.commitment for each in found.played)
+
+
+def test_the_public_scores_are_those_of_a_run(shipped, season):
+    found = shipped_scores(season.suite, shipped)
+    assert list(found) == ["copy"]
+    run = run_suite(PolicySpec(text="copy"), season.suite)
+    assert found["copy"].tolist() == [episode.scores["rmse_mm"] for episode in run.episodes]
+    assert shipped_scores(season.suite.with_seeds(0, 1), shipped) == {}
+    other = dataclasses.replace(season.suite, seeds=(7, 8))
+    assert shipped_scores(other, shipped) == {}
+
+
+def test_scores_of_a_policy_that_has_changed_are_not_public(shipped, season, tmp_path):
+    changed = PlayedSeason.read(SUITE, shipped)
+    (copy,) = changed.played
+    entry = dataclasses.replace(copy.entry, submission="0" * 64)
+    changed.with_played(dataclasses.replace(copy, entry=entry)).write(tmp_path)
+    assert shipped_scores(season.suite, tmp_path) == {}

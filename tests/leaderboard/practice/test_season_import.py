@@ -6,7 +6,7 @@ from datetime import UTC, datetime
 import pytest
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.board.board import Board
-from colift.leaderboard.practice.practice import Played
+from colift.leaderboard.practice.practice import PracticeRun
 from colift.leaderboard.practice.season_import import PlayedSeason, open_with_practice
 from colift.leaderboard.records.season import BoardEntry
 
@@ -29,7 +29,9 @@ def data(tmp_path, human_human):
         row=make_row("blend", season=SEASON),
         refusal=None,
     )
-    played = Played(entry=entry, hidden_rmse_mm=make_errors(10.0), files={"results.json": b"{}"})
+    played = PracticeRun(
+        entry=entry, hidden_rmse_mm=make_errors(10.0), files={"results.json": b"{}"}
+    )
     shipped = PlayedSeason(
         suite=SUITE.name,
         suite_digest=SUITE.digest,

@@ -114,10 +114,14 @@ def test_a_full_disk_is_told(client, monkeypatch):
 def test_the_api_is_described_without_anything_from_elsewhere(client):
     document = client.get("/api/v1/openapi.json").json()
     page = client.get("/api").text
-    for path in document["paths"]:
-        assert path in page
+    for path, methods in document["paths"].items():
+        for method in methods:
+            anchor = re.sub(r"[{}]", "", f"{method}{path}".replace("/", "-"))
+            assert f'<a href="#{anchor}">' in page
+            assert f'<h2 id="{anchor}">' in page
     for name in document["components"]["schemas"]:
         assert f'id="{name}"' in page
+        assert f'href="#{name}"' in page
     assert "HTTPValidationError" not in page
     assert not re.search(r'(src|href)="(https?:)?//', page)
     assert "<script" not in page

@@ -1,0 +1,55 @@
+"""The host's choice for the lifts of a room: partner, cues, latency."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Final
+
+from ...agents.agent import FRAME
+from ...agents.errors import InputError
+from ...agents.spec import AgentSpec
+from ..episode.scenario import LATENCY, LONGEST_LATENCY
+from .cueing import MIXTURES
+from .partners import LivePartner, live_partner
+
+MIXED: Final = "mixed"
+
+
+@dataclass(frozen=True, kw_only=True)
+class HostChoice:
+    """The lifts that the people of a room make until the next choice."""
+
+    partner: LivePartner
+    mixture: str = MIXED
+    """The kind of cues, or ``mixed``."""
+    latency: float = LATENCY
+    """Age of the motion-capture sample when a robot decides [s]."""
+
+    @classmethod
+    def first(cls, policies: Mapping[str, AgentSpec]) -> "HostChoice":
+        """Return the choice of a new room: the first policy."""
+        return cls(partner=live_partner(next(iter(policies)), policies))
+
+    @classmethod
+    def parse(cls, content: Mapping[str, Any], policies: Mapping[str, AgentSpec]) -> "HostChoice":
+        """Return the choice of a page's message.
+
+        Raises
+        ------
+        InputError
+            If the partner or the kind of cues is unknown, or the latency out of range.
+        """
+        mixture, latency = content.get("kind", MIXED), content.get("latency_ms")
+        if mixture not in MIXTURES:
+            raise InputError(f"kind must be one of {', '.join(MIXTURES)}, got {mixture!r:.40}")
+        if latency is None:
+            latency = 1000 * LATENCY
+        longest = 1000 * LONGEST_LATENCY
+        if not isinstance(latency, int | float) or not 0 <= latency <= longest:
+            raise InputError(f"latency_ms must be 0 to {longest:g}, got {latency!r:.40}")
+        partner = live_partner(str(content.get("partner")), policies)
+        return cls(partner=partner, mixture=mixture, latency=in_frames(latency / 1000))
+
+
+def in_frames(latency: float) -> float:
+    """Return a latency as a whole number of frames [s], at most the longest."""
+    return min(round(latency / FRAME) * FRAME, LONGEST_LATENCY)

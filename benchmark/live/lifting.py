@@ -1,0 +1,175 @@
+"""A lift under way: hands, frames at their times, and the evidence at its end."""
+
+import contextlib
+import dataclasses
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from ...agents.agent import FRAME, Agent
+from ...agents.errors import EvaluatorFault
+from ...agents.humans import Cued, Hand, PersonAsRobot, Played
+from ...agents.spec import Paced
+from ..episode.episode import Episode
+from ..episode.lift import Lift
+from ..episode.scenario import Scenario
+from ..execution.batches import entered
+from ..execution.runner import Run
+from ..suites.suite import Suite
+from .grip import Grip
+from .hand import LiveHand
+from .live_lift import LiveLift
+from .messages import LATE, STARVED, dump_frame
+from .partners import LIVE_DIGEST, LivePartner
+from .punctuality import Punctuality
+
+SEED = 0
+"""The episode's seed: lifts differ by their trial, and so do their plans and their noise."""
+
+
+class Lifting:
+    """One lift of real people, made frame by frame at the times that the room's clock gives.
+
+    Parameters
+    ----------
+    lift
+        The lift of the scenario.
+    partner
+        The holder of the far end.
+    grips
+        The closed hand of each end that a person holds: 0 the human's, 1 the far one.
+    begin
+        Time of the room's clock at which frame 0 begins [s].
+    delay
+        Playout delay of the samples [s].
+    """
+
+    def __init__(
+        self,
+        lift: Lift,
+        partner: LivePartner,
+        grips: Mapping[int, Grip],
+        *,
+        begin: float,
+        delay: float,
+    ) -> None:
+        self.begin = begin
+        self.delay = delay
+        self.playout = max(grip.playout for grip in grips.values())
+        """How much later than they are made all pages show the frames [s]."""
+        self.punctuality = Punctuality(period=FRAME)
+        self.hands = {
+            end: LiveHand(grip.offset - begin, delay) for end, grip in sorted(grips.items())
+        }
+        self._lift = lift
+        self._partner = partner
+        self._scenario = lift.scenario
+        self._stack = contextlib.ExitStack()
+        far = self.hands.get(1)
+        holder: Agent | Hand
+        if partner.spec is not None:
+            period = lift.scenario.control_period
+            spec = partner.spec.paced(period) if isinstance(partner.spec, Paced) else partner.spec
+            holder = entered(self._stack, spec)
+        elif far is not None and lift.seat.is_robot:
+            holder = PersonAsRobot(far, lift.frames_per_step, lift.scenario.control_period)
+        else:
+            holder = self.hands[1]
+        self._live = LiveLift(lift, SEED, self.hands[0], holder)
+        self._made = 0
+        cue = lift.scenario.human
+        assert isinstance(cue, Cued)
+        self.cue = cue
+        self.cues = {each.frame: each.height for each in cue.cues()}
+
+    @property
+    def horizon(self) -> int:
+        """Frames of the whole lift."""
+        return self._live.lift.horizon
+
+    @property
+    def lag(self) -> float:
+        """What a network adds between the hand and the picture of a second person [s]."""
+        return self.delay + self.playout if len(self.hands) > 1 else 0.0
+
+    @property
+    def over(self) -> bool:
+        """Whether the lift has ended."""
+        return self._live.over
+
+    @property
+    def due(self) -> float:
+        """Time of the room's clock at which the next frame is to be made [s]."""
+        return self.begin + (self._made + 1) * FRAME
+
+    def messages(self, now: float) -> list[tuple[int, str | bytes]]:
+        """Make the frames that are due; late ones are caught up and counted.
+
+        Returns
+        -------
+        list of (int, str or bytes)
+            For each frame a binary message to each end that a person holds; and to the human's end
+            the cues, as JSON, when they appear.
+
+        Raises
+        ------
+        EvaluatorFault
+            If the policy's process ended, and not by the policy's fault.
+        """
+        found: list[tuple[int, str | bytes]] = []
+        lateness, before = now - self.due, self._made
+        while not self.over and self.due <= now:
+            late = LATE if now - self.due > FRAME else 0
+            shown = self._live.frame()
+            if shown is None:
+                break
+            self._made += 1
+            for end, hand in self.hands.items():
+                flags = late | (STARVED if hand.starving else 0)
+                found.append((end, dump_frame(shown, flags=flags, used=hand.used)))
+            height = self.cues.get(shown.frame)
+            if height is not None:
+                cue = {"type": "cue", "frame": shown.frame, "height": height}
+                found.append((0, json.dumps(cue)))
+        if self._made > before:
+            self.punctuality.count(lateness, self._made - before)
+        return found
+
+    def finish(self) -> tuple[Scenario, Episode]:
+        """Return the scenario with the hands that were seen, and the outcome."""
+        far = self.hands.get(1)
+        human = Played(
+            cue=self.cue, log=self.hands[0].log(), far=None if far is None else far.log()
+        )
+        return dataclasses.replace(self._scenario, human=human), self._live.outcome()
+
+    def run(self, name: str) -> Run:
+        """Return the finished lift as a run of one episode, on a suite of that name."""
+        scenario, episode = self.finish()
+        spec = self._partner.spec
+        return Run(
+            policy=self._partner.name,
+            policy_digest=LIVE_DIGEST if spec is None else spec.digest(),
+            suite=Suite(name=name, scenarios=(scenario,), seeds=(SEED,)),
+            episodes=(episode,),
+            isolation="none" if spec is None else spec.isolation,
+        )
+
+    def quality(self) -> dict[str, Any]:
+        """Return how late frames were made, and how well the hands were seen."""
+        return {
+            "lag_ms": round(1000 * self.lag, 3),
+            "late": {
+                "frames": self.punctuality.frames,
+                "worst_ms": round(1000 * self.punctuality.worst, 3),
+                "marked": self.punctuality.marked,
+            },
+            "starved": [hand.starved for hand in self.hands.values()],
+            "refused": [hand.refused for hand in self.hands.values()],
+        }
+
+    def close(self) -> None:
+        """End the policy and release the world."""
+        self._lift.close()
+        with contextlib.suppress(EvaluatorFault):
+            self._stack.close()

@@ -1,0 +1,106 @@
+"""The binary messages between a page and its room, little endian."""
+
+import struct
+from dataclasses import dataclass
+from typing import Final
+
+from ...agents.errors import InputError
+from .live_lift import Shown
+
+SAMPLES: Final = 1
+"""Kind of a message with samples, page to room."""
+
+FRAME_SHOWN: Final = 1
+"""Kind of a message with a frame, room to page."""
+
+LATE: Final = 1
+"""Flag of a frame that was made after its time."""
+
+STARVED: Final = 2
+"""Flag of a frame for which the hand's next sample was missing."""
+
+MOST_IN_A_MESSAGE: Final = 200
+"""Most samples in one message."""
+
+_HEAD: Final = struct.Struct("<BII")
+_SAMPLE: Final = struct.Struct("<df")
+_FRAME: Final = struct.Struct("<BBHIfffIf")
+
+
+@dataclass(frozen=True, kw_only=True)
+class HandSamples:
+    """HandSamples of a hand as a page sends them."""
+
+    first: int
+    """Number of the first sample since the grip."""
+    drawn: int
+    """The last frame that the page has drawn."""
+    samples: tuple[tuple[float, float], ...]
+    """Time of the page's clock [s] and height above the grip [m]."""
+
+
+def parse_samples(message: bytes) -> HandSamples:
+    """Return the samples of a page's message.
+
+    Raises
+    ------
+    InputError
+        If it is not such a message.
+    """
+    count, rest = divmod(len(message) - _HEAD.size, _SAMPLE.size)
+    if count < 0 or rest or count > MOST_IN_A_MESSAGE or message[0] != SAMPLES:
+        raise InputError(
+            f"a message with samples must have {_HEAD.size} bytes and {_SAMPLE.size} for each of "
+            f"at most {MOST_IN_A_MESSAGE} samples, and begin with {SAMPLES}; got "
+            f"{len(message)} bytes"
+        )
+    _, first, drawn = _HEAD.unpack_from(message)
+    samples = tuple(
+        (time / 1000, height) for time, height in _SAMPLE.iter_unpack(message[_HEAD.size :])
+    )
+    return HandSamples(first=first, drawn=drawn, samples=samples)
+
+
+def dump_samples(content: HandSamples) -> bytes:
+    """Return a page's message with samples."""
+    head = _HEAD.pack(SAMPLES, content.first, content.drawn)
+    return head + b"".join(_SAMPLE.pack(1000 * time, height) for time, height in content.samples)
+
+
+def dump_frame(shown: Shown, *, flags: int, used: int) -> bytes:
+    """Return the message of a frame, 28 bytes.
+
+    Parameters
+    ----------
+    shown
+        What the frame shows.
+    flags
+        :data:`LATE` and :data:`STARVED`.
+    used
+        HandSamples of the receiver's hand that have been used up to this frame.
+    """
+    return _FRAME.pack(
+        FRAME_SHOWN,
+        flags,
+        0,
+        shown.frame,
+        shown.human_end,
+        shown.robot_end,
+        shown.human_force,
+        used,
+        0.0,
+    )
+
+
+def parse_frame(message: bytes) -> tuple[Shown, int, int]:
+    """Return what a frame shows, its flags, and the samples that were used.
+
+    Raises
+    ------
+    InputError
+        If it is not such a message.
+    """
+    if len(message) != _FRAME.size or message[0] != FRAME_SHOWN:
+        raise InputError(f"a frame's message must have {_FRAME.size} bytes, got {len(message)}")
+    _, flags, _, frame, human, robot, force, used, _ = _FRAME.unpack(message)
+    return Shown(frame, human, robot, force), flags, used

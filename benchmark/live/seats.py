@@ -1,0 +1,137 @@
+"""The people of a room: who sits where, whose hand is closed, and what each is told."""
+
+import json
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+from ...agents.errors import InputError
+from .grip import FIRST_DELAY_S, LONGEST_DELAY_S, SHORTEST_DELAY_S, Grip
+from .hand import LiveHand
+from .messages import HandSamples
+from .partners import LivePartner
+
+ALL: Final = 255
+"""Stands for every seat in a message to the pages."""
+
+Message = tuple[int, str | bytes]
+"""A seat, and what is sent to it: JSON, or a binary message."""
+
+SPARE_S: Final = 0.010
+"""Added to the time that samples take to arrive: the next one comes a little later [s]."""
+
+ROLES: Final = ("leader", "follower")
+ENDS: Final = ("human", "far")
+
+
+@dataclass(kw_only=True)
+class SeatedPerson:
+    """A person in a seat."""
+
+    grip: Grip | None = None
+    """How the hand is closed; None if it is open."""
+    delay: float = FIRST_DELAY_S
+    """Playout delay that the person's connection needs [s]."""
+    expected: int = 0
+    """Number of the next sample since the grip."""
+    arrived: list[float] = field(default_factory=list)
+    """Time from each message's last sample to its arrival, of the present lift [s]."""
+
+    def send(self, content: HandSamples, hand: LiveHand, now: float) -> None:
+        """Give a page's samples to the hand.
+
+        Raises
+        ------
+        InputError
+            If samples before these are missing, or came already.
+        """
+        if self.grip is None or content.first != self.expected:
+            raise InputError(
+                f"sample {self.expected} must be next, got {content.first}: one is missing, or "
+                "comes twice"
+            )
+        self.expected += len(content.samples)
+        for time, height in content.samples:
+            hand.add(time, height)
+        if content.samples:
+            self.arrived.append(now - content.samples[-1][0] - self.grip.offset)
+
+    def let_go(self) -> None:
+        """Open the hand; learn from the lift how late samples arrive."""
+        self.grip = None
+        if self.arrived:
+            late = sorted(self.arrived)[int(0.99 * (len(self.arrived) - 1))]
+            self.delay = min(max(late + SPARE_S, SHORTEST_DELAY_S), LONGEST_DELAY_S)
+            self.arrived = []
+
+
+class Seats:
+    """The seats of a room: 0 is the host's, 1 that of a second person."""
+
+    def __init__(self) -> None:
+        self.people: dict[int, SeatedPerson] = {}
+        self.swapped = False
+        """Whether the second person leads."""
+
+    def ends(self, partner: LivePartner) -> list[int]:
+        """Return the seats of those who lift: of the human's end, then of the far one."""
+        if partner.people == 1:
+            return [0]
+        return [1, 0] if self.swapped else [0, 1]
+
+    def grips(self, partner: LivePartner) -> dict[int, Grip] | None:
+        """Return the closed hand of each end (0, 1) that a person holds; None if one is open."""
+        found: dict[int, Grip] = {}
+        for end, seat in enumerate(self.ends(partner)):
+            person = self.people.get(seat)
+            if person is None or person.grip is None:
+                return None
+            found[end] = person.grip
+        return found
+
+    def delay(self, partner: LivePartner) -> float:
+        """Return the playout delay of all hands [s]: that of the slower connection."""
+        people = [self.people[seat] for seat in self.ends(partner)]
+        wished = [each.grip.delay for each in people if each.grip and each.grip.delay is not None]
+        return max(wished or [each.delay for each in people])
+
+    def let_go(self) -> None:
+        """Open all hands."""
+        for person in self.people.values():
+            person.let_go()
+
+    def told(self, partner: LivePartner, phase: str, room: dict[str, Any]) -> list[Message]:
+        """Return the state of the room for each person, with their own place in it."""
+        ends = self.ends(partner)
+        closed = [seat in self.people and self.people[seat].grip is not None for seat in ends]
+        if phase == "waiting" and all(seat in self.people for seat in ends):
+            phase = "ready"
+        found: list[Message] = []
+        for seat in self.people:
+            place = ends.index(seat) if seat in ends else None
+            state = {
+                "type": "state",
+                "phase": phase,
+                "partner": partner.name,
+                "you": "spectator" if place is None else ENDS[place],
+                "role": None if place is None else ROLES[place],
+                "people": len(self.people),
+                "needed": partner.people,
+                "gripped": closed,
+                "message": _sentence(phase, partner),
+                **room,
+            }
+            found.append((seat, json.dumps(state)))
+        return found
+
+
+def _sentence(phase: str, partner: LivePartner) -> str:
+    """Return what the people wait for."""
+    if phase == "preparing":
+        return f"{partner.name} is getting ready."
+    if phase == "lifting":
+        return "Lift."
+    if phase == "waiting":
+        return "Waiting for the second person: send them the link."
+    if partner.people == 2:
+        return "Take hold of the table, both of you."
+    return "Take hold of the table."

@@ -1,0 +1,129 @@
+"""A session on disk: one bundle for each lift, a line for each event, and recordings.
+
+``recordings.csv`` has the hand's references of all complete lifts, to be played scaled and smoothed
+as any recording; a session's folder itself is played as it was, see :mod:`.people`.
+"""
+
+import csv
+import io
+import json
+import re
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+from ...agents.agent import FRAME
+from ...agents.errors import InputError
+from ...agents.humans.recordings import COLUMNS
+from ..bundle import results, write_bundle
+from ..bundle.files import RECORDINGS, RESULTS
+from ..episode.episode import Episode
+from ..execution.runner import Run
+
+LIFTS: Final = "lifts"
+"""Folder of the lifts in that of a session."""
+
+EVENTS: Final = "events.jsonl"
+"""Lines about lifts that did not count, faults, arrivals and departures."""
+
+MOST_PARTS: Final = 100
+"""Most messages in which a page may report on a lift; each is short."""
+
+SESSION: Final = "session.json"
+"""What the web process knows of the session."""
+
+
+class SessionFolder:
+    """The lifts of a session, written when they end: a room that dies loses the one under way.
+
+    Parameters
+    ----------
+    path
+        The session's folder; it is made if there is none.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        (path / LIFTS).mkdir(parents=True, exist_ok=True)
+
+    def lifts(self) -> list[Path]:
+        """Return the bundles of the finished lifts, in order."""
+        return lift_folders(self.path)
+
+    def next_number(self) -> int:
+        """Return the number of the next lift, from 1."""
+        return max((int(path.name.partition("-")[0]) for path in self.lifts()), default=0) + 1
+
+    def played_with(self, partner: str) -> int:
+        """Return how many finished lifts there are with a partner."""
+        return sum(path.name.partition("-")[2] == folder_name(partner) for path in self.lifts())
+
+    def save(self, number: int, partner: str, run: Run) -> Path:
+        """Write the bundle of a lift, all or nothing, and return its folder."""
+        folder = self.path / LIFTS / f"{number:03d}-{folder_name(partner)}"
+        write_bundle(folder, run, results(run, {}).plain())
+        self._record(run.episodes[0])
+        return folder
+
+    def _record(self, episode: Episode) -> None:
+        """Add a complete lift to the recordings of the session."""
+        path = self.path / RECORDINGS
+        if episode.failure is not None:
+            return
+        text = io.StringIO(path.read_text() if path.is_file() else "")
+        text.seek(0, io.SEEK_END)
+        writer = csv.writer(text, lineterminator="\n")
+        if not text.tell():
+            writer.writerow(COLUMNS)
+        for frame, height in enumerate(episode.trace.human_action.ravel().tolist(), 1):
+            writer.writerow((episode.trial, f"{frame * FRAME:.2f}", f"{height:.6f}"))
+        new = path.with_suffix(".new")
+        new.write_text(text.getvalue())
+        new.replace(path)
+
+    def report(self, lift: Path, seat: int, content: Mapping[str, Any]) -> None:
+        """Write what a page reported of a lift, part by part, beside its bundle.
+
+        Raises
+        ------
+        InputError
+            If it reports more than pages have to say.
+        """
+        beside = lift.with_name(f"{lift.name}.display.json")
+        reports = json.loads(beside.read_text()) if beside.is_file() else {}
+        parts = reports.setdefault(f"seat_{seat}", [])
+        if len(parts) >= MOST_PARTS:
+            raise InputError(f"a lift has at most {MOST_PARTS} reports of a page")
+        parts.append(content)
+        beside.write_text(json.dumps(reports) + "\n")
+
+    def event(self, kind: str, **content: Any) -> None:
+        """Append an event with the time of day [s since 1970]."""
+        line = json.dumps({"time": round(time.time(), 3), "event": kind, **content})
+        with (self.path / EVENTS).open("a", encoding="utf-8") as file:
+            file.write(line + "\n")
+
+
+def folder_name(name: str) -> str:
+    """Return a partner's name as part of a folder's."""
+    return re.sub(r"[^A-Za-z0-9._]+", "_", name).strip("._")[:80] or "partner"
+
+
+def is_session(path: Path) -> bool:
+    """Return whether a path is the folder of a session."""
+    return (path / LIFTS).is_dir()
+
+
+def lift_folders(path: Path) -> list[Path]:
+    """Return the bundles of a session's finished lifts, in the order in which they were made.
+
+    Raises
+    ------
+    InputError
+        If it is no session.
+    """
+    if not is_session(path):
+        raise InputError(f"{path}: not a session of live lifts: it has no folder {LIFTS}")
+    found = (path / LIFTS).glob("[0-9]*-*/")
+    return sorted(folder for folder in found if (folder / RESULTS).is_file())

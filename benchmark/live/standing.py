@@ -1,0 +1,74 @@
+"""The same live lift with other partners: two simulated people, and every policy."""
+
+import dataclasses
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ...agents.errors import EvaluatorFault
+from ...agents.humans import Cued
+from ...agents.spec import AgentSpec
+from ..episode.scenario import LATENCY, Scenario
+from ..execution.batches import play
+from ..results.baselines import PARTNER_SPEC
+from .choice import in_frames
+from .cueing import ghost_scenario
+from .lifting import SEED
+from .partners import LivePartner
+
+
+def ghost_rmse(cue: Cued, number: int) -> float:
+    """Return the RMSE of two simulated people with the same cue [mm]."""
+    return _rmse(PARTNER_SPEC, ghost_scenario(cue, number))
+
+
+def rehearse(partner: LivePartner, scenario: Scenario) -> None:
+    """Play the coming cue once, by simulated people or a simulated person and the policy."""
+    if partner.spec is None:
+        _rmse(PARTNER_SPEC, dataclasses.replace(scenario, partner="human"))
+    else:
+        _rmse(partner.spec, scenario)
+
+
+class Standing:
+    """The RMSE of each policy with the hand of a live lift, one after the other.
+
+    A network delays what a second person sees, and not what a simulated robot sees. For a fair
+    comparison the policies see as much later.
+
+    Parameters
+    ----------
+    scenario
+        The scenario of the lift, with the hand that was seen.
+    policies
+        The policies by name.
+    lag
+        What the network added for a second person [s].
+    """
+
+    def __init__(
+        self, scenario: Scenario, policies: Mapping[str, AgentSpec], lag: float = 0.0
+    ) -> None:
+        self._latency = in_frames(LATENCY + lag)
+        self._scenario = dataclasses.replace(scenario, partner="nao", latency=self._latency)
+        self._left: Iterator[tuple[str, AgentSpec]] = iter([*policies.items()])
+        self._found: list[dict[str, Any]] = []
+
+    def next(self) -> dict[str, Any] | None:
+        """Play one policy more; return the standing when all have been played."""
+        for name, spec in self._left:
+            try:
+                self._found.append({"name": name, "rmse_mm": _rmse(spec, self._scenario)})
+            except EvaluatorFault:
+                continue  # A policy without a process has no place.
+            return None
+        people = dataclasses.replace(self._scenario, partner="human")
+        return {
+            "latency_ms": round(1000 * self._latency),
+            "policies": sorted(self._found, key=lambda each: each["rmse_mm"]),
+            "human_human_mm": _rmse(PARTNER_SPEC, people),
+        }
+
+
+def _rmse(spec: AgentSpec, scenario: Scenario) -> float:
+    (episode,) = play(spec, scenario, (SEED,))
+    return episode.scores["rmse_mm"]

@@ -1,0 +1,1 @@
+"""Validity: how well suites predict the scores of policies with real people."""

@@ -1,0 +1,137 @@
+"""Playing policies and two people on the lifts of sources and suites."""
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
+
+import numpy as np
+
+from ...agents.errors import InputError
+from ...agents.spec import AgentSpec
+from ..episode.level import LEVEL
+from ..episode.metric import LEADING
+from ..episode.seeding import derive_seed
+from ..execution.runner import Run, run_suite
+from ..results.baselines import HUMAN_HUMAN, Baseline, human_human_run, shipped_baselines
+from ..statistics import FloatArray
+from ..suites.suite import Suite
+from .scores import Scores
+from .sources import Source
+
+Known = Mapping[str, FloatArray]
+"""RMSE of policies in each lift of a suite [mm], shape (n,), as far as it is known."""
+
+
+def validity_lifts(policies: Mapping[str, AgentSpec], suite: Suite, known: Known) -> int:
+    """Return the number of lifts that :func:`play_suite` will play."""
+    missing = sum(name not in known for name in policies)
+    return suite.size * (missing + (shipped_baselines(suite) is None))
+
+
+def check_same_task(suite: Suite) -> None:
+    """Raise an InputError if a suite has another task than real lifts have.
+
+    Raises
+    ------
+    InputError
+        If its task is not ``level``.
+    """
+    task = suite.scenarios[0].task.name
+    if task != LEVEL.name:
+        raise InputError(f"{suite.name} has the task {task}; real lifts have the task {LEVEL.name}")
+
+
+def play_suite(
+    policies: Mapping[str, AgentSpec],
+    suite: Suite,
+    known: Known,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda lifts: None,
+) -> Scores:
+    """Return the scores of policies on a suite.
+
+    Parameters
+    ----------
+    policies
+        Policies, by the name that tables use.
+    suite
+        The suite.
+    known
+        Scores that need not be played.
+    executor, progress
+        As for :func:`.run_suite`.
+
+    Raises
+    ------
+    InputError
+        If a policy cannot be loaded.
+    """
+    shipped = shipped_baselines(suite)
+    human_human = (
+        Baseline.of(human_human_run(suite, executor=executor, progress=progress))
+        if shipped is None
+        else shipped[HUMAN_HUMAN]
+    )
+    there = {name: known[name] for name in policies if name in known}
+    wanted = {name: spec for name, spec in policies.items() if name not in known}
+    played = _play(wanted, suite, executor, progress)
+    return Scores(
+        name=suite.name,
+        digest=suite.digest,
+        strata=human_human.strata,
+        errors={name: there[name] if name in there else _errors(played[name]) for name in policies},
+        human_human=np.array(human_human.rmse_mm),
+        seed=derive_seed(0, "validity suite"),
+        shipped=tuple(there),
+        failed=_failed(played),
+    )
+
+
+def play_source(
+    policies: Mapping[str, AgentSpec],
+    source: Source,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda lifts: None,
+) -> Scores:
+    """Return the scores of policies on a source; arguments as of :func:`play_suite`.
+
+    All lifts of a source are one stratum: the simulated bodies, which take its lifts in turn, have
+    no part in which lifts there are.
+    """
+    suite = source.suite
+    human_human = human_human_run(suite, executor=executor, progress=progress)
+    played = _play(policies, suite, executor, progress)
+    return Scores(
+        name=source.name,
+        digest=suite.digest,
+        strata=(source.name,) * suite.size,
+        errors={name: _errors(run) for name, run in played.items()},
+        human_human=_errors(human_human),
+        seed=derive_seed(0, "validity source"),
+        failed=_failed(played),
+    )
+
+
+def _play(
+    policies: Mapping[str, AgentSpec],
+    suite: Suite,
+    executor: Executor | None,
+    progress: Callable[[int], None],
+) -> dict[str, Run]:
+    return {
+        name: run_suite(spec, suite, executor=executor, progress=progress)
+        for name, spec in policies.items()
+    }
+
+
+def _errors(run: Run) -> FloatArray:
+    return np.array([episode.scores[LEADING] for episode in run.episodes])
+
+
+def _failed(runs: Mapping[str, Run]) -> dict[str, int]:
+    counts = {
+        name: sum(episode.failure is not None for episode in run.episodes)
+        for name, run in runs.items()
+    }
+    return {name: count for name, count in counts.items() if count}

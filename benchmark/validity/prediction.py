@@ -1,0 +1,87 @@
+"""The prediction of a source by a suite: the order and the size of the policies' scores."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..statistics import FloatArray
+from .correlation import kendall, spearman
+from .scores import Quantity, Scores
+
+
+@dataclass(frozen=True, kw_only=True)
+class SuitePrediction:
+    """Agreement of two sets of lifts about the same policies."""
+
+    spearman: Quantity
+    """Rank correlation of the policies' mean RMSE: 1 is the same order, 0 no relation."""
+    kendall: Quantity
+    """Rank correlation by pairs; the share of pairs in the same order is (1 + value) / 2."""
+    kendall_best_half: Quantity
+    """The same for the better half of the policies on the suite, those that a reader of a board
+    chooses from: large differences between poor policies have no part in it."""
+    factor: Quantity
+    """Typical error of a ratio to two people, as a factor: 1 is exact; 1.5 means that half of the
+    policies have 1.5 times the ratio of the suite, or 1 / 1.5 of it, or are further off."""
+    bias: Quantity
+    """Median ratio to two people on the source, relative to the suite: above 1, policies are
+    further from two people on the source than the suite says."""
+    fall_behind: tuple[str, ...]
+    """Policies that are better than two people on the suite and worse on the source, with intervals
+    of their ratios that exclude 1 on both."""
+    overtake: tuple[str, ...]
+    """Policies that are worse than two people on the suite and better on the source, likewise."""
+
+
+def predict(source: Scores, suite: Scores) -> SuitePrediction:
+    r"""Return how well the scores on a suite predict those on a source.
+
+    The order is that of the mean RMSE, the score that boards rank by. The size is the ratio of each
+    policy to the human-human baseline of the same lifts, r on the source and s on the suite:
+
+    .. math:: \text{factor} = \exp\left(\operatorname{median}_p |\ln (r_p / s_p)|\right), \quad
+        \text{bias} = \exp\left(\operatorname{median}_p \ln (r_p / s_p)\right)
+
+    The intervals are of resamples of the lifts of both, each with the same lifts for all policies.
+    They show how far other lifts of the same people would move a number, not how far other people
+    or other policies would.
+
+    Parameters
+    ----------
+    source, suite
+        Scores of the same policies in the same order.
+    """
+    samples = (source.members, suite.members)
+    drawn = source.resampled, suite.resampled
+    off = np.log(source.ratios / suite.ratios)
+    drawn_off = np.log(source.resampled_ratios / suite.resampled_ratios)
+
+    sides = {
+        name: (_side(suite.vs_human(name)), _side(source.vs_human(name))) for name in suite.policies
+    }
+
+    def factor(logarithms: FloatArray) -> FloatArray:
+        found: FloatArray = np.exp(np.median(logarithms, axis=-1))
+        return found
+
+    better = np.sort(suite.means.argsort(kind="stable")[: (len(suite.policies) + 1) // 2])
+    return SuitePrediction(
+        spearman=Quantity.of(
+            float(spearman(source.means, suite.means)), spearman(*drawn), *samples
+        ),
+        kendall=Quantity.of(float(kendall(source.means, suite.means)), kendall(*drawn), *samples),
+        kendall_best_half=Quantity.of(
+            float(kendall(source.means[better], suite.means[better])),
+            kendall(*(each[:, better] for each in drawn)),
+            *samples,
+        ),
+        factor=Quantity.of(float(factor(np.abs(off))), factor(np.abs(drawn_off)), *samples),
+        bias=Quantity.of(float(factor(off)), factor(drawn_off), *samples),
+        fall_behind=tuple(name for name in sides if sides[name] == (-1, 1)),
+        overtake=tuple(name for name in sides if sides[name] == (1, -1)),
+    )
+
+
+def _side(ratio: Quantity) -> int:
+    """Return -1 for a ratio below 1, 1 for one above it, 0 if its interval contains 1."""
+    return int(ratio.low > 1.0) - int(ratio.high < 1.0)

@@ -1,0 +1,61 @@
+"""Sources of real lifts, each played as a suite of its own."""
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from ...agents.errors import InputError
+from ..live.people import real_lifts
+from ..suites.suite import Suite, plain_name
+
+FEWEST_LIFTS: Final = 2
+"""Lifts that a source must have: one lift has no spread, and so no interval."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Source:
+    """Real lifts of one origin."""
+
+    name: str
+    """Name in tables: that of the file or folder."""
+    kind: str
+    """The kind of data: ``recordings``, or ``live`` for lifts of ``colift play``."""
+    suite: Suite
+    """Its lifts, to be played with any policy."""
+
+
+def source_of(path: Path) -> Source:
+    """Return the real lifts in a file of recordings, or in the folder of a session of live lifts.
+
+    The source has the name of the file or of the folder.
+
+    Raises
+    ------
+    InputError
+        If it cannot be used, or has fewer than :data:`FEWEST_LIFTS` lifts.
+    """
+    suite = real_lifts(path)
+    if suite.size < FEWEST_LIFTS:
+        raise InputError(
+            f"{path} has {suite.size} lift; intervals need {FEWEST_LIFTS} or more, and say little "
+            "below ten"
+        )
+    kind = "live" if path.is_dir() else "recordings"
+    return Source(name=plain_name(path.stem), kind=kind, suite=suite)
+
+
+def sources_of(paths: Sequence[Path]) -> tuple[Source, ...]:
+    """Return the sources of some files and folders, in their order.
+
+    Raises
+    ------
+    InputError
+        As :func:`source_of`, or if two have the same name.
+    """
+    found = tuple(source_of(path) for path in paths)
+    name, count = Counter(source.name for source in found).most_common(1)[0]
+    if count > 1:
+        raise InputError(f"{count} sources are called {name!r}; give each source a name of its own")
+    return found

@@ -1,0 +1,63 @@
+"""The address and the end of commands that serve."""
+
+import errno
+import signal
+import socket
+from types import FrameType
+from typing import Annotated, Final
+
+import typer
+
+from ..agents.errors import InputError
+
+Host = Annotated[
+    str,
+    typer.Option(metavar="ADDRESS", help="Address to listen on; 0.0.0.0: all of this machine's."),
+]
+Port = Annotated[
+    int, typer.Option(metavar="N", min=0, max=65535, help="Port to listen on; 0: any free one.")
+]
+LOOPBACK: Final = "127.0.0.1"
+"""The default address: this machine alone."""
+
+ENDING: Final = (signal.SIGINT, signal.SIGTERM)
+"""Signals that end a service."""
+
+
+def listening_at(host: str, port: int) -> socket.socket:
+    """Return a listening socket.
+
+    Raises
+    ------
+    InputError
+        If the address or the port cannot be used.
+    """
+    from ..leaderboard.service.server import listening
+
+    try:
+        return listening(host, port)
+    except OSError as error:
+        reason = {
+            errno.EADDRINUSE: f"port {port} is taken; choose another by --port (0: any free one)",
+            errno.EACCES: f"port {port} needs more rights; choose one above 1023 by --port",
+            errno.EADDRNOTAVAIL: "this machine has no such address; 127.0.0.1 and 0.0.0.0 are",
+        }.get(error.errno or 0, error.strerror)
+        raise InputError(f"cannot listen on {host}:{port}: {reason}") from error
+
+
+def url_of(listener: socket.socket) -> str:
+    """Return the address of a listening socket, as a browser on this machine takes it."""
+    host, port = listener.getsockname()[:2]
+    return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
+
+
+def interrupted_by_signals() -> None:
+    """Let each of the signals of :data:`ENDING` raise KeyboardInterrupt, once."""
+    for number in ENDING:
+        signal.signal(number, _interrupt)
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    for each in ENDING:
+        signal.signal(each, signal.SIG_IGN)  # A second one would cut the children's last seconds.
+    raise KeyboardInterrupt

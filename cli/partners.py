@@ -1,0 +1,53 @@
+"""Policies that people can lift with in the browser."""
+
+import sys
+from collections.abc import Mapping
+
+from ..agents.errors import EvaluatorFault, InputError
+from ..agents.loading.loading import PolicySpec
+from ..agents.registry import POLICIES, entries, summary
+from ..agents.spec import AgentSpec
+from .policies import AUTO, choose_policy
+
+FIRST = "anticipate"
+"""The default partner."""
+
+Partners = tuple[dict[str, AgentSpec], dict[str, str]]
+"""Policies by name, and a line about each of them."""
+
+
+def partners(first: str = FIRST, isolation: str = AUTO) -> Partners:
+    """Return a policy, then all registered ones, with a line about each.
+
+    Those of other packages act in a sandbox; one that cannot is left out, and reported on stderr.
+
+    Parameters
+    ----------
+    first
+        The policy as a user names it; see :func:`.choose_policy`.
+    isolation
+        Its isolation.
+
+    Raises
+    ------
+    InputError
+        If there is no such policy or isolation.
+    """
+    chosen = choose_policy(first, isolation)
+    chosen.check()
+    found: dict[str, AgentSpec] = {chosen.name: chosen}
+    for name in entries(POLICIES):
+        if name in found:
+            continue
+        try:
+            found[name] = choose_policy(name)
+        except (InputError, EvaluatorFault) as error:
+            print(f"{name} cannot be a partner: {error}", file=sys.stderr)
+    return found, _lines(found)
+
+
+def _lines(found: Mapping[str, AgentSpec]) -> dict[str, str]:
+    """Return a line about each policy whose code may be loaded here."""
+    return {
+        name: summary(spec.load()) for name, spec in found.items() if isinstance(spec, PolicySpec)
+    }

@@ -1,0 +1,110 @@
+"""``colift play``: real people lift with policies, and with each other, in a browser."""
+
+import ipaddress
+import logging
+import os
+import sys
+import webbrowser
+from pathlib import Path
+from typing import Annotated, Final
+
+import typer
+
+from ..agents.errors import InputError
+from ..agents.extras import how_to_install
+from .completion import policies
+from .listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
+from .options import PolicyIsolation, check_folder
+from .partners import FIRST, partners
+from .policies import AUTO
+
+PORT: Final = 8100
+"""The default port: another than a board's, which may run beside it."""
+
+SECURE: Final = (
+    "Other machines reach this page without HTTPS: their browsers then give only 60 samples a "
+    "second, and no raw mouse movement. A reverse proxy with TLS in front of it gives both."
+)
+"""Said if it is served to other machines."""
+
+HOSTS: Final = frozenset({"localhost", "127.0.0.1", "::1"})
+"""Names of this machine that reach it from nowhere else."""
+
+
+def play(
+    policy: Annotated[
+        str,
+        typer.Argument(
+            metavar="POLICY",
+            help="The first partner: a name from 'colift list', module:Class, file.py:Class or a "
+            "submission's folder. All registered policies can be chosen on the page.",
+            autocompletion=policies,
+        ),
+    ] = FIRST,
+    out: Annotated[
+        Path, typer.Option(metavar="DIR", help="Folder for the lifts, a folder per session.")
+    ] = Path("live"),
+    host: Host = LOOPBACK,
+    port: Port = PORT,
+    no_browser: Annotated[
+        bool, typer.Option("--no-browser", help="Print the address, and open no browser.")
+    ] = False,
+    rooms: Annotated[
+        int, typer.Option(metavar="N", min=1, max=64, help="Most sessions at the same time.")
+    ] = 8,
+    isolation: PolicyIsolation = AUTO,
+    root: Annotated[
+        str,
+        typer.Option(metavar="/PATH", help="Path of the page behind a reverse proxy."),
+    ] = "",
+) -> None:
+    """Lift a table with a policy, or with another person, in the browser.
+
+    Your hand moves one end of a simulated table; a policy or a second person has the other.
+
+    'colift verify' proves the saved lifts, 'colift run POLICY --recordings' plays them again.
+    """
+    try:
+        from ..leaderboard.live.keeper import PlayConfig
+        from ..leaderboard.live.supervisor import keep_serving
+    except ModuleNotFoundError as error:
+        raise InputError(
+            f"{error.name} is not installed; lifting in a browser needs: {how_to_install('board')}"
+        ) from error
+    check_folder("--out", out)
+    named, lines = partners(policy, isolation)
+    config = PlayConfig(
+        folder=out.absolute(),
+        policies=named,
+        descriptions=lines,
+        rooms=rooms,
+        hosts=frozenset() if root or not _is_loopback(host) else HOSTS,
+    )
+    logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(levelname)s %(message)s")
+    interrupted_by_signals()
+    try:
+        with listening_at(host, port) as listener:
+            address = url_of(listener)
+            if not _is_loopback(listener.getsockname()[0]):
+                print(SECURE, file=sys.stderr, flush=True)
+            print(f"Lift with {next(iter(named))} at {address} (Ctrl-C ends it)", flush=True)
+            print(f"Each lift is saved in {out}", flush=True)
+            if not no_browser and _has_display():
+                webbrowser.open(address.replace("//0.0.0.0:", "//127.0.0.1:"))
+            keep_serving(config, listener, root.rstrip("/"))
+    except KeyboardInterrupt:
+        pass  # Requested, and done.
+
+
+def _is_loopback(address: str) -> bool:
+    if address == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(address.partition("%")[0]).is_loopback
+    except ValueError:
+        return False  # Another name.
+
+
+def _has_display() -> bool:
+    """Return whether there is a browser with a window; others would take the terminal."""
+    return any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"))

@@ -1,0 +1,91 @@
+"""The validity of suites as tables for a terminal."""
+
+import textwrap
+from collections.abc import Callable, Iterator
+from typing import Final
+
+from rich.table import Table
+
+from ...benchmark.comparison.formatting import digits, p_value
+from ...benchmark.validity.report import SourceValidity, SuiteOnSource, Validity
+from ...benchmark.validity.scores import Quantity, Scores
+from ..printing import styled, table
+from .comparison import BASELINE
+
+HEADING: Final = 12
+"""Longest line of a source's name above a column."""
+
+MEANINGS: Final = (
+    "Spearman, Kendall: rank correlation of the policies' mean RMSE on the suite and on the "
+    "source; 1 is the same order. Of best half: Kendall among the better half of the policies on "
+    "the suite. Ratio: RMSE divided by that of two people on the same lifts. Off by: median factor "
+    "between the ratios on source and suite, either way. Bias: median of the ratio on the source "
+    "over that on the suite. Place, behind: of the suite's best policy, on the source; behind the "
+    "best other policy, with the Holm-corrected p of the difference. In brackets: 95 % intervals, "
+    "for other lifts of the same people."
+)
+"""What the lines of :func:`source_table` mean."""
+
+
+def heading(each: SourceValidity) -> str:
+    """Return the lifts of a source, and the best policy there."""
+    source, best = each.source, each.winner
+    return (
+        f"{source.name}: {source.lifts} lifts, two people {_mm(source.human_human_mm)} mm. "
+        f"Best policy: {best}, {_mm(source.mean_mm(best))} mm; it is the best in "
+        f"{each.best_shares[best]:.0%} of resamples."
+    )
+
+
+def source_table(each: SourceValidity) -> Table:
+    """Return how well each suite predicts a source: a column per suite."""
+    return table(
+        "",
+        ("", *(suite.suite.name for suite in each.suites)),
+        ((name, *map(cell, each.suites)) for name, cell in _lines()),
+    )
+
+
+def _lines() -> Iterator[tuple[str, Callable[[SuiteOnSource], str]]]:
+    """Yield the lines of a source's table: name, and content for a suite."""
+    yield "Spearman", lambda suite: _quantity(suite.prediction.spearman)
+    yield "Kendall", lambda suite: _quantity(suite.prediction.kendall)
+    yield "of best half", lambda suite: _quantity(suite.prediction.kendall_best_half)
+    yield "ratios off by", lambda suite: _quantity(suite.prediction.factor)
+    yield "bias", lambda suite: _quantity(suite.prediction.bias)
+    yield "best policy", lambda suite: suite.verdict.policy
+    yield "its place", lambda suite: f"{suite.verdict.place}"
+    yield "best other", lambda suite: suite.verdict.rival.name
+    yield "behind, mm", lambda suite: f"{suite.verdict.behind_mm.value:.2f}"
+    yield "95 %", lambda suite: _interval(suite.verdict.behind_mm)
+    yield "p", lambda suite: p_value(suite.verdict.rival.p)
+    yield "verdict", lambda suite: suite.verdict.judgement
+
+
+def ratios_table(validity: Validity) -> Table:
+    """Return the ratio of each policy to two people, and its place, on suites and sources."""
+    columns = [*validity.suites, *(each.source for each in validity.sources)]
+    rows = [(name, *(_ratio(scores, name) for scores in columns)) for name in validity.policies]
+    baseline = ("two people, mm", *(f"{_mm(each.human_human_mm)}    " for each in columns))
+    return table(
+        "RMSE divided by that of two people, and place",
+        ("policy", *("\n".join(textwrap.wrap(each.name, HEADING)) for each in columns)),
+        [*rows, styled(baseline, BASELINE)],
+    )
+
+
+def _ratio(scores: Scores, policy: str) -> str:
+    value = scores.vs_human(policy).value
+    return f"{value:.2f} {scores.place(policy):>3}"
+
+
+def _mm(found: Quantity) -> str:
+    return f"{found.value:{digits(found.value)}}"
+
+
+def _quantity(found: Quantity) -> str:
+    return f"{found.value:.2f} ({_interval(found)})"
+
+
+def _interval(found: Quantity) -> str:
+    return f"{found.low:.2f} to {found.high:.2f}"

@@ -1,0 +1,164 @@
+"""``colift validity``: the suites' prediction of the scores of policies with real people."""
+
+import sys
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Annotated, Final
+
+import typer
+
+from ..agents.errors import InputError
+from ..agents.loading.loading import PolicySpec
+from ..agents.registry import POLICIES, entries
+from ..agents.spec import AgentSpec
+from ..benchmark.suites.suite import Suite, make_suite
+from ..benchmark.validity.playing import (
+    Known,
+    check_same_task,
+    play_source,
+    play_suite,
+    validity_lifts,
+)
+from ..benchmark.validity.report import Validity, check_policies, validity_json, validity_of
+from ..benchmark.validity.scores import Scores
+from ..benchmark.validity.sources import Source, sources_of
+from ..leaderboard.practice.shipped_scores import shipped_scores
+from .completion import suites as suite_names
+from .options import AsJson, Jobs
+from .policies import choose_policy
+from .printing import print_json, show
+from .progress import reported_interrupt, workers
+from .tables.validity import MEANINGS, heading, ratios_table, source_table
+
+SUITES: Final = ("standard-v1", "paper-v1", "quick-v1")
+"""The suites that are judged by default."""
+
+FLOORS: Final = ("hold", "random")
+"""Policies that are left out by default: any lifts put them last, by far, so they would raise a
+correlation without any merit of the suite."""
+
+
+def validity(
+    data: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="DATA",
+            help="Real lifts, each a source of its own: files of recordings (columns "
+            "trial,t_s,z_m) and sessions of 'colift play'.",
+        ),
+    ],
+    policies: Annotated[
+        str | None,
+        typer.Option(
+            metavar="A,B,...",
+            help="Policies as for 'colift run', separated by commas; default: all registered ones "
+            f"but {' and '.join(FLOORS)}.",
+        ),
+    ] = None,
+    suite: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME",
+            help=f"Suite to judge; repeatable. Default: {', '.join(SUITES)}.",
+            autocompletion=suite_names,
+        ),
+    ] = None,
+    jobs: Jobs = None,
+    as_json: AsJson = False,
+) -> None:
+    """Judge suites by real lifts: how well they predict the order and size of scores there."""
+    sources = sources_of(data)
+    judged = [make_suite(name) for name in dict.fromkeys(suite or SUITES)]
+    for each in judged:
+        check_same_task(each)
+    specs = _chosen(policies)
+    found = _play(sources, judged, specs, jobs)
+    if as_json:
+        print_json(validity_json(found))
+    else:
+        show(ratios_table(found))
+        for source in found.sources:
+            show(heading(source), source_table(source))
+            show(*source.texts, "")
+        show(MEANINGS)
+    failed = _failures([*(each.source for each in found.sources), *found.suites])
+    if failed:
+        print("\n".join(failed), file=sys.stderr)
+        raise typer.Exit(1)
+
+
+def separated(text: str) -> list[str]:
+    """Return the policies of ``A,B,...``; a part with ``=`` is a parameter of the one before it."""
+    found: list[str] = []
+    for part in text.split(","):
+        if "=" in part and found:
+            found[-1] += f",{part}"
+        else:
+            found.append(part.strip())
+    return found
+
+
+def _chosen(text: str | None) -> dict[str, AgentSpec]:
+    """Return the policies, by the names that tables use.
+
+    Raises
+    ------
+    InputError
+        If there are too few, one cannot be loaded, or two have the same name.
+    """
+    if text is None:
+        texts = [name for name in entries(POLICIES) if name not in FLOORS]
+    else:
+        texts = separated(text)
+    twice = [each for each, count in Counter(texts).items() if count > 1]
+    if twice:
+        raise InputError(f"policy {twice[0]} is named twice; name each policy once")
+    check_policies(texts)
+    specs = {each: choose_policy(each) for each in texts}
+    names = Counter(spec.name for spec in specs.values())
+    for spec in specs.values():
+        spec.check()
+    return {spec.name if names[spec.name] == 1 else each: spec for each, spec in specs.items()}
+
+
+def _play(
+    sources: Sequence[Source],
+    judged: Sequence[Suite],
+    specs: Mapping[str, AgentSpec],
+    jobs: int | None,
+) -> Validity:
+    known = [_known(each, specs) for each in judged]
+    total = sum(validity_lifts(specs, *pair) for pair in zip(judged, known, strict=True))
+    total += (1 + len(specs)) * sum(source.suite.size for source in sources)
+    with (
+        reported_interrupt("a suite is judged on all lifts or not at all"),
+        workers("validity", total, jobs) as (pool, progress),
+    ):
+        return validity_of(
+            [
+                (source.kind, play_source(specs, source, executor=pool, progress=progress))
+                for source in sources
+            ],
+            [
+                play_suite(specs, each, there, executor=pool, progress=progress)
+                for each, there in zip(judged, known, strict=True)
+            ],
+        )
+
+
+def _known(suite: Suite, specs: Mapping[str, AgentSpec]) -> Known:
+    """Return the shipped scores of colift's own policies without parameters."""
+    return {
+        name: errors
+        for name, errors in shipped_scores(suite).items()
+        if specs.get(name) == PolicySpec(text=name)
+    }
+
+
+def _failures(scores: Sequence[Scores]) -> list[str]:
+    return [
+        f"{name}: {count} of {each.lifts} lifts of {each.name} failed and count as worst"
+        for each in scores
+        for name, count in each.failed.items()
+    ]

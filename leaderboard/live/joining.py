@@ -1,0 +1,83 @@
+"""The socket of a page: who may open it, and the way to a seat."""
+
+import asyncio
+import json
+from typing import Final
+
+from fastapi import APIRouter, WebSocket
+
+from ..service.security import client_of
+from . import limits
+from .page import REFUSED, Page
+from .play import Play, play_of
+from .sessions import Role, Session
+
+SEATS: Final[dict[str, Role]] = {"0": "host", "1": "person", "spectator": "spectator"}
+"""Roles by the seats that pages ask for."""
+
+NOT_HERE: Final = "There is no such session, or this link is not for it."
+
+router: Final = APIRouter()
+
+
+@router.websocket("/socket")
+async def socket(websocket: WebSocket) -> None:
+    """Connect a page with the room of its session."""
+    play = play_of(websocket)
+    if not limits.same_origin(websocket):
+        await websocket.close()  # Before it was accepted: 403.
+        return
+    with play.sockets.held(client_of(websocket)) as free:
+        await websocket.accept()
+        page = Page(websocket)
+        if not free:
+            await _refuse(page, f"Your address has {limits.SOCKETS} pages open; close one of them.")
+            return
+        try:
+            async with asyncio.timeout(limits.JOIN_S):
+                asked = await websocket.receive()
+        except TimeoutError:
+            asked = {"type": "websocket.receive"}
+        if asked["type"] != "websocket.receive":
+            return
+        session, role = await _admitted(play, asked.get("text"))
+        if session is None or role is None:
+            await _refuse(page, NOT_HERE)
+        else:
+            await _seated(play, page, session, role)
+
+
+async def _admitted(play: Play, text: str | None) -> tuple[Session | None, Role | None]:
+    """Return the session that a first message names, and the role that its secret allows."""
+    try:
+        asked = json.loads(text or "")
+        name, secret, seat = (str(asked[each]) for each in ("session", "secret", "seat"))
+        wanted = SEATS[seat]
+        joining = asked["type"] == "join"
+    except (ValueError, RecursionError, KeyError, TypeError):
+        return None, None
+    session = await asyncio.to_thread(play.sessions.find, name)
+    if session is None or not joining:
+        return None, None
+    role = session.role_of(secret)
+    return session, role if role == wanted else None
+
+
+async def _seated(play: Play, page: Page, session: Session, role: Role) -> None:
+    """Serve a page in its seat, as long as it is there."""
+    loop = asyncio.get_running_loop()
+    entered = play.keeper.enter(session, role, page)
+    if entered is None:
+        await _refuse(page, "There are too many spectators.")
+        return
+    group, seat = entered
+    try:
+        await page.serve(lambda message: group.from_page(seat, message, loop.time()))
+    finally:
+        play.keeper.leave(group, seat, page)
+
+
+async def _refuse(page: Page, message: str) -> None:
+    """Say why a page gets no seat, and close its socket."""
+    page.end(REFUSED, "refused", message)
+    await page.serve(lambda message: None)

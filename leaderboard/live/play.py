@@ -1,0 +1,58 @@
+"""The state of the application of live lifts, which its routes share."""
+
+import asyncio
+import gc
+import json
+from collections.abc import Awaitable, Callable
+
+from fastapi import Request, WebSocket
+
+from ..replays.geometry import geometry
+from ..service.security import RateLimit
+from . import limits
+from .keeper import Keeper, PlayConfig
+from .replaying import Replays
+from .sessions import Sessions
+
+
+class Play:
+    """All that the routes share.
+
+    Parameters
+    ----------
+    config
+        The partners, and the number of rooms.
+    path
+        Path of a board under which this is mounted; empty if there is none.
+    obstacle
+        See :class:`.Keeper`.
+    """
+
+    def __init__(
+        self, config: PlayConfig, path: str, obstacle: Callable[[], Awaitable[str | None]]
+    ) -> None:
+        self.config, self.path = config, path
+        self.sessions = Sessions(config.folder)
+        self.keeper = Keeper(config, obstacle)
+        self.replays = Replays()
+        self.sockets = limits.Places(limits.SOCKETS)
+        self.new_sessions = RateLimit(rate=limits.SESSIONS)
+        self.geometry = b""
+
+    async def start(self) -> None:
+        """Begin to give rooms."""
+        self.geometry = await asyncio.to_thread(lambda: json.dumps(geometry()).encode())
+        self.keeper.start()
+        gc.collect()
+        gc.freeze()
+
+    async def close(self) -> None:
+        """End all rooms."""
+        await self.keeper.close()
+        self.replays.close()
+
+
+def play_of(connection: Request | WebSocket) -> Play:
+    """Return what the routes share."""
+    found: Play = connection.app.state.play
+    return found

@@ -1,0 +1,105 @@
+"""Replays of live lifts, made in a process of their own: the web process must never wait."""
+
+import asyncio
+import ctypes
+import multiprocessing
+import os
+import signal
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
+from typing import Any, Final
+
+from ...agents.errors import InputError
+from ...agents.humans import Played
+from ...benchmark.bundle import read_bundle
+from ...benchmark.live.cueing import ghost_scenario
+from ..replays.replay import play_ghost, replay_content
+
+WAITING: Final = 8
+"""Replays that may wait to be made."""
+
+NICENESS: Final = 10
+"""Priority of the process that makes them: behind every room."""
+
+PR_SET_PDEATHSIG: Final = 1
+"""Option of prctl(2)."""
+
+
+def live_replay(bundle: Path) -> dict[str, Any]:
+    """Return the replay of a live lift as :func:`.replay_content` has it.
+
+    Its ghost is a team of two simulated people with the same cues.
+
+    Raises
+    ------
+    InputError
+        If the folder is no bundle of a live lift.
+    """
+    lifted = read_bundle(bundle)
+    suite = lifted.recipe.suite()
+    (scenario,), (episode,) = suite.scenarios, lifted.episodes
+    if not isinstance(scenario.human, Played) or scenario.human.cue is None:
+        raise InputError(f"{bundle}: not the bundle of a live lift")
+    number, _, name = bundle.name.partition("-")
+    ghost = play_ghost(ghost_scenario(scenario.human.cue, int(number)), episode.seed)
+    content = replay_content(episode, scenario, ghost, policy=name)
+    if not scenario.seat.is_robot:
+        content["command"] = []  # The actions are heights of a hand.
+    return content
+
+
+class Replays:
+    """Makes replays, one at a time, in a process that starts when it is first needed."""
+
+    def __init__(self) -> None:
+        self._pool: ProcessPoolExecutor | None = None
+        self._asked = 0
+
+    @property
+    def full(self) -> bool:
+        """Whether as many wait as may."""
+        return self._asked >= WAITING
+
+    async def make(self, bundle: Path) -> dict[str, Any]:
+        """Return the replay of a lift.
+
+        Raises
+        ------
+        InputError
+            As :func:`live_replay`.
+        """
+        self._asked += 1
+        try:
+            try:
+                return await self._made(bundle)
+            except BrokenProcessPool:  # The process was killed.
+                self.close()
+                return await self._made(bundle)
+        finally:
+            self._asked -= 1
+
+    def close(self) -> None:
+        """End the process, if there is one."""
+        if self._pool is not None:
+            self._pool.shutdown(wait=False, cancel_futures=True)
+            self._pool = None
+
+    async def _made(self, bundle: Path) -> dict[str, Any]:
+        if self._pool is None:
+            self._pool = ProcessPoolExecutor(
+                1, multiprocessing.get_context("spawn"), initializer=_prepare
+            )
+        loop = asyncio.get_running_loop()
+        return await loop.run_in_executor(self._pool, live_replay, bundle)
+
+
+def tether(number: signal.Signals) -> None:
+    """Let the system send this process a signal when its parent ends, however that ends."""
+    ctypes.CDLL(None, use_errno=True).prctl(PR_SET_PDEATHSIG, number)
+
+
+def _prepare() -> None:
+    tether(signal.SIGKILL)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    os.nice(NICENESS)

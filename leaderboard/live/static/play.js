@@ -1,0 +1,257 @@
+"use strict";
+// The page of live lifts: what the room says, what the person does, and what is shown.
+(function () {
+  const play = window.coliftPlay;
+
+  const FIRST_PINGS = 40;
+  const PINGS = 10;
+
+  const at = (id) => document.getElementById(id);
+  const { root } = document.body.dataset;
+
+  class Page {
+    constructor(geometry) {
+      this.state = null;
+      this.told = new play.Told();
+      this.stage = new play.Stage(at("stage"), geometry);
+      this.clock = new play.Clock();
+      this.connection = new play.Connection(root, {
+        message: (message) => this.take(message),
+        frame: (buffer) => this.lifting.frame(buffer),
+        lost: (sentence) => this.away(sentence),
+        ended: (sentence, why) => this.ended(sentence, why),
+      });
+      this.lifting = new play.Lifting(this.stage, this.connection, this.clock, {
+        changed: () => this.show(),
+        finished: (end, delays) => this.finished(end, delays),
+        cued: (height) => this.told.say(height > 0.001 ? "Lift to the line." : "Back to rest."),
+        slow: (slow) => (at("slow").hidden = !slow),
+      });
+      this.input = new play.Input(at("input"), () => this.stage);
+      at("input").addEventListener("input", () => this.show());
+      this.lobby = new play.Lobby(at("choice"), at("people"), {
+        choose: (choice) => this.choose(choice),
+        swap: () => this.connection.send({ type: "swap" }),
+      });
+      this.result = new play.Result(at("result"), this.connection, geometry);
+      this.hands = new play.Hands(this);
+      this.life = new play.Life({
+        hidden: () => this.hidden(),
+        left: () => this.connection.drop(),
+        back: () => this.connection.place && this.connection.connect(),
+      });
+      at("next").addEventListener("click", () => this.lobby.next());
+      at("change").addEventListener("click", () => this.view("choose"));
+      // Another link in the same tab is another session; the skip link is none.
+      window.addEventListener("hashchange", () => play.placeOf(window.location.hash) && window.location.reload());
+      document.querySelector(".skip").addEventListener("click", (event) => {
+        event.preventDefault();
+        at("stage").focus();
+      });
+      this.enter();
+    }
+
+    // A hand closes.
+    begins() {
+      this.result.hide();
+      this.explained = false;
+      this.told.say("Hold on: the lift begins.");
+      at("stage").focus({ preventScroll: true });
+    }
+
+    get watching() {
+      return this.connection.place !== null && this.connection.place.seat === "spectator";
+    }
+
+    get may() {
+      const phase = this.state && this.state.phase;
+      const ready = phase === "ready" || phase === "ended";
+      return ready && this.connection.open && this.settled && !this.watching && !this.lifting.hand.closed;
+    }
+
+    // By a link to a session, or with nothing chosen yet.
+    enter() {
+      this.connection.place = play.placeOf(window.location.hash);
+      if (!this.connection.place) {
+        this.view("choose");
+        return;
+      }
+      this.view("table");
+      this.told.say("Connecting …");
+      this.connection.connect();
+    }
+
+    async choose(choice) {
+      this.wanted = choice;
+      this.result.hide();
+      this.view("table");
+      if (this.connection.open && this.seated) {
+        this.connection.send({ type: "choose", ...choice });
+        return;
+      }
+      this.told.say("Opening a room …");
+      try {
+        if (!this.connection.place) await this.connection.make();
+        this.connection.connect();
+      } catch (error) {
+        this.told.say(error instanceof TypeError ? "The server cannot be reached. Try again." : error.message);
+        this.told.offer("Try again", () => this.choose(choice));
+      }
+    }
+
+    take(message) {
+      const does = {
+        pong: () => this.clock.add(message.t, message.room, performance.now()),
+        joined: () => this.joined(message),
+        queued: () => this.told.say((message.place ? `You are number ${message.place} in the queue. ` : "") + message.reason),
+        state: () => this.follow(message),
+        start: () => this.lifting.start(message),
+        cue: () => this.lifting.cue(message),
+        end: () => this.over(message),
+        void: () => this.over(message),
+        standing: () => this.result.compare(message),
+        fault: () => this.refused(message.message),
+        room_lost: () => {
+          this.drop();
+          this.settled = this.measured = false;
+          this.told.say(message.message);
+        },
+      }[message.type];
+      if (does) does();
+    }
+
+    joined(message) {
+      this.seated = this.before = true;
+      this.settled = this.measured = false;
+      this.told.offer(null);
+      this.lobby.guest = this.connection.place.seat !== 0;
+      this.lobby.links(message.invite, message.watch);
+      document.body.dataset.seat = this.connection.place.seat;
+      if (this.wanted) this.connection.send({ type: "choose", ...this.wanted });
+      this.life.awake(true);
+    }
+
+    // Before the first lift in a room, the clock: not while the room is busy with its preparations.
+    async measure() {
+      this.measured = true;
+      this.clock.reset();
+      await this.clock.measure((ping) => this.connection.send(ping), FIRST_PINGS);
+      this.settled = true;
+      this.show();
+    }
+
+    follow(state) {
+      const first = !this.state;
+      this.state = state;
+      if (state.phase !== "preparing" && !this.measured) this.measure();
+      if (!state.partner && !this.lobby.guest) {
+        this.view("choose");
+        return;
+      }
+      if (first) this.view("table");
+      if (this.wanted && this.wanted.partner === state.partner) this.wanted = null;
+      this.stage.seat(this.watching ? null : state.you === "far" ? "far" : "human");
+      this.stage.company(play.hasHumanFar(state.partner));
+      this.lobby.follow(state);
+      if (!this.explained || state.phase !== "ready") this.told.say(state.message);
+      if (state.phase === "lifting") this.explained = false;
+      this.show();
+    }
+
+    // A lift has ended: with a score, or void.
+    over(message) {
+      this.hands.end();
+      this.explained = true;
+      if (message.type === "end") {
+        this.lifting.end(message);
+        this.told.say("The lift is over.");
+      } else {
+        this.lifting.drop();
+        this.told.say(`This lift does not count: ${message.reason}. Take hold to repeat it.`);
+      }
+      this.clock.measure((ping) => this.connection.send(ping), PINGS);
+      this.show();
+    }
+
+    finished(end, delays) {
+      if (!this.watching) for (const report of delays.reports(end.lift)) this.connection.send(report);
+      this.result.show(end, this.state.partner, delays);
+      this.told.say(end.failure ? "The lift failed." : `Level to ${end.rmse_mm.toFixed(1)} mm (RMSE).`);
+      this.show();
+    }
+
+    // If a grip was refused, the hand must not stay closed.
+    refused(sentence) {
+      this.told.fault(sentence);
+      if (!this.lifting.hand.closed || this.lifting.hand.started) return;
+      this.hands.end();
+      this.lifting.release();
+    }
+
+    drop() {
+      this.hands.end();
+      this.lifting.drop();
+    }
+
+    hidden() {
+      if (!this.lifting.hand.closed) return;
+      this.lifting.release("hidden");
+      this.drop();
+    }
+
+    away(sentence) {
+      this.seated = this.settled = false;
+      this.drop();
+      this.state = null;
+      this.told.say(sentence);
+      this.show();
+    }
+
+    ended(sentence, why) {
+      this.seated = this.settled = false;
+      this.drop();
+      this.state = null;
+      this.life.awake(false);
+      this.told.say(sentence);
+      if (why === "taken_over") this.told.offer("Go on here", () => this.connection.connect());
+      else if (this.before) this.told.offer("Go on", () => this.connection.connect());
+      else this.told.offer("New session", () => (window.location.href = window.location.pathname + window.location.search));
+      this.show();
+    }
+
+    view(view) {
+      document.body.dataset.view = view;
+      at("choice").hidden = view !== "choose";
+      at("panel").hidden = view !== "table";
+      this.stage.fit();
+      this.show();
+      window.scrollTo(0, 0);
+    }
+
+    show() {
+      const { state } = this;
+      const phase = this.lifting.hand.closed && state && state.phase === "ready" ? "gripped" : state ? state.phase : "none";
+      document.body.dataset.phase = phase;
+      at("partner").textContent = state ? (this.watching ? "A lift with " : "You and ") + play.partnerWords(state.partner) : "The table";
+      at("place").textContent = state && state.partner ? play.placeWords(state, this.watching) : "";
+      at("lift").hidden = !this.may || this.input.preset === "touch" || document.body.dataset.view !== "table";
+      at("touch").hidden = !this.may || this.input.preset !== "touch" || document.body.dataset.view !== "table";
+      at("again").disabled = !this.may;
+      for (const id of ["change", "next", "again"]) at(id).classList.toggle("away", this.lobby.guest && id !== "again");
+      at("change").disabled = phase === "lifting" || phase === "gripped";
+      this.input.show();
+    }
+  }
+
+  async function begin() {
+    try {
+      const answer = await fetch(`${root}/api/geometry`);
+      if (!answer.ok) throw new Error(`The server answered ${answer.status}.`);
+      play.page = new Page(await answer.json());
+    } catch (error) {
+      at("status").textContent = `The page could not start: ${error.message} Reload it.`;
+    }
+  }
+
+  begin();
+})();

@@ -1,0 +1,50 @@
+"""Scores of the built-in policies on the public lifts of a practice season."""
+
+import csv
+import io
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from ...benchmark.bundle.files import EPISODES
+from ...benchmark.episode.metric import LEADING
+from ...benchmark.statistics import FloatArray
+from ...benchmark.suites.suite import Suite
+from ..evaluation.entrant import builtin_entrant, builtin_names
+from .practice import PracticeRun
+from .season_import import DATA, PlayedSeason
+
+
+def shipped_scores(suite: Suite, folder: Path = DATA) -> dict[str, FloatArray]:
+    """Return the RMSE of each built-in policy in each lift of a suite [mm], by its name.
+
+    The practice season has them. Policies that have changed since are left out, and all of them if
+    there is no practice season of this suite and its digest.
+
+    Parameters
+    ----------
+    suite
+        The suite.
+    folder
+        Folder of the practice seasons.
+    """
+    season = PlayedSeason.read(suite.name, folder)
+    if season is None or season.suite_digest != suite.digest:
+        return {}
+    return dict(_current(season, suite.size))
+
+
+def _current(season: PlayedSeason, lifts: int) -> Iterator[tuple[str, FloatArray]]:
+    names = builtin_names()
+    for each in season.played:
+        name = each.entry.name
+        if name in names and each.entry.submission == builtin_entrant(name).digest:
+            errors = _errors(each)
+            if len(errors) == lifts:
+                yield name, errors
+
+
+def _errors(played: PracticeRun) -> FloatArray:
+    table = csv.DictReader(io.StringIO(played.files[EPISODES].decode()))
+    return np.array([float(row[LEADING]) for row in table])

@@ -1,0 +1,31 @@
+import pytest
+from colift.agents.errors import InputError
+from colift.benchmark.validity.sources import source_of, sources_of
+
+
+def write(path, trials=2):
+    path.parent.mkdir(exist_ok=True)
+    rows = [
+        f"{trial},{k / 50:.2f},{0.3 * min(k, 60 - k) / 30:.3f}\n"
+        for trial in range(trials)
+        for k in range(61)
+    ]
+    path.write_text("trial,t_s,z_m\n" + "".join(rows))
+    return path
+
+
+def test_a_file_is_a_source_of_its_name_with_each_trial_once(tmp_path):
+    source = source_of(write(tmp_path / "our people.csv", trials=3))
+    assert (source.name, source.kind, source.suite.size) == ("our people", "recordings", 3)
+    assert [scenario.trial for scenario in source.suite.scenarios] == ["0", "1", "2"]
+
+
+def test_one_lift_is_refused(tmp_path):
+    with pytest.raises(InputError, match="has 1 lift; intervals need 2 or more"):
+        source_of(write(tmp_path / "one.csv", trials=1))
+
+
+def test_two_sources_have_two_names(tmp_path):
+    paths = [write(tmp_path / place / "lifts.csv") for place in ("here", "there")]
+    with pytest.raises(InputError, match="2 sources are called 'lifts'"):
+        sources_of(paths)

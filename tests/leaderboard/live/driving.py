@@ -1,0 +1,145 @@
+"""Simulated people at a real browser: their hands are trusted touches with times of their own."""
+
+import asyncio
+import json
+import struct
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from colift.agents.agent import FRAME, HISTORY, HumanObservation
+from colift.agents.humans import Partner
+from playwright.async_api import BrowserContext, CDPSession, Page
+
+EVERY_S = 0.004
+"""Time between two events: four to a picture, so that the browser coalesces them."""
+
+STEP = 10
+"""Frames for which a second person decides at a time."""
+
+Hand = Callable[[float], float]
+"""Time of the lift [s] -> height of the hand above the grip [m]."""
+
+
+class Driven:
+    """A page whose person is simulated; the room's clock is that of this machine."""
+
+    def __init__(self, page: Page, session: CDPSession) -> None:
+        self.page = page
+        self._cdp = session
+        self.told: list[dict[str, Any]] = []
+        self.frames: dict[int, tuple[float, float]] = {}
+        page.on("websocket", self._listen)
+
+    @classmethod
+    async def opened(cls, context: BrowserContext, url: str) -> "Driven":
+        page = await context.new_page()
+        driven = cls(page, await context.new_cdp_session(page))
+        await page.goto(url)
+        return driven
+
+    def _listen(self, socket: Any) -> None:
+        socket.on("framereceived", self._take)
+
+    def _take(self, payload: str | bytes) -> None:
+        if isinstance(payload, str):
+            self.told.append(json.loads(payload))
+            return
+        frame, human, robot = struct.unpack_from("<Iff", payload, 4)
+        self.frames[frame] = (human, robot)
+
+    async def until(self, kind: str, after: int = 0, seconds: float = 30.0, **wanted: Any) -> Any:
+        """Return the first message of a kind that comes after so many messages."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            for told in self.told[after:]:
+                if told["type"] == kind and wanted.items() <= told.items():
+                    return told
+            await asyncio.sleep(0.01)
+        raise TimeoutError(f"no {kind} {wanted}; last: {self.told[-3:]}")
+
+    async def choose(self, partner: str, kind: str = "mixed") -> None:
+        page = self.page
+        await page.locator(f'input[name="partner"][value="{partner}"]').check()
+        await page.locator('select[name="kind"]').select_option(kind)
+        await page.get_by_role("button", name="To the table").click()
+
+    async def ready(self) -> None:
+        end = time.monotonic() + 30
+        while not await self.page.evaluate("Boolean(coliftPlay.page && coliftPlay.page.may)"):
+            if time.monotonic() > end:
+                raise TimeoutError(await self.page.inner_text("#status"))
+            await asyncio.sleep(0.05)
+
+    async def grip(self) -> None:
+        """Put a finger on the table."""
+        box = await self.page.locator("#stage").bounding_box()
+        assert box is not None
+        self.x, self.y = box["x"] + 0.8 * box["width"], box["y"] + 0.75 * box["height"]
+        self.scale = await self.page.evaluate("window.coliftPlay.page.stage.pixelsPerMetre")
+        self.frames = {}
+        await self._touch("touchStart", 0.0)
+
+    async def move(self, hand: Hand, begin: float, ahead: float = 0.0) -> dict[str, Any]:
+        """Move the finger until the lift ends; ``begin`` is its first frame by the clock [s]."""
+        after = len(self.told)
+        pending = []
+        while not any(told["type"] in ("end", "void") for told in self.told[after:]):
+            now = time.monotonic()
+            pending.append(
+                asyncio.ensure_future(self._touch("touchMove", hand(now - begin + ahead)))
+            )
+            await asyncio.sleep(max(EVERY_S - (time.monotonic() - now), 0))
+        await asyncio.gather(*pending)
+        await self._touch("touchEnd", None)
+        end: dict[str, Any] = next(t for t in self.told[after:] if t["type"] in ("end", "void"))
+        return end
+
+    async def follow(self, partner: Partner, delay: float, start: dict[str, Any]) -> dict[str, Any]:
+        """Move the finger as a simulated second person, who sees the frames that arrive here.
+
+        Parameters
+        ----------
+        partner
+            The second person.
+        delay
+            Age of what is seen [s].
+        start
+            The room's message.
+        """
+        begin, made = start["at"] / 1000, [0.0]
+        after = len(self.told)
+        partner.reset(1)
+        moving = asyncio.ensure_future(self.move(lambda time: _at(made, time), begin))
+        while not moving.done():
+            frame = len(made) - 1
+            await asyncio.sleep(max(begin + frame * FRAME + 0.005 - time.monotonic(), 0))
+            view = np.zeros(HumanObservation.size(STEP))
+            age = round(delay / FRAME)
+            own = [self._seen(frame - HISTORY + 1 + i)[1] for i in range(HISTORY)]
+            other = [self._seen(frame - age - HISTORY + 1 + i)[0] for i in range(HISTORY)]
+            view[HumanObservation.OWN_HEIGHT] = own
+            view[HumanObservation.OTHER_END] = other
+            view[HumanObservation.TARGET] = other[-1]
+            made += partner.act(view).tolist()
+        assert len(self.told) > after
+        return await moving
+
+    def _seen(self, frame: int) -> tuple[float, float]:
+        """Return both ends in a frame; one that has not arrived is as the newest."""
+        if frame <= 0 or not self.frames:
+            return (0.0, 0.0)
+        return self.frames.get(frame) or self.frames[max(self.frames)]
+
+    async def _touch(self, kind: str, height: float | None) -> None:
+        points = [] if height is None else [{"x": self.x, "y": self.y - self.scale * height}]
+        await self._cdp.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+
+def _at(made: list[float], time: float) -> float:
+    """Return the height at a time of the lift [s], of references at the ends of frames [m]."""
+    place = min(max(time / FRAME, 0.0), len(made) - 1.0)
+    low = min(int(place), len(made) - 2) if len(made) > 1 else 0
+    high = min(low + 1, len(made) - 1)
+    return made[low] + (made[high] - made[low]) * (place - low)

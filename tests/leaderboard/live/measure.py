@@ -1,0 +1,164 @@
+"""People in a browser against the same people offline, and the delays that their pages saw.
+
+python tests/leaderboard/live/measure.py alone 10
+python tests/leaderboard/live/measure.py pair 10
+"""
+
+import asyncio
+import dataclasses
+import json
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from colift.agents.calibration import CALIBRATION
+from colift.agents.humans import LIVE_SUBJECT, SUBJECTS, Cued, HandLog, Partner, Played
+from colift.agents.humans.partner import PartnerParameters
+from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.bundle import read_bundle
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.execution.batches import play
+from colift.benchmark.results.baselines import PARTNER_SPEC
+from playwright.async_api import async_playwright
+
+sys.path.insert(0, str(Path(__file__).parent))
+from driving import Driven
+
+POLICIES = ("anticipate", "blend", "copy")
+
+
+def references(seed, frames=2000):
+    """Return the hand references of a simulated person who lifts by a cue of their own [m]."""
+    cue = Cued(kind=("smooth", "pause", "changing_goal")[seed % 3], seed=seed)
+    subject = dataclasses.replace(SUBJECTS["S2"], name="live", pull=0.0)
+    scenario = Scenario(behaviour="cued", human=cue, trial=str(seed), subject=subject)
+    (episode,) = play(PolicySpec(text="copy"), scenario, (0,))
+    made = episode.trace.human_action.ravel()
+    return np.concatenate((made, np.full(max(frames - len(made), 0), made[-1])))
+
+
+def hand_of(made):
+    return lambda time: float(np.interp(time / 0.01 - 1, np.arange(len(made)), made))
+
+
+def offline(folder, made, partner=None):
+    """Return the RMSE of the same lift with the ideal hand, and the partner's name."""
+    bundle = read_bundle(folder)
+    scenario, episode = bundle.recipe.suite().scenarios[0], bundle.episodes[0]
+    log = HandLog.of_references(made[: len(episode.trace.human_action) * 10].tolist())
+    ideal = dataclasses.replace(scenario, human=Played(cue=scenario.human.cue, log=log))
+    spec = partner or PolicySpec(text=bundle.results["policy"]["name"])
+    (again,) = play(spec, ideal, (0,))
+    return again.scores["rmse_mm"]
+
+
+async def alone(url, out, lifts):
+    async with async_playwright() as playwright:
+        browser = await playwright.chromium.launch(
+            executable_path="/usr/bin/chromium", args=["--no-sandbox"]
+        )
+        context = await browser.new_context(has_touch=True, viewport={"width": 900, "height": 700})
+        ratios = {}
+        delays = []
+        for policy in POLICIES:
+            driven = await Driven.opened(context, url)
+            await driven.choose(policy)
+            for seed in range(lifts):
+                made = references(seed)
+                await driven.ready()
+                seen = len(driven.told)
+                await driven.grip()
+                start = await driven.until("start", after=seen)
+                end = await driven.move(hand_of(made), start["at"] / 1000)
+                if end["type"] != "end":
+                    print(policy, seed, end)
+                    continue
+                session = (await driven.page.evaluate("location.hash"))[3:].partition(".")[0]
+                folder = out / session / end["folder"]
+                ideal = offline(folder, made)
+                await asyncio.sleep(0.3)
+                report = json.loads(folder.with_name(folder.name + ".display.json").read_text())
+                delays += [each for part in report["seat_0"] for each in part["delays_ms"]]
+                ratios.setdefault(policy, []).append(end["rmse_mm"] / ideal)
+                print(
+                    f"{policy:11} {seed:2} browser {end['rmse_mm']:6.2f} offline {ideal:6.2f} mm "
+                    f"{100 * (end['rmse_mm'] / ideal - 1):+5.1f} % late {end['late']} "
+                    f"starved {end['starved']} U {start['delay']:.0f} P {start['playout']:.0f}",
+                    flush=True,
+                )
+            await driven.page.close()
+        for policy, found in ratios.items():
+            mean = 100 * (np.exp(np.log(found).mean()) - 1)
+            worst = 100 * (np.abs(np.array(found) - 1).max())
+            print(f"{policy}: mean {mean:+.2f} %, largest {worst:.1f} %")
+        print("hand to picture: p50 {:.1f}, p99 {:.1f} ms".format(*np.percentile(delays, (50, 99))))
+        await browser.close()
+
+
+async def pair(url, out, lifts):
+    """Two simulated people at two browsers, against the same two offline."""
+    async with async_playwright() as playwright:
+        browser = await playwright.chromium.launch(
+            executable_path="/usr/bin/chromium", args=["--no-sandbox"]
+        )
+        size = {"width": 900, "height": 700}
+        contexts = [await browser.new_context(has_touch=True, viewport=size) for _ in range(2)]
+        host = await Driven.opened(contexts[0], url)
+        await host.choose("person")
+        link = host.page.locator("#invite-link")
+        await link.wait_for()
+        guest = await Driven.opened(contexts[1], await link.input_value())
+        ratios = []
+        for seed in range(lifts):
+            made = references(seed)
+            await host.ready()
+            await guest.ready()
+            seen = len(host.told)
+            await host.grip()
+            await guest.grip()
+            start = await host.until("start", after=seen)
+            lag = CALIBRATION.partner_lag - start["delay"] / 1000
+            partner = Partner(parameters=PartnerParameters(lag=lag))
+            end, _ = await asyncio.gather(
+                host.move(hand_of(made), start["at"] / 1000),
+                guest.follow(partner, LIVE_SUBJECT.visual_delay, start),
+            )
+            if end["type"] != "end":
+                print(seed, end)
+                continue
+            session = (await host.page.evaluate("location.hash"))[3:].partition(".")[0]
+            ideal = offline(out / session / end["folder"], made, PARTNER_SPEC)
+            ratios.append(end["rmse_mm"] / ideal)
+            print(
+                f"pair {seed:2} browser {end['rmse_mm']:6.2f} offline {ideal:6.2f} mm "
+                f"{100 * (end['rmse_mm'] / ideal - 1):+5.1f} % lag {end['lag_ms']} "
+                f"late {end['late']} U {start['delay']:.0f} P {start['playout']:.0f}",
+                flush=True,
+            )
+        print(f"pair: mean {100 * (np.exp(np.log(ratios).mean()) - 1):+.2f} %")
+        await browser.close()
+
+
+def main(what, lifts):
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder)
+        command = [sys.executable, "-m", "colift", "play", "--no-browser", "--port", "0"]
+        server = subprocess.Popen(
+            [*command, "--out", folder], stdout=subprocess.PIPE, text=True, bufsize=1
+        )
+        try:
+            line = ""
+            while "http" not in line:
+                line = server.stdout.readline()
+            url = re.search(r"http://\S+", line).group().rstrip("/,.") + "/"
+            asyncio.run({"alone": alone, "pair": pair}[what](url, out, lifts))
+        finally:
+            server.terminate()
+            server.wait()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], int(sys.argv[2]))

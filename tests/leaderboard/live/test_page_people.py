@@ -1,0 +1,92 @@
+"""Two people at two pages, and somebody who watches."""
+
+import json
+import re
+
+from playwright.sync_api import expect
+
+from .browsing import WAIT_MS, table, wait_for, wait_for_phase, wait_until_ready
+
+
+class Heard:
+    """Control messages that a page has received, and its frames."""
+
+    def __init__(self, page):
+        self.told, self.frames = [], 0
+        page.on("websocket", lambda socket: socket.on("framereceived", self._take))
+
+    def _take(self, payload):
+        if isinstance(payload, bytes):
+            self.frames += 1
+        else:
+            self.told.append(json.loads(payload))
+
+    @property
+    def kinds(self):
+        return {told["type"] for told in self.told}
+
+
+def grip(page):
+    page.bring_to_front()
+    page.locator("#stage").focus()
+    page.keyboard.press("Space")
+
+
+def test_two_people_and_a_spectator(open_page, url):
+    """The follower and the spectator see the table alone; the ends can be swapped."""
+    host, guest, watcher = (open_page() for _ in range(3))
+    heard = [Heard(page) for page in (host, guest, watcher)]
+    host.goto(url)
+    host.locator('input[name="partner"][value="person"]').check()
+    host.get_by_role("button", name="To the table").click()
+    expect(host.locator("#who")).to_have_text("The second person is not here yet.", timeout=WAIT_MS)
+    assert not host.locator("#lift").is_visible()
+    invitation = host.locator("#invite-link").input_value()
+    watching = host.locator("#watch-link").input_value()
+    assert re.fullmatch(re.escape(url) + r"/#p=[\w-]+\.[\w-]+", invitation)
+    guest.goto(invitation)
+    watcher.goto(watching)
+    for page in (host, guest):
+        wait_until_ready(page)
+    expect(guest.locator("#place")).to_contain_text("left end, in orange, and follow")
+    expect(host.locator("#place")).to_contain_text("right end, in blue, and lead")
+    expect(watcher.locator("#place")).to_contain_text("You watch")
+    assert not guest.locator("#change, #swap, #invitation").locator("visible=true").count()
+    assert not watcher.locator("#lift").is_visible()
+    assert "far-person" in host.locator("#stage svg").get_attribute("class")
+    grip(host)
+    expect(guest.locator("#who")).to_contain_text("one hand is closed", timeout=WAIT_MS)
+    grip(guest)
+    for page in (host, guest):
+        wait_for_phase(page, "lifting")
+    guest.keyboard.down("ArrowUp")
+    wait_for(guest, "coliftPlay.page.stage.shown.robot", lambda height: height > 0.03)
+    wait_for(host, "coliftPlay.page.lifting.frames.last", lambda frame: frame > 250)
+    human, far = table(host)
+    assert far > human + 0.03  # The leader has not moved; the follower pulls both ends up.
+    assert table(watcher)[1] > 0.03
+    assert "cue" in heard[0].kinds
+    assert "cue" not in heard[1].kinds | heard[2].kinds
+    assert "none" in guest.locator(".play-goal").get_attribute("class")
+    assert "none" not in host.locator(".play-goal").get_attribute("class")
+    assert heard[2].frames > 100
+    guest.keyboard.press("Space")
+    for page in (host, guest, watcher):
+        expect(page.locator("#status")).to_contain_text("does not count", timeout=WAIT_MS)
+    host.get_by_role("button", name="Swap the ends").click()
+    expect(guest.locator("#place")).to_contain_text("right end, in blue, and lead")
+    expect(host.locator("#place")).to_contain_text("left end, in orange, and follow")
+    guest.close()
+    expect(host.locator("#who")).to_have_text("The second person is not here yet.", timeout=WAIT_MS)
+
+
+def test_a_person_in_the_place_of_the_robot(open_page, url):
+    host, guest = open_page(), open_page()
+    host.goto(url)
+    host.locator('input[name="partner"][value="person as robot"]').check()
+    host.get_by_role("button", name="To the table").click()
+    expect(host.locator("#invitation")).to_be_visible(timeout=WAIT_MS)
+    guest.goto(host.locator("#invite-link").input_value())
+    wait_until_ready(guest)
+    expect(guest.locator("#place")).to_contain_text("You command the robot")
+    assert "far-person" not in guest.locator("#stage svg").get_attribute("class")

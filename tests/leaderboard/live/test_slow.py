@@ -1,0 +1,73 @@
+"""A page that takes nothing for a while: it loses old frames, and nobody waits for it."""
+
+import asyncio
+import json
+import socket
+import struct
+import threading
+import time
+
+from colift.leaderboard.live.page import Page
+from colift.leaderboard.live.web import SmallBuffers
+from colift.leaderboard.service.server import listening, make_server
+from fastapi import FastAPI, WebSocket
+from websockets.sync.client import connect
+
+FRAMES = 20_000
+
+
+def sending(found):
+    """Return an application that sends a page frames as fast as it can."""
+    app = FastAPI()
+
+    @app.websocket("/")
+    async def frames(websocket: WebSocket) -> None:
+        await websocket.accept()
+        page = Page(websocket)
+        serving = asyncio.create_task(page.serve(lambda message: None))
+        page.say("start")
+        began = time.monotonic()
+        for number in range(FRAMES):
+            page.send(struct.pack("<I24x", number))
+            if number % 20 == 0:
+                await asyncio.sleep(0)
+        found["sending_s"] = time.monotonic() - began
+        page.say("end")
+        await serving
+        found["dropped"] = page.dropped
+
+    return app
+
+
+def test_a_page_that_reads_late_gets_the_newest_frames_and_all_sentences():
+    found, read = {}, []
+    listener = listening("127.0.0.1", 0)
+    server = make_server(sending(found), sockets=SmallBuffers)
+    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
+    thread.start()
+    try:
+        narrow = socket.socket()
+        narrow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        narrow.connect(listener.getsockname())
+        place = "ws://{}:{}/".format(*listener.getsockname())
+        with connect(place, sock=narrow, compression=None, max_queue=1) as page:
+            while "sending_s" not in found:
+                time.sleep(0.05)
+            while not read or read[-1] != {"type": "end"}:
+                message = page.recv(10)
+                read.append(
+                    json.loads(message)
+                    if isinstance(message, str)
+                    else struct.unpack_from("<I", message)[0]
+                )
+    finally:
+        server.should_exit = True
+        thread.join()
+        listener.close()
+    numbers = read[1:-1]
+    assert read[0] == {"type": "start"}
+    assert numbers == sorted(numbers)
+    assert numbers[-1] == FRAMES - 1
+    assert len(numbers) + found["dropped"] == FRAMES
+    assert found["dropped"] > FRAMES / 2  # Few wait in the buffers of the system.
+    assert found["sending_s"] < 10
