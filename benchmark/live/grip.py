@@ -11,8 +11,12 @@ PRESETS: Final = ("mouse", "touch", "pen", "keyboard", "gamepad")
 LONGEST_PLAYOUT_S: Final = 0.150
 """Longest time by which a page may show frames later than they are made [s]."""
 
-SHORTEST_DELAY_S, LONGEST_DELAY_S, FIRST_DELAY_S = 0.0, 0.150, 0.030
-"""Shortest and longest playout delay of samples, and the one before anything was measured [s]."""
+LONGEST_DELAY_S: Final = 0.150
+"""Longest playout delay of samples [s]."""
+
+FIRST_DELAY_S: Final = dict.fromkeys(PRESETS, 0.030) | {"touch": 0.060, "pen": 0.060}
+"""Playout delay of samples before anything was measured [s]: a browser keeps what a finger does for
+its next picture, and hands over what a mouse does at once."""
 
 _KEPT: Final = 400
 """Longest text that is kept of what a page says of itself [characters]."""
@@ -36,6 +40,11 @@ class Grip:
     """Playout delay of samples that the page asks for [s]; None leaves it to the room."""
     device: Mapping[str, Any] = field(default_factory=dict)
     """What the page says of its input and its display; kept as it is."""
+
+    @property
+    def preset(self) -> str:
+        """The kind of the input, one of :data:`PRESETS`."""
+        return str(self.device.get("preset", PRESETS[0]))
 
     @classmethod
     def parse(cls, content: Mapping[str, Any]) -> "Grip":

@@ -22,9 +22,9 @@ STARVED: Final = 2
 MOST_IN_A_MESSAGE: Final = 200
 """Most samples in one message."""
 
-_HEAD: Final = struct.Struct("<BII")
+_HEAD: Final = struct.Struct("<BI")
 _SAMPLE: Final = struct.Struct("<df")
-_FRAME: Final = struct.Struct("<BBHIfffIf")
+_FRAME: Final = struct.Struct("<BBxxIfffI")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,8 +33,6 @@ class HandSamples:
 
     first: int
     """Number of the first sample since the grip."""
-    drawn: int
-    """The last frame that the page has drawn."""
     samples: tuple[tuple[float, float], ...]
     """Time of the page's clock [s] and height above the grip [m]."""
 
@@ -54,21 +52,21 @@ def parse_samples(message: bytes) -> HandSamples:
             f"at most {MOST_IN_A_MESSAGE} samples, and begin with {SAMPLES}; got "
             f"{len(message)} bytes"
         )
-    _, first, drawn = _HEAD.unpack_from(message)
+    _, first = _HEAD.unpack_from(message)
     samples = tuple(
         (time / 1000, height) for time, height in _SAMPLE.iter_unpack(message[_HEAD.size :])
     )
-    return HandSamples(first=first, drawn=drawn, samples=samples)
+    return HandSamples(first=first, samples=samples)
 
 
 def dump_samples(content: HandSamples) -> bytes:
     """Return a page's message with samples."""
-    head = _HEAD.pack(SAMPLES, content.first, content.drawn)
+    head = _HEAD.pack(SAMPLES, content.first)
     return head + b"".join(_SAMPLE.pack(1000 * time, height) for time, height in content.samples)
 
 
 def dump_frame(shown: Shown, *, flags: int, used: int) -> bytes:
-    """Return the message of a frame, 28 bytes.
+    """Return the message of a frame, 24 bytes.
 
     Parameters
     ----------
@@ -82,13 +80,11 @@ def dump_frame(shown: Shown, *, flags: int, used: int) -> bytes:
     return _FRAME.pack(
         FRAME_SHOWN,
         flags,
-        0,
         shown.frame,
         shown.human_end,
         shown.robot_end,
         shown.human_force,
         used,
-        0.0,
     )
 
 
@@ -102,5 +98,5 @@ def parse_frame(message: bytes) -> tuple[Shown, int, int]:
     """
     if len(message) != _FRAME.size or message[0] != FRAME_SHOWN:
         raise InputError(f"a frame's message must have {_FRAME.size} bytes, got {len(message)}")
-    _, flags, _, frame, human, robot, force, used, _ = _FRAME.unpack(message)
+    _, flags, frame, human, robot, force, used = _FRAME.unpack(message)
     return Shown(frame, human, robot, force), flags, used

@@ -143,8 +143,7 @@ class Room:
             raise InputError("there is no end of the table for this person")
         if self._lifting is not None or not self._prepared:
             raise InputError("the partner is not ready, or a lift is under way")
-        person = self._seats.people[seat]
-        person.grip, person.expected, person.arrived = grip, 0, []
+        self._seats.people[seat].close(grip)
         grips = self._seats.grips(self._choice.partner)
         return self._state() if grips is None else self._begin(grips, now)
 

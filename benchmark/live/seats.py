@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from ...agents.errors import InputError
-from .grip import FIRST_DELAY_S, LONGEST_DELAY_S, SHORTEST_DELAY_S, Grip
+from .grip import FIRST_DELAY_S, LONGEST_DELAY_S, Grip
 from .hand import LiveHand
 from .messages import HandSamples
 from .partners import LivePartner
@@ -16,8 +16,11 @@ ALL: Final = 255
 Message = tuple[int, str | bytes]
 """A seat, and what is sent to it: JSON, or a binary message."""
 
-SPARE_S: Final = 0.010
-"""Added to the time that samples take to arrive: the next one comes a little later [s]."""
+SPARE_S: Final = 0.002
+"""Added to the playout delay that sufficed for 99 of 100 messages [s]."""
+
+LEAST_MESSAGES: Final = 50
+"""Messages of a moving hand from which its playout delay is learned."""
 
 ROLES: Final = ("leader", "follower")
 ENDS: Final = ("human", "far")
@@ -29,12 +32,24 @@ class SeatedPerson:
 
     grip: Grip | None = None
     """How the hand is closed; None if it is open."""
-    delay: float = FIRST_DELAY_S
-    """Playout delay that the person's connection needs [s]."""
+    delays: dict[str, float] = field(default_factory=dict)
+    """Playout delay that was learned of each preset [s]."""
     expected: int = 0
     """Number of the next sample since the grip."""
-    arrived: list[float] = field(default_factory=list)
-    """Time from each message's last sample to its arrival, of the present lift [s]."""
+    last: tuple[float, float] | None = None
+    """The newest sample of the present lift."""
+    needed: list[float] = field(default_factory=list)
+    """Playout delay with which each message of a moving hand would have been in time [s]."""
+
+    @property
+    def delay(self) -> float:
+        """Playout delay that the person's input and connection need [s]."""
+        assert self.grip is not None
+        return self.delays.get(self.grip.preset, FIRST_DELAY_S[self.grip.preset])
+
+    def close(self, grip: Grip) -> None:
+        """Close the hand."""
+        self.grip, self.expected, self.last, self.needed = grip, 0, None, []
 
     def send(self, content: HandSamples, hand: LiveHand, now: float) -> None:
         """Give a page's samples to the hand.
@@ -52,16 +67,20 @@ class SeatedPerson:
         self.expected += len(content.samples)
         for time, height in content.samples:
             hand.add(time, height)
-        if content.samples:
-            self.arrived.append(now - content.samples[-1][0] - self.grip.offset)
+        if not content.samples:
+            return
+        # Until this message came, the hand was known up to the end of the last one; a frame that
+        # lacked what is in this one held its height, which is right if the hand did not move.
+        if self.last is not None and self.last[1] != content.samples[0][1]:
+            self.needed.append(now - self.last[0] - self.grip.offset)
+        self.last = content.samples[-1]
 
     def let_go(self) -> None:
         """Open the hand; learn from the lift how late samples arrive."""
-        self.grip = None
-        if self.arrived:
-            late = sorted(self.arrived)[int(0.99 * (len(self.arrived) - 1))]
-            self.delay = min(max(late + SPARE_S, SHORTEST_DELAY_S), LONGEST_DELAY_S)
-            self.arrived = []
+        if self.grip is not None and len(self.needed) >= LEAST_MESSAGES:
+            most = sorted(self.needed)[int(0.99 * (len(self.needed) - 1))]
+            self.delays[self.grip.preset] = min(max(most + SPARE_S, 0.0), LONGEST_DELAY_S)
+        self.grip, self.needed = None, []
 
 
 class Seats:

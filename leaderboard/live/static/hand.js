@@ -6,28 +6,41 @@
   const LOWEST = -0.08; // m; the arms reach no further
   const HIGHEST = 0.38;
   const GAP_MS = 6; // between two messages: the server takes 200 a second
-  const STILL_MS = 10;
+  const STILL_MS = 10; // between two samples of a hand that rests
+  const SILENT_MS = 40; // without an event, a pointer rests: those that move have 25 a second
+  const BEFORE_MS = 16;
+  // How old the events of a pointer are when the page gets them: a browser keeps those of a finger,
+  // and some those of a mouse, for the next picture. Before anything was measured:
+  const RAW = "onpointerrawupdate" in window;
+  const FIRST_AGES_MS = { mouse: RAW ? 6 : 25, touch: 50, pen: 50 };
+  const YOUNGEST_MS = 4;
+  const OLDEST_MS = 80;
+  const SPARE_MS = 2;
+  const LEAST_EVENTS = 50;
 
   class Hand {
     // send(first, samples) takes [[time, height], ...]; soon(do, ms) is setTimeout.
     constructor(send, soon = (what, ms) => setTimeout(what, ms)) {
       this.send = send;
       this.soon = soon;
+      this.ages = { ...FIRST_AGES_MS };
       this.open();
     }
 
     open() {
+      if (this.started) this.learn();
       this.closed = false;
       this.started = false;
       this.raw = 0;
       this.height = 0;
     }
 
-    // rests: whether it is silent while it rests, as pointers are; see still().
-    close(rests) {
+    // preset: the kind of the input. Pointers are silent while they rest; keys and gamepads are not.
+    close(preset) {
       this.open();
       this.closed = true;
-      this.rests = rests;
+      this.preset = preset;
+      this.silent = preset in this.ages;
     }
 
     // The lift begins: heights count from here, wherever the hand has been while it waited.
@@ -38,6 +51,8 @@
       this.waiting = [];
       this.sent = -Infinity;
       this.due = false;
+      this.resting = false;
+      this.seen = [];
       this.moves = 0;
       this.sample(now, now);
     }
@@ -45,24 +60,43 @@
     // Where the hand was at a time of the page's clock, in m above the grip.
     place(time, height, now) {
       if (!this.closed) return;
+      if (this.started) {
+        this.moves += 1;
+        this.seen.push(now - time);
+        // Nothing was heard of the pointer, so it lay still until this movement.
+        if (this.resting && time - this.last > BEFORE_MS) this.sample(time - BEFORE_MS, now);
+        this.resting = false;
+      }
       this.raw = height;
-      if (!this.started) return;
-      this.moves += 1;
+      if (this.started) this.sample(time, now);
+    }
+
+    // A pointer that rests has no events: say that it rests, as soon as no event from before can
+    // come any more.
+    still(now) {
+      if (!this.started || !this.silent) return;
+      const time = now - this.ages[this.preset];
+      if (time - this.last < (this.resting ? STILL_MS : SILENT_MS)) return;
+      this.resting = true;
       this.sample(time, now);
     }
 
-    // A pointer that rests has no events. `age` is how late its events can be.
-    still(now, age) {
-      if (!this.started || !this.rests) return;
-      if (now - age - this.times[this.times.length - 1] >= STILL_MS) this.sample(now - age, now);
+    // After a lift: the age that nearly no event exceeded.
+    learn() {
+      if (!this.silent || this.seen.length < LEAST_EVENTS) return;
+      const age = play.quantile(this.seen, 0.99) + SPARE_MS;
+      this.ages[this.preset] = Math.min(Math.max(age, YOUNGEST_MS), OLDEST_MS);
+    }
+
+    get last() {
+      return this.times.length ? this.times[this.times.length - 1] : -Infinity;
     }
 
     sample(time, now) {
       this.height = Hand.within(this.raw - this.zero);
       // After a sample of stillness, an event may come that is a little older.
-      const last = this.times.length ? this.times[this.times.length - 1] + 0.01 : -Infinity;
-      this.times.push(Math.max(time, last));
-      this.waiting.push([this.times[this.times.length - 1], this.height]);
+      this.times.push(Math.max(time, this.last + 0.01));
+      this.waiting.push([this.last, this.height]);
       if (now - this.sent >= GAP_MS) this.flush(now);
       else if (!this.due) {
         this.due = true;
@@ -88,7 +122,7 @@
     // Events a second over the whole lift; null if there were too few.
     get rate() {
       if (!this.times || this.moves < 20) return null;
-      return Math.round((1000 * this.moves) / (this.times[this.times.length - 1] - this.times[0]));
+      return Math.round((1000 * this.moves) / (this.last - this.times[0]));
     }
   }
 

@@ -25,9 +25,7 @@
       this.told = told;
       this.frames = new play.Frames();
       this.delays = new play.Delays();
-      this.hand = new play.Hand((first, samples) =>
-        connection.send(play.packSamples(first, this.frames.picture.frame, samples))
-      );
+      this.hand = new play.Hand((first, samples) => connection.send(play.packSamples(first, samples)));
       this.cues = [];
       this.rate = this.refresh = null;
       this.held = 0;
@@ -37,7 +35,7 @@
       this.playout = wish("playout");
       this.delay = wish("delay");
       this.bar = document.getElementById("progress");
-      setInterval(() => this.hand.still(performance.now(), play.POINTER_AGE_MS), TICK_MS);
+      setInterval(() => this.hand.still(performance.now()), TICK_MS);
       const loop = () => {
         this.draw(performance.now());
         window.requestAnimationFrame(loop);
@@ -48,7 +46,7 @@
     // The hand closes. input: preset, unit, metres_per_unit, unadjusted; see the adapters.
     grip(input) {
       this.offset = this.clock.offset;
-      this.hand.close(input.unit !== "s");
+      this.hand.close(input.preset);
       this.stage.grip(true);
       this.stage.pose(0, 0);
       this.connection.send({

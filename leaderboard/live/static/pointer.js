@@ -10,9 +10,6 @@
   const CLICK_MS = 500;
   const HOLD = "This browser does not hand over the mouse. Hold its button down on the picture.";
 
-  // How late events of a moving pointer are: those that wait for the next picture are later.
-  play.POINTER_AGE_MS = RAW ? 4 : 18;
-
   const samplesOf = (event) => {
     const found = event.getCoalescedEvents ? event.getCoalescedEvents() : [];
     return found.length ? found : [event];

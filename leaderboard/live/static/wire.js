@@ -3,19 +3,18 @@
 (function () {
   const play = (window.coliftPlay = window.coliftPlay || {});
 
-  const HEAD = 9;
+  const HEAD = 5;
   const SAMPLE = 12;
-  const FRAME = 28;
+  const FRAME = 24;
   const KIND = 1;
 
   play.MOST_SAMPLES = 200; // in one message
 
   // samples: [[time on the page's clock in ms, height in m], ...]
-  play.packSamples = function (first, drawn, samples) {
+  play.packSamples = function (first, samples) {
     const view = new DataView(new ArrayBuffer(HEAD + SAMPLE * samples.length));
     view.setUint8(0, KIND);
     view.setUint32(1, first, true);
-    view.setUint32(5, drawn, true);
     samples.forEach(([time, height], i) => {
       view.setFloat64(HEAD + SAMPLE * i, time, true);
       view.setFloat32(HEAD + SAMPLE * i + 8, height, true);

@@ -62,7 +62,7 @@ class Table:
             self.now += step
             for seat, hand in hands.items():
                 sample = (self.now - 0.001 - shift, hand(self.now - 0.001 - begin))
-                data = dump_samples(HandSamples(first=sent[seat], drawn=0, samples=(sample,)))
+                data = dump_samples(HandSamples(first=sent[seat], samples=(sample,)))
                 sent[seat] += 1
                 self.take(self.room.receive(seat, data, self.now))
             if self.room.due is not None and self.room.due <= self.now:
@@ -187,7 +187,7 @@ def test_what_cannot_be_used_is_a_fault_and_the_room_goes_on(table):
         assert table.last("fault")["message"]
     table.say(1, type="choose", partner="copy")
     assert "seat" in table.last("fault")["message"]
-    again = dump_samples(HandSamples(first=7, drawn=0, samples=((1.0, 0.0),)))
+    again = dump_samples(HandSamples(first=7, samples=((1.0, 0.0),)))
     table.take(table.room.receive(0, again, table.now))
     assert "sample 0 must be next" in table.last("fault")["message"]
 

@@ -126,7 +126,7 @@ class Page:
             began, old, new = last
             part = min(max((now - began) / (1000 * MOVING_S), 0.0), 1.0)
             height = old + (new - old) * part**3 * (10 - 15 * part + 6 * part**2)
-            self.socket.send(samples(sent, len(self.frames), [(now, height)]))
+            self.socket.send(samples(sent, [(now, height)]))
             sent += 1
             due = time.monotonic() + 1 / 60
             while (left := due - time.monotonic()) > 0:
@@ -142,8 +142,8 @@ class Page:
                     return content
 
 
-def samples(first: int, drawn: int, values: list[tuple[float, float]]) -> bytes:
+def samples(first: int, values: list[tuple[float, float]]) -> bytes:
     """Return a message with samples: time of the page's clock [ms], height [m]."""
-    return struct.pack("<BII", 1, first, drawn) + b"".join(
+    return struct.pack("<BI", 1, first) + b"".join(
         struct.pack("<df", *each) for each in values
     )

@@ -68,7 +68,7 @@ def test_a_lift_from_the_first_ping_to_its_replay(url, session, config):
             assert spectator.until("pong")["t"] == 18
             spectator.say("release")
             assert "type must be one of ping" in spectator.until("fault")["message"]
-            spectator.socket.send(samples(0, 0, [(0.0, 0.1)]))
+            spectator.socket.send(samples(0, [(0.0, 0.1)]))
             assert "a spectator watches" in spectator.until("fault")["message"]
             end = host.lifted()
             assert spectator.until("end")["lift"] == end["lift"]
