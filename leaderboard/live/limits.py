@@ -14,7 +14,7 @@ from starlette.websockets import WebSocketClose
 
 from ..service.security import Rate
 
-MESSAGES: Final = Rate(per_second=200.0, burst=400)
+MESSAGES: Final = Rate(per_second=400.0, burst=800)
 """Messages on one socket."""
 
 SOCKETS: Final = 16

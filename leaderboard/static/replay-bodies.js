@@ -73,7 +73,10 @@
       const turn = (-Math.atan2(b.z - a.z, b.x - a.x) * 180) / Math.PI;
       const stretch = this.length ? length / this.length : 1;
       const to = `translate(${a.x.toFixed(5)} ${(-a.z).toFixed(5)})`;
-      this.path.setAttribute("transform", `${to} rotate(${turn.toFixed(3)}) scale(${stretch.toFixed(5)} 1)`);
+      const transform = `${to} rotate(${turn.toFixed(3)}) scale(${stretch.toFixed(5)} 1)`;
+      if (transform === this.shown) return;
+      this.shown = transform;
+      this.path.setAttribute("transform", transform);
     }
   }
 

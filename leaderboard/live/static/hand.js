@@ -5,7 +5,7 @@
 
   const LOWEST = -0.08; // m; the arms reach no further
   const HIGHEST = 0.38;
-  const GAP_MS = 6; // between two messages: the server takes 200 a second
+  const GAP_MS = 3; // between two messages: the server takes 400 a second
   const STILL_MS = 10; // between two samples of a hand that rests
   const SILENT_MS = 40; // without an event, a pointer rests: those that move have 25 a second
   const BEFORE_MS = 16;

@@ -38,6 +38,7 @@
       make("path", { d: "M-.06 0H.06" }, this.handle);
       make("circle", { r: 0.012 }, this.handle);
       this.shown = {};
+      this.holder = this.scene.arm;
       this.seat("human");
       this.pose(0, 0);
       new ResizeObserver(() => this.fit()).observe(host);
@@ -75,6 +76,8 @@
     // A person holds the far end, or the robot does.
     company(person) {
       this.scene.svg.classList.toggle("far-person", person);
+      this.holder = person ? this.far : this.scene.arm;
+      this.holder.pose(this.shown.robot);
     }
 
     // Heights in m above rest, both of the same moment.
@@ -85,8 +88,7 @@
       shown.robot = robot;
       scene.table.pose(human, robot);
       scene.person.pose(human);
-      scene.arm.pose(robot);
-      this.far.pose(robot);
+      this.holder.pose(robot);
       scene.level.pose(1000 * (robot - human), 0, false);
     }
 

@@ -1,4 +1,4 @@
-"""Simulated people at a real browser: their hands are trusted touches with times of their own."""
+"""Simulated people at a real browser: their hands are trusted events with times of their own."""
 
 import asyncio
 import json
@@ -15,6 +15,9 @@ from playwright.async_api import BrowserContext, CDPSession, Page
 EVERY_S = 0.004
 """Time between two events: four to a picture, so that the browser coalesces them."""
 
+COUNTS_PER_METRE = 5000.0
+"""Of a mouse, as the page takes them."""
+
 STEP = 10
 """Frames for which a second person decides at a time."""
 
@@ -23,19 +26,25 @@ Hand = Callable[[float], float]
 
 
 class Driven:
-    """A page whose person is simulated; the room's clock is that of this machine."""
+    """A page whose person is simulated, with a locked mouse or with a finger.
 
-    def __init__(self, page: Page, session: CDPSession) -> None:
+    The room's clock is that of this machine.
+    """
+
+    def __init__(self, page: Page, session: CDPSession, finger: bool = False) -> None:
         self.page = page
+        self.finger = finger
         self._cdp = session
         self.told: list[dict[str, Any]] = []
         self.frames: dict[int, tuple[float, float]] = {}
         page.on("websocket", self._listen)
 
     @classmethod
-    async def opened(cls, context: BrowserContext, url: str) -> "Driven":
+    async def opened(
+        cls, context: BrowserContext, url: str, finger: bool = False
+    ) -> "Driven":
         page = await context.new_page()
-        driven = cls(page, await context.new_cdp_session(page))
+        driven = cls(page, await context.new_cdp_session(page), finger)
         await page.goto(url)
         return driven
 
@@ -73,31 +82,40 @@ class Driven:
             await asyncio.sleep(0.05)
 
     async def grip(self) -> None:
-        """Put a finger on the table."""
-        box = await self.page.locator("#stage").bounding_box()
-        assert box is not None
-        self.x, self.y = box["x"] + 0.8 * box["width"], box["y"] + 0.75 * box["height"]
-        self.scale = await self.page.evaluate("window.coliftPlay.page.stage.pixelsPerMetre")
+        """Take hold of the table: put a finger on it, or click, which locks the mouse."""
         self.frames = {}
-        await self._touch("touchStart", 0.0)
+        if self.finger:
+            box = await self.page.locator("#stage").bounding_box()
+            assert box is not None
+            self.x, self.y = box["x"] + 0.8 * box["width"], box["y"] + 0.75 * box["height"]
+            self.scale = await self.page.evaluate("window.coliftPlay.page.stage.pixelsPerMetre")
+            await self._move("touchStart", 0.0)
+            return
+        button = self.page.locator("#lift, #again").locator("visible=true").last
+        box = await button.bounding_box()
+        assert box is not None
+        self.x, self.y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        self.scale = COUNTS_PER_METRE
+        await self.page.mouse.click(self.x, self.y)
 
     async def move(self, hand: Hand, begin: float, ahead: float = 0.0) -> dict[str, Any]:
-        """Move the finger until the lift ends; ``begin`` is its first frame by the clock [s]."""
+        """Move the hand until the lift ends; ``begin`` is its first frame by the clock [s]."""
         after = len(self.told)
         pending = []
         while not any(told["type"] in ("end", "void") for told in self.told[after:]):
             now = time.monotonic()
             pending.append(
-                asyncio.ensure_future(self._touch("touchMove", hand(now - begin + ahead)))
+                asyncio.ensure_future(self._move("touchMove", hand(now - begin + ahead)))
             )
             await asyncio.sleep(max(EVERY_S - (time.monotonic() - now), 0))
         await asyncio.gather(*pending)
-        await self._touch("touchEnd", None)
+        if self.finger:
+            await self._move("touchEnd", None)
         end: dict[str, Any] = next(t for t in self.told[after:] if t["type"] in ("end", "void"))
         return end
 
     async def follow(self, partner: Partner, delay: float, start: dict[str, Any]) -> dict[str, Any]:
-        """Move the finger as a simulated second person, who sees the frames that arrive here.
+        """Move the hand as a simulated second person, who sees the frames that arrive here.
 
         Parameters
         ----------
@@ -132,9 +150,13 @@ class Driven:
             return (0.0, 0.0)
         return self.frames.get(frame) or self.frames[max(self.frames)]
 
-    async def _touch(self, kind: str, height: float | None) -> None:
-        points = [] if height is None else [{"x": self.x, "y": self.y - self.scale * height}]
-        await self._cdp.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+    async def _move(self, kind: str, height: float | None) -> None:
+        place = None if height is None else {"x": self.x, "y": self.y - self.scale * height}
+        if self.finger:
+            points = [] if place is None else [place]
+            await self._cdp.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+        elif place is not None:
+            await self._cdp.send("Input.dispatchMouseEvent", {"type": "mouseMoved", **place})
 
 
 def _at(made: list[float], time: float) -> float:

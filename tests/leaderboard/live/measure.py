@@ -1,7 +1,12 @@
-"""People in a browser against the same people offline, and the delays that their pages saw.
+"""Figures of live lifts that only a quiet machine gives: people in a browser, rooms, and delays.
 
-python tests/leaderboard/live/measure.py alone 10
+python tests/leaderboard/live/measure.py alone 10    # against the same people offline
 python tests/leaderboard/live/measure.py pair 10
+python tests/leaderboard/live/measure.py least 3     # event to picture without buffers
+python tests/leaderboard/live/measure.py delayed 3   # the same through a delaying network
+python tests/leaderboard/live/measure.py rooms 300   # lateness of eight rooms, for so many seconds
+
+The word "finger" behind them lifts by touch instead of by mouse.
 """
 
 import asyncio
@@ -11,6 +16,8 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -21,12 +28,16 @@ from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.batches import play
+from colift.benchmark.live.messages import parse_frame
 from colift.benchmark.results.baselines import PARTNER_SPEC
 from playwright.async_api import async_playwright
 
 sys.path.insert(0, str(Path(__file__).parent))
 from driving import Driven
+from network import Network
+from pages import Page, new_session
 
+FINGER = "finger" in sys.argv
 POLICIES = ("anticipate", "blend", "copy")
 
 
@@ -60,11 +71,11 @@ async def alone(url, out, lifts):
         browser = await playwright.chromium.launch(
             executable_path="/usr/bin/chromium", args=["--no-sandbox"]
         )
-        context = await browser.new_context(has_touch=True, viewport={"width": 900, "height": 700})
+        context = await browser.new_context(has_touch=FINGER, viewport={"width": 900, "height": 700})
         ratios = {}
         delays = []
         for policy in POLICIES:
-            driven = await Driven.opened(context, url)
+            driven = await Driven.opened(context, url, FINGER)
             await driven.choose(policy)
             for seed in range(lifts):
                 made = references(seed)
@@ -105,12 +116,12 @@ async def pair(url, out, lifts):
             executable_path="/usr/bin/chromium", args=["--no-sandbox"]
         )
         size = {"width": 900, "height": 700}
-        contexts = [await browser.new_context(has_touch=True, viewport=size) for _ in range(2)]
-        host = await Driven.opened(contexts[0], url)
+        contexts = [await browser.new_context(has_touch=FINGER, viewport=size) for _ in range(2)]
+        host = await Driven.opened(contexts[0], url, FINGER)
         await host.choose("person")
         link = host.page.locator("#invite-link")
         await link.wait_for()
-        guest = await Driven.opened(contexts[1], await link.input_value())
+        guest = await Driven.opened(contexts[1], await link.input_value(), FINGER)
         ratios = []
         for seed in range(lifts):
             made = references(seed)
@@ -142,6 +153,87 @@ async def pair(url, out, lifts):
         await browser.close()
 
 
+async def delays_of(url, out, lifts):
+    """Return the delays from event to picture that a page logs without its buffers [ms]."""
+    async with async_playwright() as playwright:
+        browser = await playwright.chromium.launch(
+            executable_path="/usr/bin/chromium", args=["--no-sandbox"]
+        )
+        context = await browser.new_context(has_touch=FINGER, viewport={"width": 900, "height": 700})
+        driven = await Driven.opened(context, url + "?playout=0&delay=0", FINGER)
+        await driven.choose("copy")
+        found = []
+        for seed in range(lifts):
+            await driven.ready()
+            seen = len(driven.told)
+            await driven.grip()
+            start = await driven.until("start", after=seen)
+            end = await driven.move(hand_of(references(seed)), start["at"] / 1000)
+            await asyncio.sleep(0.5)
+            session = (await driven.page.evaluate("location.hash"))[3:].partition(".")[0]
+            folder = out / session / end["folder"]
+            report = json.loads(folder.with_name(folder.name + ".display.json").read_text())
+            found += [each for part in report["seat_0"] for each in part["delays_ms"]]
+        await browser.close()
+    return found
+
+
+async def least(url, out, lifts):
+    delays = await delays_of(url, out, lifts)
+    p50, p99 = np.percentile(delays, (50, 99))
+    print(f"event to picture: p50 {p50:.1f}, p99 {p99:.1f} ms ({len(delays)} pictures)")
+
+
+async def delayed(url, out, lifts):
+    """Compare delays that pages log with those of the network between."""
+    plain = np.median(await delays_of(url, out, lifts))
+    print(f"no delay: median {plain:.1f} ms")
+    for up, down in ((0.02, 0.02), (0.05, 0.05), (0.1, 0.1), (0.03, 0.01)):
+        with Network(up, down).before(url) as through:
+            median = np.median(await delays_of(through, out, lifts))
+        told, added = median - plain, 1000 * (up + down)
+        print(f"{1000 * up:.0f} + {1000 * down:.0f} ms: told {told:.1f}, off by {told - added:+.1f}")
+
+
+async def rooms(url, out, seconds):
+    """Let eight people lift at once, and a ninth wait."""
+    end = time.monotonic() + seconds
+    with ThreadPoolExecutor(9) as pool:
+        lifted = [pool.submit(lift_until, url, end) for _ in range(8)]
+        await asyncio.sleep(20)
+        page = Page(url.rstrip("/"), *new_session(url.rstrip("/")))
+        print("the ninth:", page.until("queued", timeout=5).get("reason"))
+        page.socket.close()
+        results = [each.result() for each in lifted]
+    late = sorted(value for pages in results for value in pages[0])
+    ends = [end for pages in results for end in pages[1]]
+    p50, p99, p999 = (1000 * late[int(q * (len(late) - 1))] for q in (0.5, 0.99, 0.999))
+    print(
+        f"{len(late)} frames: arrive late by p50 {p50:.2f}, p99 {p99:.2f}, p99.9 {p999:.2f}, "
+        f"most {1000 * late[-1]:.1f} ms"
+    )
+    made = [value for end in ends for value in end.get("late", {}).get("histogram", [])]
+    print(f"{len(ends)} lifts, void: {[e.get('reason') for e in ends if e['type'] != 'end']}", made)
+
+
+def lift_until(url, end):
+    """Lift again and again; return the lateness of frames at their arrival, and how lifts ended."""
+    url = url.rstrip("/")
+    late, ends = [], []
+    with Page(url, *new_session(url)) as page:
+        page.say("choose", partner="copy", kind="mixed")
+        while time.monotonic() < end:
+            page.ready()
+            page.frames.clear()
+            page.arrived.clear()
+            told = page.lift()
+            ends.append(told)
+            begin = next(t for t in reversed(page.told) if t["type"] == "start")["at"] / 1000
+            for arrived, frame in zip(page.arrived, page.frames, strict=True):
+                late.append(arrived - begin - parse_frame(frame)[0].frame / 100)
+    return late, ends
+
+
 def main(what, lifts):
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder)
@@ -154,11 +246,13 @@ def main(what, lifts):
             while "http" not in line:
                 line = server.stdout.readline()
             url = re.search(r"http://\S+", line).group().rstrip("/,.") + "/"
-            asyncio.run({"alone": alone, "pair": pair}[what](url, out, lifts))
+            asyncio.run(KINDS[what](url, out, lifts))
         finally:
             server.terminate()
             server.wait()
 
+
+KINDS = {each.__name__: each for each in (alone, pair, least, delayed, rooms)}
 
 if __name__ == "__main__":
     main(sys.argv[1], int(sys.argv[2]))

@@ -62,6 +62,8 @@ class Page:
     def __init__(self, url: str, session: str, secret: str, seat: int | str = 0) -> None:
         self.socket = open_socket(url).__enter__()
         self.frames: list[bytes] = []
+        self.arrived: list[float] = []
+        """When each frame has come [s], by the room's clock."""
         self.told: list[dict[str, Any]] = []
         self.say("join", session=session, secret=secret, seat=seat)
 
@@ -79,6 +81,7 @@ class Page:
         message = self.socket.recv(timeout)
         if isinstance(message, bytes):
             self.frames.append(message)
+            self.arrived.append(time.monotonic())
             return None
         content = json.loads(message)
         self.told.append(content)
