@@ -1,6 +1,6 @@
 """Lateness of the frames of a live lift, and its consequence for the lift."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 MARKED_S: Final = 0.050
@@ -23,6 +23,8 @@ class Punctuality:
 
     period: float
     """Time of a frame [s]."""
+    late: list[float] = field(default_factory=list)
+    """How late each frame was begun [s]."""
     frames: int = 0
     """Frames that were made more than a frame late."""
     worst: float = 0.0
@@ -32,6 +34,7 @@ class Punctuality:
 
     def count(self, lateness: float, caught_up: int) -> None:
         """Count a wake-up that was ``lateness`` [s] late and made so many frames."""
+        self.late += [lateness - i * self.period for i in range(caught_up)]
         self.worst = max(self.worst, lateness)
         if lateness > self.period:
             self.frames += caught_up - 1

@@ -59,12 +59,14 @@ class Room:
     @property
     def due(self) -> float | None:
         """Time of the room's clock at which :meth:`tick` is due [s]; None if nothing moves."""
-        return None if self._lifting is None else self._lifting.due
+        return None if self._lifting is None or self._lifting.over else self._lifting.due
 
     @property
     def has_work(self) -> bool:
         """Whether :meth:`work` has something to do."""
-        return self._lifting is None and (not self._prepared or self._standing is not None)
+        if self._lifting is not None:
+            return self._lifting.over
+        return not self._prepared or self._standing is not None
 
     def join(self, seat: int) -> list[Message]:
         """Return the messages when a person takes a seat; a page that was there is replaced."""
@@ -161,14 +163,14 @@ class Room:
 
     def _samples(self, seat: int, message: bytes, now: float) -> None:
         content, person = parse_samples(message), self._seats.people.get(seat)
-        if self._lifting is None or person is None or person.grip is None:
+        if self.due is None or self._lifting is None or person is None or person.grip is None:
             return  # The hand has opened just now, or has closed before the other one.
         hand = self._lifting.hands[self._seats.ends(self._choice.partner).index(seat)]
         person.send(content, hand, now)
 
     def _lifts(self, seat: int) -> bool:
         """Return whether the person in a seat is in the middle of a lift."""
-        return self._lifting is not None and seat in self._seats.ends(self._choice.partner)
+        return self.due is not None and seat in self._seats.ends(self._choice.partner)
 
     def _scenario(self) -> Scenario:
         place = self._session.played_with(self._choice.partner.name)
@@ -211,8 +213,6 @@ class Room:
             return self._void(f"the partner's process ended: {error}")
         if lifting.punctuality.void:
             found += self._void(f"this machine was too busy: {lifting.punctuality}")
-        elif lifting.over:
-            found += self._end(lifting)
         return found
 
     def _void(self, reason: str) -> list[Message]:
@@ -233,6 +233,7 @@ class Room:
         run = lifting.run(f"live {number:03d}")
         self._let_go()
         folder = self._session.save(number, self._choice.partner.name, run)
+        self._session.timing(folder, lifting.punctuality.late)
         self._last, self._number = (number, folder), self._session.next_number()
         self._standing = Standing(run.suite.scenarios[0], self._policies, lag=lifting.lag)
         end = {
@@ -247,11 +248,13 @@ class Room:
         return [(ALL, json.dumps(end)), *self._state()]
 
     def work(self) -> list[Message]:
-        """Do a little between lifts: warm the partner up, compare the last lift with a policy.
+        """Do a little between lifts: score the last one, warm the partner up, compare.
 
         The first decision of a policy takes a second, while libraries are loaded: it must not be
         that of a person's lift.
         """
+        if self._lifting is not None:
+            return self._end(self._lifting) if self._lifting.over else []
         if not self._prepared:
             try:
                 rehearse(self._choice.partner, self._scenario())
@@ -284,7 +287,11 @@ class Room:
 
     def close(self) -> None:
         """End the lift under way."""
-        if self._lifting is not None:
+        if self._lifting is None:
+            return
+        if self._lifting.over:
+            self._end(self._lifting)
+        else:
             self._void("the room was closed")
 
 

@@ -9,7 +9,7 @@ import io
 import json
 import re
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
@@ -82,16 +82,21 @@ class SessionFolder:
         new.write_text(text.getvalue())
         new.replace(path)
 
+    def timing(self, lift: Path, late: Sequence[float]) -> None:
+        """Write how late each frame of a lift was begun [s], beside its bundle."""
+        rounded = [round(1000 * each, 3) for each in late]
+        _beside(lift).write_text(json.dumps({"room": {"late_ms": rounded}}) + "\n")
+
     def report(self, lift: Path, seat: int, content: Mapping[str, Any]) -> None:
-        """Write what a page reported of a lift, part by part, beside its bundle.
+        """Add what a page reported of a lift, part by part, to its times.
 
         Raises
         ------
         InputError
             If it reports more than pages have to say.
         """
-        beside = lift.with_name(f"{lift.name}.display.json")
-        reports = json.loads(beside.read_text()) if beside.is_file() else {}
+        beside = _beside(lift)
+        reports = json.loads(beside.read_text())
         parts = reports.setdefault(f"seat_{seat}", [])
         if len(parts) >= MOST_PARTS:
             raise InputError(f"a lift has at most {MOST_PARTS} reports of a page")
@@ -103,6 +108,11 @@ class SessionFolder:
         line = json.dumps({"time": round(time.time(), 3), "event": kind, **content})
         with (self.path / EVENTS).open("a", encoding="utf-8") as file:
             file.write(line + "\n")
+
+
+def _beside(lift: Path) -> Path:
+    """Return the file of a lift's times."""
+    return lift.with_name(f"{lift.name}.times.json")
 
 
 def folder_name(name: str) -> str:

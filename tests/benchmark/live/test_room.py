@@ -67,6 +67,8 @@ class Table:
                 self.take(self.room.receive(seat, data, self.now))
             if self.room.due is not None and self.room.due <= self.now:
                 self.take(self.room.tick(self.now))
+        if self.room.due is None and self.room.has_work:
+            self.take(self.room.work())
 
 
 def hand_of(cue):

@@ -40,9 +40,7 @@ class Driven:
         page.on("websocket", self._listen)
 
     @classmethod
-    async def opened(
-        cls, context: BrowserContext, url: str, finger: bool = False
-    ) -> "Driven":
+    async def opened(cls, context: BrowserContext, url: str, finger: bool = False) -> "Driven":
         page = await context.new_page()
         driven = cls(page, await context.new_cdp_session(page), finger)
         await page.goto(url)

@@ -17,10 +17,10 @@ import subprocess
 import sys
 import tempfile
 import time
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
+import websockets
 from colift.agents.calibration import CALIBRATION
 from colift.agents.humans import LIVE_SUBJECT, SUBJECTS, Cued, HandLog, Partner, Played
 from colift.agents.humans.partner import PartnerParameters
@@ -28,16 +28,16 @@ from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.batches import play
-from colift.benchmark.live.messages import parse_frame
 from colift.benchmark.results.baselines import PARTNER_SPEC
 from playwright.async_api import async_playwright
 
 sys.path.insert(0, str(Path(__file__).parent))
 from driving import Driven
 from network import Network
-from pages import Page, new_session
+from pages import GRIP, MOVING_S, Page, new_session, samples
 
 FINGER = "finger" in sys.argv
+SIZE = {"width": 900, "height": 700}
 POLICIES = ("anticipate", "blend", "copy")
 
 
@@ -66,12 +66,24 @@ def offline(folder, made, partner=None):
     return again.scores["rmse_mm"]
 
 
+async def reported(folder):
+    """Return the delays from hand to picture that the host's page reports of a lift [ms]."""
+    path = folder.with_name(folder.name + ".times.json")
+    while True:
+        parts = json.loads(path.read_text()).get("seat_0", [])
+        if parts and len(parts) == parts[0]["parts"]:
+            return [each for part in parts for each in part["delays_ms"]]
+        await asyncio.sleep(0.1)
+
+
 async def alone(url, out, lifts):
     async with async_playwright() as playwright:
         browser = await playwright.chromium.launch(
             executable_path="/usr/bin/chromium", args=["--no-sandbox"]
         )
-        context = await browser.new_context(has_touch=FINGER, viewport={"width": 900, "height": 700})
+        context = await browser.new_context(
+            has_touch=FINGER, viewport={"width": 900, "height": 700}
+        )
         ratios = {}
         delays = []
         for policy in POLICIES:
@@ -90,9 +102,7 @@ async def alone(url, out, lifts):
                 session = (await driven.page.evaluate("location.hash"))[3:].partition(".")[0]
                 folder = out / session / end["folder"]
                 ideal = offline(folder, made)
-                await asyncio.sleep(0.3)
-                report = json.loads(folder.with_name(folder.name + ".display.json").read_text())
-                delays += [each for part in report["seat_0"] for each in part["delays_ms"]]
+                delays += await reported(folder)
                 ratios.setdefault(policy, []).append(end["rmse_mm"] / ideal)
                 print(
                     f"{policy:11} {seed:2} browser {end['rmse_mm']:6.2f} offline {ideal:6.2f} mm "
@@ -115,8 +125,7 @@ async def pair(url, out, lifts):
         browser = await playwright.chromium.launch(
             executable_path="/usr/bin/chromium", args=["--no-sandbox"]
         )
-        size = {"width": 900, "height": 700}
-        contexts = [await browser.new_context(has_touch=FINGER, viewport=size) for _ in range(2)]
+        contexts = [await browser.new_context(has_touch=FINGER, viewport=SIZE) for _ in range(2)]
         host = await Driven.opened(contexts[0], url, FINGER)
         await host.choose("person")
         link = host.page.locator("#invite-link")
@@ -159,7 +168,9 @@ async def delays_of(url, out, lifts):
         browser = await playwright.chromium.launch(
             executable_path="/usr/bin/chromium", args=["--no-sandbox"]
         )
-        context = await browser.new_context(has_touch=FINGER, viewport={"width": 900, "height": 700})
+        context = await browser.new_context(
+            has_touch=FINGER, viewport={"width": 900, "height": 700}
+        )
         driven = await Driven.opened(context, url + "?playout=0&delay=0", FINGER)
         await driven.choose("copy")
         found = []
@@ -169,11 +180,8 @@ async def delays_of(url, out, lifts):
             await driven.grip()
             start = await driven.until("start", after=seen)
             end = await driven.move(hand_of(references(seed)), start["at"] / 1000)
-            await asyncio.sleep(0.5)
             session = (await driven.page.evaluate("location.hash"))[3:].partition(".")[0]
-            folder = out / session / end["folder"]
-            report = json.loads(folder.with_name(folder.name + ".display.json").read_text())
-            found += [each for part in report["seat_0"] for each in part["delays_ms"]]
+            found += await reported(out / session / end["folder"])
         await browser.close()
     return found
 
@@ -186,52 +194,89 @@ async def least(url, out, lifts):
 
 async def delayed(url, out, lifts):
     """Compare delays that pages log with those of the network between."""
-    plain = np.median(await delays_of(url, out, lifts))
-    print(f"no delay: median {plain:.1f} ms")
-    for up, down in ((0.02, 0.02), (0.05, 0.05), (0.1, 0.1), (0.03, 0.01)):
+    medians = []
+    for up, down in ((0.0, 0.0), (0.02, 0.02), (0.05, 0.05), (0.1, 0.1), (0.03, 0.01)):
         with Network(up, down).before(url) as through:
-            median = np.median(await delays_of(through, out, lifts))
-        told, added = median - plain, 1000 * (up + down)
-        print(f"{1000 * up:.0f} + {1000 * down:.0f} ms: told {told:.1f}, off by {told - added:+.1f}")
+            medians.append(np.median(await delays_of(through, out, lifts)))
+        told, added = medians[-1] - medians[0], 1000 * (up + down)
+        print(
+            f"{1000 * up:.0f} + {1000 * down:.0f} ms: told {told:.1f}, off by {told - added:+.1f}"
+        )
 
 
 async def rooms(url, out, seconds):
-    """Let eight people lift at once, and a ninth wait."""
-    end = time.monotonic() + seconds
-    with ThreadPoolExecutor(9) as pool:
-        lifted = [pool.submit(lift_until, url, end) for _ in range(8)]
-        await asyncio.sleep(20)
-        page = Page(url.rstrip("/"), *new_session(url.rstrip("/")))
-        print("the ninth:", page.until("queued", timeout=5).get("reason"))
-        page.socket.close()
-        results = [each.result() for each in lifted]
-    late = sorted(value for pages in results for value in pages[0])
-    ends = [end for pages in results for end in pages[1]]
-    p50, p99, p999 = (1000 * late[int(q * (len(late) - 1))] for q in (0.5, 0.99, 0.999))
-    print(
-        f"{len(late)} frames: arrive late by p50 {p50:.2f}, p99 {p99:.2f}, p99.9 {p999:.2f}, "
-        f"most {1000 * late[-1]:.1f} ms"
-    )
-    made = [value for end in ends for value in end.get("late", {}).get("histogram", [])]
-    print(f"{len(ends)} lifts, void: {[e.get('reason') for e in ends if e['type'] != 'end']}", made)
-
-
-def lift_until(url, end):
-    """Lift again and again; return the lateness of frames at their arrival, and how lifts ended."""
+    """Let eight people lift at once, and a ninth wait; the rooms say how late they were."""
     url = url.rstrip("/")
-    late, ends = [], []
+    end = time.monotonic() + seconds
+    lifting = [asyncio.ensure_future(lift_until(url, end)) for _ in range(8)]
+    await asyncio.sleep(20)
     with Page(url, *new_session(url)) as page:
-        page.say("choose", partner="copy", kind="mixed")
+        print("the ninth:", page.until("queued", timeout=5).get("reason"))
+    ends = [each for found in await asyncio.gather(*lifting) for each in found]
+    times = [json.loads(path.read_text()) for path in out.glob("*/lifts/*.times.json")]
+    late = np.concatenate([each["room"]["late_ms"] for each in times])
+    p50, p99, p999 = np.percentile(late, (50, 99, 99.9))
+    print(
+        f"{len(ends)} lifts, {len(late)} frames: late by p50 {p50:.2f}, p99 {p99:.2f}, "
+        f"p99.9 {p999:.2f}, most {late.max():.1f} ms"
+    )
+    print("void:", [each["reason"] for each in ends if each["type"] != "end"])
+
+
+async def lift_until(url, end):
+    """Lift again and again with a hand that follows the cues; return how the lifts ended."""
+    session, secret = new_session(url)
+    ends, told = [], asyncio.Queue()
+    place = url.replace("http://", "ws://") + "/socket"
+    async with websockets.connect(place, origin=url, compression=None) as socket:
+
+        async def read():
+            async for message in socket:
+                if isinstance(message, str):
+                    told.put_nowait(json.loads(message))
+
+        async def until(kind, **wanted):
+            while True:
+                content = await told.get()
+                if content["type"] == kind and wanted.items() <= content.items():
+                    return content
+
+        async def say(message, **content):
+            await socket.send(json.dumps({"type": message, **content}))
+
+        reading = asyncio.ensure_future(read())
+        await say("join", session=session, secret=secret, seat=0)
+        await until("state", phase="ready")
+        await say("choose", partner="copy", kind="mixed")
         while time.monotonic() < end:
-            page.ready()
-            page.frames.clear()
-            page.arrived.clear()
-            told = page.lift()
-            ends.append(told)
-            begin = next(t for t in reversed(page.told) if t["type"] == "start")["at"] / 1000
-            for arrived, frame in zip(page.arrived, page.frames, strict=True):
-                late.append(arrived - begin - parse_frame(frame)[0].frame / 100)
-    return late, ends
+            await until("state", phase="ready")
+            await say("grip", **GRIP)
+            begin = (await until("start"))["at"] / 1000
+            sent, last = 0, (0.0, 0.0, 0.0)
+            while True:
+                while not told.empty() and (content := told.get_nowait()):
+                    if content["type"] == "cue":
+                        height = reach(last, time.monotonic())
+                        last = (begin + content["frame"] / 100 + 0.25, height, content["height"])
+                    if content["type"] in ("end", "void"):
+                        break
+                else:
+                    now = time.monotonic()
+                    await socket.send(samples(sent, [(1000 * now, reach(last, now))]))
+                    sent += 1
+                    await asyncio.sleep(1 / 60)
+                    continue
+                ends.append(content)
+                break
+        reading.cancel()
+    return ends
+
+
+def reach(movement, now):
+    """Return the height of a hand in a movement: its beginning [s], from and to [m]."""
+    begin, low, high = movement
+    part = min(max((now - begin) / MOVING_S, 0.0), 1.0)
+    return low + (high - low) * part**3 * (10 - 15 * part + 6 * part**2)
 
 
 def main(what, lifts):

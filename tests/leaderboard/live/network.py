@@ -71,9 +71,10 @@ class Network:
         except OSError:
             page_out.close()
             return
-        await asyncio.gather(
-            self._relay(page_in, server_out, "up"), self._relay(server_in, page_out, "down")
-        )
+        with contextlib.suppress(asyncio.CancelledError):
+            await asyncio.gather(
+                self._relay(page_in, server_out, "up"), self._relay(server_in, page_out, "down")
+            )
 
     async def _relay(
         self, source: asyncio.StreamReader, sink: asyncio.StreamWriter, way: str

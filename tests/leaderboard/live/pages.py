@@ -62,8 +62,6 @@ class Page:
     def __init__(self, url: str, session: str, secret: str, seat: int | str = 0) -> None:
         self.socket = open_socket(url).__enter__()
         self.frames: list[bytes] = []
-        self.arrived: list[float] = []
-        """When each frame has come [s], by the room's clock."""
         self.told: list[dict[str, Any]] = []
         self.say("join", session=session, secret=secret, seat=seat)
 
@@ -81,7 +79,6 @@ class Page:
         message = self.socket.recv(timeout)
         if isinstance(message, bytes):
             self.frames.append(message)
-            self.arrived.append(time.monotonic())
             return None
         content = json.loads(message)
         self.told.append(content)
@@ -147,6 +144,4 @@ class Page:
 
 def samples(first: int, values: list[tuple[float, float]]) -> bytes:
     """Return a message with samples: time of the page's clock [ms], height [m]."""
-    return struct.pack("<BI", 1, first) + b"".join(
-        struct.pack("<df", *each) for each in values
-    )
+    return struct.pack("<BI", 1, first) + b"".join(struct.pack("<df", *each) for each in values)

@@ -34,7 +34,7 @@ def test_a_lift_by_mouse_from_the_click_to_the_replay(url, sessions):
     used = len(log.times)
     assert used > 0.9 * len(hand.samples)
     assert log.heights.tolist() == pytest.approx(heights[:used])
-    report = json.loads(folder.with_name("001-copy.display.json").read_text())
+    report = json.loads(folder.with_name("001-copy.times.json").read_text())
     delays = [each for part in report["seat_0"] for each in part["delays_ms"]]
     assert len(delays) > 100
     assert 0 < min(delays) < 500
