@@ -85,6 +85,14 @@ def wait_for(page: Page, script: str, wanted: Callable[[Any], bool] = bool) -> A
     return value
 
 
+def wait_for_height(page: Page, hand: Hand, height: float) -> None:
+    """Wait until the newest sample that the page has sent is at a height [m]."""
+    end = time.monotonic() + WAIT_MS / 1000
+    while not hand.samples or abs(hand.samples[-1][1] - height) > 1e-4:
+        assert time.monotonic() < end, (height, hand.samples[-3:])
+        page.wait_for_timeout(20)
+
+
 def table(page: Page) -> tuple[float, float]:
     """Return both ends of the table as they are drawn [m above rest]."""
     human, robot = page.evaluate(

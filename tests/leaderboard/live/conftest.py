@@ -9,7 +9,7 @@ from colift.leaderboard.live.keeper import PlayConfig
 from playwright.sync_api import Browser, Page
 
 from .browsing import start_patient_room
-from .pages import serving
+from .pages import playing
 
 OpenPage = Callable[..., Page]
 
@@ -27,7 +27,7 @@ def url(sessions) -> Iterator[str]:
     about = {"hold": "Stands still.", "copy": "Follows."}
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(keeper, "start_room", start_patient_room)
-        with serving(PlayConfig(folder=sessions, policies=policies, descriptions=about)) as found:
+        with playing(PlayConfig(folder=sessions, policies=policies, descriptions=about)) as found:
             yield found
 
 

@@ -1,12 +1,12 @@
 """Figures of live lifts that only a quiet machine gives: people in a browser, rooms, and delays.
 
-python tests/leaderboard/live/measure.py alone 10    # against the same people offline
-python tests/leaderboard/live/measure.py pair 10
-python tests/leaderboard/live/measure.py least 3     # event to picture without buffers
-python tests/leaderboard/live/measure.py delayed 3   # the same through a delaying network
-python tests/leaderboard/live/measure.py rooms 300   # lateness of eight rooms, for so many seconds
+python -m tests.leaderboard.live.measure alone 10    # against the same people offline
+python -m tests.leaderboard.live.measure pair 10
+python -m tests.leaderboard.live.measure least 3     # event to picture without buffers
+python -m tests.leaderboard.live.measure delayed 3   # the same through a delaying network
+python -m tests.leaderboard.live.measure rooms 300   # lateness of eight rooms, for so many seconds
 
-The word "finger" behind them lifts by touch instead of by mouse.
+The word "finger" behind them lifts by touch instead of by mouse, and "least" without buffers.
 """
 
 import asyncio
@@ -31,12 +31,13 @@ from colift.benchmark.execution.batches import play
 from colift.benchmark.results.baselines import PARTNER_SPEC
 from playwright.async_api import async_playwright
 
-sys.path.insert(0, str(Path(__file__).parent))
-from driving import Driven
-from network import Network
-from pages import GRIP, MOVING_S, Page, new_session, samples
+from .driving import Driven
+from .network import Network
+from .pages import GRIP, MOVING_S, Page, new_session, samples
 
 FINGER = "finger" in sys.argv
+LEAST = "?playout=0&delay=0"
+QUERY = LEAST if "least" in sys.argv[3:] else ""
 SIZE = {"width": 900, "height": 700}
 POLICIES = ("anticipate", "blend", "copy")
 
@@ -126,11 +127,13 @@ async def pair(url, out, lifts):
             executable_path="/usr/bin/chromium", args=["--no-sandbox"]
         )
         contexts = [await browser.new_context(has_touch=FINGER, viewport=SIZE) for _ in range(2)]
-        host = await Driven.opened(contexts[0], url, FINGER)
+        host = await Driven.opened(contexts[0], url + QUERY, FINGER)
         await host.choose("person")
         link = host.page.locator("#invite-link")
         await link.wait_for()
-        guest = await Driven.opened(contexts[1], await link.input_value(), FINGER)
+        guest = await Driven.opened(
+            contexts[1], (await link.input_value()).replace("#", QUERY + "#"), FINGER
+        )
         ratios = []
         for seed in range(lifts):
             made = references(seed)
@@ -171,7 +174,7 @@ async def delays_of(url, out, lifts):
         context = await browser.new_context(
             has_touch=FINGER, viewport={"width": 900, "height": 700}
         )
-        driven = await Driven.opened(context, url + "?playout=0&delay=0", FINGER)
+        driven = await Driven.opened(context, url + LEAST, FINGER)
         await driven.choose("copy")
         found = []
         for seed in range(lifts):

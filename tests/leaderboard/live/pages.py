@@ -2,10 +2,9 @@
 
 import json
 import struct
-import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from typing import Any
 
 import httpx
@@ -13,9 +12,10 @@ import pytest
 from colift.leaderboard.live.app import create_play
 from colift.leaderboard.live.keeper import PlayConfig
 from colift.leaderboard.live.web import SmallBuffers
-from colift.leaderboard.service.server import listening, make_server
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
+
+from ..serving import serving
 
 GRIP = {"offset": 0.0, "playout": 20, "rtt": 1, "input": {"preset": "mouse"}}
 """The room's clock and the test's are the same one."""
@@ -28,19 +28,11 @@ async def never_busy() -> None:
     """Stand for a machine with time: this one may have others' work."""
 
 
-@contextmanager
-def serving(config: PlayConfig, obstacle: Callable[..., Any] = never_busy) -> Iterator[str]:
-    """Serve live lifts from a thread; yield the address."""
-    listener = listening("127.0.0.1", 0)
-    server = make_server(create_play(config, obstacle=obstacle), sockets=SmallBuffers)
-    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
-    thread.start()
-    try:
-        yield "http://{}:{}".format(*listener.getsockname())
-    finally:
-        server.should_exit = True
-        thread.join()
-        listener.close()
+def playing(
+    config: PlayConfig, obstacle: Callable[..., Any] = never_busy
+) -> AbstractContextManager[str]:
+    """Serve live lifts; the context is their address."""
+    return serving(create_play(config, obstacle=obstacle), sockets=SmallBuffers)
 
 
 def new_session(url: str) -> tuple[str, str]:

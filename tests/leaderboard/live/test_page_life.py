@@ -15,7 +15,7 @@ from .browsing import (
     wait_for_phase,
     wait_until_ready,
 )
-from .pages import serving
+from .pages import playing
 
 HIDE = """
     Object.defineProperty(document, "hidden", { value: true, configurable: true });
@@ -109,7 +109,7 @@ def test_a_full_house_is_a_place_in_the_queue(open_page, sessions, monkeypatch):
     monkeypatch.setattr(keeper, "start_room", start_patient_room)
     policies = {"hold": PolicySpec(text="hold")}
     config = PlayConfig(folder=sessions, policies=policies, rooms=1)
-    with serving(config) as url:
+    with playing(config) as url:
         first, second = open_page(), open_page()
         enter(first, url)
         second.goto(url)

@@ -11,9 +11,11 @@ from .browsing import (
     enter,
     table,
     wait_for,
+    wait_for_height,
     wait_for_phase,
     wait_until_ready,
 )
+from .network import Network
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 
@@ -46,7 +48,7 @@ def test_a_finger_moves_the_table_as_far_as_itself(open_page, url):
         touch("touchMove", y - i)
     shown = wait_for(page, "coliftPlay.page.stage.shown.human", lambda height: height > 0.08)
     scale = page.evaluate("coliftPlay.page.stage.pixelsPerMetre")
-    assert heights(hand)[-1] == pytest.approx(40 / scale, abs=1e-4)
+    wait_for_height(page, hand, 40 / scale)
     assert shown < 40 / scale + 0.02
     assert table(page)[1] < 0.05  # The robot holds still.
     assert page.evaluate("window.scrollY") == 0
@@ -71,7 +73,9 @@ def test_keys_alone_are_enough(page, url):
     page.keyboard.down("ArrowUp")
     wait_for(page, "coliftPlay.page.stage.shown.human", lambda height: height > 0.05)
     page.keyboard.up("ArrowUp")
-    page.wait_for_timeout(300)
+    wait_for(page, "coliftPlay.page.hands.keys.steering.velocity", lambda velocity: velocity == 0)
+    wait_for_height(page, hand, page.evaluate("coliftPlay.page.hands.keys.steering.height"))
+    page.wait_for_timeout(100)
     moved = heights(hand)
     steps = [b - a for a, b in itertools.pairwise(moved)]
     assert max(steps) <= 0.00151  # 0.15 m/s, 100 times a second
@@ -91,7 +95,7 @@ def test_a_click_or_escape_lets_go_of_the_mouse(page, url):
     page.mouse.click(400, 400)
     expect(page.locator("#status")).to_contain_text("does not count", timeout=WAIT_MS)
     assert page.evaluate("document.pointerLockElement") is None
-    assert hand.messages[-1] == '{"type":"release"}' or "ping" in hand.messages[-1]
+    assert '{"type":"release"}' in hand.messages
 
 
 def test_a_mouse_that_cannot_be_locked_moves_the_table_by_a_held_button(page, url):
@@ -106,7 +110,7 @@ def test_a_mouse_that_cannot_be_locked_moves_the_table_by_a_held_button(page, ur
     page.mouse.move(300, 440, steps=10)
     wait_for(page, "coliftPlay.page.stage.shown.human", lambda height: height > 0.05)
     scale = page.evaluate("coliftPlay.page.stage.pixelsPerMetre")
-    assert heights(hand)[-1] == pytest.approx(60 / scale, abs=1e-4)
+    wait_for_height(page, hand, 60 / scale)
     page.mouse.up()
     expect(page.locator("#status")).to_contain_text("does not count", timeout=WAIT_MS)
 
@@ -129,14 +133,14 @@ def test_a_gamepad_moves_the_table_by_its_left_stick(page, url):
     assert any('"preset":"gamepad"' in message for message in hand.messages)
 
 
-def test_a_picture_is_not_old(page, url):
-    """From a sample to its picture, with the buffers that hide a network switched off."""
-    enter(page, f"{url}/?playout=0&delay=0")
-    page.locator("#stage").focus()
-    page.keyboard.press("Space")
-    begin(page)
-    page.keyboard.down("ArrowUp")
-    page.wait_for_timeout(1500)
-    page.keyboard.up("ArrowUp")
-    median = page.evaluate("coliftPlay.page.lifting.delays.median")
-    assert 0 < median < 100  # 24 ms on two cores that have other work, too
+def test_the_delay_of_a_network_is_seen_from_hand_to_picture(page, url):
+    """Without the buffers that hide it; measure.py compares the delays to a millisecond."""
+    with Network(up=0.15, down=0.25).before(url) as through:
+        enter(page, f"{through}/?playout=0&delay=0")
+        page.locator("#stage").focus()
+        page.keyboard.press("Space")
+        begin(page)
+        page.keyboard.down("ArrowUp")
+        wait_for(page, "coliftPlay.page.lifting.delays.delays.length", lambda count: count > 30)
+        delays = page.evaluate("coliftPlay.page.lifting.delays.delays")
+        assert 400 < min(delays) < 800

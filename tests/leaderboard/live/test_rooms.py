@@ -13,7 +13,7 @@ from colift.benchmark.live.messages import parse_frame
 from colift.benchmark.live.session import EVENTS, lift_folders
 from colift.leaderboard.live.keeper import PlayConfig
 
-from .pages import GRIP, Page, new_session, samples, serving
+from .pages import GRIP, Page, new_session, playing, samples
 
 
 @pytest.fixture(scope="module")
@@ -25,7 +25,7 @@ def config(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def url(config):
-    with serving(config) as address:
+    with playing(config) as address:
         yield address
 
 

@@ -4,14 +4,14 @@ import asyncio
 import json
 import socket
 import struct
-import threading
 import time
 
 from colift.leaderboard.live.page import Page
 from colift.leaderboard.live.web import SmallBuffers
-from colift.leaderboard.service.server import listening, make_server
 from fastapi import FastAPI, WebSocket
 from websockets.sync.client import connect
+
+from ..serving import serving
 
 FRAMES = 20_000
 
@@ -41,15 +41,11 @@ def sending(found):
 
 def test_a_page_that_reads_late_gets_the_newest_frames_and_all_sentences():
     found, read = {}, []
-    listener = listening("127.0.0.1", 0)
-    server = make_server(sending(found), sockets=SmallBuffers)
-    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
-    thread.start()
-    try:
+    with serving(sending(found), sockets=SmallBuffers) as url:
         narrow = socket.socket()
         narrow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-        narrow.connect(listener.getsockname())
-        place = "ws://{}:{}/".format(*listener.getsockname())
+        narrow.connect(("127.0.0.1", int(url.rpartition(":")[2])))
+        place = url.replace("http://", "ws://") + "/"
         with connect(place, sock=narrow, compression=None, max_queue=1) as page:
             while "sending_s" not in found:
                 time.sleep(0.05)
@@ -60,10 +56,6 @@ def test_a_page_that_reads_late_gets_the_newest_frames_and_all_sentences():
                     if isinstance(message, str)
                     else struct.unpack_from("<I", message)[0]
                 )
-    finally:
-        server.should_exit = True
-        thread.join()
-        listener.close()
     numbers = read[1:-1]
     assert read[0] == {"type": "start"}
     assert numbers == sorted(numbers)

@@ -10,7 +10,7 @@ from colift.leaderboard.live.keeper import PlayConfig
 from colift.leaderboard.live.limits import MESSAGES, SOCKETS
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from .pages import Page, new_session, open_socket, serving
+from .pages import Page, new_session, open_socket, playing
 
 HOSTS = frozenset({"127.0.0.1", "localhost"})
 
@@ -29,7 +29,7 @@ def config(tmp_path_factory):
 @pytest.fixture(scope="module")
 def url(config):
     """A server that never gives a room: its machine has no time."""
-    with serving(config, no_time) as address:
+    with playing(config, no_time) as address:
         yield address
 
 

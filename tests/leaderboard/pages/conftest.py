@@ -3,8 +3,6 @@
 import pickle
 import re
 import shutil
-import socket
-import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -17,25 +15,17 @@ from colift.leaderboard.board.seasons import ImportedSeason
 from colift.leaderboard.pages.site import write_site
 from colift.leaderboard.service.app import create_app
 from colift.leaderboard.service.documentation import Documentation
-from colift.leaderboard.service.server import make_server
 from playwright.sync_api import Browser, Page
 
+from ..serving import serving
 from .boards import BEGAN, digest, practice, renamed
 
 
 @contextmanager
 def running(folder: Path, docs: Documentation | None = None) -> Iterator[str]:
     """Serve a board from a thread of this process; yield its URL."""
-    listener = socket.create_server(("127.0.0.1", 0))
-    server = make_server(create_app(folder, docs=docs))
-    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
-    thread.start()
-    try:
-        yield "http://{}:{}".format(*listener.getsockname())
-    finally:
-        server.should_exit = True
-        thread.join()
-        listener.close()
+    with serving(create_app(folder, docs=docs)) as url:
+        yield url
 
 
 @pytest.fixture(scope="session")

@@ -2,7 +2,6 @@
 
 import io
 import re
-import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,8 +14,9 @@ from colift.leaderboard.board.tokens import Tokens
 from colift.leaderboard.service.app import create_app
 from colift.leaderboard.service.dependencies import Rates
 from colift.leaderboard.service.security import Rate
-from colift.leaderboard.service.server import listening, make_server
 from colift.leaderboard.storage.archive import pack
+
+from ..serving import serving as served
 
 UNLIMITED = Rates(
     address=Rate(per_second=1e6, burst=10**6), submitter=Rate(per_second=1e6, burst=10**6)
@@ -28,16 +28,8 @@ def running(
     folder: Path, rates: Rates | None = None, root: str = "", **options: str
 ) -> Iterator[str]:
     """Serve a board from a thread of this process; yield its URL."""
-    listener = listening("127.0.0.1", 0)
-    server = make_server(create_app(folder, rates, **options), root)
-    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
-    thread.start()
-    try:
-        yield "http://{}:{}".format(*listener.getsockname())
-    finally:
-        server.should_exit = True
-        thread.join()
-        listener.close()
+    with served(create_app(folder, rates, **options), root) as url:
+        yield url
 
 
 @contextmanager
