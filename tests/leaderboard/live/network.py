@@ -6,7 +6,8 @@ A browser's own throttling leaves WebSockets alone.
 import asyncio
 import contextlib
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future
 from contextlib import contextmanager
 from urllib.parse import urlsplit
 
@@ -21,60 +22,55 @@ class Network:
         """Delay of what the page sends [s]."""
         self.down = down
         """Delay of what the page gets [s]."""
-        self.frozen = False
-        """Whether nothing gets through, while connections stay open: a segment was lost."""
         self._server = ("", 0)
+        self._connections: set[asyncio.Task[None]] = set()
 
     @contextmanager
     def before(self, url: str) -> Iterator[str]:
         """Stand before a server, in a thread; yield the address of the way through here."""
         address = urlsplit(url)
-        assert address.hostname is not None
-        assert address.port is not None
-        self._server = (address.hostname, address.port)
-        loop, opened = asyncio.new_event_loop(), threading.Event()
-        ports: list[int] = []
-
-        async def serve() -> None:
-            server = await asyncio.start_server(self._connected, "127.0.0.1", 0)
-            ports.append(server.sockets[0].getsockname()[1])
-            opened.set()
-            async with server:
-                with contextlib.suppress(asyncio.CancelledError):
-                    await server.serve_forever()
-
-        task = loop.create_task(serve())
-
-        def run() -> None:
-            asyncio.set_event_loop(loop)
-            loop.run_until_complete(task)
-            left = asyncio.all_tasks(loop)
-            for each in left:
-                each.cancel()
-            loop.run_until_complete(asyncio.gather(*left, return_exceptions=True))
-            loop.close()
-
-        thread = threading.Thread(target=run)
+        self._server = (str(address.hostname), int(address.port or 80))
+        opened: Future[tuple[int, Callable[[], object]]] = Future()
+        thread = threading.Thread(target=lambda: asyncio.run(self._serve(opened)))
         thread.start()
-        opened.wait()
+        port, close = opened.result()
         try:
-            yield f"http://127.0.0.1:{ports[0]}{address.path}"
+            yield f"http://127.0.0.1:{port}{address.path}"
         finally:
-            loop.call_soon_threadsafe(task.cancel)
+            close()
             thread.join()
+
+    async def _serve(self, opened: "Future[tuple[int, Callable[[], object]]]") -> None:
+        loop, over = asyncio.get_running_loop(), asyncio.Event()
+        server = await asyncio.start_server(self._connected, "127.0.0.1", 0)
+        port = server.sockets[0].getsockname()[1]
+        opened.set_result((port, lambda: loop.call_soon_threadsafe(over.set)))
+        await over.wait()
+        server.close()
+        for connection in self._connections:
+            connection.cancel()
+        await asyncio.gather(*self._connections)
+        await server.wait_closed()
 
     async def _connected(
         self, page_in: asyncio.StreamReader, page_out: asyncio.StreamWriter
     ) -> None:
-        try:
+        task = asyncio.current_task()
+        assert task is not None
+        self._connections.add(task)
+        writers = [page_out]
+        with contextlib.suppress(OSError, asyncio.CancelledError):
             server_in, server_out = await asyncio.open_connection(*self._server)
-        except OSError:
-            page_out.close()
-            return
-        with contextlib.suppress(asyncio.CancelledError):
+            writers.append(server_out)
             await asyncio.gather(
                 self._relay(page_in, server_out, "up"), self._relay(server_in, page_out, "down")
             )
+        for writer in writers:
+            writer.close()
+        for writer in writers:
+            with contextlib.suppress(OSError):
+                await writer.wait_closed()
+        self._connections.discard(task)
 
     async def _relay(
         self, source: asyncio.StreamReader, sink: asyncio.StreamWriter, way: str
@@ -83,22 +79,18 @@ class Network:
         loop = asyncio.get_running_loop()
         queue: asyncio.Queue[tuple[float, bytes]] = asyncio.Queue()
 
-        async def send() -> None:
-            while (item := await queue.get())[1]:
-                await asyncio.sleep(max(item[0] - loop.time(), 0.0))
-                while self.frozen:
-                    await asyncio.sleep(0.001)
-                sink.write(item[1])
-                await sink.drain()
-
-        sending = asyncio.ensure_future(send())
-        try:
+        async def read() -> None:
             while data := await source.read(CHUNK):
                 queue.put_nowait((loop.time() + getattr(self, way), data))
-        except ConnectionError:
-            pass
-        finally:
             queue.put_nowait((loop.time(), b""))
-            with contextlib.suppress(ConnectionError):
-                await sending
+
+        reading = asyncio.ensure_future(read())
+        try:
+            while (item := await queue.get())[1]:
+                await asyncio.sleep(max(item[0] - loop.time(), 0.0))
+                sink.write(item[1])
+                await sink.drain()
             sink.close()
+        finally:
+            reading.cancel()
+            await asyncio.gather(reading, return_exceptions=True)

@@ -125,7 +125,7 @@ def test_a_fast_mouse_sends_every_sample_in_few_messages(run):
     """)
     samples = [each for _, _, part in sent for each in part]
     assert len(samples) == 1001
-    assert len(sent) <= 170
+    assert len(sent) <= 340  # Fewer than the server takes in a second.
     assert [first for _, first, _ in sent] == [
         sum(len(part) for _, _, part in sent[:i]) for i in range(len(sent))
     ]
@@ -146,7 +146,8 @@ def test_a_hand_that_rests_is_seen_to_rest(run):
     """)
     samples = [each for _, _, part in sent for each in part]
     gaps = [b[0] - a[0] for a, b in itertools.pairwise(samples[1:])]
-    assert 10 <= min(gaps) <= max(gaps) <= 20
+    assert gaps[0] < 60  # That no event comes is only news after a while.
+    assert 10 <= min(gaps) <= max(gaps[1:]) <= 20
     assert {height for _, height in samples[1:]} == {0.02}
 
 
