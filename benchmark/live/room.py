@@ -29,6 +29,10 @@ AHEAD_S: Final = 0.5
 """From the last closed hand to the first frame [s]: pages need the time to prepare."""
 
 
+SILENT_S: Final = 2.0
+"""How long nothing may be heard of a hand [s]: pages send samples of hands that rest, too."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class RoomConfig:
     """What a room is made with."""
@@ -145,7 +149,7 @@ class Room:
             raise InputError("there is no end of the table for this person")
         if self._lifting is not None or not self._prepared:
             raise InputError("the partner is not ready, or a lift is under way")
-        self._seats.people[seat].close(grip)
+        self._seats.people[seat].close(grip, now)
         grips = self._seats.grips(self._choice.partner)
         return self._state() if grips is None else self._begin(grips, now)
 
@@ -213,6 +217,8 @@ class Room:
             return self._void(f"the partner's process ended: {error}")
         if lifting.punctuality.void:
             found += self._void(f"this machine was too busy: {lifting.punctuality}")
+        elif now - max(self._seats.heard(self._choice.partner), lifting.begin) > SILENT_S:
+            found += self._void(f"nothing was heard of a person's page for {SILENT_S:g} s")
         return found
 
     def _void(self, reason: str) -> list[Message]:

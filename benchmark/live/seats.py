@@ -38,6 +38,8 @@ class SeatedPerson:
     """Number of the next sample since the grip."""
     last: tuple[float, float] | None = None
     """The newest sample of the present lift."""
+    heard: float = 0.0
+    """When samples came last, or the hand was closed [s]."""
     needed: list[float] = field(default_factory=list)
     """Playout delay with which each message of a moving hand would have been in time [s]."""
 
@@ -47,9 +49,10 @@ class SeatedPerson:
         assert self.grip is not None
         return self.delays.get(self.grip.preset, FIRST_DELAY_S[self.grip.preset])
 
-    def close(self, grip: Grip) -> None:
+    def close(self, grip: Grip, now: float) -> None:
         """Close the hand."""
-        self.grip, self.expected, self.last, self.needed = grip, 0, None, []
+        self.grip, self.heard = grip, now
+        self.expected, self.last, self.needed = 0, None, []
 
     def send(self, content: HandSamples, hand: LiveHand, now: float) -> None:
         """Give a page's samples to the hand.
@@ -65,6 +68,7 @@ class SeatedPerson:
                 "comes twice"
             )
         self.expected += len(content.samples)
+        self.heard = now
         for time, height in content.samples:
             hand.add(time, height)
         if not content.samples:
@@ -112,6 +116,10 @@ class Seats:
         people = [self.people[seat] for seat in self.ends(partner)]
         wished = [each.grip.delay for each in people if each.grip and each.grip.delay is not None]
         return max(wished or [each.delay for each in people])
+
+    def heard(self, partner: LivePartner) -> float:
+        """Return when the page was heard of which nothing has come for longest [s]."""
+        return min(self.people[seat].heard for seat in self.ends(partner))
 
     def let_go(self) -> None:
         """Open all hands."""

@@ -200,7 +200,7 @@
     }
 
     away(sentence) {
-      this.seated = this.settled = false;
+      this.seated = this.settled = this.explained = false;
       this.drop();
       this.state = null;
       this.told.say(sentence);

@@ -150,6 +150,15 @@ def test_a_gap_makes_a_lift_void(table):
     assert "busy" in table.last("void")["reason"]
 
 
+def test_a_page_that_falls_silent_makes_a_lift_void(table):
+    table.prepare()
+    table.grip(0)
+    table.lift({0: hand_of(table.room._lifting.cue)}, until=1.0)
+    table.lift({})
+    assert table.now < table.last("start")["at"] / 1000 + 3.1
+    assert "nothing was heard" in table.last("void")["reason"]
+
+
 def test_partners_are_compared_on_the_same_movement(table):
     end = lifted(table)
     table.prepare()
