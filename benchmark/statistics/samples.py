@@ -1,5 +1,6 @@
 """Samples: one value an episode, pairs on the same episodes, and resampling within strata."""
 
+import functools
 import math
 from collections.abc import Hashable, Iterable
 from typing import TypeVar
@@ -71,11 +72,23 @@ def members_of(strata: Iterable[Hashable], episodes: int) -> Members:
 
 
 def resample(members: Members, resamples: int, seed: int) -> NDArray[np.intp]:
-    """Return indices of resampled episodes, shape (resamples, n), drawn stratum by stratum."""
+    """Return indices of resampled episodes, shape (resamples, n), drawn stratum by stratum.
+
+    The array is shared by all who ask for the same draw, and cannot be written to.
+    """
+    return _drawn(tuple(stratum.tobytes() for stratum in members), resamples, seed)
+
+
+@functools.lru_cache(maxsize=4)
+def _drawn(strata: tuple[bytes, ...], resamples: int, seed: int) -> NDArray[np.intp]:
+    # Drawing takes ten times as long as a mean; the scores of a run share their strata.
     rng = np.random.default_rng(seed)
-    return np.concatenate(
+    members = [np.frombuffer(stratum, dtype=np.intp) for stratum in strata]
+    drawn = np.concatenate(
         [rng.choice(stratum, (resamples, stratum.size)) for stratum in members], axis=1
     )
+    drawn.setflags(write=False)
+    return drawn
 
 
 def expanded(z: Deviate, members: Members) -> Deviate:
