@@ -1,6 +1,7 @@
 """Simulated people at a real browser: their hands are trusted events with times of their own."""
 
 import asyncio
+import gc
 import json
 import struct
 import time
@@ -100,12 +101,15 @@ class Driven:
         """Move the hand until the lift ends; ``begin`` is its first frame by the clock [s]."""
         after = len(self.told)
         pending = []
+        gc.collect()
+        gc.disable()  # A hand does not stop for a tenth of a second in the middle of its way.
         while not any(told["type"] in ("end", "void") for told in self.told[after:]):
             now = time.monotonic()
             pending.append(
                 asyncio.ensure_future(self._move("touchMove", hand(now - begin + ahead)))
             )
             await asyncio.sleep(max(EVERY_S - (time.monotonic() - now), 0))
+        gc.enable()
         await asyncio.gather(*pending)
         if self.finger:
             await self._move("touchEnd", None)
