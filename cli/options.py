@@ -12,7 +12,7 @@ import typer
 from ..agents.errors import InputError
 from ..benchmark.execution.connecting import dask_pool
 from ..benchmark.execution.pool import JOBS, local_pool
-from ..benchmark.live.people import real_lifts
+from ..benchmark.live.scenarios import real_lifts
 from ..benchmark.suites.suite import Suite, make_suite
 from .completion import behaviours, policies, suites
 from .remedies import opened

@@ -66,7 +66,7 @@ def play(
     """
     try:
         from ..leaderboard.live.keeper import PlayConfig
-        from ..leaderboard.live.supervisor import keep_serving
+        from ..leaderboard.live.processes import keep_serving
     except ModuleNotFoundError as error:
         raise InputError(
             f"{error.name} is not installed; lifting in a browser needs: {how_to_install('board')}"

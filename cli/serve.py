@@ -108,7 +108,7 @@ def _offer_rooms(app: "FastAPI", board: Path, rooms: int) -> "type[Protocol]":
     """Let visitors of a board lift with all policies; return the protocol of their sockets."""
     from ..leaderboard.live.app import create_play, mount_play
     from ..leaderboard.live.keeper import PlayConfig
-    from ..leaderboard.live.web import SmallBuffers
+    from ..leaderboard.live.processes import SmallBuffers
     from ..leaderboard.service.dependencies import PLAY
 
     named, lines = partners()

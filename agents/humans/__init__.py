@@ -4,10 +4,9 @@ A subject and a behaviour make a plan from a seed; ``ScriptedHuman`` carries a p
 """
 
 from .changing_goal import ChangingGoal
-from .cued import Cue, Cued
+from .cued import LIVE_SUBJECT, Cue, Cued
 from .hand_log import Hand, HandLog, LoggedHand, Resampler
 from .jerky import Jerky
-from .live import LIVE_SUBJECT
 from .partner import PARTNER_SUBJECT, Partner
 from .pause import Pause
 from .person_as_robot import PersonAsRobot

@@ -16,15 +16,13 @@ from ..episode.scenario import Scenario
 from ..execution.batches import entered
 from ..execution.runner import Run
 from ..suites.suite import Suite
+from .choice import LIVE_DIGEST, LivePartner
 from .grip import Grip
 from .hand import LiveHand
 from .live_lift import LiveLift
 from .messages import LATE, STARVED, dump_frame
-from .partners import LIVE_DIGEST, LivePartner
 from .punctuality import Punctuality
-
-SEED = 0
-"""The episode's seed: lifts differ by their trial, and so do their plans and their noise."""
+from .scenarios import SEED
 
 
 class Lifting:

@@ -25,8 +25,6 @@ class Punctuality:
     """Time of a frame [s]."""
     late: list[float] = field(default_factory=list)
     """How late each frame was begun [s]."""
-    frames: int = 0
-    """Frames that were made more than a frame late."""
     worst: float = 0.0
     """Longest gap [s]."""
     total: float = 0.0
@@ -36,10 +34,13 @@ class Punctuality:
         """Count a wake-up that was ``lateness`` [s] late and made so many frames."""
         self.late += [lateness - i * self.period for i in range(caught_up)]
         self.worst = max(self.worst, lateness)
-        if lateness > self.period:
-            self.frames += caught_up - 1
         if lateness > MARKED_S:
             self.total += lateness
+
+    @property
+    def frames(self) -> int:
+        """How many frames were begun more than a frame late."""
+        return sum(late > self.period for late in self.late)
 
     @property
     def marked(self) -> bool:

@@ -15,12 +15,11 @@ from ...agents.errors import EvaluatorFault, InputError, error_text
 from ...agents.spec import AgentSpec
 from ..episode.lift import Lift
 from ..episode.scenario import Scenario
-from .choice import HostChoice
-from .cueing import cue_of, live_scenario
+from .choice import PERSON, PERSON_AS_ROBOT, SIMULATED, HostChoice
 from .grip import Grip
 from .lifting import Lifting
 from .messages import parse_samples
-from .partners import PERSON, PERSON_AS_ROBOT, SIMULATED
+from .scenarios import cue_of, live_scenario
 from .seats import ALL, Message, SeatedPerson, Seats
 from .session import SessionFolder
 from .standing import Standing, ghost_rmse, rehearse

@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from ...agents.errors import InputError
+from .choice import LivePartner
 from .grip import FIRST_DELAY_S, LONGEST_DELAY_S, Grip
 from .hand import LiveHand
 from .messages import HandSamples
-from .partners import LivePartner
 
 ALL: Final = 255
 """Stands for every seat in a message to the pages."""

@@ -10,10 +10,8 @@ from ...agents.spec import AgentSpec
 from ..episode.scenario import LATENCY, Scenario
 from ..execution.batches import play
 from ..results.baselines import PARTNER_SPEC
-from .choice import in_frames
-from .cueing import ghost_scenario
-from .lifting import SEED
-from .partners import LivePartner
+from .choice import LivePartner, in_frames
+from .scenarios import SEED, ghost_scenario
 
 
 def ghost_rmse(cue: Cued, number: int) -> float:

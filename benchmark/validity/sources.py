@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from ...agents.errors import InputError
-from ..live.people import real_lifts
+from ..live.scenarios import real_lifts
 from ..suites.suite import Suite, plain_name
 
 FEWEST_LIFTS: Final = 2

@@ -5,8 +5,7 @@ from typing import Any, Final
 
 from ...benchmark.live.process import BINARY, JOIN, LEAVE, packet
 from ...benchmark.live.seats import ALL
-from .outbox import Message
-from .page import TAKEN_OVER, Page
+from .page import TAKEN_OVER, Message, Page
 from .relay import RoomLink
 from .sessions import Role, Session
 

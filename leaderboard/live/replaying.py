@@ -13,7 +13,7 @@ from typing import Any, Final
 from ...agents.errors import InputError
 from ...agents.humans import Played
 from ...benchmark.bundle import read_bundle
-from ...benchmark.live.cueing import ghost_scenario
+from ...benchmark.live.scenarios import ghost_scenario
 from ..replays.replay import play_ghost, replay_content
 
 WAITING: Final = 8

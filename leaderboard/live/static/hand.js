@@ -53,7 +53,6 @@
       this.due = false;
       this.resting = false;
       this.seen = [];
-      this.moves = 0;
       this.sample(now, now);
     }
 
@@ -61,7 +60,6 @@
     place(time, height, now) {
       if (!this.closed) return;
       if (this.started) {
-        this.moves += 1;
         this.seen.push(now - time);
         // Nothing was heard of the pointer, so it lay still until this movement.
         if (this.resting && time - this.last > BEFORE_MS) this.sample(time - BEFORE_MS, now);
@@ -121,8 +119,8 @@
 
     // Events a second over the whole lift; null if there were too few.
     get rate() {
-      if (!this.times || this.moves < 20) return null;
-      return Math.round((1000 * this.moves) / (this.last - this.times[0]));
+      if (!this.seen || this.seen.length < 20) return null;
+      return Math.round((1000 * this.seen.length) / (this.last - this.times[0]));
     }
   }
 

@@ -12,8 +12,8 @@ from colift.benchmark.bundle.arrays import dump_arrays
 from colift.benchmark.bundle.json_text import dump_json
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.live.messages import HandSamples, dump_samples, parse_frame
-from colift.benchmark.live.people import played_suite
 from colift.benchmark.live.room import Room, RoomConfig
+from colift.benchmark.live.scenarios import played_suite
 from colift.benchmark.live.seats import ALL
 from colift.benchmark.live.session import lift_folders
 from colift.benchmark.suites.suite import recorded_suite

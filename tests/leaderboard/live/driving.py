@@ -97,7 +97,7 @@ class Driven:
         self.scale = COUNTS_PER_METRE
         await self.page.mouse.click(self.x, self.y)
 
-    async def move(self, hand: Hand, begin: float, ahead: float = 0.0) -> dict[str, Any]:
+    async def move(self, hand: Hand, begin: float) -> dict[str, Any]:
         """Move the hand until the lift ends; ``begin`` is its first frame by the clock [s]."""
         after = len(self.told)
         pending = []
@@ -105,9 +105,7 @@ class Driven:
         gc.disable()  # A hand does not stop for a tenth of a second in the middle of its way.
         while not any(told["type"] in ("end", "void") for told in self.told[after:]):
             now = time.monotonic()
-            pending.append(
-                asyncio.ensure_future(self._move("touchMove", hand(now - begin + ahead)))
-            )
+            pending.append(asyncio.ensure_future(self._move("touchMove", hand(now - begin))))
             await asyncio.sleep(max(EVERY_S - (time.monotonic() - now), 0))
         gc.enable()
         await asyncio.gather(*pending)

@@ -11,7 +11,7 @@ import httpx
 import pytest
 from colift.leaderboard.live.app import create_play
 from colift.leaderboard.live.keeper import PlayConfig
-from colift.leaderboard.live.web import SmallBuffers
+from colift.leaderboard.live.processes import SmallBuffers
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 

@@ -5,7 +5,7 @@ import asyncio
 import pytest
 from colift.leaderboard.live import load
 from colift.leaderboard.live.limits import Places, same_origin
-from colift.leaderboard.live.outbox import Outbox
+from colift.leaderboard.live.page import Outbox
 from starlette.requests import HTTPConnection
 
 

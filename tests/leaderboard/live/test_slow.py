@@ -7,7 +7,7 @@ import struct
 import time
 
 from colift.leaderboard.live.page import Page
-from colift.leaderboard.live.web import SmallBuffers
+from colift.leaderboard.live.processes import SmallBuffers
 from fastapi import FastAPI, WebSocket
 from websockets.sync.client import connect
 

@@ -1,0 +1,103 @@
+"""The processes that serve live lifts: one with all pages, and its parent, which replaces it.
+
+The parent keeps the address, and starts another web process if one is killed.
+"""
+
+import asyncio
+import logging
+import multiprocessing
+import os
+import signal
+import socket
+import time
+from multiprocessing.context import SpawnProcess
+from typing import Final, cast
+
+from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+
+from ...agents.errors import EvaluatorFault
+from ..service.server import make_server
+from .app import create_play
+from .keeper import PlayConfig
+from .replaying import tether
+
+log: Final = logging.getLogger("colift.live")
+
+SOON_S: Final = 10.0
+"""A process that ends sooner than this has not worked [s]."""
+
+TRIES: Final = 3
+"""How many may end so soon, one after the other."""
+
+END_S: Final = 8.0
+"""What the web process has to end with its rooms [s]."""
+
+SENDING: Final = 8192
+"""Size of the system's buffer of what is sent to a page: seconds of frames, not minutes."""
+
+
+class SmallBuffers(WebSocketsSansIOProtocol):
+    """WebSockets that hold little of what a page has not taken.
+
+    What waits must wait where the oldest frames can be dropped, in :class:`.Outbox`.
+    """
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Take a connection over from HTTP."""
+        connection = transport.get_extra_info("socket")
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SENDING)
+        cast(asyncio.WriteTransport, transport).set_write_buffer_limits(high=0)
+        super().connection_made(transport)
+
+
+def run_web(config: PlayConfig, listener: socket.socket, root: str) -> None:
+    """Serve live lifts until a signal ends this process, or its parent has ended.
+
+    Parameters
+    ----------
+    config
+        The partners, and the number of rooms.
+    listener
+        The listening socket.
+    root
+        Path below which a proxy shows the page, without a slash at its end.
+    """
+    os.setsid()  # Ctrl-C in a terminal is for the parent.
+    tether(signal.SIGTERM)
+    logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(levelname)s %(message)s")
+    make_server(create_play(config), root, SmallBuffers).run(sockets=[listener])
+
+
+def keep_serving(config: PlayConfig, listener: socket.socket, root: str = "") -> None:
+    """Keep a web process running until this one is interrupted.
+
+    While there is none, who connects waits: the socket stays open here.
+
+    Raises
+    ------
+    EvaluatorFault
+        If one after the other ends at once.
+    """
+    context = multiprocessing.get_context("spawn")
+    failed = 0
+    while True:
+        process = context.Process(target=run_web, args=(config, listener, root), name="web")
+        began = time.monotonic()
+        process.start()
+        try:
+            process.join()
+        finally:
+            _end(process)
+        failed = failed + 1 if time.monotonic() - began < SOON_S else 0
+        if failed >= TRIES:
+            raise EvaluatorFault(f"the web process ends at once, with code {process.exitcode}")
+        log.error("the web process has ended with code %s; another is started", process.exitcode)
+
+
+def _end(process: SpawnProcess) -> None:
+    if process.is_alive():
+        process.terminate()
+        process.join(END_S)
+    if process.is_alive():
+        process.kill()
+        process.join()
