@@ -2,5 +2,16 @@
 
 from .parallel import ParallelLift, env, parallel_env
 from .single import RobotEnv
+from .wrappers import History, HoldingPace, Scaled, training_env, training_view
 
-__all__ = ["ParallelLift", "RobotEnv", "env", "parallel_env"]
+__all__ = [
+    "History",
+    "HoldingPace",
+    "ParallelLift",
+    "RobotEnv",
+    "Scaled",
+    "env",
+    "parallel_env",
+    "training_env",
+    "training_view",
+]

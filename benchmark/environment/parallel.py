@@ -1,5 +1,6 @@
 """The PettingZoo parallel environment ``colift_v0``."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,8 @@ from ..episode.lift import Lift
 from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..rendering.scene import Scene, check_render_mode
 from ..suites.catalogue import make_scenario
+from .drawing import Drawing, SharedWorld, make_drawing
+from .rewards import LEVEL, SCORE, check_reward, score_rewards
 from .settings import (
     HUMAN,
     ROBOT,
@@ -59,7 +62,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
 
     Rewards [m] at the end of a step, with the heights Z1 of the human's and Z2 of the robot's end:
     the robot's is ``-|Z1 - Z2|`` (the integrand of the paper's eq. 10), the human's
-    ``-|Z1 - target| - |Z1 - Z2|``.
+    ``-|Z1 - target| - |Z1 - Z2|``. Or, with ``reward="score"``, those of :func:`.score_rewards`.
     The episode is terminated when the table is dropped (``infos[agent]["dropped"]`` is the reason)
     and truncated at its horizon.
 
@@ -69,6 +72,16 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         The lift, see :class:`~colift.benchmark.episode.scenario.Scenario`.
     render_mode
         ``None``, ``"rgb_array"`` (headless) or ``"human"`` (a window).
+    reward
+        A name of :data:`.REWARDS`.
+    drawing
+        Draws the lift of each reset; ``scenario`` is then one of its scenarios. None: all lifts
+        are of ``scenario``.
+
+    Raises
+    ------
+    InputError
+        If there is no such reward for the scenario's task.
     """
 
     metadata: dict[str, Any] = {  # noqa: RUF012 - PettingZoo's convention
@@ -78,11 +91,20 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         "is_parallelizable": True,
     }
 
-    def __init__(self, scenario: Scenario, render_mode: str | None = None) -> None:
+    def __init__(
+        self,
+        scenario: Scenario,
+        render_mode: str | None = None,
+        *,
+        reward: str = LEVEL,
+        drawing: Drawing | None = None,
+    ) -> None:
         check_render_mode(render_mode)
+        check_reward(reward, scenario.task)
         self.render_mode = render_mode
         self.metadata = {**type(self).metadata, "render_fps": 1 / scenario.control_period}
-        self.lift = Lift(scenario)
+        self._reward, self._drawing = reward, drawing
+        self.lift = Lift(scenario, world=None if drawing is None else SharedWorld)
         self.possible_agents = [HUMAN, ROBOT]
         self.agents: list[str] = []
         agents = self.possible_agents
@@ -91,9 +113,10 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         self._rng = np.random.default_rng()
         self._scene: Scene | None = None
 
-    def __reduce__(self) -> tuple[type["ParallelLift"], tuple[Scenario, str | None]]:
+    def __reduce__(self) -> tuple[Any, ...]:
         """Let copies and pickles be new environments, to be reset: no two share a world."""
-        return type(self), (self.lift.scenario, self.render_mode)
+        options = {"reward": self._reward, "drawing": self._drawing}
+        return partial(type(self), **options), (self.lift.scenario, self.render_mode)
 
     def observation_space(self, agent: str) -> Box:
         """Return the observation space of ``agent``."""
@@ -107,6 +130,9 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Observation], dict[str, dict[str, Any]]]:
         """Begin an episode; the same ``seed`` gives the same plan and noise, bit for bit.
+
+        If lifts are drawn, it gives the same person and behaviour, too, and the ``infos`` have the
+        name of the drawn ``scenario`` and the ``seed`` of its lift.
 
         Without a seed the episode follows from the last seed given, or from the system's
         entropy if there was none.
@@ -122,10 +148,16 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
             self._rng = np.random.default_rng(seed)
         else:
             seed = int(self._rng.integers(2**62))
+        info: dict[str, Any] = {}
+        if self._drawing is not None:
+            scenario, seed = self._drawing.lift(seed)
+            assert isinstance(self.lift.world, SharedWorld)
+            self.lift = Lift(scenario, world=self.lift.world.with_person)
+            info = {"scenario": scenario.name, "seed": seed}
         self.lift.reset(seed)
         self.agents = list(self.possible_agents)
         self._render_in_window()
-        return self._observations(), {agent: {} for agent in self.agents}
+        return self._observations(), {agent: dict(info) for agent in self.agents}
 
     def step(
         self, actions: dict[str, Action]
@@ -152,7 +184,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
             raise ValueError(f"actions must name every agent, missing: {', '.join(missing)}")
         lift = self.lift
         lift.step(actions[HUMAN], actions[ROBOT])
-        rewards = lift.task.rewards(lift)
+        rewards = score_rewards(lift) if self._reward == SCORE else lift.task.rewards(lift)
         dropped, truncated = lift.dropped is not None, lift.truncated
         agents = self.agents
         info = {"dropped": lift.dropped} if dropped else {}
@@ -208,15 +240,18 @@ def parallel_env(
     control_period: float = CONTROL_PERIOD,
     latency: float = LATENCY,
     render_mode: str | None = None,
+    reward: str = LEVEL,
 ) -> ParallelLift:
     """Return the parallel environment of a scenario.
 
     Parameters
     ----------
     scenario
-        Name of the human's behaviour, such as ``"smooth"`` or ``"pause"``.
+        Name of the human's behaviour, such as ``"smooth"`` or ``"pause"``; ``"any"`` draws one of
+        the standard suites' at each reset.
     subject
-        Name of the human: ``"S1"`` to ``"S5"``.
+        Name of the human: ``"S1"`` to ``"S5"``, or ``"draw-N"``; ``"draw"`` draws a new person at
+        each reset.
     partner
         Who holds the robot's end: ``"nao"`` or ``"human"``.
     control_period
@@ -225,6 +260,9 @@ def parallel_env(
         Age of the robot's motion-capture sample [s], a multiple of 10 ms.
     render_mode
         ``None``, ``"rgb_array"`` or ``"human"``.
+    reward
+        ``"level"``, the height difference at the end of a step [m], or ``"score"``, the mean square
+        over its frames [cm2].
 
     Raises
     ------
@@ -233,8 +271,12 @@ def parallel_env(
     """
     check_names(scenario=scenario, subject=subject, partner=partner)
     check_times(control_period=control_period, latency=latency)
-    made = make_scenario(scenario, subject, partner, control_period, latency)
-    return ParallelLift(made, render_mode)
+    drawing = make_drawing(scenario, subject, partner, control_period, latency)
+    if drawing is None:
+        made = make_scenario(scenario, subject, partner, control_period, latency)
+    else:
+        made = drawing.scenarios[0]
+    return ParallelLift(made, render_mode, reward=reward, drawing=drawing)
 
 
 def env(**settings: Any) -> AECEnv[str, Any, Any]:

@@ -13,7 +13,15 @@ from ..episode.seat import REFERENCE_RANGE
 HUMAN, ROBOT = "human", "robot"
 """The two agents."""
 
-SETTINGS: Final = ("scenario", "subject", "partner", "control_period", "latency", "render_mode")
+SETTINGS: Final = (
+    "scenario",
+    "subject",
+    "partner",
+    "control_period",
+    "latency",
+    "render_mode",
+    "reward",
+)
 """What an environment is made with, and keeps."""
 
 

@@ -19,6 +19,7 @@ from ...agents.control.anticipation import Anticipation, FeatureWindow
 from ...agents.errors import InputError
 from ...agents.estimators.perceptron import Perceptron
 from ...agents.policies.anticipate import AnticipateParameters
+from ..environment.drawing import TRAINING_SEEDS
 from ..suites.suite import BEHAVIOURS
 from .data import LEADS, ROAMING, Timing, TrainingData, training_data
 from .scikit import import_sklearn, reproducible_fit
@@ -26,10 +27,10 @@ from .scikit import import_sklearn, reproducible_fit
 CURRICULUM: Final = (*BEHAVIOURS, ROAMING)
 """Behaviours of the people learned from, in turn."""
 
-FIRST_SEED: Final = 100_000
+FIRST_SEED: Final = TRAINING_SEEDS[0]
 """Seed of the first lift, far from those of the suites, the calibration and the demonstrations."""
 
-LAST_SEED: Final = 199_999
+LAST_SEED: Final = TRAINING_SEEDS[-1]
 """Last seed to learn from: from 200000 on, policies are compared on people that none has met."""
 
 LIFTS: Final = 1500

@@ -36,13 +36,16 @@ def make(
     Parameters
     ----------
     scenario
-        Name of the human's behaviour; see :func:`colift.list_humans`.
+        Name of the human's behaviour; see :func:`colift.list_humans`. ``"any"`` draws one at each
+        reset.
     subject
-        Name of the human: ``"S1"`` to ``"S5"``, or ``"draw-N"``.
+        Name of the human: ``"S1"`` to ``"S5"``, or ``"draw-N"``. ``"draw"`` draws a new person at
+        each reset.
     render_mode
         ``None``, ``"rgb_array"`` or ``"human"``.
     settings
-        ``control_period`` and ``latency`` [s], and the arguments of ``gymnasium.make`` itself.
+        ``control_period`` and ``latency`` [s], ``reward`` (``"level"`` or ``"score"``), and the
+        arguments of ``gymnasium.make`` itself.
 
     Raises
     ------

@@ -1,0 +1,104 @@
+"""Lifts to learn from: a person, a behaviour and a seed that are drawn at each reset."""
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+from ...agents.humans import Subject
+from ..episode.scenario import Scenario
+from ..episode.seeding import derive_seed
+from ..suites.catalogue import make_scenario
+from ..suites.suite import BEHAVIOURS
+from ..world import BodyParameters, BulletWorld, FarEnd
+from ..world.bullet import pybullet
+from ..world.human_body import HumanBody
+from ..world.table import HANDS, SLIDE
+
+TRAINING_SEEDS: Final = range(100_000, 200_000)
+"""Seeds of people and lifts to learn from: no suite, calibration or test uses them."""
+
+ANY: Final = "any"
+"""The scenario of a behaviour drawn from those of the standard suites."""
+
+DRAW: Final = "draw"
+"""The subject of a person drawn from the population of the five subjects."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drawing:
+    """A source of lifts, each by a seed; behaviours, people and lifts are drawn independently."""
+
+    scenarios: tuple[Scenario, ...]
+    """A scenario for each behaviour."""
+    new_people: bool
+    """Whether each lift has a new person, or that of the scenario."""
+
+    def lift(self, seed: int) -> tuple[Scenario, int]:
+        """Return scenario and seed of a lift; pure in ``seed``, of which any integer will do."""
+        scenario = self.scenarios[derive_seed(seed, "drawn behaviour") % len(self.scenarios)]
+        if self.new_people:
+            scenario = replace(scenario, subject=Subject.draw(_training_seed(seed, "drawn person")))
+        return scenario, _training_seed(seed, "drawn lift")
+
+
+def _training_seed(seed: int, role: str) -> int:
+    return TRAINING_SEEDS[derive_seed(seed, role) % len(TRAINING_SEEDS)]
+
+
+def make_drawing(
+    scenario: str, subject: str, partner: str, control_period: float, latency: float
+) -> Drawing | None:
+    """Return the source of lifts of an environment's settings; None if nothing is to be drawn.
+
+    Parameters
+    ----------
+    scenario, subject
+        As of :func:`.parallel_env`; :data:`ANY` or :data:`DRAW` is drawn.
+    partner, control_period, latency
+        As of :func:`.make_scenario`.
+
+    Raises
+    ------
+    InputError
+        As :func:`.make_scenario`.
+    """
+    if scenario != ANY and subject != DRAW:
+        return None
+    person = f"draw-{TRAINING_SEEDS[0]}" if subject == DRAW else subject
+    return Drawing(
+        scenarios=tuple(
+            make_scenario(behaviour, person, partner, control_period, latency)
+            for behaviour in (BEHAVIOURS if scenario == ANY else (scenario,))
+        ),
+        new_people=subject == DRAW,
+    )
+
+
+class SharedWorld(BulletWorld):
+    """A world that can take one person after another: a new world takes 20 ms.
+
+    The person's mass is changed in the engine; with it, everything is as in a new world, bit for
+    bit.
+    """
+
+    def with_person(self, human: BodyParameters, far_end: FarEnd) -> "SharedWorld":
+        """Exchange the person, and return the world, which is to be reset.
+
+        Parameters
+        ----------
+        human
+            The next person.
+        far_end
+            The holder of the far end, who stays.
+        """
+        for link in (SLIDE, HANDS):
+            inertia = pybullet.getDynamicsInfo(self._tree, link, physicsClientId=self.client)[2]
+            pybullet.changeDynamics(
+                self._tree,
+                link,
+                mass=human.mass,
+                localInertiaDiagonal=inertia,  # Else the engine derives one from the mass.
+                physicsClientId=self.client,
+            )
+        self._mass = human.mass
+        self._body = HumanBody(human, self._step)
+        return self

@@ -1,0 +1,71 @@
+"""Rewards: the task's own, or the share of each step in the score."""
+
+from typing import Final, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.errors import InputError
+from ..episode.level import Level
+from ..episode.lift import Lift
+from ..episode.metrics import FAILED_FRAME_MM
+from ..episode.task import Task
+
+LEVEL: Final = "level"
+"""Reward by the height difference at the end of a step [m]; see :meth:`.Task.rewards`."""
+
+SCORE: Final = "score"
+"""Reward by the square of the error in all frames of a step [cm2]; see :func:`score_rewards`."""
+
+REWARDS: Final = (LEVEL, SCORE)
+
+UNIT: Final = 1e-4
+"""Square error that costs 1 [m2]: a step 10 mm apart, the level of two humans, costs 1."""
+
+
+@runtime_checkable
+class Scored(Protocol):
+    """A task whose score is not that of :class:`.Level`."""
+
+    def squared_errors(self, lift: Lift) -> NDArray[np.float64]:
+        """Return the square of the task's error in each frame of the step just made [m2]."""
+
+
+def check_reward(reward: object, task: Task) -> None:
+    """Raise an InputError if there is no such reward, or none for the task."""
+    if reward not in REWARDS:
+        raise InputError(f"reward must be {' or '.join(map(repr, REWARDS))}, got {reward!r}")
+    own = isinstance(task, Scored) or getattr(type(task), "score", None) is Level.score
+    if reward == SCORE and not own:
+        raise InputError(
+            f"task {task.name!r} has no reward 'score': it scores in a way of its own, and has "
+            "no squared_errors(lift)"
+        )
+
+
+def score_rewards(lift: Lift) -> tuple[float, float]:
+    r"""Return the rewards [cm2] of the human and of the robot for the step just made.
+
+    With the heights Z1 and Z2 of the ends and the human's intended height Z* in the n frames t of
+    the step,
+
+    .. math::
+
+        r_\text{robot} = -\frac1n \sum_t (Z_{1t} - Z_{2t})^2, \qquad
+        r_\text{human} = r_\text{robot} - \frac1n \sum_t (Z_{1t} - Z^*_t)^2.
+
+    The sum of the robot's rewards over the K steps of an episode is - K RMSE^2, as a drop pays for
+    the frames left as the score does, :data:`.FAILED_FRAME_MM` in each: dropping never earns.
+    """
+    world, task, size = lift.world, lift.task, lift.frames_per_step
+    human = np.array(world.human_end[-size:])
+    target = lift.target[lift.frame - size : lift.frame]
+    if isinstance(task, Scored):
+        squares = task.squared_errors(lift)
+    else:
+        squares = (human - np.array(world.robot_end[-size:])) ** 2
+    level, miss = float(squares.mean()), float(((human - target) ** 2).mean())
+    if lift.dropped is not None:
+        left = (lift.horizon - lift.frame) / size * (FAILED_FRAME_MM / 1000) ** 2
+        level, miss = level + left, miss + left
+    return -(level + miss) / UNIT, -level / UNIT
