@@ -1,0 +1,76 @@
+"""The trained policy as a submission: manifest, weights, and a policy in plain NumPy."""
+
+import shutil
+from collections.abc import Mapping
+from importlib.resources import files
+from io import BytesIO
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.errors import InputError
+from ...agents.submissions import network
+from ...agents.submissions.network.policy import Network
+from ...agents.submissions.new import write_files
+from .course import Course, replace_folder, write_whole
+
+WEIGHTS: Final = "weights.npz"
+
+Weights = Mapping[str, NDArray[Any]]
+
+
+def checked_network(weights: Weights) -> Network:
+    """Return the network of trained weights.
+
+    Raises
+    ------
+    InputError
+        If a weight is not finite, or the shapes do not fit together.
+    """
+    try:
+        return Network(weights)
+    except ValueError as error:
+        raise InputError(f"trained weights cannot be used: {error}") from error
+
+
+def write_policy(course: Course, weights: Weights, *, description: str, trained_on: str) -> Path:
+    """Write the trained policy into the folder of its course, and return its folder.
+
+    The folder appears complete or not at all. It is the same, byte for byte, for the same weights.
+
+    Parameters
+    ----------
+    course
+        The course of the training.
+    weights
+        The weights of :class:`.Network`.
+    description, trained_on
+        Entries of the manifest.
+
+    Raises
+    ------
+    InputError
+        As :func:`checked_network`, or if a file cannot be written.
+    """
+    checked_network(weights)
+    made = course.folder / f".{course.policy.name}.partial"
+    shutil.rmtree(made, ignore_errors=True)
+    content = BytesIO()
+    np.savez(content, **{name: np.asarray(weights[name]) for name in sorted(weights)})
+    try:
+        about: dict[str, Any] = {
+            "name": f"{course.identity['trainer']} seed {course.seed}",
+            "description": description,
+            "trained_on": trained_on,
+        }
+        source = files(network).joinpath("policy.py").read_bytes()
+        write_files(made, source, about)
+        write_whole(made / WEIGHTS, content.getvalue())
+        replace_folder(made, course.policy)
+    except OSError as error:
+        raise InputError(f"cannot write {course.policy}: {error.strerror}") from error
+    finally:
+        shutil.rmtree(made, ignore_errors=True)
+    return course.policy

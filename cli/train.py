@@ -1,0 +1,107 @@
+"""``colift train``: policies trained from nothing, as submissions."""
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from typer.core import TyperGroup
+
+from ..agents.errors import InputError
+from ..benchmark.execution.pool import local_pool
+from ..benchmark.training import cem as cross_entropy
+from ..benchmark.training.cem import CemSettings
+from ..benchmark.training.course import Course, Point, open_course, write_summary
+from .options import Jobs
+from .printing import argument, show
+from .progress import job_bar, reported_interrupt
+from .tables.training import training_table
+
+MOST_SEEDS = 100
+
+Seeds = Annotated[int, typer.Option(metavar="N", help="Independent trainings, seeds 0 to N-1.")]
+Out = Annotated[
+    Path, typer.Option(metavar="DIR", help="Folder for the policies; the same again resumes.")
+]
+
+Train = Callable[[Course, Executor | None, Callable[[int], None]], None]
+"""Trains a course, on an executor, and reports progress."""
+
+
+class _Trainers(TyperGroup):
+    """The trainers, as commands."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        if args[0] not in self.commands:
+            raise InputError(f"no trainer {args[0]!r}; trainers: {', '.join(self.commands)}")
+        return super().resolve_command(ctx, args)
+
+
+app = typer.Typer(
+    cls=_Trainers,
+    help="Train a policy from nothing; the result is a submission.",
+    no_args_is_help=True,
+)
+
+
+@app.command()
+def cem(
+    out: Out,
+    seeds: Seeds = 1,
+    generations: Annotated[
+        int, typer.Option(metavar="N", help="Generations of candidates.")
+    ] = CemSettings.generations,
+    population: Annotated[
+        int, typer.Option(metavar="N", help="Candidates of a generation.")
+    ] = CemSettings.population,
+    elite: Annotated[
+        int, typer.Option(metavar="N", help="Best candidates, which the next resemble.")
+    ] = CemSettings.elite,
+    lifts: Annotated[
+        int, typer.Option(metavar="N", help="Lifts of a generation.")
+    ] = CemSettings.lifts,
+    jobs: Jobs = None,
+) -> None:
+    """Train a small network by the cross-entropy method, in the engine: minutes, with NumPy."""
+    settings = CemSettings(generations=generations, population=population, elite=elite, lifts=lifts)
+
+    def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
+        cross_entropy.train(settings, course, executor=executor, progress=progress)
+
+    _train_all(cross_entropy.NAME, settings, seeds, out, generations * lifts, jobs, train)
+
+
+def _train_all(
+    trainer: str, settings: Any, seeds: int, out: Path, total: int, jobs: int | None, train: Train
+) -> None:
+    """Train all seeds and print their table; those that are finished are left alone."""
+    if not 1 <= seeds <= MOST_SEEDS:
+        raise InputError(f"--seeds must be 1 to {MOST_SEEDS}, got {seeds}")
+    courses = []
+    resumable = reported_interrupt(f"{out} has the checkpoints; the same command resumes")
+    with resumable, local_pool(jobs) as pool:
+        for seed in range(seeds):
+            with _shown(seed, total) as (report, progress):
+                course = open_course(out, trainer, settings, seed, report)
+                if not (course.policy.exists() and course.load()):
+                    train(course, pool, progress)
+                courses.append(course)
+    show(training_table(trainer, courses))
+    print(f"written: {write_summary(courses)}")
+    best = min(courses, key=lambda course: course.curve[-1].rmse_mm).policy
+    print(f"Next: colift run {argument(best)}, or colift check {argument(best)}")
+
+
+@contextmanager
+def _shown(
+    seed: int, total: int
+) -> Iterator[tuple[Callable[[Point], None], Callable[[int], None]]]:
+    """Show the progress of a training; yield what takes the points of its curve, and its parts."""
+    with job_bar(f"seed {seed}", total) as bar:
+
+        def report(point: Point) -> None:
+            bar.stage(f"seed {seed}: {point.rmse_mm:.2f} mm")
+
+        yield report, bar.advance
