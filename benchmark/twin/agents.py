@@ -1,0 +1,118 @@
+"""Lifts of the twin with unchanged agents: policies and people as they play in the engine."""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.agent import FRAME, HISTORY, Agent, HumanObservation
+from ...agents.humans import Partner
+from ..episode.scenario import Scenario
+from ..episode.seat import SEATS, within_range
+from ..episode.turns import policy_seed
+from ..world.table import WEIGHT_SHARE
+from . import pair as pair_plant
+from . import playing as lifting
+from .lifts import Lifts, draw, partner_body
+from .playing import Due, Frames, Playing, in_chunks, ramp
+
+Array = NDArray[np.float64]
+
+
+def play(make: Callable[[], Agent], lifts: Sequence[tuple[Scenario, int]]) -> Array:
+    """Return the RMSE [mm] of each lift (n,) with an agent at the robot's end, in the twin.
+
+    Parameters
+    ----------
+    make
+        Returns a new agent.
+    lifts
+        Scenarios with a NAO, and seeds.
+    """
+    drawn = draw(lifts)
+    agents = [make() for _ in lifts]
+    for agent in agents:
+        agent.reset(policy_seed())
+    period = lifts[0][0].control_period
+    step = jax.jit(partial(_step, drawn, period))
+    state = lifting.begin(drawn)
+    view = lifting.observe(state, drawn.noise[0], drawn.latency, period)
+    steps = np.asarray(drawn.steps)
+    squares, actions = np.zeros(len(lifts)), np.zeros(len(lifts), np.float32)
+    for number in range(drawn.longest()):
+        views = np.asarray(view, np.float64)
+        for index in np.flatnonzero(number < steps):
+            actions[index] = np.asarray(agents[index].act(views[:, index])).ravel()[0]
+        state, view, added = step(state, jnp.asarray(actions))
+        squares += np.where(number < steps, np.asarray(added, np.float64), 0.0)
+    return rmse_mm(squares, steps * drawn.reference.shape[1])
+
+
+def rmse_mm(squares: Array, frames: Array) -> Array:
+    """Return the RMSE [mm] of sums of squared height differences [m2] over so many frames."""
+    return np.asarray(1000 * np.sqrt(squares / frames))
+
+
+def _step(
+    drawn: Lifts, period: float, state: Playing, actions: jax.Array
+) -> tuple[Playing, jax.Array, jax.Array]:
+    state, frames = lifting.advance(state, drawn.body, lifting.due(drawn, state.step), actions)
+    noise = lifting.due(drawn, state.step).noise
+    return state, lifting.observe(state, noise, drawn.latency, period), frames.squares()
+
+
+def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
+    """Return the RMSE [mm] of each lift (n,) of the human-human team, in the twin.
+
+    The second person is :class:`.Partner`, unchanged: it gets the observations of the task.
+    """
+    drawn = draw(lifts)
+    body, far_body = drawn.body, partner_body(len(lifts))
+    person = SEATS["human"].person
+    assert person is not None
+    delay = round(person.visual_delay / FRAME)
+    partners = [Partner(subject=person) for _ in lifts]
+    for partner in partners:
+        partner.reset(policy_seed())
+    size, steps = drawn.reference.shape[1], np.asarray(drawn.steps)
+
+    @jax.jit
+    def step(
+        pair: pair_plant.Pair, correction: jax.Array, now: Due, far: jax.Array
+    ) -> tuple[pair_plant.Pair, jax.Array, Frames]:
+        wanted = lifting.corrected(correction, pair.heights, body, now.seen_target, size)
+        references = ramp(correction, wanted, size) + now.reference
+
+        def move(state: pair_plant.Pair, first: int, last: int) -> pair_plant.Pair:
+            mine, others = list(references[first:last]), list(far[first:last])
+            return pair_plant.advance(state, body, far_body, mine, others)
+
+        pair, frames = in_chunks(pair, size, move)
+        return pair, wanted, frames
+
+    pair, correction = pair_plant.begin(len(lifts)), jnp.zeros(len(lifts))
+    squares, far = np.zeros(len(lifts)), np.zeros((size, len(lifts)))
+    for number in range(drawn.longest()):
+        views = _partner_views(pair, delay, size, number)
+        for index in np.flatnonzero(number < steps):
+            far[:, index] = within_range(partners[index].act(views[index]).tolist())
+        now = lifting.due(drawn, jnp.asarray(number))
+        pair, correction, frames = step(pair, correction, now, jnp.asarray(far, jnp.float32))
+        squares += np.where(number < steps, np.asarray(frames.squares(), np.float64), 0.0)
+    return rmse_mm(squares, steps * size)
+
+
+def _partner_views(pair: pair_plant.Pair, delay: int, size: int, step: int) -> Array:
+    """Return what each second person observes (n, HumanObservation.size(f))."""
+    heights = np.asarray(pair.heights, np.float64)
+    far = heights + np.asarray(pair.differences, np.float64)
+    views = np.zeros((heights.shape[1], HumanObservation.size(size)))
+    views[:, HumanObservation.OWN_HEIGHT] = far[:HISTORY][::-1].T
+    views[:, HumanObservation.OTHER_END] = heights[delay : delay + HISTORY][::-1].T
+    views[:, HumanObservation.HAND_FORCE] = WEIGHT_SHARE
+    views[:, HumanObservation.TARGET] = heights[delay][:, np.newaxis]
+    views[:, HumanObservation.TIME] = step * size * FRAME
+    return views

@@ -1,0 +1,101 @@
+"""The NAO's arms on their one path: set-point, sag and lag as functions of the hands' height."""
+
+import math
+from typing import Final, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from ...agents.agent import FRAME
+from ...robots.nao.kinematics import STROKE, arm_path
+from ..world.servo import SERVO
+from ..world.table import WEIGHT_SHARE
+
+_DEGREE: Final = 7
+"""Degree of the polynomials along the stroke: within 0.001 mm of the rows of the path."""
+
+_MIDDLE: Final = (STROKE[0] + STROKE[1]) / 2
+_HALF: Final = (STROKE[1] - STROKE[0]) / 2
+_GAIN: Final = -math.expm1(-FRAME / SERVO.time)
+_AHEAD: Final = (FRAME / _GAIN - SERVO.time) / FRAME
+_YIELDING: Final = -math.expm1(-FRAME / SERVO.load_time)
+
+
+def _along_the_stroke(rows: np.ndarray) -> tuple[float, ...]:
+    """Return the coefficients, highest power first, of a polynomial through values on the path."""
+    place = (arm_path().heights - _MIDDLE) / _HALF
+    return tuple(float(c) for c in np.polyfit(place, rows, _DEGREE))
+
+
+def _polynomial(coefficients: tuple[float, ...], place: jax.Array) -> jax.Array:
+    value = jnp.full_like(place, coefficients[0])
+    for coefficient in coefficients[1:]:
+        value = value * place + coefficient
+    return value
+
+
+_WEIGHT_SAG: Final = _along_the_stroke(
+    -(arm_path().levers * arm_path().gravity_torques / SERVO.stiffness).sum(axis=1)
+)
+_COMPLIANCE: Final = _along_the_stroke((arm_path().levers ** 2 / 2 / SERVO.stiffness).sum(axis=1))
+
+
+class ArmVariation(NamedTuple):
+    """How arms differ from the benchmark's; 1 is the benchmark's own."""
+
+    sag: jax.Array
+    """(n,) factor of the sag by weight and load."""
+    lag: jax.Array
+    """(n,) factor of the joints' gain: below 1, the arms are slower."""
+
+
+class Arm(NamedTuple):
+    """The state of n pairs of arms."""
+
+    hand: jax.Array
+    """(n,) height of the hands [m]."""
+    target: jax.Array
+    """(n,) set-point for the end of the last frame [m]."""
+    load: jax.Array
+    """(n,) filtered force that the hands bear [N]."""
+
+
+def rest(count: int) -> Arm:
+    """Return arms at rest under their share of the table's weight."""
+    zero = jnp.zeros(count)
+    return Arm(hand=zero, target=zero, load=jnp.full(count, WEIGHT_SHARE))
+
+
+def drive(
+    arm: Arm, command: jax.Array, force: jax.Array, variation: ArmVariation | None = None
+) -> Arm:
+    """Return the arms a frame later; see :class:`.NaoArms` for the equations.
+
+    Parameters
+    ----------
+    arm
+        The arms.
+    command
+        (n,) commanded height at the end of the frame [m].
+    force
+        (n,) force of the hands on the table in the last frame [N].
+    variation
+        Arms that differ from the benchmark's; none: its own.
+    """
+    load = arm.load + _YIELDING * (force - arm.load)
+    place = (command - _MIDDLE) / _HALF
+    sag = _sag(place, load)
+    # At rest, the offset makes up for the sag under the table's weight.
+    rest_place = jnp.full_like(command, -_MIDDLE / _HALF)
+    sag = sag - _sag(rest_place, jnp.full_like(load, WEIGHT_SHARE))
+    gain = _GAIN
+    if variation is not None:
+        sag, gain = sag * variation.sag, gain * variation.lag
+    target = jnp.clip(command - sag, *STROKE)
+    half_way = arm.target + (target - arm.target) * _AHEAD
+    return Arm(hand=arm.hand + gain * (half_way - arm.hand), target=target, load=load)
+
+
+def _sag(place: jax.Array, load: jax.Array) -> jax.Array:
+    return _polynomial(_WEIGHT_SAG, place) + _polynomial(_COMPLIANCE, place) * load

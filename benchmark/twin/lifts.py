@@ -1,0 +1,196 @@
+"""Drawn lifts as arrays: people, plans carried out, sensor noise."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any, Final, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.agent import HISTORY, HumanObservation
+from ...agents.errors import InputError
+from ...agents.humans import Embodied, ScriptedHuman
+from ..episode.level import Level
+from ..episode.lift import MOCAP_NOISE
+from ..episode.scenario import Scenario
+from ..episode.seat import SEATS, body_parameters
+from ..episode.seeding import derive_seed
+from ..world.world import HISTORY_FRAMES
+from .body import CHUNK, DEPTH, Body, bodies, one_hot
+
+Array = NDArray[np.float64]
+
+MODELLED: Final = ("nao", "human")
+"""Holders of the far end that the twin has."""
+
+
+class Lifts(NamedTuple):
+    """n lifts of at most s steps of f frames, in single precision."""
+
+    reference: jax.Array
+    """(s, f, n) what the person's hand would pull towards if nothing were missing [m]."""
+    target: jax.Array
+    """(s, f, n) the person's intended height [m]."""
+    seen_target: jax.Array
+    """(s, n) the intended height one visual delay before the step [m]."""
+    noise: jax.Array
+    """(s, 2, n) error of the motion capture at either end in the step's sample [m]."""
+    latency: jax.Array
+    """(DEPTH, n) 1 at the age of that sample in frames, else 0."""
+    steps: jax.Array
+    """(n,) length in steps."""
+    body: Body
+    """The people."""
+
+    @property
+    def count(self) -> int:
+        """How many lifts."""
+        return self.steps.shape[0]
+
+    def longest(self) -> int:
+        """Return the steps of the longest lift."""
+        return int(self.reference.shape[0])
+
+
+def check_modelled(scenario: Scenario) -> None:
+    """Check that the twin has all that a scenario needs.
+
+    Raises
+    ------
+    InputError
+        If the task, the holder of the far end, the behaviour or a delay is another.
+    """
+    if type(scenario.task) is not Level:
+        raise InputError(f"the twin has the task level alone, not {scenario.task.name!r}")
+    if scenario.partner not in MODELLED:
+        known = " and ".join(map(repr, MODELLED))
+        raise InputError(f"the twin has the partners {known}, not {scenario.partner!r}")
+    if isinstance(scenario.human, Embodied):
+        raise InputError(
+            f"the twin has scripted people alone; {scenario.behaviour!r} brings its own"
+        )
+    if scenario.latency_frames >= DEPTH:
+        raise InputError(
+            f"the twin keeps {DEPTH - 1} frames of the past, a latency of {scenario.latency} s "
+            "needs more"
+        )
+
+
+def draw(lifts: Iterable[tuple[Scenario, int]]) -> Lifts:
+    """Return the lifts of scenarios and seeds, the same as :class:`.Lift` plays.
+
+    Raises
+    ------
+    InputError
+        If there is none, they have different control periods, or one is not modelled.
+    """
+    return stack([_drawn(scenario, seed) for scenario, seed in lifts])
+
+
+class DrawnLift(NamedTuple):
+    """One lift in NumPy."""
+
+    scenario: Scenario
+    reference: Array
+    """(s, f)"""
+    target: Array
+    """(s, f)"""
+    noise: Array
+    """(s, 2)"""
+
+
+def _drawn(scenario: Scenario, seed: int) -> DrawnLift:
+    """Return the plan of a lift as its person carries it out, and the noise of its sensors."""
+    check_modelled(scenario)
+    name, size = scenario.name, scenario.frames_per_step
+    plan = scenario.human.plan(scenario.subject, derive_seed(seed, f"plan/{name}"))
+    steps = -(-len(plan.target) // size)
+    target = np.full(steps * size, plan.target[-1])
+    target[: len(plan.target)] = plan.target
+    rng = np.random.default_rng(derive_seed(seed, f"sensor/{name}"))
+    noise = rng.normal(0.0, MOCAP_NOISE, (2, HISTORY_FRAMES + len(target)))
+    sampled = size * np.arange(steps) + HISTORY_FRAMES - 1 - scenario.latency_frames
+    human = ScriptedHuman(subject=scenario.subject)
+    human.reset(derive_seed(seed, f"human/{name}"))
+    return DrawnLift(
+        scenario,
+        _carried_out(human, target, size),
+        target.reshape(steps, size),
+        noise[:, sampled].T,
+    )
+
+
+def _carried_out(human: ScriptedHuman, target: Array, size: int) -> Array:
+    """Return the references (s, f) of a person who sees the hand where it was meant to be."""
+    meant = np.concatenate((np.zeros(HISTORY), target))
+    view = np.zeros(HumanObservation.size(size))
+    references = []
+    for first in range(0, len(target), size):
+        view[HumanObservation.OWN_HEIGHT] = meant[first : first + HISTORY]
+        view[HumanObservation.TARGET] = target[first : first + size]
+        references.append(human.act(view))
+    return np.array(references)
+
+
+def stack(drawn: Sequence[DrawnLift]) -> Lifts:
+    """Return lifts in one; shorter ones go on at rest.
+
+    Raises
+    ------
+    InputError
+        If there is none, or they have different control periods.
+    """
+    sizes = {lift.target.shape[1] for lift in drawn}
+    if len(sizes) != 1:
+        raise InputError(f"the twin needs lifts of one control period, got {len(sizes)}")
+    (size,) = sizes
+    if size % chunk(size):
+        raise InputError(f"the twin cannot divide a step of {size} frames")
+    steps = [len(lift.target) for lift in drawn]
+    people = [lift.scenario.subject for lift in drawn]
+    delays = [round(100 * person.visual_delay) for person in people]
+
+    def joined(arrays: Sequence[Array]) -> jax.Array:
+        longest = max(steps)
+        filled = np.empty((longest, *arrays[0].shape[1:], len(arrays)), np.float32)
+        for index, array in enumerate(arrays):
+            filled[: len(array), ..., index] = array
+            filled[len(array) :, ..., index] = array[-1] if array is not None else 0.0
+        return jnp.asarray(filled)
+
+    return Lifts(
+        reference=joined([lift.reference for lift in drawn]),
+        target=joined([lift.target for lift in drawn]),
+        seen_target=joined(
+            [_seen(lift.target, delay) for lift, delay in zip(drawn, delays, strict=True)]
+        ),
+        noise=joined([lift.noise for lift in drawn]),
+        latency=one_hot([lift.scenario.latency_frames for lift in drawn]),
+        steps=jnp.asarray(steps),
+        body=bodies([body_parameters(person) for person in people]),
+    )
+
+
+def chunk(size: int) -> int:
+    """Return into how many frames at once a step of ``size`` frames is divided."""
+    return next(many for many in range(CHUNK, 0, -1) if size % many == 0)
+
+
+def _seen(target: Array, delay: int) -> Array:
+    """Return the intended height a delay [frames] before each step (s,); at first, that of rest."""
+    steps, size = target.shape
+    frames = np.arange(steps) * size - 1 - delay
+    return np.where(frames >= 0, target.ravel()[np.maximum(frames, 0)], 0.0)
+
+
+def partner_body(count: int) -> Body:
+    """Return the body of the second person of the human-human team, n times."""
+    person = SEATS["human"].person
+    assert person is not None
+    return bodies([body_parameters(person)] * count)
+
+
+def some(lifts: Lifts, chosen: Any) -> Lifts:
+    """Return the chosen lifts: an index array or a slice of the last axis."""
+    return jax.tree.map(lambda array: array[..., chosen], lifts)

@@ -1,0 +1,161 @@
+"""A step of lifts: the person's voluntary correction, the sensors, and the frames of a step."""
+
+from collections.abc import Callable
+from typing import NamedTuple, TypeVar
+
+import jax
+import jax.numpy as jnp
+
+from ...agents.actions import action_limit
+from ...agents.agent import FRAME
+from ...agents.humans.scripted import CORRECTION_GAIN, CORRECTION_LIMIT
+from ...robots.nao.kinematics import STROKE
+from ..episode.seat import REFERENCE_RANGE
+from . import plant
+from .arm import ArmVariation
+from .body import Body
+from .lifts import Lifts, chunk
+from .plant import Plant
+
+
+class Playing(NamedTuple):
+    """The state of n lifts between two steps."""
+
+    plant: Plant
+    command: jax.Array
+    """(n,) command of the far hands [m]."""
+    correction: jax.Array
+    """(n,) the person's voluntary correction [m]."""
+    step: jax.Array
+    """() number of the coming step."""
+
+
+class Due(NamedTuple):
+    """A step's share of :class:`.Lifts`."""
+
+    reference: jax.Array
+    """(f, n)"""
+    seen_target: jax.Array
+    """(n,)"""
+    noise: jax.Array
+    """(2, n)"""
+
+
+class Frames(NamedTuple):
+    """Heights in the frames of a step [m]."""
+
+    human_end: jax.Array
+    """(f, n)"""
+    robot_end: jax.Array
+    """(f, n)"""
+
+    def squares(self) -> jax.Array:
+        """Return the sum of squared height differences of each lift (n,) [m2]."""
+        return ((self.human_end - self.robot_end) ** 2).sum(axis=0)
+
+
+def begin(lifts: Lifts) -> Playing:
+    """Return the lifts at rest."""
+    zero = jnp.zeros(lifts.count)
+    return Playing(plant.begin(lifts.count), zero, zero, jnp.zeros((), jnp.int32))
+
+
+def due(lifts: Lifts, step: jax.Array) -> Due:
+    """Return what a step needs; after the last one, that of the last."""
+    return Due(lifts.reference[step], lifts.seen_target[step], lifts.noise[step])
+
+
+def observe(playing: Playing, noise: jax.Array, latency: jax.Array, period: float) -> jax.Array:
+    """Return the robot's observations (5, n), laid out as :class:`.RobotObservation`.
+
+    Parameters
+    ----------
+    playing
+        The lifts.
+    noise
+        (2, n) error of the sample [m].
+    latency
+        (DEPTH, n) see :class:`.Lifts`.
+    period
+        Control period [s].
+    """
+    human_end = (latency * playing.plant.heights).sum(axis=0)
+    robot_end = human_end + (latency * playing.plant.differences).sum(axis=0)
+    time = jnp.full_like(human_end, period) * playing.step
+    return jnp.stack(
+        (human_end + noise[0], robot_end + noise[1], playing.plant.hand, playing.command, time)
+    )
+
+
+def corrected(
+    correction: jax.Array, plant_heights: jax.Array, body: Body, seen_target: jax.Array, size: int
+) -> jax.Array:
+    """Return the voluntary correction [m] at the end of a step; see :class:`.ScriptedHuman`."""
+    missing = seen_target - (body.seen * plant_heights).sum(axis=0)
+    wanted = correction + CORRECTION_GAIN * missing * size * FRAME
+    return jnp.clip(wanted, -CORRECTION_LIMIT, CORRECTION_LIMIT)
+
+
+def advance(
+    playing: Playing,
+    body: Body,
+    now: Due,
+    action: jax.Array,
+    variation: ArmVariation | None = None,
+) -> tuple[Playing, Frames]:
+    """Return the lifts after a step, and the heights in its frames.
+
+    Parameters
+    ----------
+    playing
+        The lifts.
+    body
+        The people.
+    now
+        The step's share of the lifts.
+    action
+        (n,) change of the command [m], cut to the hands' speed and stroke.
+    variation
+        Arms that differ from the benchmark's; none: its own.
+    """
+    size = now.reference.shape[0]
+    limit = action_limit(size * FRAME)
+    command = jnp.clip(playing.command + jnp.clip(action, -limit, limit), *STROKE)
+    correction = corrected(playing.correction, playing.plant.heights, body, now.seen_target, size)
+    references = ramp(playing.correction, correction, size) + now.reference
+    references = jnp.clip(references, *REFERENCE_RANGE)
+    commands = ramp(playing.command, command, size)
+
+    def move(state: Plant, first: int, last: int) -> Plant:
+        return plant.advance(
+            state, body, list(references[first:last]), list(commands[first:last]), variation
+        )
+
+    state, frames = in_chunks(playing.plant, size, move)
+    return Playing(state, command, correction, playing.step + 1), frames
+
+
+State = TypeVar("State", bound=plant.Plant)
+
+
+def in_chunks(
+    state: State, size: int, move: Callable[[State, int, int], State]
+) -> tuple[State, Frames]:
+    """Return the state after a step of ``size`` frames, and the heights in these.
+
+    ``move`` returns the state after the frames from a first to before a last one.
+    """
+    heights, differences = [], []
+    many = chunk(size)
+    for first in range(0, size, many):
+        state = move(state, first, first + many)
+        heights.append(state.heights[:many][::-1])
+        differences.append(state.differences[:many][::-1])
+    human_end = jnp.concatenate(heights)
+    return state, Frames(human_end, human_end + jnp.concatenate(differences))
+
+
+def ramp(start: jax.Array, stop: jax.Array, size: int) -> jax.Array:
+    """Return values (f, n) that move at constant speed from ``start`` to ``stop``, both (n,)."""
+    share = jnp.arange(1, size + 1, dtype=jnp.float32)[:, jnp.newaxis] / size
+    return start + (stop - start) * share

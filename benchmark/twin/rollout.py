@@ -1,0 +1,110 @@
+"""Whole lifts of the twin with a recurrent network at the robot's end, as one function."""
+
+from typing import Any, Final, NamedTuple
+
+import jax
+import jax.numpy as jnp
+
+from ...agents.agent import FRAME, RobotObservation
+from ...agents.control.recurrent import Memory, Network, act
+from . import playing as lifting
+from .arm import ArmVariation
+from .lifts import Lifts
+from .playing import Playing
+
+
+class JaxFunctions:
+    """The array functions of networks in JAX, for many lifts at a time."""
+
+    def product(self, matrix: jax.Array, vector: jax.Array) -> jax.Array:
+        """Return a matrix (m, k) times vectors as columns (k, n)."""
+        return matrix @ vector
+
+    def tanh(self, values: jax.Array) -> jax.Array:
+        """Return the hyperbolic tangent of each value."""
+        return jnp.tanh(values)
+
+    def stack(self, values: Any) -> jax.Array:
+        """Return arrays stacked along a new first axis."""
+        return jnp.stack(values)
+
+    def join(self, values: Any) -> jax.Array:
+        """Return arrays joined along the first axis."""
+        return jnp.concatenate(values)
+
+
+JAX: Final = JaxFunctions()
+
+
+class Sensing(NamedTuple):
+    """How the sensors of n lifts differ from the benchmark's."""
+
+    noise: jax.Array
+    """(s, 2, n) added error of the heights [m]."""
+    lost: jax.Array
+    """(s, n) 1 where a sample is lost and the last one is seen again, else 0."""
+
+
+class Outcome(NamedTuple):
+    """Figures of n lifts."""
+
+    rmse_mm: jax.Array
+    """(n,) RMSE of the table's ends [mm]."""
+    bend_mm: jax.Array
+    """(n,) root mean square of the second differences of the command [mm]."""
+
+
+def rest(network: Network, count: int) -> Memory:
+    """Return the memory of n lifts at their beginning."""
+    zero = jnp.zeros(count)
+    return Memory(jnp.zeros((network.units, count)), zero, zero, zero, zero)
+
+
+def rollout(
+    network: Network,
+    lifts: Lifts,
+    variation: ArmVariation | None = None,
+    sensing: Sensing | None = None,
+) -> Outcome:
+    """Return the outcome of lifts with the network; differentiable in its weights.
+
+    Parameters
+    ----------
+    network
+        The weights.
+    lifts
+        People, plans and noise.
+    variation, sensing
+        What differs from the benchmark's; none: its own arms and sensors.
+    """
+    size, period = lifts.reference.shape[1], lifts.reference.shape[1] * FRAME
+    count, longest = lifts.count, lifts.longest()
+    extra = sensing or Sensing(jnp.zeros((longest, 2, count)), jnp.zeros((longest, count)))
+
+    def step(
+        state: tuple[Playing, Memory, jax.Array], now: tuple[lifting.Due, jax.Array, jax.Array]
+    ) -> tuple[tuple[Playing, Memory, jax.Array], tuple[jax.Array, jax.Array]]:
+        playing, memory, last = state
+        share, added, lost = now
+        view = lifting.observe(playing, share.noise + added, lifts.latency, period)
+        seen = view[: RobotObservation.HAND_HEIGHT]
+        seen = jnp.where((lost > 0) & (playing.step > 0), last, seen)
+        view = jnp.concatenate((seen, view[RobotObservation.HAND_HEIGHT :]))
+        memory, action = act(network, memory, view, JAX)
+        valid = (playing.step < lifts.steps).astype(jnp.float32)
+        before = playing.command
+        playing, frames = lifting.advance(playing, lifts.body, share, action, variation)
+        return (playing, memory, seen), (
+            frames.squares() * valid,
+            (playing.command - before) * valid,
+        )
+
+    start = (lifting.begin(lifts), rest(network, count), jnp.zeros((2, count)))
+    shares = lifting.Due(lifts.reference, lifts.seen_target, lifts.noise)
+    _, (squares, changes) = jax.lax.scan(step, start, (shares, extra.noise, extra.lost))
+    frames = lifts.steps * size
+    bends = (jnp.diff(changes, axis=0) ** 2).sum(axis=0) / lifts.steps
+    return Outcome(
+        rmse_mm=1000 * jnp.sqrt(squares.sum(axis=0) / frames + 1e-12),
+        bend_mm=1000 * jnp.sqrt(bends + 1e-12),
+    )
