@@ -148,7 +148,9 @@ def network_of(arrays: Any, source: str) -> Network:
     memory = found["memory"]
     units = memory.shape[1] if memory.ndim == 2 else 0
     if not 1 <= units <= MOST_UNITS:
-        raise InputError(f"{source}: it must have 1 to {MOST_UNITS} units, memory is {memory.shape}")
+        raise InputError(
+            f"{source}: it must have 1 to {MOST_UNITS} units, memory is {memory.shape}"
+        )
     shapes = {
         "inputs": (3 * units, INPUTS),
         "memory": (3 * units, units),
@@ -158,7 +160,9 @@ def network_of(arrays: Any, source: str) -> Network:
     }
     for name, shape in shapes.items():
         if found[name].shape != shape:
-            raise InputError(f"{source}: {name} must have the shape {shape}, got {found[name].shape}")
+            raise InputError(
+                f"{source}: {name} must have the shape {shape}, got {found[name].shape}"
+            )
         if not np.isfinite(found[name]).all():
             raise InputError(f"{source}: {name} has numbers that are not finite")
     return Network(**found)

@@ -87,7 +87,7 @@ def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
         references = ramp(correction, wanted, size) + now.reference
 
         def move(state: pair_plant.Pair, first: int, last: int) -> pair_plant.Pair:
-            mine, others = list(references[first:last]), list(far[first:last])
+            mine, others = references[first:last], far[first:last]
             return pair_plant.advance(state, body, far_body, mine, others)
 
         pair, frames = in_chunks(pair, size, move)

@@ -6,7 +6,6 @@ from typing import Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-import numpy as np
 
 from ...agents.agent import FRAME
 from ...agents.errors import InputError
@@ -36,14 +35,9 @@ class Body(NamedTuple):
     haptic_gain: jax.Array
     """(n,) shift of the reference for a felt force [m/N]."""
     seen: jax.Array
-    """(DEPTH, n) 1 at the visual delay in frames, else 0."""
+    """(n,) visual delay in frames."""
     felt: jax.Array
-    """(DEPTH, n) 1 at the haptic delay in frames, else 0."""
-
-
-def one_hot(frames: Sequence[int]) -> jax.Array:
-    """Return the rows (DEPTH, n) that pick a value so many frames old from a history."""
-    return jnp.asarray(np.arange(DEPTH)[:, np.newaxis] == np.asarray(frames), jnp.float32)
+    """(n,) haptic delay in frames."""
 
 
 def bodies(people: Sequence[BodyParameters]) -> Body:
@@ -75,50 +69,49 @@ def bodies(people: Sequence[BodyParameters]) -> Body:
         damping=column([each.damping / by for each, by in zip(people, implicit, strict=True)]),
         visual_gain=column([each.pull - share for each, share in zip(people, felt, strict=True)]),
         haptic_gain=column([share * TABLE_LENGTH**2 / GRIP_STIFFNESS for share in felt]),
-        seen=one_hot(visual),
-        felt=one_hot(haptic),
+        seen=jnp.asarray(visual),
+        felt=jnp.asarray(haptic),
     )
 
 
-def delayed(history: jax.Array, delay: jax.Array, frames: int) -> list[jax.Array]:
-    """Return the delayed values (n,) that are due in each of the next frames.
+def delayed(history: jax.Array, delay: jax.Array, frames: int) -> jax.Array:
+    """Return the delayed values (frames, n) that are due in each of the next frames.
 
     Parameters
     ----------
     history
         (DEPTH, n) values, newest first.
     delay
-        (DEPTH, n) rows of :func:`one_hot`: of delays of at least ``frames - 1``.
+        (n,) delays in frames, of at least ``frames - 1``.
     frames
         How many frames.
     """
-    return [(delay[i:] * history[: DEPTH - i]).sum(axis=0) for i in range(frames)]
+    # Not a gather: the gradient of one takes XLA a copy of the history for each element.
+    picked = (jnp.arange(DEPTH)[:, jnp.newaxis] == delay).astype(history.dtype)
+    values = [(picked[i:] * history[: DEPTH - i]).sum(axis=0) for i in range(frames)]
+    return jnp.stack(values)
 
 
-def pushed(history: jax.Array, new: Sequence[jax.Array]) -> jax.Array:
-    """Return a history (DEPTH, n), newest first, after new frames, oldest first."""
-    return jnp.concatenate((jnp.stack(new[::-1]), history[: DEPTH - len(new)]))
+def pushed(history: jax.Array, new: jax.Array) -> jax.Array:
+    """Return a history (DEPTH, n), newest first, after new frames (frames, n), oldest first."""
+    return jnp.concatenate((new[::-1], history[: DEPTH - len(new)]))
 
 
-def reflexes(
-    body: Body, reflex: jax.Array, difference: list[jax.Array], force: list[jax.Array]
-) -> list[jax.Array]:
-    """Return the reflex's shift of the reference [m] in each frame; see :meth:`.HumanBody.reflex`.
+def wanted_shift(body: Body, difference: jax.Array, force: jax.Array) -> jax.Array:
+    """Return what the reflexes want the reference to be shifted by [m].
 
     Parameters
     ----------
     body
         The people.
-    reflex
-        (n,) the shift in the last frame [m].
     difference, force
-        For each frame, the height of the other end above the own [m] and the force beyond the
-        share of the weight [N], as old as they are seen and felt.
+        (..., n) height of the other end above the own [m], and force beyond the share of the
+        weight [N], as old as they are seen and felt.
     """
-    shifts = []
-    for seen, felt in zip(difference, force, strict=True):
-        wanted = body.visual_gain * seen - body.haptic_gain * felt
-        wanted = jnp.clip(wanted, -REFLEX_LIMIT, REFLEX_LIMIT)
-        reflex = reflex + _ACTIVATION * (wanted - reflex)
-        shifts.append(reflex)
-    return shifts
+    wanted = body.visual_gain * difference - body.haptic_gain * force
+    return jnp.clip(wanted, -REFLEX_LIMIT, REFLEX_LIMIT)
+
+
+def activated(reflex: jax.Array, wanted: jax.Array) -> jax.Array:
+    """Return the reflex's shift [m] a frame later; see :meth:`.HumanBody.reflex`."""
+    return reflex + _ACTIVATION * (wanted - reflex)

@@ -17,7 +17,7 @@ from ..episode.scenario import Scenario
 from ..episode.seat import SEATS, body_parameters
 from ..episode.seeding import derive_seed
 from ..world.world import HISTORY_FRAMES
-from .body import CHUNK, DEPTH, Body, bodies, one_hot
+from .body import CHUNK, DEPTH, Body, bodies
 
 Array = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ class Lifts(NamedTuple):
     noise: jax.Array
     """(s, 2, n) error of the motion capture at either end in the step's sample [m]."""
     latency: jax.Array
-    """(DEPTH, n) 1 at the age of that sample in frames, else 0."""
+    """(n,) age of that sample in frames."""
     steps: jax.Array
     """(n,) length in steps."""
     body: Body
@@ -85,7 +85,7 @@ def draw(lifts: Iterable[tuple[Scenario, int]]) -> Lifts:
     InputError
         If there is none, they have different control periods, or one is not modelled.
     """
-    return stack([_drawn(scenario, seed) for scenario, seed in lifts])
+    return stack([carried_out(scenario, seed) for scenario, seed in lifts])
 
 
 class DrawnLift(NamedTuple):
@@ -100,7 +100,7 @@ class DrawnLift(NamedTuple):
     """(s, 2)"""
 
 
-def _drawn(scenario: Scenario, seed: int) -> DrawnLift:
+def carried_out(scenario: Scenario, seed: int) -> DrawnLift:
     """Return the plan of a lift as its person carries it out, and the noise of its sensors."""
     check_modelled(scenario)
     name, size = scenario.name, scenario.frames_per_step
@@ -115,13 +115,13 @@ def _drawn(scenario: Scenario, seed: int) -> DrawnLift:
     human.reset(derive_seed(seed, f"human/{name}"))
     return DrawnLift(
         scenario,
-        _carried_out(human, target, size),
+        _references(human, target, size),
         target.reshape(steps, size),
         noise[:, sampled].T,
     )
 
 
-def _carried_out(human: ScriptedHuman, target: Array, size: int) -> Array:
+def _references(human: ScriptedHuman, target: Array, size: int) -> Array:
     """Return the references (s, f) of a person who sees the hand where it was meant to be."""
     meant = np.concatenate((np.zeros(HISTORY), target))
     view = np.zeros(HumanObservation.size(size))
@@ -156,7 +156,7 @@ def stack(drawn: Sequence[DrawnLift]) -> Lifts:
         filled = np.empty((longest, *arrays[0].shape[1:], len(arrays)), np.float32)
         for index, array in enumerate(arrays):
             filled[: len(array), ..., index] = array
-            filled[len(array) :, ..., index] = array[-1] if array is not None else 0.0
+            filled[len(array) :, ..., index] = array[-1]
         return jnp.asarray(filled)
 
     return Lifts(
@@ -166,7 +166,7 @@ def stack(drawn: Sequence[DrawnLift]) -> Lifts:
             [_seen(lift.target, delay) for lift, delay in zip(drawn, delays, strict=True)]
         ),
         noise=joined([lift.noise for lift in drawn]),
-        latency=one_hot([lift.scenario.latency_frames for lift in drawn]),
+        latency=jnp.asarray([lift.scenario.latency_frames for lift in drawn]),
         steps=jnp.asarray(steps),
         body=bodies([body_parameters(person) for person in people]),
     )

@@ -11,7 +11,6 @@ the table m of length L and the second person's mass n at its end,
 with the forces F and G of the two people beyond the weight that they bear at rest; x is eliminated.
 """
 
-from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 import jax
@@ -27,28 +26,36 @@ from ..world.table import (
     TABLE_MASS,
     WEIGHT_SHARE,
 )
-from .body import DEPTH, Body, delayed, pushed, reflexes
+from .body import DEPTH, Body, activated, delayed, pushed, wanted_shift
 
 _HALF_MOMENT: Final = TABLE_MASS * TABLE_LENGTH / 2
 
 
-class Pair(NamedTuple):
-    """The state of n lifts; histories are (DEPTH, n), newest first, all else (n,)."""
+class Moving(NamedTuple):
+    """What a frame changes; all (n,)."""
 
+    height: jax.Array
+    """Of the first person's end [m]."""
     velocity: jax.Array
-    """Of the first person's end [m/s]."""
+    """Its velocity [m/s]."""
     pitch: jax.Array
     """Of the table [rad]."""
     pitch_rate: jax.Array
     """[rad/s]"""
     reference: jax.Array
     """What the first person's arms pull towards, with the reflex [m]."""
-    reflex: jax.Array
-    """Shift of that reference by the reflex [m]."""
     far_reference: jax.Array
     """The same of the second person [m]."""
+    reflex: jax.Array
+    """Shift of the first reference by the reflex [m]."""
     far_reflex: jax.Array
-    """Shift of that reference [m]."""
+    """Shift of the second [m]."""
+
+
+class Pair(NamedTuple):
+    """The state of n lifts; histories are (DEPTH, n), newest first."""
+
+    moving: Moving
     heights: jax.Array
     """History of the first person's end [m]."""
     differences: jax.Array
@@ -58,29 +65,19 @@ class Pair(NamedTuple):
     far_forces: jax.Array
     """History of the second person's force, beyond the share of the weight [N]."""
 
-    @property
-    def hand(self) -> jax.Array:
-        """Height of the second person's hands: they grip the end [m]."""
-        return self.heights[0] + self.differences[0]
-
-    @property
-    def far_force(self) -> jax.Array:
-        """Force of the second person's hands on the table [N]."""
-        return self.far_forces[0] + WEIGHT_SHARE
-
 
 def begin(count: int) -> Pair:
     """Return lifts at rest."""
     zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
-    return Pair(zero, zero, zero, zero, zero, zero, zero, past, past, past, past)
+    return Pair(Moving(*[zero] * len(Moving._fields)), past, past, past, past)
 
 
 def advance(
     pair: Pair,
     body: Body,
     far_body: Body,
-    references: Sequence[jax.Array],
-    far_references: Sequence[jax.Array],
+    references: jax.Array,
+    far_references: jax.Array,
 ) -> Pair:
     """Return the lifts some frames later, at most :data:`.CHUNK`.
 
@@ -91,74 +88,79 @@ def advance(
     body, far_body
         The first and the second person of each lift.
     references, far_references
-        For each frame, what their arms pull towards at its end, without the reflex [m].
+        (frames, n) what their arms pull towards at the end of each, without the reflex [m].
     """
     count = len(references)
-    shifts = reflexes(
+    shifts = wanted_shift(
         body,
-        pair.reflex,
         delayed(pair.differences, body.seen, count),
         delayed(pair.forces, body.felt, count),
     )
-    far_shifts = reflexes(
+    far_shifts = wanted_shift(
         far_body,
-        pair.far_reflex,
         delayed(-pair.differences, far_body.seen, count),
         delayed(pair.far_forces, far_body.felt, count),
     )
-    height, velocity = pair.heights[0], pair.velocity
-    pitch, rate = pair.pitch, pair.pitch_rate
-    previous, far_previous = pair.reference, pair.far_reference
-    mass, far_mass = body.mass, far_body.mass
-    moment = _HALF_MOMENT + far_mass * TABLE_LENGTH
-    inertia = TABLE_INERTIA + far_mass * TABLE_LENGTH**2
-    sliding = 2 * mass + TABLE_MASS + far_mass
-    implicit = 1 + FRAME * GRIP_DAMPING / inertia / 2
-    heights, differences, forces, far_forces = [], [], [], []
-    for wanted, far_wanted, shift, far_shift in zip(
-        references, far_references, shifts, far_shifts, strict=True
-    ):
-        reference, far_reference = wanted + shift, far_wanted + far_shift
-        sine, cosine = jnp.sin(pitch), jnp.cos(pitch)
-        far_height = height + TABLE_LENGTH * sine
-        far_velocity = velocity + TABLE_LENGTH * cosine * rate
-        arms = body.stiffness * (previous - height)
-        arms = arms + body.damping * ((reference - previous) / FRAME - velocity)
-        far_arms = far_body.stiffness * (far_previous - far_height)
-        far_arms = far_arms + far_body.damping * (
-            (far_reference - far_previous) / FRAME - far_velocity
+
+    def frame(now: Moving, due: tuple[jax.Array, ...]) -> tuple[Moving, tuple[jax.Array, ...]]:
+        wanted, far_wanted, shift, far_shift = due
+        reflex, far_reflex = activated(now.reflex, shift), activated(now.far_reflex, far_shift)
+        after, force, far_force = _frame(
+            now, body, far_body, wanted + reflex, far_wanted + far_reflex
         )
-        torque = TABLE_LENGTH * cosine * far_arms
-        torque = torque - (GRIP_STIFFNESS * pitch + GRIP_DAMPING * rate) / implicit
+        after = after._replace(reflex=reflex, far_reflex=far_reflex)
+        return after, (after.height, TABLE_LENGTH * jnp.sin(after.pitch), force, far_force)
 
-        # Two equations for the accelerations of hands and pitch.
-        whole, coupling = mass + TABLE_MASS + far_mass, moment * cosine
-        turning = inertia - (moment * sine) ** 2 / sliding
-        lift = arms + far_arms + moment * sine * rate**2
-        turn = torque + moment**2 * sine * cosine * rate**2 / sliding
-        determinant = whole * turning - coupling**2
-        acceleration = (lift * turning - coupling * turn) / determinant
-        angular = (whole * turn - coupling * lift) / determinant
-
-        velocity, rate = velocity + FRAME * acceleration, rate + FRAME * angular
-        height, pitch = height + FRAME * velocity, pitch + FRAME * rate
-        force = arms - mass * acceleration
-        centre = acceleration + TABLE_LENGTH / 2 * angular
-        previous, far_previous = reference, far_reference
-        heights.append(height)
-        differences.append(TABLE_LENGTH * jnp.sin(pitch))
-        forces.append(force)
-        far_forces.append(TABLE_MASS * (GRAVITY + centre) - force - 2 * WEIGHT_SHARE)
+    moving, (heights, differences, forces, far_forces) = jax.lax.scan(
+        frame, pair.moving, (references, far_references, shifts, far_shifts)
+    )
     return Pair(
-        velocity=velocity,
-        pitch=pitch,
-        pitch_rate=rate,
-        reference=previous,
-        reflex=shifts[-1],
-        far_reference=far_previous,
-        far_reflex=far_shifts[-1],
+        moving=moving,
         heights=pushed(pair.heights, heights),
         differences=pushed(pair.differences, differences),
         forces=pushed(pair.forces, forces),
         far_forces=pushed(pair.far_forces, far_forces),
     )
+
+
+def _frame(
+    now: Moving, body: Body, far_body: Body, reference: jax.Array, far_reference: jax.Array
+) -> tuple[Moving, jax.Array, jax.Array]:
+    """Return the lifts a frame later, and both people's forces beyond the weight [N]."""
+    moment = _HALF_MOMENT + far_body.mass * TABLE_LENGTH
+    inertia = TABLE_INERTIA + far_body.mass * TABLE_LENGTH**2
+    sliding = 2 * body.mass + TABLE_MASS + far_body.mass
+    sine, cosine = jnp.sin(now.pitch), jnp.cos(now.pitch)
+    rate = now.pitch_rate
+    far_height = now.height + TABLE_LENGTH * sine
+    far_velocity = now.velocity + TABLE_LENGTH * cosine * rate
+
+    arms = body.stiffness * (now.reference - now.height)
+    arms = arms + body.damping * ((reference - now.reference) / FRAME - now.velocity)
+    pull = (far_reference - now.far_reference) / FRAME
+    far_arms = far_body.stiffness * (now.far_reference - far_height)
+    far_arms = far_arms + far_body.damping * (pull - far_velocity)
+    implicit = 1 + FRAME * GRIP_DAMPING / inertia / 2
+    grip = (GRIP_STIFFNESS * now.pitch + GRIP_DAMPING * rate) / implicit
+
+    # Two equations for the accelerations of hands and pitch.
+    whole, coupling = body.mass + TABLE_MASS + far_body.mass, moment * cosine
+    turning = inertia - (moment * sine) ** 2 / sliding
+    lift = arms + far_arms + moment * sine * rate**2
+    turn = TABLE_LENGTH * cosine * far_arms - grip + moment**2 * sine * cosine * rate**2 / sliding
+    determinant = whole * turning - coupling**2
+    acceleration = (lift * turning - coupling * turn) / determinant
+    angular = (whole * turn - coupling * lift) / determinant
+
+    velocity, rate = now.velocity + FRAME * acceleration, rate + FRAME * angular
+    force = arms - body.mass * acceleration
+    centre = acceleration + TABLE_LENGTH / 2 * angular
+    after = now._replace(
+        height=now.height + FRAME * velocity,
+        velocity=velocity,
+        pitch=now.pitch + FRAME * rate,
+        pitch_rate=rate,
+        reference=reference,
+        far_reference=far_reference,
+    )
+    return after, force, TABLE_MASS * (GRAVITY + centre) - force - 2 * WEIGHT_SHARE

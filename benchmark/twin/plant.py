@@ -9,7 +9,6 @@ of the person's hands is left. With s = (h - z) / L the sine of the pitch, to th
 The step is the engine's: semi-implicit, 10 ms, references and commands taken at its beginning.
 """
 
-from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 import jax
@@ -26,24 +25,28 @@ from ..world.table import (
     WEIGHT_SHARE,
 )
 from .arm import Arm, ArmVariation, drive, rest
-from .body import DEPTH, Body, delayed, pushed, reflexes
+from .body import DEPTH, Body, activated, delayed, pushed, wanted_shift
 
 _IMPLICIT: Final = 1 + FRAME * GRIP_DAMPING / TABLE_INERTIA / 2
 _PITCH_GAIN: Final = GRIP_STIFFNESS / _IMPLICIT
 _RATE_GAIN: Final = GRIP_DAMPING / _IMPLICIT
 
 
-class Plant(NamedTuple):
-    """The state of n lifts; histories are (DEPTH, n), newest first, all else (n,)."""
+class Moving(NamedTuple):
+    """What a frame changes; all (n,)."""
 
+    height: jax.Array
+    """Of the person's end [m]."""
     velocity: jax.Array
-    """Of the person's end [m/s]."""
+    """Its velocity [m/s]."""
     pitch: jax.Array
     """Of the table [rad]."""
     pitch_rate: jax.Array
     """[rad/s]"""
+    far_height: jax.Array
+    """Of the far end [m]."""
     far_velocity: jax.Array
-    """Of the far end [m/s]."""
+    """Its velocity [m/s]."""
     far_force: jax.Array
     """Force of the far hands on the table [N]."""
     reference: jax.Array
@@ -52,6 +55,12 @@ class Plant(NamedTuple):
     """Shift of the reference by the reflex [m]."""
     arm: Arm
     """The NAO's arms."""
+
+
+class Plant(NamedTuple):
+    """The state of n lifts; histories are (DEPTH, n), newest first."""
+
+    moving: Moving
     heights: jax.Array
     """History of the person's end [m]."""
     differences: jax.Array
@@ -62,33 +71,22 @@ class Plant(NamedTuple):
     @property
     def hand(self) -> jax.Array:
         """Height of the far hands by their encoders [m]."""
-        return self.arm.hand
+        return self.moving.arm.hand
 
 
 def begin(count: int) -> Plant:
     """Return lifts at rest."""
     zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
     weight = jnp.full(count, WEIGHT_SHARE)
-    return Plant(
-        velocity=zero,
-        pitch=zero,
-        pitch_rate=zero,
-        far_velocity=zero,
-        far_force=weight,
-        reference=zero,
-        reflex=zero,
-        arm=rest(count),
-        heights=past,
-        differences=past,
-        forces=past,
-    )
+    moving = Moving(zero, zero, zero, zero, zero, zero, weight, zero, zero, rest(count))
+    return Plant(moving, past, past, past)
 
 
 def advance(
     plant: Plant,
     body: Body,
-    references: Sequence[jax.Array],
-    commands: Sequence[jax.Array],
+    references: jax.Array,
+    commands: jax.Array,
     variation: ArmVariation | None = None,
 ) -> Plant:
     """Return the lifts some frames later, at most :data:`.CHUNK`.
@@ -100,62 +98,76 @@ def advance(
     body
         The people.
     references
-        For each frame, what the person's arms pull towards at its end, without the reflex [m].
+        (frames, n) what the person's arms pull towards at the end of each, without the reflex [m].
     commands
-        For each frame, the commanded height of the far hands at its end [m].
+        (frames, n) commanded height of the far hands at the end of each [m].
     variation
         Arms that differ from the benchmark's; none: its own.
     """
     count = len(references)
-    shifts = reflexes(
+    shifts = wanted_shift(
         body,
-        plant.reflex,
         delayed(plant.differences, body.seen, count),
         delayed(plant.forces, body.felt, count),
     )
-    height, far_height = plant.heights[0], plant.heights[0] + plant.differences[0]
-    velocity, far_velocity = plant.velocity, plant.far_velocity
-    pitch, pitch_rate, far_force = plant.pitch, plant.pitch_rate, plant.far_force
-    previous, arm, mass = plant.reference, plant.arm, body.mass
-    heights, differences, forces = [], [], []
-    for wanted, shift, command in zip(references, shifts, commands, strict=True):
-        reference = wanted + shift
-        arms = body.stiffness * (previous - height)
-        arms = arms + body.damping * ((reference - previous) / FRAME - velocity)
-        arm = drive(arm, command, far_force, variation)
-        new_far_velocity = (arm.hand - far_height) / FRAME
 
-        square = ((far_height - height) / TABLE_LENGTH) ** 2
-        grip = (_PITCH_GAIN * pitch + _RATE_GAIN * pitch_rate) / TABLE_LENGTH * (1 + square / 2)
-        tilted = TABLE_MASS / 12 * (1 + square) + (2 * mass + TABLE_MASS / 4) * square
-        carried = (TABLE_MASS / 4 - tilted) * (new_far_velocity - far_velocity) / FRAME
-        acceleration = (arms + grip - carried) / (mass + TABLE_MASS / 4 + tilted)
+    def frame(
+        now: Moving, due: tuple[jax.Array, jax.Array, jax.Array]
+    ) -> tuple[Moving, tuple[jax.Array, jax.Array, jax.Array]]:
+        wanted, shift, command = due
+        reflex = activated(now.reflex, shift)
+        after, force = _frame(now, wanted + reflex, body, command, variation)
+        after = after._replace(reflex=reflex)
+        return after, (after.height, after.far_height - after.height, force)
 
-        velocity = velocity + FRAME * acceleration
-        height = height + FRAME * velocity
-        far_height, far_velocity = arm.hand, new_far_velocity
-        sine = (far_height - height) / TABLE_LENGTH
-        pitch = sine * (1 + sine**2 / 6)
-        new_rate = (far_velocity - velocity) / TABLE_LENGTH * (1 + sine**2 / 2)
-        centre = acceleration + TABLE_LENGTH / 2 / FRAME * (new_rate - pitch_rate)
-        pitch_rate = new_rate
-        force = arms - mass * acceleration
-        far_force = TABLE_MASS * (GRAVITY + centre) - force - WEIGHT_SHARE
-
-        previous = reference
-        heights.append(height)
-        differences.append(far_height - height)
-        forces.append(force)
+    moving, (heights, differences, forces) = jax.lax.scan(
+        frame, plant.moving, (references, shifts, commands)
+    )
     return Plant(
-        velocity=velocity,
-        pitch=pitch,
-        pitch_rate=pitch_rate,
-        far_velocity=far_velocity,
-        far_force=far_force,
-        reference=previous,
-        reflex=shifts[-1],
-        arm=arm,
+        moving=moving,
         heights=pushed(plant.heights, heights),
         differences=pushed(plant.differences, differences),
         forces=pushed(plant.forces, forces),
     )
+
+
+def _frame(
+    now: Moving,
+    reference: jax.Array,
+    body: Body,
+    command: jax.Array,
+    variation: ArmVariation | None,
+) -> tuple[Moving, jax.Array]:
+    """Return the lifts a frame later, and the force of the person's hands beyond the weight [N]."""
+    mass = body.mass
+    arms = body.stiffness * (now.reference - now.height)
+    arms = arms + body.damping * ((reference - now.reference) / FRAME - now.velocity)
+    arm = drive(now.arm, command, now.far_force, variation)
+    far_velocity = (arm.hand - now.far_height) / FRAME
+
+    square = ((now.far_height - now.height) / TABLE_LENGTH) ** 2
+    grip = _PITCH_GAIN * now.pitch + _RATE_GAIN * now.pitch_rate
+    tilted = TABLE_MASS / 12 * (1 + square) + (2 * mass + TABLE_MASS / 4) * square
+    carried = (TABLE_MASS / 4 - tilted) * (far_velocity - now.far_velocity) / FRAME
+    driving = arms + grip / TABLE_LENGTH * (1 + square / 2) - carried
+    acceleration = driving / (mass + TABLE_MASS / 4 + tilted)
+
+    velocity = now.velocity + FRAME * acceleration
+    height = now.height + FRAME * velocity
+    sine = (arm.hand - height) / TABLE_LENGTH
+    pitch_rate = (far_velocity - velocity) / TABLE_LENGTH * (1 + sine**2 / 2)
+    centre = acceleration + TABLE_LENGTH / 2 / FRAME * (pitch_rate - now.pitch_rate)
+    force = arms - mass * acceleration
+    after = Moving(
+        height=height,
+        velocity=velocity,
+        pitch=sine * (1 + sine**2 / 6),
+        pitch_rate=pitch_rate,
+        far_height=arm.hand,
+        far_velocity=far_velocity,
+        far_force=TABLE_MASS * (GRAVITY + centre) - force - WEIGHT_SHARE,
+        reference=reference,
+        reflex=now.reflex,
+        arm=arm,
+    )
+    return after, force

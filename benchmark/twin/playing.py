@@ -13,8 +13,9 @@ from ...robots.nao.kinematics import STROKE
 from ..episode.seat import REFERENCE_RANGE
 from . import plant
 from .arm import ArmVariation
-from .body import Body
+from .body import Body, delayed
 from .lifts import Lifts, chunk
+from .pair import Pair
 from .plant import Plant
 
 
@@ -75,12 +76,12 @@ def observe(playing: Playing, noise: jax.Array, latency: jax.Array, period: floa
     noise
         (2, n) error of the sample [m].
     latency
-        (DEPTH, n) see :class:`.Lifts`.
+        (n,) age of the sample in frames.
     period
         Control period [s].
     """
-    human_end = (latency * playing.plant.heights).sum(axis=0)
-    robot_end = human_end + (latency * playing.plant.differences).sum(axis=0)
+    (human_end,) = delayed(playing.plant.heights, latency, 1)
+    robot_end = human_end + delayed(playing.plant.differences, latency, 1)[0]
     time = jnp.full_like(human_end, period) * playing.step
     return jnp.stack(
         (human_end + noise[0], robot_end + noise[1], playing.plant.hand, playing.command, time)
@@ -88,10 +89,10 @@ def observe(playing: Playing, noise: jax.Array, latency: jax.Array, period: floa
 
 
 def corrected(
-    correction: jax.Array, plant_heights: jax.Array, body: Body, seen_target: jax.Array, size: int
+    correction: jax.Array, heights: jax.Array, body: Body, seen_target: jax.Array, size: int
 ) -> jax.Array:
     """Return the voluntary correction [m] at the end of a step; see :class:`.ScriptedHuman`."""
-    missing = seen_target - (body.seen * plant_heights).sum(axis=0)
+    missing = seen_target - delayed(heights, body.seen, 1)[0]
     wanted = correction + CORRECTION_GAIN * missing * size * FRAME
     return jnp.clip(wanted, -CORRECTION_LIMIT, CORRECTION_LIMIT)
 
@@ -127,15 +128,13 @@ def advance(
     commands = ramp(playing.command, command, size)
 
     def move(state: Plant, first: int, last: int) -> Plant:
-        return plant.advance(
-            state, body, list(references[first:last]), list(commands[first:last]), variation
-        )
+        return plant.advance(state, body, references[first:last], commands[first:last], variation)
 
     state, frames = in_chunks(playing.plant, size, move)
     return Playing(state, command, correction, playing.step + 1), frames
 
 
-State = TypeVar("State", bound=plant.Plant)
+State = TypeVar("State", Plant, Pair)
 
 
 def in_chunks(

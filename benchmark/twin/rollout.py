@@ -101,7 +101,9 @@ def rollout(
 
     start = (lifting.begin(lifts), rest(network, count), jnp.zeros((2, count)))
     shares = lifting.Due(lifts.reference, lifts.seen_target, lifts.noise)
-    _, (squares, changes) = jax.lax.scan(step, start, (shares, extra.noise, extra.lost))
+    _, (squares, changes) = jax.lax.scan(
+        jax.checkpoint(step), start, (shares, extra.noise, extra.lost)
+    )
     frames = lifts.steps * size
     bends = (jnp.diff(changes, axis=0) ** 2).sum(axis=0) / lifts.steps
     return Outcome(

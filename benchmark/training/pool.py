@@ -1,0 +1,165 @@
+"""The lifts that gradients are taken on: drawn people, and of some of them widely drawn habits."""
+
+import dataclasses
+import math
+from typing import Final, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from ...agents.agent import FRAME
+from ...agents.errors import InputError
+from ...agents.humans import Subject
+from ..episode.lift import MOCAP_NOISE
+from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
+from ..episode.seeding import derive_seed
+from ..twin.arm import ArmVariation
+from ..twin.lifts import DrawnLift, Lifts, carried_out, some, stack
+from ..twin.rollout import Sensing
+from .anticipation import CURRICULUM, FIRST_SEED, LAST_SEED
+from .data import Timing, scenario
+from .wandering import Wandering
+
+LONGEST: Final = 11.0
+"""Time after which a lift is cut off [s]: nine of ten end before."""
+
+WANDERING: Final = "wandering"
+"""Name of the behaviour :class:`.Wandering`, which is in no registry."""
+
+LATENCY_OFF: Final = 0.03
+"""Most by which the sensors of a wide lift are earlier or later than the benchmark's [s]."""
+
+NOISE: Final = (0.2, 4.0)
+"""Least and most noise of their samples, over that of the benchmark."""
+
+LOST: Final = 0.1
+"""Most of their samples that are lost."""
+
+SAG: Final = 1.0
+LAG: Final = 0.3
+"""Spread of the arms' sag and gain, relative, for a variation of 1."""
+
+
+class Pool(NamedTuple):
+    """Drawn lifts, the common ones first."""
+
+    lifts: Lifts
+    common: int
+    """How many lifts are with people of the benchmark's population."""
+
+
+def draw_pool(count: int, wide: float, first_seed: int = FIRST_SEED) -> Pool:
+    """Return lifts to learn from.
+
+    Parameters
+    ----------
+    count
+        How many.
+    wide
+        Share of the lifts whose people have wide habits, bodies and sensors.
+    first_seed
+        Seed of the first.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than 2, or a seed is not for learning.
+    """
+    if not (count >= 2 and first_seed >= FIRST_SEED and first_seed + count - 1 <= LAST_SEED):
+        raise InputError(
+            f"lifts to learn from are at least 2, on seeds {FIRST_SEED} to {LAST_SEED}; got "
+            f"{count} from {first_seed}"
+        )
+    seeds = range(first_seed, first_seed + count)
+    common = count - round(wide * count)
+    drawn = [carried_out(scenario(seed, CURRICULUM, Timing()), seed) for seed in seeds[:common]]
+    drawn += [carried_out(_wide(seed), seed) for seed in seeds[common:]]
+    return Pool(stack([_cut(lift) for lift in drawn]), common)
+
+
+def _wide(seed: int) -> Scenario:
+    """Return a lift with a widely drawn body and latency."""
+    rng = np.random.default_rng(derive_seed(seed, "wide"))
+    off = round(LATENCY_OFF / FRAME)
+    latency = round(LATENCY / FRAME) + int(rng.integers(-off, off + 1))
+    return Scenario(
+        behaviour=WANDERING,
+        human=Wandering(),
+        subject=_body(Subject.draw(seed), rng),
+        control_period=CONTROL_PERIOD,
+        latency=latency * FRAME,
+    )
+
+
+def _body(person: Subject, rng: np.random.Generator) -> Subject:
+    """Return the person with an arm, a tremor and a pull from wide ranges."""
+
+    def even(low: float, high: float) -> float:
+        return math.exp(rng.uniform(math.log(low), math.log(high)))
+
+    stiffness = even(100.0, 800.0)
+    mass = even(0.5, 2.0)
+    ratio = rng.uniform(0.5, 1.1)
+    damping = min(max(2 * ratio * math.sqrt(stiffness * mass), 5.0), 30.0)
+    return dataclasses.replace(
+        person,
+        stiffness=stiffness,
+        mass=mass,
+        damping=damping,
+        pull=rng.uniform(0.0, 0.5),
+        felt_share=rng.random(),
+        motor_noise=rng.uniform(0.0, 0.1),
+        tremor_amplitude=even(2e-5, 6e-4),
+    )
+
+
+def _cut(lift: DrawnLift) -> DrawnLift:
+    steps = round(LONGEST / CONTROL_PERIOD)
+    return lift._replace(
+        reference=lift.reference[:steps], target=lift.target[:steps], noise=lift.noise[:steps]
+    )
+
+
+class Batch(NamedTuple):
+    """Lifts to learn from, with what differs from the benchmark."""
+
+    lifts: Lifts
+    variation: ArmVariation
+    sensing: Sensing
+
+
+def draw_batch(pool: Pool, size: int, wide: float, varied: float, key: jax.Array) -> Batch:
+    """Return a batch of the pool's lifts, with arms and sensors drawn anew.
+
+    Parameters
+    ----------
+    pool
+        The lifts.
+    size
+        How many to take.
+    wide
+        Share of these with wide habits, which have wide sensors too.
+    varied
+        Variation of the arms, relative to :data:`SAG` and :data:`LAG`.
+    key
+        Of the draw.
+    """
+    keys = jax.random.split(key, 7)
+    many = round(wide * size)
+    common, total = pool.common, pool.lifts.count
+    taken = jax.random.randint(keys[0], (size - many,), 0, common)
+    rest = jax.random.randint(keys[1], (many,), common, jnp.maximum(total, common + 1))
+    lifts = some(pool.lifts, jnp.concatenate((taken, rest)))
+    variation = ArmVariation(
+        sag=jnp.exp(varied * SAG * jax.random.normal(keys[2], (size,))),
+        lag=jnp.exp(varied * LAG * jax.random.normal(keys[3], (size,))),
+    )
+    is_wide = (jnp.arange(size) >= size - many).astype(jnp.float32)
+    longest = lifts.longest()
+    low, high = (math.log(factor) for factor in NOISE)
+    level = jnp.exp(jax.random.uniform(keys[4], (size,), minval=low, maxval=high))
+    noise = MOCAP_NOISE * level * is_wide * jax.random.normal(keys[5], (longest, 2, size))
+    chance = LOST * is_wide * jax.random.uniform(keys[6], (size,))
+    lost = jax.random.uniform(jax.random.fold_in(key, 1), (longest, size)) < chance
+    return Batch(lifts, variation, Sensing(noise, lost.astype(jnp.float32)))

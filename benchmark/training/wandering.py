@@ -1,0 +1,100 @@
+"""People who move as in no suite: wide ranges of size, pace and persistence, for robots to learn."""
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.agent import FRAME
+from ...agents.humans import GOAL_RANGE, Plan, Subject
+from ...agents.humans.movement import REST_AFTER, REST_BEFORE, interpolate
+from ...agents.humans.plan import Segment, assemble, move, still
+from ...agents.humans.stroke import replan
+
+LONGEST: Final = 10.0
+"""Time after which no further movement begins [s]."""
+
+_FEWEST_FRAMES: Final = 25
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wandering:
+    """Moves to goals near and far, at many paces, without or with rests, on a drifting hand.
+
+    People who lift together move more slowly and with more interruptions than one who leads; the
+    ranges are wide enough to hold both, and are drawn per lift, so that a robot that remembers can
+    find out which person it has.
+    """
+
+    distance: tuple[float, float] = (0.01, 0.28)
+    """Shortest and longest movement [m], even in its logarithm; its spread is drawn per lift."""
+    speed: tuple[float, float] = (0.02, 0.45)
+    """Lowest and highest mean pace of a lift [m/s] at its peak, even in its logarithm."""
+    interrupted: tuple[float, float] = (0.0, 0.7)
+    """Fewest and most of the movements that are given up on the way."""
+    resting: tuple[float, float] = (0.0, 0.8)
+    """Fewest and most of the movements that are followed by a rest."""
+    rest: tuple[float, float] = (0.05, 1.5)
+    """Shortest and longest rest [s], even in its logarithm."""
+    drift: tuple[float, float] = (1e-4, 6e-3)
+    """Least and most deviation of the hand from its movement [m], even in its logarithm."""
+    drift_time: tuple[float, float] = (0.15, 0.8)
+    """Shortest and longest correlation of that deviation [s]."""
+
+    def plan(self, subject: Subject, seed: int) -> Plan:
+        """Return the plan of one episode; pure in ``(self, seed)``."""
+        rng = np.random.default_rng(seed)
+        pace = _even_in_log(self.speed, rng)
+        farthest = _even_in_log((5 * self.distance[0], self.distance[1]), rng)
+        interrupted = interpolate(self.interrupted, rng.random())
+        resting = interpolate(self.resting, rng.random())
+        up = rng.random() < 0.5
+        ready = interpolate(REST_BEFORE, rng.random())
+        segments: list[Segment] = [still("ready", 0.0, ready)]
+        state, time = np.zeros(3), ready
+        while time < LONGEST:
+            distance = _even_in_log((self.distance[0], farthest), rng)
+            up = bool(rng.random() < 0.8) if state[0] < 0.04 else bool(rng.random() < 0.5)
+            goal = float(np.clip(state[0] + (distance if up else -distance), 0.0, GOAL_RANGE[1]))
+            motion = _motion(state, goal, pace * math.exp(0.4 * rng.standard_normal()))
+            if rng.random() < interrupted:
+                cut = max(int(motion.shape[1] * interpolate((0.2, 0.95), rng.random())), 1)
+                motion = motion[:, :cut]
+            segments.append(move("go", motion[0]))
+            state, time = motion[:, -1], time + motion.shape[1] * FRAME
+            if not np.abs(state[1:]).max() > 1e-3 and rng.random() < resting:
+                pause = _even_in_log(self.rest, rng)
+                segments.append(still("hold", float(state[0]), pause))
+                time += pause
+        segments.append(move("lower", _motion(state, 0.0, pace)[0]))
+        segments.append(still("rest", 0.0, interpolate(REST_AFTER, rng.random())))
+        plan = assemble(*segments)
+        return self._drifting(plan, rng)
+
+    def _drifting(self, plan: Plan, rng: np.random.Generator) -> Plan:
+        """Return the plan with a smooth deviation that is nothing at both ends."""
+        count = len(plan.target)
+        width = interpolate(self.drift_time, rng.random()) / FRAME
+        bell = np.exp(-0.5 * (np.arange(-3 * int(width), 3 * int(width) + 1) / width) ** 2)
+        white = rng.standard_normal(count + len(bell) - 1)
+        smooth = np.convolve(white, bell / math.sqrt(float((bell**2).sum())), mode="valid")
+        fade = np.minimum(np.arange(count), np.arange(count)[::-1]) / 50
+        target = plan.target + _even_in_log(self.drift, rng) * smooth * np.minimum(fade, 1.0) ** 2
+        target = np.clip(target, -0.02, GOAL_RANGE[1])
+        target.flags.writeable = False
+        return Plan(
+            target=target, strokes=plan.strokes, goal=float(target.max()), events=plan.events
+        )
+
+
+def _even_in_log(limits: tuple[float, float], rng: np.random.Generator) -> float:
+    low, high = (math.log(limit) for limit in limits)
+    return math.exp(interpolate((low, high), rng.random()))
+
+
+def _motion(state: NDArray[np.float64], goal: float, speed: float) -> NDArray[np.float64]:
+    """Return the motion to rest at a goal; the peak speed of a minimum jerk is 1.875 its mean."""
+    frames = max(round(1.875 * abs(goal - float(state[0])) / speed / FRAME), _FEWEST_FRAMES)
+    return replan(state, goal, frames * FRAME)
