@@ -1,7 +1,7 @@
 """``colift bench``: speed of the benchmark and the policies, and convergence of the physics."""
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Annotated, Any, Final
 
@@ -25,9 +25,10 @@ from ..benchmark.profiling.sandbox import (
     isolation_cost,
 )
 from ..benchmark.suites.suite import make_suite
+from ..benchmark.twin.libraries import require_jax
 from ..benchmark.world import Physics
 from .options import AsJson, check_exclusive
-from .printing import left, print_json, show, table
+from .printing import Cell, left, print_json, show, table
 from .progress import progress_bar
 
 MEANING: Final = {
@@ -39,6 +40,10 @@ MEANING: Final = {
     "memory_growth_mb": "growth of the process after the first hundred episodes",
     "late_over_early": "time of the last episodes over that of the first (1 = linear cost)",
     "dask_ratio": "throughput of Dask on this machine over the local pool's (at least 0.9)",
+    "twin_mean_error": "largest error of a policy's mean RMSE in the twin (at most 0.003)",
+    "twin_worst_error": "largest error of a lift's RMSE in the twin (at most 0.015)",
+    "twin_speed_ratio": "control steps/s of the twin over the engine's (at least 500)",
+    "twin_gradient_ratio": "the same of lifts with their gradient (at least 50)",
     "verify_ratio": "throughput of verification over that of the run (at least 1)",
 }
 
@@ -66,10 +71,15 @@ def bench(
     scale: Annotated[
         bool, typer.Option("--scale", help="Time a Dask cluster and verification instead.")
     ] = False,
+    twin: Annotated[
+        bool, typer.Option("--twin", help="Compare the twin with the engine instead.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Measure the benchmark itself: speed as ratios within this run, memory, convergence."""
-    check_exclusive(convergence=convergence, policies=policies, isolation=isolation, scale=scale)
+    check_exclusive(
+        convergence=convergence, policies=policies, isolation=isolation, scale=scale, twin=twin
+    )
     if episodes < 200:
         raise InputError(f"--episodes must be at least 200, got {episodes}")
     studies: dict[Callable[[], Report], bool] = {
@@ -77,6 +87,7 @@ def bench(
         _policies: policies,
         _isolation: isolation,
         _scale: scale,
+        _twin: twin,
         partial(_engine, episodes): True,
     }
     content, shown = next(study for study, wanted in studies.items() if wanted)()
@@ -105,6 +116,53 @@ def _scale() -> Report:
         figures = measure_scale(SCALE_POLICY, SCALE_SUITE, SCALE_ROUNDS, progress)
     caption = f"{SCALE_POLICY} on {SCALE_SUITE}, two worker processes; median of {SCALE_ROUNDS}"
     return figures, _figures_table("scale", figures, caption)
+
+
+def _twin() -> Report:
+    """Return the deviation of the twin from the engine, and its speed."""
+    require_jax()
+    from ..benchmark.profiling.twin import twin_speed
+    from ..benchmark.twin.deviation import PAIR, POLICIES, deviations
+
+    found = []
+    with progress_bar("bench", len(POLICIES) + 2) as progress:
+        for each in deviations():
+            found.append(each)
+            progress(1)
+        figures = {
+            "twin_mean_error": max(each.mean_error for each in found if each.policy != PAIR),
+            "twin_worst_error": max(each.worst_error for each in found if each.policy != PAIR),
+            **twin_speed(),
+        }
+        progress(1)
+    content = {
+        **figures,
+        "policies": {
+            each.policy: {
+                "engine_mm": each.engine_mm,
+                "twin_mm": each.twin_mm,
+                "mean_error": each.mean_error,
+                "worst_error": each.worst_error,
+                "within_limits": each.within_limits,
+            }
+            for each in found
+        },
+    }
+    rows: list[Sequence[Cell] | None] = [
+        (
+            each.policy,
+            f"{each.engine_mm:.3f}",
+            f"{each.twin_mm:.3f}",
+            f"{100 * each.mean_error:.3f} %",
+            f"{100 * each.worst_error:.3f} %",
+            "kept" if each.within_limits else "EXCEEDED",
+        )
+        for each in found
+    ]
+    titles = ("policy", "engine mm", "twin mm", "mean error", "worst lift", "limits")
+    speed = ", ".join(f"{name} {figures[name]:.0f}" for name in list(figures)[2:])
+    caption = f"40 lifts with 10 people outside all suites; {speed}"
+    return content, table("The twin and the engine", titles, rows, caption=caption)
 
 
 def _isolation() -> Report:

@@ -12,8 +12,11 @@ from typer.core import TyperGroup
 from ..agents.errors import InputError
 from ..benchmark.execution.pool import local_pool
 from ..benchmark.training import cem as cross_entropy
+from ..benchmark.training.apg_settings import NAME as APG
+from ..benchmark.training.apg_settings import ApgSettings
 from ..benchmark.training.cem import CemSettings
 from ..benchmark.training.course import Course, Point, open_course, write_summary
+from ..benchmark.twin.libraries import require_jax
 from .options import Jobs
 from .printing import argument, show
 from .progress import job_bar, reported_interrupt
@@ -71,6 +74,51 @@ def cem(
         cross_entropy.train(settings, course, executor=executor, progress=progress)
 
     _train_all(cross_entropy.NAME, settings, seeds, out, generations * lifts, jobs, train)
+
+
+@app.command()
+def apg(
+    out: Out,
+    seeds: Seeds = 1,
+    updates: Annotated[
+        int, typer.Option(metavar="N", help="Steps of the optimiser.")
+    ] = ApgSettings.updates,
+    lifts: Annotated[
+        int, typer.Option(metavar="N", help="Lifts drawn in the beginning.")
+    ] = ApgSettings.lifts,
+    batch: Annotated[
+        int, typer.Option(metavar="N", help="Lifts of an update, from those.")
+    ] = ApgSettings.batch,
+    units: Annotated[
+        int, typer.Option(metavar="N", help="Gated recurrent units of the network.")
+    ] = ApgSettings.units,
+    wide: Annotated[
+        float, typer.Option(metavar="X", help="Share of people from wide ranges.")
+    ] = ApgSettings.wide,
+    varied: Annotated[
+        float, typer.Option(metavar="X", help="Variation of the robot's arms.")
+    ] = ApgSettings.varied,
+    smoothness: Annotated[
+        float, typer.Option(metavar="X", help="Cost of bends, relative to the RMSE.")
+    ] = ApgSettings.smoothness,
+) -> None:
+    """Train a recurrent network by gradients through whole lifts of the twin (extra: train)."""
+    settings = ApgSettings(
+        updates=updates,
+        lifts=lifts,
+        batch=batch,
+        units=units,
+        wide=wide,
+        varied=varied,
+        smoothness=smoothness,
+    )
+    require_jax()
+    from ..benchmark.training.apg_course import train_course
+
+    def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
+        train_course(settings, course, progress)
+
+    _train_all(APG, settings, seeds, out, updates, 1, train)
 
 
 def _train_all(

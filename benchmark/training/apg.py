@@ -11,7 +11,6 @@ Nothing is estimated: the gradient is that of the lifts themselves (compare J. F
 
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from functools import partial
 from typing import Any, Final, NamedTuple
 
@@ -21,58 +20,12 @@ import numpy as np
 import optax
 
 from ...agents.control.recurrent import INPUTS, Network
-from ...agents.errors import InputError
-from ..twin.rollout import rollout
+from ..twin.rollout import recurrent, rollout
+from .apg_settings import PARTS, ApgSettings
 from .pool import Batch, Pool, draw_batch, draw_pool
-
-PARTS: Final = 2
-"""Parts of a batch, each in a thread of its own: a fixed number, so that sums keep their order."""
 
 LARGEST_GRADIENT: Final = 5.0
 """Norm to which gradients are cut."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class ApgParameters:
-    """Parameters of the training.
-
-    Raises
-    ------
-    InputError
-        If a number is out of range.
-    """
-
-    updates: int = 800
-    """Steps of the optimiser."""
-    lifts: int = 4000
-    """Lifts that batches are drawn from."""
-    batch: int = 256
-    """Lifts of an update."""
-    units: int = 64
-    """Gated recurrent units."""
-    rate: float = 3e-3
-    """Learning rate at its highest; it rises for 5 % of the updates, then falls as a cosine."""
-    wide: float = 0.2
-    """Share of lifts with people, bodies and sensors from wide ranges."""
-    varied: float = 0.3
-    """Variation of the arms."""
-    smoothness: float = 0.05
-    """Cost of bends, relative to the RMSE."""
-
-    def __post_init__(self) -> None:
-        """Check the ranges."""
-        for name in ("updates", "units"):
-            if getattr(self, name) < 1:
-                raise InputError(f"--{name} must be at least 1, got {getattr(self, name)}")
-        if self.batch < PARTS or self.batch % PARTS:
-            raise InputError(f"--batch must be a multiple of {PARTS}, got {self.batch}")
-        if not 0 <= self.wide < 1:
-            raise InputError(f"--wide must be at least 0 and below 1, got {self.wide}")
-        for name in ("varied", "smoothness"):
-            if not 0 <= getattr(self, name) < np.inf:
-                raise InputError(f"--{name} must be at least 0, got {getattr(self, name)}")
-        if not 0 < self.rate < 1:
-            raise InputError(f"--rate must be between 0 and 1, got {self.rate}")
 
 
 class Learner(NamedTuple):
@@ -109,36 +62,37 @@ def first_network(units: int, seed: int) -> Network:
     )
 
 
-def optimiser(parameters: ApgParameters) -> optax.GradientTransformation:
+def optimiser(settings: ApgSettings) -> optax.GradientTransformation:
     """Return Adam with its schedule and the cut of the gradients."""
-    warm = max(parameters.updates // 20, 1)
+    warm = max(settings.updates // 20, 1)
     schedule = optax.warmup_cosine_decay_schedule(
-        0.1 * parameters.rate, parameters.rate, warm, max(parameters.updates, warm + 1)
+        0.1 * settings.rate, settings.rate, warm, max(settings.updates, warm + 1)
     )
     return optax.chain(optax.clip_by_global_norm(LARGEST_GRADIENT), optax.adam(schedule))
 
 
-def begin(parameters: ApgParameters, seed: int) -> Learner:
+def begin(settings: ApgSettings, seed: int) -> Learner:
     """Return the learner before the first update."""
-    network = first_network(parameters.units, seed)
-    return Learner(network, optimiser(parameters).init(network), 0)
+    network = first_network(settings.units, seed)
+    return Learner(network, optimiser(settings).init(network), 0)
 
 
 def loss(network: Network, batch: Batch, smoothness: float) -> tuple[jax.Array, jax.Array]:
     """Return the loss [mm] and the mean RMSE [mm] of a batch."""
-    found = rollout(network, batch.lifts, batch.variation, batch.sensing)
+    policy, memory = recurrent(network, batch.lifts.size)
+    found = rollout(policy, memory, batch.lifts, batch.variation, batch.sensing)
     rmse = found.rmse_mm.mean()
     return rmse + smoothness * found.bend_mm.mean(), rmse
 
 
 def train(
-    parameters: ApgParameters, seed: int, learner: Learner | None = None, pool: Pool | None = None
+    settings: ApgSettings, seed: int, learner: Learner | None = None, pool: Pool | None = None
 ) -> Iterator[Update]:
     """Yield the learner after each update; the same seed gives the same weights.
 
     Parameters
     ----------
-    parameters
+    settings
         Of the training.
     seed
         Of the first weights and of the batches; the lifts are the same for all.
@@ -147,15 +101,15 @@ def train(
     pool
         The drawn lifts; none: draw them.
     """
-    learner = learner or begin(parameters, seed)
-    lifts = pool or draw_pool(parameters.lifts, parameters.wide)
-    descent = optimiser(parameters)
-    size = parameters.batch // PARTS
+    learner = learner or begin(settings, seed)
+    lifts = pool or draw_pool(settings.lifts, settings.wide)
+    descent = optimiser(settings)
+    size = settings.batch // PARTS
 
     @jax.jit
     def gradient(network: Network, lifts: Pool, key: jax.Array) -> tuple[Any, Network]:
-        batch = draw_batch(lifts, size, parameters.wide, parameters.varied, key)
-        of_batch = partial(loss, batch=batch, smoothness=parameters.smoothness)
+        batch = draw_batch(lifts, size, settings.wide, settings.varied, key)
+        of_batch = partial(loss, batch=batch, smoothness=settings.smoothness)
         return jax.value_and_grad(of_batch, has_aux=True)(network)
 
     @jax.jit
@@ -169,7 +123,7 @@ def train(
 
     network, state = learner.network, learner.optimiser
     with ThreadPoolExecutor(PARTS) as threads:
-        for update in range(learner.update, parameters.updates):
+        for update in range(learner.update, settings.updates):
             key = jax.random.fold_in(jax.random.key(seed), update)
             keys = [jax.random.fold_in(key, part) for part in range(PARTS)]
             parts = list(threads.map(partial(_finished, gradient, network, lifts), keys))
@@ -179,4 +133,7 @@ def train(
 
 def _finished(function: Any, *arguments: Any) -> Any:
     """Return what a function of JAX returns, once it has been computed."""
-    return jax.block_until_ready(function(*arguments))
+    result = function(*arguments)
+    for leaf in jax.tree.leaves(result):
+        leaf.block_until_ready()
+    return result

@@ -147,7 +147,7 @@ def draw_batch(pool: Pool, size: int, wide: float, varied: float, key: jax.Array
     """
     keys = jax.random.split(key, 7)
     many = round(wide * size)
-    common, total = pool.common, pool.lifts.count
+    common, total = pool.common, pool.lifts.size
     taken = jax.random.randint(keys[0], (size - many,), 0, common)
     rest = jax.random.randint(keys[1], (many,), common, jnp.maximum(total, common + 1))
     lifts = some(pool.lifts, jnp.concatenate((taken, rest)))

@@ -1,10 +1,11 @@
 """The trained policy as a submission: manifest, weights, and a policy in plain NumPy."""
 
 import shutil
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from importlib.resources import files
 from io import BytesIO
 from pathlib import Path
+from types import ModuleType
 from typing import Any, Final
 
 import numpy as np
@@ -35,7 +36,15 @@ def checked_network(weights: Weights) -> Network:
         raise InputError(f"trained weights cannot be used: {error}") from error
 
 
-def write_policy(course: Course, weights: Weights, *, description: str, trained_on: str) -> Path:
+def write_policy(
+    course: Course,
+    weights: Weights,
+    *,
+    description: str,
+    trained_on: str,
+    package: ModuleType = network,
+    check: Callable[[Weights], object] = checked_network,
+) -> Path:
     """Write the trained policy into the folder of its course, and return its folder.
 
     The folder appears complete or not at all. It is the same, byte for byte, for the same weights.
@@ -45,16 +54,20 @@ def write_policy(course: Course, weights: Weights, *, description: str, trained_
     course
         The course of the training.
     weights
-        The weights of :class:`.Network`.
+        The weights, as its policy reads them.
     description, trained_on
         Entries of the manifest.
+    package
+        The package of its ``policy.py``.
+    check
+        Raises an InputError if its policy could not use the weights.
 
     Raises
     ------
     InputError
-        As :func:`checked_network`, or if a file cannot be written.
+        As ``check``, or if a file cannot be written.
     """
-    checked_network(weights)
+    check(weights)
     made = course.folder / f".{course.policy.name}.partial"
     shutil.rmtree(made, ignore_errors=True)
     content = BytesIO()
@@ -65,7 +78,7 @@ def write_policy(course: Course, weights: Weights, *, description: str, trained_
             "description": description,
             "trained_on": trained_on,
         }
-        source = files(network).joinpath("policy.py").read_bytes()
+        source = files(package).joinpath("policy.py").read_bytes()
         write_files(made, source, about)
         write_whole(made / WEIGHTS, content.getvalue())
         replace_folder(made, course.policy)

@@ -1,4 +1,4 @@
-"""People who move as in no suite: wide ranges of size, pace and persistence, for robots to learn."""
+"""People who move as in no suite: wide ranges of size, pace and persistence, to learn from."""
 
 import math
 from dataclasses import dataclass

@@ -1,4 +1,13 @@
-"""The NAO's arms on their one path: set-point, sag and lag as functions of the hands' height."""
+"""The NAO's arms on their one path: set-point, sag, lag and bend as functions of a height.
+
+The joints follow the set-points on the path with one lag, so that they are at a weighted mean of
+where the path was. Of the heights s on the path with that mean and variance, the hands are at
+
+    mean(s) + bend(mean(s)) var(s),        bend = J . q'' / 2,
+
+with the joints' angles q(s) and the hands' vertical Jacobian J: the path is a curve, and the joints
+cut its corners.
+"""
 
 import math
 from typing import Final, NamedTuple
@@ -41,6 +50,13 @@ _WEIGHT_SAG: Final = _along_the_stroke(
 _COMPLIANCE: Final = _along_the_stroke((arm_path().levers ** 2 / 2 / SERVO.stiffness).sum(axis=1))
 
 
+_SPACING: Final = float(arm_path().heights[1] - arm_path().heights[0])
+_SECOND: Final = np.gradient(
+    np.gradient(np.array(arm_path().joints)[:, :5], _SPACING, axis=0), _SPACING, axis=0
+)
+_BEND: Final = _along_the_stroke((arm_path().levers * _SECOND / 2).sum(axis=1))
+
+
 class ArmVariation(NamedTuple):
     """How arms differ from the benchmark's; 1 is the benchmark's own."""
 
@@ -55,6 +71,10 @@ class Arm(NamedTuple):
 
     hand: jax.Array
     """(n,) height of the hands [m]."""
+    mean: jax.Array
+    """(n,) mean of the heights on the path that the joints follow [m]."""
+    variance: jax.Array
+    """(n,) their variance [m2]."""
     target: jax.Array
     """(n,) set-point for the end of the last frame [m]."""
     load: jax.Array
@@ -64,7 +84,8 @@ class Arm(NamedTuple):
 def rest(count: int) -> Arm:
     """Return arms at rest under their share of the table's weight."""
     zero = jnp.zeros(count)
-    return Arm(hand=zero, target=zero, load=jnp.full(count, WEIGHT_SHARE))
+    weight = jnp.full(count, WEIGHT_SHARE)
+    return Arm(hand=zero, mean=zero, variance=zero, target=zero, load=weight)
 
 
 def drive(
@@ -89,12 +110,22 @@ def drive(
     # At rest, the offset makes up for the sag under the table's weight.
     rest_place = jnp.full_like(command, -_MIDDLE / _HALF)
     sag = sag - _sag(rest_place, jnp.full_like(load, WEIGHT_SHARE))
-    gain = _GAIN
+    gain = jnp.full_like(load, _GAIN)
     if variation is not None:
         sag, gain = sag * variation.sag, gain * variation.lag
-    target = jnp.clip(command - sag, *STROKE)
-    half_way = arm.target + (target - arm.target) * _AHEAD
-    return Arm(hand=arm.hand + gain * (half_way - arm.hand), target=target, load=load)
+    target = _nearest_row(jnp.clip(command - sag, *STROKE))
+    half_way = _nearest_row(arm.target + (target - arm.target) * _AHEAD)
+    off = half_way - arm.mean
+    mean = arm.mean + gain * off
+    variance = (1 - gain) * (arm.variance + gain * off**2)
+    bend = _polynomial(_BEND, (mean - _MIDDLE) / _HALF)
+    return Arm(hand=mean + bend * variance, mean=mean, variance=variance, target=target, load=load)
+
+
+def _nearest_row(height: jax.Array) -> jax.Array:
+    """Return the height of the nearest row of the path, with the gradient of the height itself."""
+    row = STROKE[0] + _SPACING * jnp.floor((height - STROKE[0]) / _SPACING + 0.5)
+    return height + jax.lax.stop_gradient(row - height)
 
 
 def _sag(place: jax.Array, load: jax.Array) -> jax.Array:

@@ -44,7 +44,7 @@ class Lifts(NamedTuple):
     """The people."""
 
     @property
-    def count(self) -> int:
+    def size(self) -> int:
         """How many lifts."""
         return self.steps.shape[0]
 
@@ -193,4 +193,5 @@ def partner_body(count: int) -> Body:
 
 def some(lifts: Lifts, chosen: Any) -> Lifts:
     """Return the chosen lifts: an index array or a slice of the last axis."""
-    return jax.tree.map(lambda array: array[..., chosen], lifts)
+    taken: Lifts = jax.tree.map(lambda array: array[..., chosen], lifts)
+    return taken

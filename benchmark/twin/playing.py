@@ -57,8 +57,8 @@ class Frames(NamedTuple):
 
 def begin(lifts: Lifts) -> Playing:
     """Return the lifts at rest."""
-    zero = jnp.zeros(lifts.count)
-    return Playing(plant.begin(lifts.count), zero, zero, jnp.zeros((), jnp.int32))
+    zero = jnp.zeros(lifts.size)
+    return Playing(plant.begin(lifts.size), zero, zero, jnp.zeros((), jnp.int32))
 
 
 def due(lifts: Lifts, step: jax.Array) -> Due:

@@ -1,5 +1,6 @@
-"""Whole lifts of the twin with a recurrent network at the robot's end, as one function."""
+"""Whole lifts of the twin with a policy at the robot's end, as one function."""
 
+from collections.abc import Callable
 from typing import Any, Final, NamedTuple
 
 import jax
@@ -54,43 +55,52 @@ class Outcome(NamedTuple):
     """(n,) root mean square of the second differences of the command [mm]."""
 
 
-def rest(network: Network, count: int) -> Memory:
-    """Return the memory of n lifts at their beginning."""
+Policy = Callable[[Any, jax.Array], tuple[Any, jax.Array]]
+"""Returns memory and actions (n,) [m] for a memory and observations (5, n)."""
+
+
+def recurrent(network: Network, count: int) -> tuple[Policy, Memory]:
+    """Return the policy of a network, and its memory at the beginning of n lifts."""
+
+    def policy(memory: Memory, view: jax.Array) -> tuple[Memory, jax.Array]:
+        return act(network, memory, view, JAX)
+
     zero = jnp.zeros(count)
-    return Memory(jnp.zeros((network.units, count)), zero, zero, zero, zero)
+    return policy, Memory(jnp.zeros((network.units, count)), zero, zero, zero, zero)
 
 
 def rollout(
-    network: Network,
+    policy: Policy,
+    memory: Any,
     lifts: Lifts,
     variation: ArmVariation | None = None,
     sensing: Sensing | None = None,
 ) -> Outcome:
-    """Return the outcome of lifts with the network; differentiable in its weights.
+    """Return the outcome of lifts with a policy; differentiable in all that it depends on.
 
     Parameters
     ----------
-    network
-        The weights.
+    policy, memory
+        The policy, and its memory at the beginning.
     lifts
         People, plans and noise.
     variation, sensing
         What differs from the benchmark's; none: its own arms and sensors.
     """
     size, period = lifts.reference.shape[1], lifts.reference.shape[1] * FRAME
-    count, longest = lifts.count, lifts.longest()
+    count, longest = lifts.size, lifts.longest()
     extra = sensing or Sensing(jnp.zeros((longest, 2, count)), jnp.zeros((longest, count)))
 
     def step(
-        state: tuple[Playing, Memory, jax.Array], now: tuple[lifting.Due, jax.Array, jax.Array]
-    ) -> tuple[tuple[Playing, Memory, jax.Array], tuple[jax.Array, jax.Array]]:
+        state: tuple[Playing, Any, jax.Array], now: tuple[lifting.Due, jax.Array, jax.Array]
+    ) -> tuple[tuple[Playing, Any, jax.Array], tuple[jax.Array, jax.Array]]:
         playing, memory, last = state
         share, added, lost = now
         view = lifting.observe(playing, share.noise + added, lifts.latency, period)
         seen = view[: RobotObservation.HAND_HEIGHT]
         seen = jnp.where((lost > 0) & (playing.step > 0), last, seen)
         view = jnp.concatenate((seen, view[RobotObservation.HAND_HEIGHT :]))
-        memory, action = act(network, memory, view, JAX)
+        memory, action = policy(memory, view)
         valid = (playing.step < lifts.steps).astype(jnp.float32)
         before = playing.command
         playing, frames = lifting.advance(playing, lifts.body, share, action, variation)
@@ -99,7 +109,7 @@ def rollout(
             (playing.command - before) * valid,
         )
 
-    start = (lifting.begin(lifts), rest(network, count), jnp.zeros((2, count)))
+    start = (lifting.begin(lifts), memory, jnp.zeros((2, count)))
     shares = lifting.Due(lifts.reference, lifts.seen_target, lifts.noise)
     _, (squares, changes) = jax.lax.scan(
         jax.checkpoint(step), start, (shares, extra.noise, extra.lost)

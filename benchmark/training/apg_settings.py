@@ -1,0 +1,55 @@
+"""The settings of analytic policy gradients, without JAX."""
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+from ...agents.errors import InputError
+
+NAME: Final = "apg"
+
+PARTS: Final = 2
+"""Parts of a batch, each in a thread of its own: a fixed number, so that sums keep their order."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ApgSettings:
+    """Settings of a training.
+
+    Raises
+    ------
+    InputError
+        If a number is out of range.
+    """
+
+    updates: int = 800
+    """Steps of the optimiser."""
+    lifts: int = 4000
+    """Lifts that batches are drawn from."""
+    batch: int = 256
+    """Lifts of an update."""
+    units: int = 64
+    """Gated recurrent units."""
+    rate: float = 3e-3
+    """Learning rate at its highest; it rises for 5 % of the updates, then falls as a cosine."""
+    wide: float = 0.2
+    """Share of lifts with people, bodies and sensors from wide ranges."""
+    varied: float = 0.3
+    """Variation of the arms."""
+    smoothness: float = 0.05
+    """Cost of bends, relative to the RMSE."""
+
+    def __post_init__(self) -> None:
+        """Check the ranges."""
+        for name in ("updates", "units"):
+            if getattr(self, name) < 1:
+                raise InputError(f"--{name} must be at least 1, got {getattr(self, name)}")
+        if self.batch < PARTS or self.batch % PARTS:
+            raise InputError(f"--batch must be a multiple of {PARTS}, got {self.batch}")
+        if not 0 <= self.wide < 1:
+            raise InputError(f"--wide must be at least 0 and below 1, got {self.wide}")
+        for name in ("varied", "smoothness"):
+            if not 0 <= getattr(self, name) < math.inf:
+                raise InputError(f"--{name} must be at least 0, got {getattr(self, name)}")
+        if not 0 < self.rate < 1:
+            raise InputError(f"--rate must be between 0 and 1, got {self.rate}")

@@ -1,0 +1,82 @@
+"""The error of policies in the engine, on lifts with people whom nobody has learned from."""
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
+from functools import partial
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.agent import Agent
+from ..environment.drawing import TRAINING_SEEDS
+from ..episode.lift import Lift
+from ..episode.metrics import rmse_mm
+from ..suites.suite import BEHAVIOURS
+from ..world import since_reset
+from .data import Timing, scenario
+
+Array = NDArray[np.float64]
+
+LEARNING_SEEDS: Final = TRAINING_SEEDS[:90_000]
+"""Seeds of the people and lifts that trainers learn from."""
+
+VALIDATION_SEEDS: Final = TRAINING_SEEDS[90_000:90_040]
+"""Seeds of the people and lifts of a curve: ten of each behaviour."""
+
+MakeAgent = Callable[[], Agent]
+
+
+def play(
+    policies: Sequence[MakeAgent],
+    seeds: Sequence[int],
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda lifts: None,
+) -> tuple[Array, int]:
+    """Return the RMSE of each policy in each lift (policies, lifts) [mm], and the steps of all.
+
+    Parameters
+    ----------
+    policies
+        All play the same lifts.
+    seeds
+        Of the lifts.
+    executor
+        Plays the lifts; none: in this process. The result is the same.
+    progress
+        Called with the number of lifts that all have played since the last call.
+    """
+    together = partial(lift_together, policies)
+    errors, steps = [], 0
+    done = map(together, seeds) if executor is None else executor.map(together, seeds)
+    for error, length in done:
+        errors.append(error)
+        steps += length * len(policies)
+        progress(1)
+    return np.array(errors).T, steps
+
+
+def lift_together(policies: Sequence[MakeAgent], seed: int) -> tuple[list[float], int]:
+    """Return the RMSE of each policy in the lift of a seed [mm], and the steps of a lift.
+
+    The person is drawn by the seed, too. A dropped table counts as in the score.
+    """
+    lift = Lift(scenario(seed, BEHAVIOURS, Timing()))
+    errors = []
+    for make in policies:
+        lift.reset(seed)
+        human, robot = lift.scripted_human(), make()
+        robot.reset(0)
+        while not lift.done:
+            action = robot.act(lift.partner_observation())
+            lift.step(human.act(lift.human_observation()), action)
+        ends = since_reset(lift.world.human_end), since_reset(lift.world.robot_end)
+        errors.append(rmse_mm(*ends, horizon=lift.horizon))
+    lift.close()
+    return errors, lift.horizon // lift.frames_per_step
+
+
+def validation_error(policy: MakeAgent, executor: Executor | None = None) -> float:
+    """Return the mean RMSE of a policy on the validation lifts [mm]."""
+    errors, _ = play([policy], VALIDATION_SEEDS, executor)
+    return float(errors.mean())
