@@ -4,6 +4,7 @@ import ctypes
 import fcntl
 import gc
 import importlib
+import importlib.util
 import os
 import resource
 import shutil
@@ -79,6 +80,33 @@ def _own_leaks(request):
     peak = peak_memory()
     if before < MOST_MEMORY <= peak:
         pytest.fail(f"{request.module.__name__} took this process to {peak >> 20} MiB of memory")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _no_jax(request):
+    """Keep JAX out of the processes that run many modules: no fork survives its threads."""
+    yield
+    if "jax" in sys.modules and not request.path.name.startswith("jax_"):
+        pytest.fail(f"{request.path.name} imports JAX: its tests belong into jax_*.py, run apart")
+
+
+@pytest.fixture
+def in_own_process():
+    """Run the tests of a module ``jax_*.py`` in a process of its own; skip if JAX is missing."""
+    if importlib.util.find_spec("jax") is None:
+        pytest.skip("JAX is not installed")
+
+    def run(module: Path):
+        environment = {
+            name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")
+        }
+        command = [sys.executable, "-m", "pytest", "-n", "0", "-q", "-p", "no:cacheprovider"]
+        done = subprocess.run(
+            [*command, str(module)], env=environment, capture_output=True, text=True
+        )
+        assert done.returncode == 0, done.stdout[-10_000:] + done.stderr[-2000:]
+
+    return run
 
 
 def give_back():

@@ -11,7 +11,7 @@ Nothing is estimated: the gradient is that of the lifts themselves (compare J. F
 
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from functools import partial
+from functools import cache, partial
 from typing import Any, Final, NamedTuple
 
 import jax
@@ -103,6 +103,28 @@ def train(
     """
     learner = learner or begin(settings, seed)
     lifts = pool or draw_pool(settings.lifts, settings.wide)
+    gradient, descend = _functions(settings)
+    network, state = learner.network, learner.optimiser
+    with ThreadPoolExecutor(PARTS) as threads:
+        for update in range(learner.update, settings.updates):
+            key = jax.random.fold_in(jax.random.key(seed), update)
+            keys = [jax.random.fold_in(key, part) for part in range(PARTS)]
+            parts = list(threads.map(partial(_finished, gradient, network, lifts), keys))
+            network, state, rmse = descend(network, state, parts)
+            yield Update(Learner(network, state, update + 1), float(rmse))
+
+
+def _finished(function: Any, *arguments: Any) -> Any:
+    """Return what a function of JAX returns, once it has been computed."""
+    result = function(*arguments)
+    for leaf in jax.tree.leaves(result):
+        leaf.block_until_ready()
+    return result
+
+
+@cache
+def _functions(settings: ApgSettings) -> tuple[Any, Any]:
+    """Return the gradient of a part of a batch, and the step of the optimiser, to be compiled."""
     descent = optimiser(settings)
     size = settings.batch // PARTS
 
@@ -121,19 +143,4 @@ def train(
         rmse = sum(rmse for (_, rmse), _ in parts) / PARTS
         return optax.apply_updates(network, steps), state, rmse
 
-    network, state = learner.network, learner.optimiser
-    with ThreadPoolExecutor(PARTS) as threads:
-        for update in range(learner.update, settings.updates):
-            key = jax.random.fold_in(jax.random.key(seed), update)
-            keys = [jax.random.fold_in(key, part) for part in range(PARTS)]
-            parts = list(threads.map(partial(_finished, gradient, network, lifts), keys))
-            network, state, rmse = descend(network, state, parts)
-            yield Update(Learner(network, state, update + 1), float(rmse))
-
-
-def _finished(function: Any, *arguments: Any) -> Any:
-    """Return what a function of JAX returns, once it has been computed."""
-    result = function(*arguments)
-    for leaf in jax.tree.leaves(result):
-        leaf.block_until_ready()
-    return result
+    return gradient, descend

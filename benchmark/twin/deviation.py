@@ -57,25 +57,32 @@ class TwinDeviation:
         return self.mean_error <= MEAN_LIMIT and self.worst_error <= WORST_LIMIT
 
 
-def deviations(
-    policies: Sequence[str] = POLICIES, people: Sequence[int] = PEOPLE
-) -> Iterator[TwinDeviation]:
-    """Yield the deviation for each policy, then that for two humans, on the same people.
+def deviations() -> Iterator[TwinDeviation]:
+    """Yield the deviation for each of :data:`POLICIES`, then that for two humans."""
+    for name in POLICIES:
+        yield policy_deviation(name)
+    yield pair_deviation()
+
+
+def policy_deviation(name: str, people: Sequence[int] = PEOPLE) -> TwinDeviation:
+    """Return the deviation for a registered policy.
 
     Parameters
     ----------
-    policies
-        Names of registered policies.
+    name
+        Of the policy.
     people
         Seeds: each person makes one lift of each behaviour.
     """
-    lifts = _lifts("nao", people)
-    for name in policies:
-        spec = PolicySpec(text=name)
-        yield _deviation(name, _in_engine(spec, lifts), play(spec.make, lifts))
+    lifts, spec = _lifts("nao", people), PolicySpec(text=name)
+    return _deviation(name, _in_engine(spec, lifts), play(spec.make, lifts))
+
+
+def pair_deviation(people: Sequence[int] = PEOPLE) -> TwinDeviation:
+    """Return the deviation for two humans."""
     lifts = _lifts("human", people)
     spec = InMemorySpec(name=PAIR, factory=Partner, source=Partner)
-    yield _deviation(PAIR, _in_engine(spec, lifts), play_pairs(lifts))
+    return _deviation(PAIR, _in_engine(spec, lifts), play_pairs(lifts))
 
 
 def _lifts(partner: str, people: Sequence[int]) -> list[tuple[Scenario, int]]:

@@ -1,0 +1,99 @@
+"""A small training: reproducible, resumable, and a submission at its end."""
+
+import colift
+import numpy as np
+import pytest
+from colift.agents.agent import RobotObservation
+from colift.agents.control.portable import PORTABLE
+from colift.agents.control.recurrent import Network, act, rest
+from colift.agents.errors import InputError
+from colift.benchmark.training import apg, apg_course
+from colift.benchmark.training.apg_settings import NAME, ApgSettings
+from colift.benchmark.training.course import open_course
+from colift.benchmark.training.pool import draw_pool
+from colift.benchmark.twin.rollout import recurrent
+
+TINY = ApgSettings(updates=4, lifts=10, batch=4, units=3, wide=0.4)
+
+
+@pytest.fixture(scope="module")
+def pool():
+    return draw_pool(TINY.lifts, TINY.wide)
+
+
+@pytest.fixture(scope="module")
+def whole(pool):
+    return list(apg.train(TINY, 0, pool=pool))
+
+
+@pytest.fixture(autouse=True)
+def _short(monkeypatch, pool):
+    """Draw the lifts once; two points on the curve, of few lifts."""
+    monkeypatch.setattr(apg_course, "draw_pool", lambda lifts, wide: pool)
+    monkeypatch.setattr(apg_course, "EVERY", 2)
+    monkeypatch.setattr(apg_course, "validation_error", lambda make: 1.0)
+
+
+def same(one, other):
+    return all(np.array_equal(a, b) for a, b in zip(one, other, strict=True))
+
+
+def test_the_pool_has_as_many_wide_lifts_as_asked_for(pool):
+    assert pool.lifts.size == 10
+    assert pool.common == 6
+    latencies = np.asarray(pool.lifts.latency)
+    assert (latencies[: pool.common] == 10).all()
+    assert (latencies[pool.common :] != 10).any()
+
+
+def test_every_update_changes_the_weights(whole):
+    networks = [update.learner.network for update in whole]
+    assert [update.learner.update for update in whole] == [1, 2, 3, 4]
+    assert not same(networks[0], networks[1])
+
+
+def test_the_same_seed_gives_the_same_weights_and_another_others(whole, pool):
+    again = next(apg.train(TINY, 0, pool=pool))
+    assert same(again.learner.network, whole[0].learner.network)
+    other = next(apg.train(TINY, 1, pool=pool))
+    assert not same(other.learner.network, whole[0].learner.network)
+
+
+def test_the_network_acts_the_same_in_numpy(whole):
+    network = whole[-1].learner.network
+    rng = np.random.default_rng(0)
+    plain = Network(*(np.asarray(array, np.float64) for array in network))
+    policy, many = recurrent(network, 1)
+    memory = rest(plain)
+    for _ in range(5):
+        view = 0.1 + 0.01 * rng.standard_normal(len(RobotObservation))
+        memory, action = act(plain, memory, view, PORTABLE)
+        many, actions = policy(many, view[:, np.newaxis].astype(np.float32))
+        assert float(actions[0]) == pytest.approx(action, abs=1e-6)
+
+
+def test_an_interrupted_training_ends_with_the_same_policy(tmp_path, whole):
+    first = open_course(tmp_path, NAME, TINY, 0)
+
+    def killed(many):
+        if (first.checkpoint).exists():
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        apg_course.train_course(TINY, first, killed)
+    second = open_course(tmp_path, NAME, TINY, 0)
+    apg_course.train_course(TINY, second)
+    with np.load(second.policy / "weights.npz") as stored:
+        for name, array in whole[-1].learner.network._asdict().items():
+            assert np.array_equal(stored[name], np.asarray(array)), name
+    assert [point.rmse_mm for point in second.curve] == [1.0, 1.0]
+    assert colift.evaluate(second.policy, isolation="none").rmse_mm < 30
+
+
+def test_a_training_that_diverges_stops_with_a_message(tmp_path, monkeypatch, whole):
+    broken = whole[0]._replace(rmse_mm=float("nan"))
+    monkeypatch.setattr(apg_course, "train", lambda *arguments: iter([broken]))
+    course = open_course(tmp_path, NAME, TINY, 0)
+    with pytest.raises(InputError, match="RMSE of update 1 has numbers that are not finite"):
+        apg_course.train_course(TINY, course)
+    assert not course.policy.exists()

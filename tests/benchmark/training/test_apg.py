@@ -1,0 +1,27 @@
+"""Analytic policy gradients; what needs JAX is in ``jax_apg.py``."""
+
+from pathlib import Path
+
+import pytest
+from colift.agents.errors import InputError
+from colift.benchmark.training.apg_settings import ApgSettings
+
+
+def test_training(in_own_process):
+    in_own_process(Path(__file__).with_name("jax_apg.py"))
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({"updates": 0}, "--updates must be at least 1, got 0"),
+        ({"batch": 5}, "--batch must be a multiple of 2, got 5"),
+        ({"wide": 1.0}, r"--wide must be at least 0 and below 1, got 1\.0"),
+        ({"smoothness": -1.0}, r"--smoothness must be at least 0, got -1\.0"),
+        ({"varied": float("nan")}, "--varied must be at least 0, got nan"),
+        ({"rate": 0.0}, r"--rate must be between 0 and 1, got 0\.0"),
+    ],
+)
+def test_settings_out_of_range_are_refused(settings, message):
+    with pytest.raises(InputError, match=message):
+        ApgSettings(**settings)
