@@ -2,9 +2,10 @@
 
 The loss of a batch is the mean over its lifts of
 
-    RMSE + smoothness * bend,
+    weight (RMSE + smoothness bend),
 
 both in millimetres: the score, and the root mean square of the second differences of the command.
+The weight is 1 but for people with wide habits (:mod:`.pool`).
 Nothing is estimated: the gradient is that of the lifts themselves (compare J. Freeman et al.,
 "Brax", NeurIPS 2021, on short-horizon actor-critic and analytic gradients).
 """
@@ -81,8 +82,8 @@ def loss(network: Network, batch: Batch, smoothness: float) -> tuple[jax.Array, 
     """Return the loss [mm] and the mean RMSE [mm] of a batch."""
     policy, memory = recurrent(network, batch.lifts.size)
     found = rollout(policy, memory, batch.lifts, batch.variation, batch.sensing)
-    rmse = found.rmse_mm.mean()
-    return rmse + smoothness * found.bend_mm.mean(), rmse
+    cost = batch.weight * (found.rmse_mm + smoothness * found.bend_mm)
+    return cost.mean(), found.rmse_mm.mean()
 
 
 def train(

@@ -8,7 +8,8 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from ...agents.agent import FRAME
+from ...agents.agent import FRAME, RobotObservation
+from ...agents.control.recurrent import STEPS_AHEAD
 from ...agents.errors import InputError
 from ...agents.humans import Subject
 from ..episode.lift import MOCAP_NOISE
@@ -16,7 +17,7 @@ from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..episode.seeding import derive_seed
 from ..twin.arm import ArmVariation
 from ..twin.lifts import DrawnLift, Lifts, carried_out, some, stack
-from ..twin.rollout import Sensing
+from ..twin.rollout import Sensing, rollout
 from .anticipation import CURRICULUM, FIRST_SEED, LAST_SEED
 from .data import Timing, scenario
 from .wandering import Wandering
@@ -36,6 +37,15 @@ NOISE: Final = (0.2, 4.0)
 LOST: Final = 0.1
 """Most of their samples that are lost."""
 
+TYPICAL: Final = 6.0
+"""Error of a straight line at which a wide lift has the weight 1 [mm]."""
+
+MOST_WEIGHT: Final = 4.0
+"""Largest weight of a lift, and the smallest's inverse."""
+
+CHUNK: Final = 1000
+"""Most lifts that are weighed at a time."""
+
 SAG: Final = 1.0
 LAG: Final = 0.3
 """Spread of the arms' sag and gain, relative, for a variation of 1."""
@@ -47,6 +57,8 @@ class Pool(NamedTuple):
     lifts: Lifts
     common: int
     """How many lifts are with people of the benchmark's population."""
+    weight: jax.Array
+    """(n,) weight of each lift in the loss."""
 
 
 def draw_pool(count: int, wide: float, first_seed: int = FIRST_SEED) -> Pool:
@@ -75,7 +87,32 @@ def draw_pool(count: int, wide: float, first_seed: int = FIRST_SEED) -> Pool:
     common = count - round(wide * count)
     drawn = [carried_out(scenario(seed, CURRICULUM, Timing()), seed) for seed in seeds[:common]]
     drawn += [carried_out(_wide(seed), seed) for seed in seeds[common:]]
-    return Pool(stack([_cut(lift) for lift in drawn]), common)
+    lifts = stack([_cut(lift) for lift in drawn])
+    return Pool(lifts, common, _weights(lifts, common))
+
+
+def _weights(lifts: Lifts, common: int) -> jax.Array:
+    """Return the weights of lifts: 1, and for wide ones by how hard they are for a straight line.
+
+    Their errors differ by an order of magnitude. Without weights, few quick ones would decide what
+    is learned, and the slow ones, of which people who lift together make many, would not count.
+    """
+
+    @jax.jit
+    def line_mm(some_lifts: Lifts) -> jax.Array:
+        return rollout(straight_line, jnp.zeros(some_lifts.size), some_lifts).rmse_mm
+
+    parts = np.array_split(np.arange(lifts.size), -(-lifts.size // CHUNK))
+    errors = jnp.concatenate([line_mm(some(lifts, part)) for part in parts])
+    weight = jnp.clip(TYPICAL / errors, 1 / MOST_WEIGHT, MOST_WEIGHT)
+    return jnp.where(jnp.arange(lifts.size) < common, 1.0, weight)
+
+
+def straight_line(last: jax.Array, view: jax.Array) -> tuple[jax.Array, jax.Array]:
+    """Return the newest height, and the action of :class:`.Extrapolate`."""
+    height = view[RobotObservation.HUMAN_END]
+    rise = jnp.where(view[RobotObservation.TIME] > 0, height - last, 0.0)
+    return height, height + STEPS_AHEAD * rise - view[RobotObservation.HAND_COMMAND]
 
 
 def _wide(seed: int) -> Scenario:
@@ -127,6 +164,8 @@ class Batch(NamedTuple):
     lifts: Lifts
     variation: ArmVariation
     sensing: Sensing
+    weight: jax.Array
+    """(n,) weight of each lift in the loss."""
 
 
 def draw_batch(pool: Pool, size: int, wide: float, varied: float, key: jax.Array) -> Batch:
@@ -150,7 +189,8 @@ def draw_batch(pool: Pool, size: int, wide: float, varied: float, key: jax.Array
     common, total = pool.common, pool.lifts.size
     taken = jax.random.randint(keys[0], (size - many,), 0, common)
     rest = jax.random.randint(keys[1], (many,), common, jnp.maximum(total, common + 1))
-    lifts = some(pool.lifts, jnp.concatenate((taken, rest)))
+    chosen = jnp.concatenate((taken, rest))
+    lifts = some(pool.lifts, chosen)
     variation = ArmVariation(
         sag=jnp.exp(varied * SAG * jax.random.normal(keys[2], (size,))),
         lag=jnp.exp(varied * LAG * jax.random.normal(keys[3], (size,))),
@@ -162,4 +202,5 @@ def draw_batch(pool: Pool, size: int, wide: float, varied: float, key: jax.Array
     noise = MOCAP_NOISE * level * is_wide * jax.random.normal(keys[5], (longest, 2, size))
     chance = LOST * is_wide * jax.random.uniform(keys[6], (size,))
     lost = jax.random.uniform(jax.random.fold_in(key, 1), (longest, size)) < chance
-    return Batch(lifts, variation, Sensing(noise, lost.astype(jnp.float32)))
+    sensing = Sensing(noise, lost.astype(jnp.float32))
+    return Batch(lifts, variation, sensing, pool.weight[chosen])
