@@ -218,10 +218,10 @@ class EmulatedLaboratory:
         """The options that find it."""
         return ("--robot", self.url, "--mocap", f"lsl:{self.stream}")
 
-    def await_line(self, start, seconds=60):
-        """Wait until a line that begins so has been printed."""
+    def await_line(self, start, seconds=60, after=0):
+        """Wait until a line that begins so has been printed, once more than ``after`` times."""
         end = time.monotonic() + seconds
-        while not any(line.startswith(start) for line in self.lines):
+        while sum(line.startswith(start) for line in self.lines) <= after:
             assert time.monotonic() < end, f"the emulator does not say {start!r}"
             time.sleep(0.02)
 

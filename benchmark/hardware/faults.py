@@ -102,6 +102,10 @@ class Schedule:
         fault = parse_fault(text)
         self._faults.append(replace(fault, start=now + fault.start))
 
+    def clear(self) -> None:
+        """End all faults that have come."""
+        self._faults = []
+
     def active(self, now: float) -> list[Fault]:
         """Return the active faults; their ``start`` is on the same clock."""
         return [fault for fault in self._faults if fault.active(now)]

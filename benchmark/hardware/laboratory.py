@@ -96,7 +96,7 @@ class Laboratory:
             "ALAutonomousLife": LifeService(),
             "ALTextToSpeech": SpeechService(self._heard, log, pause),
             "ALSystem": SystemService(),
-            FAULTS: FaultService(self.request),
+            FAULTS: FaultService(self.request, self._faults.clear),
         }
         """NAOqi's services by name, and the one that faults are requested of."""
 

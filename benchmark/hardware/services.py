@@ -206,12 +206,16 @@ class SpeechService:
 class FaultService:
     """ColiftFaults: lets something go wrong; a real robot has none such."""
 
-    def __init__(self, request: Callable[[str], float]) -> None:
-        self._request = request
+    def __init__(self, request: Callable[[str], float], clear: Callable[[], None]) -> None:
+        self._request, self._clear = request, clear
 
     def request(self, fault: str) -> float:
         """Let a fault ``KIND@START[:DURATION[:VALUE]]`` come; return the emulator's time [s]."""
         return self._request(fault)
+
+    def clear(self) -> None:
+        """Let what went wrong be right again, up to connections that were closed."""
+        self._clear()
 
 
 class SystemService:

@@ -38,6 +38,10 @@ RELEASE_TIME: Final = 2.0
 SLOW: Final = 0.08
 """Fraction of the greatest speed at which the arms go to the rest posture: 0.6 rad/s."""
 
+LAG: Final = 0.3
+"""How long set-points may be behind their commands [s]: two cycles of ALMotion (0.04 s), an answer
+that takes as long as it may (0.15 s), and a margin for a robot that is busy."""
+
 
 class NaoqiArm:
     """Both arms as one :class:`.RobotArm`.
@@ -64,8 +68,9 @@ class NaoqiArm:
         self._command = 0.0
         self._set_point = 0.0
         self._set_angles: NDArray[np.float64] = np.array(self._path.joint_angles(0.0))
-        # Where this client's commands led in the last steps: set-points are between these.
-        self._targets = deque([self._set_angles], maxlen=3)
+        # Where this client's commands led in the last steps, and how many of them count.
+        self._targets = deque([self._set_angles])
+        self._kept = 2
         self._stopped = False
         self.taken = ""
         """Who commands the robot, once it is somebody else: nothing is sent to it any more."""
@@ -95,10 +100,17 @@ class NaoqiArm:
                 ("getStiffnesses", NAMES),
             ],
         )
-        ways = np.array([self._set_angles, *self._targets])
+        targets = np.array(self._targets)
+        # Between where it was seen and where it is sent; and where it was ever sent of late, or a
+        # joint that somebody else holds would never be astray.
+        way = np.array([self._set_angles, *targets[-3:]])
+        low = np.maximum(way.min(axis=0), targets.min(axis=0))
+        high = np.minimum(way.max(axis=0), targets.max(axis=0))
         now = self._set_angles = np.array(set_angles)
-        self._targets.append(self._targets[-1])
-        outside = np.maximum(ways.min(axis=0) - now, now - ways.max(axis=0))
+        self._targets.append(targets[-1])
+        while len(self._targets) > self._kept:
+            self._targets.popleft()
+        outside = np.maximum(low - now, now - high)
         height, set_point = hand_heights(np.array([measured, set_angles]))
         self._set_point = set_point - self.weight_offset
         return ArmState(height, self._set_point, min(stiffness), max(0.0, float(outside.max())))
@@ -112,6 +124,7 @@ class NaoqiArm:
             raise RobotLostError("the hands are stopped: no command is taken any more")
         self._refuse_if_taken()
         self._command = next_command(height, self._command, self._set_point, duration, self.limits)
+        self._kept = 1 + round(LAG / duration)
         angles = self._path.joint_angles(self._command + self.weight_offset)
         self._send(angles, duration)
         return self._command
@@ -171,9 +184,8 @@ class NaoqiArm:
         rest = self._path.joint_angles(0.0)
         self.motion("angleInterpolationWithSpeed", NAMES, rest, SLOW)
         self._command = 0.0
-        self._targets.append(np.array(rest))
         self.state()
-        self._targets.extend([np.array(rest)] * 3)
+        self._targets = deque([np.array(rest)])
 
     def stiffen(self, stiffness: float) -> None:
         """Bring the arms' stiffness to a value in [0, 1], smoothly."""

@@ -46,6 +46,27 @@ def test_motion_capture_that_stays_bad_holds_the_hands_and_then_stops_them(
     assert rests(trial)
 
 
+class Rise:
+    """Lifts its end by 8 mm a step, up to 64 mm."""
+
+    def reset(self, seed):
+        pass
+
+    def act(self, observation):
+        return np.array([0.008 if observation[3] < 0.06 else 0.0])
+
+
+@pytest.mark.parametrize("value", [0.3, 0.5, 0.7, 1.2])
+@pytest.mark.parametrize("late", [0.0, 0.04, 0.08])
+def test_a_set_point_that_somebody_else_holds_is_noticed_whenever_it_comes(play, value, late):
+    """The shoulder is at 0.57 rad when it comes, and on its way to 0.44 rad."""
+    trial = play(Rise(), faults={6: f"foreign-setpoint@{late}:99:{value}"}, duration=3.0)
+    assert trial.log.stop is Stop.MOTORS
+    assert "something else commands the robot" in trial.log.reason
+    # On the way of this client's own commands, it is seen once these have left it behind.
+    assert trial.ended <= (0.7 if value == 0.5 else 0.1 + REACTION)
+
+
 def test_ends_that_are_taken_for_each_other_hold_the_hands_and_then_stop_them(play):
     trial = play("hold", faults={25: "swap@0"})
     assert trial.held_since(HoldReason.JUMP) <= REACTION

@@ -1,29 +1,41 @@
 """Faults over the real protocols: another process is the robot and the motion capture.
 
-What depends on the machine's load is measured along: how late the loop began its steps.
+How long each reaction takes is asserted in simulated time (test_faults.py). Here a machine that has
+other work delays robot, motion capture and loop alike: a fault begins when the emulator says so, and
+stays until the trial has ended; the limits are those of the trial's own log.
 """
 
 import time
 from contextlib import suppress
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from colift.agents.hardware.clocks import MonotonicClock
+from colift.agents.hardware.conduct import LARGEST_REVERSAL, TILT_TIME, reversed_path
 from colift.agents.hardware.decisions import Timed
+from colift.agents.hardware.holds import LIMIT
 from colift.agents.hardware.loop import LoopSettings, run_trial
 from colift.agents.hardware.lsl import Layout, LslCapture
 from colift.agents.hardware.nao.naoqi import NAMES, NaoqiArm
 from colift.agents.hardware.nao.session import NaoqiSession
+from colift.agents.hardware.plausibility import STALE
 from colift.agents.hardware.ports import RobotLostError
+from colift.agents.hardware.safety import ASTRAY
 from colift.agents.hardware.setup import measure_rest
-from colift.agents.hardware.stops import Stop
+from colift.agents.hardware.stops import HoldReason, Stop
 from colift.agents.hardware.trial_end import AfterDuration
 
 AT = 6
 """Step before which the fault comes."""
 
 REACTION = 0.2
-"""How long after its limit a fault may take to be acted on [s]."""
+"""How long after its limit a fault may take to hold the hands [s]."""
+
+LATE = {HoldReason.POLICY_LATE, HoldReason.POLICY_BUSY}
+OLD = {HoldReason.STALE, HoldReason.FEW}
+AGEING = ("dropout", "slow", "future", "nan-stamps", "latency", "jitter", "stream-end")
+LOSING = ("silence", "hang")
 
 
 class Rise:
@@ -57,19 +69,23 @@ class Raise:
 
 
 class Faulty(AfterDuration):
-    """A trial's end that lets faults come before a step."""
+    """A trial's end that lets faults come before a step, and waits until the first is there."""
 
-    def __init__(self, duration, session, fault):
+    def __init__(self, duration, laboratory, session, fault):
         super().__init__(duration=duration)
-        self.session, self.fault, self.came = session, fault, None
+        self.laboratory, self.session = laboratory, session
+        self.fault, self.came = fault, None
 
     def over(self, log):
-        if len(log.steps) == AT and self.came is None:
-            self.came = time.monotonic()
+        if len(log.steps) == AT and self.fault and self.came is None:
+            line = "fault " + self.fault.partition("@")[0]
+            seen = self.laboratory.lines.count(line)
             # A connection that closes may take the answer with it.
             with suppress(RobotLostError):
                 for text in self.fault.split():
-                    self.came = self.session.call("ColiftFaults", "request", text)
+                    self.session.call("ColiftFaults", "request", text)
+            self.laboratory.await_line(line, after=seen)
+            self.came = time.monotonic()
         return super().over(log)
 
 
@@ -85,40 +101,71 @@ def capture(laboratory):
 @pytest.fixture
 def lift(laboratory, capture):
     """Play a short trial with a fault; the hands begin at rest, and the person stays there."""
-    sessions = []
 
-    def play(fault, duration, policy=Rise, tries=3):
-        # Where other processes keep the emulator from answering in time, the robot counts as lost.
-        lost = fault.startswith(("silence", "hang", "stream-end"))
+    def play(fault, duration, policy=Rise, tries=5):
         for _ in range(tries):
             with suppress(RobotLostError):
-                played = once(fault, duration, policy)
-                if lost or played[0].stop is not Stop.ROBOT_LOST:
+                log, came = once(fault, duration, policy)
+                if not disturbed(fault, log, came):
                     break
-            time.sleep(4.0)
-        return played
+        return log, came
 
     def once(fault, duration, policy):
         session = NaoqiSession(laboratory.url)
-        sessions.append(session)
-        arm = NaoqiArm(session)
-        arm.take_hold()
-        time.sleep(0.3)
-        arm.weight_offset = -arm.state().height
-        end = Faulty(duration, session, fault)
-        decider = Timed(policy())
-        log = run_trial(arm, capture, decider, MonotonicClock(), settings=LoopSettings(), end=end)
-        finished = time.monotonic()
-        decider.close()
-        steps = log.steps
-        # What the machine, not the loop, is late by.
-        slip = max(step.time - step.deadline for step in steps) + 0.1 * log.late_steps
-        slip += steps[-1].policy_time + steps[-1].state_time
-        return log, end.came, finished - end.came - slip
+        try:
+            arm = NaoqiArm(session)
+            arm.take_hold()
+            time.sleep(0.3)
+            arm.weight_offset = -arm.state().height
+            end = Faulty(duration, laboratory, session, fault)
+            decider = Timed(policy())
+            capture.drain()
+            log = run_trial(
+                arm, capture, decider, MonotonicClock(), settings=LoopSettings(), end=end
+            )
+            decider.close()
+            return log, end.came
+        finally:
+            session.close()
+            well(laboratory)
 
-    yield play
-    for session in sessions:
-        session.close()
+    return play
+
+
+def disturbed(fault, log, came):
+    """Return whether the trial tells of the machine's other work, and not of the fault."""
+    holds = {step.hold for step in log.steps}
+    return (
+        bool(fault and came is None)
+        or (log.stop is Stop.ROBOT_LOST and not fault.startswith(LOSING))
+        or bool(holds & LATE)
+        or bool(holds & OLD and not fault.startswith(AGEING))
+    )
+
+
+def well(laboratory):
+    """End the faults, and wait until the robot answers and late frames have come."""
+    session = NaoqiSession(laboratory.url)
+    session.call("ColiftFaults", "clear", within=3.0)
+    session.call("ALMotion", "getAngles", NAMES, False, within=3.0)
+    session.close()
+    time.sleep(0.5)
+
+
+def held(steps):
+    """Return how long the hands were held until the last of some steps [s]."""
+    return sum(after.time - before.time for before, after in pairwise(steps) if before.hold)
+
+
+def stopped_by_the_limit(log):
+    """Return whether no earlier held step was beyond the limit of holds."""
+    earlier = [k for k, step in enumerate(log.steps[:-1]) if step.hold]
+    return held(log.steps[: earlier[-1] + 1]) <= LIMIT - log.period / 2 + 1e-9
+
+
+def since(log, came):
+    """Return the steps that began when the fault was there."""
+    return [step for step in log.steps if step.time > came]
 
 
 def still(laboratory, seconds=0.5):
@@ -132,101 +179,114 @@ def still(laboratory, seconds=0.5):
     return len(seen) > 5 and all(angles == seen[0] for angles in seen)
 
 
+def comes_to_rest(laboratory, seconds=30):
+    """Return whether the set-points stop moving."""
+    end = time.monotonic() + seconds
+    while not still(laboratory):
+        if time.monotonic() > end:
+            return False
+    return True
+
+
 @pytest.mark.parametrize(
-    ("fault", "detected", "stop", "stopped"),
+    ("fault", "detected", "stop"),
     [
-        ("dropout@0:1.5", 0.2, Stop.CAPTURE_LOST, 1.0),
-        ("latency@0:1.6:0.4", 0.2, Stop.CAPTURE_LOST, 1.2),
-        ("nan@0:1.5", 0.05, Stop.CAPTURE_UNUSABLE, 1.05),
-        ("freeze@0:1.6", 0.15, Stop.CAPTURE_UNUSABLE, 1.15),
-        ("unit-change@0:1.5", 0.05, Stop.CAPTURE_UNUSABLE, 1.05),
-        ("future-stamps@0:1.5", 0.2, Stop.CAPTURE_LOST, 1.0),
-        ("nan-stamps@0:1.5", 0.2, Stop.CAPTURE_LOST, 1.0),
-        ("slow@0:2.5", 0.95, Stop.CAPTURE_LOST, 1.95),
+        ("dropout@0", 0.2, Stop.CAPTURE_LOST),
+        ("latency@0:99:0.4", 0.2, Stop.CAPTURE_LOST),
+        ("nan@0", 0.05, Stop.CAPTURE_UNUSABLE),
+        ("freeze@0", 0.15, Stop.CAPTURE_UNUSABLE),
+        ("unit-change@0", 0.05, Stop.CAPTURE_UNUSABLE),
+        ("future-stamps@0", 0.2, Stop.CAPTURE_LOST),
+        ("nan-stamps@0", 0.2, Stop.CAPTURE_LOST),
+        ("slow@0", 0.95, Stop.CAPTURE_LOST),
     ],
 )
 def test_motion_capture_that_stays_bad_holds_the_hands_and_then_stops_them(
-    laboratory, lift, fault, detected, stop, stopped
+    laboratory, lift, fault, detected, stop
 ):
-    log, came, ended = lift(fault, 5.0)
+    log, came = lift(fault, 15.0)
     assert (log.stop, log.reason != "") == (stop, True)
-    late = [step for step in log.steps if step.time - came > detected + REACTION]
-    assert len(late) >= 3
+    late = since(log, came + detected + REACTION)
+    assert late
     assert all(step.hold and step.command == step.hand_command for step in late)
-    assert ended <= stopped + REACTION
+    assert stopped_by_the_limit(log)
     assert still(laboratory)
-    lasts = sum(map(float, fault.partition("@")[2].split(":")))
-    time.sleep(max(0.0, came + lasts + 0.4 - time.monotonic()))
 
 
 def test_bursts_that_each_pass_end_the_trial_together(laboratory, lift):
-    bursts = " ".join(f"dropout@{start}:0.6" for start in range(4))
-    log, came, ended = lift(bursts, 6.0)
+    bursts = " ".join(f"dropout@{start}:0.6" for start in range(12))
+    log, came = lift(bursts, 15.0)
     assert log.stop is Stop.CAPTURE_LOST
-    assert "held for 1.0 s of the last 5 s" in log.reason
-    after = [step for step in log.steps if step.time > came]
-    assert any(not step.hold for step in after[8:])
-    assert 1.0 < ended <= 2.6 + REACTION
+    assert "s of the last 5 s" in log.reason
+    first = next(k for k, step in enumerate(log.steps) if step.time > came and step.hold)
+    assert any(not step.hold for step in log.steps[first:])
+    assert stopped_by_the_limit(log)
     assert still(laboratory)
-    time.sleep(max(0.0, came + 3.8 - time.monotonic()))
 
 
-@pytest.mark.parametrize(
-    ("policy", "told", "within"), [(Shake, "shakes the table", 1.0), (Raise, "is tilted", 1.0)]
-)
-def test_a_policy_that_shakes_or_tilts_the_table_is_stopped(laboratory, lift, policy, told, within):
-    log, _, _ = lift("jitter@0:0.1:0", 5.0, policy)
+def test_a_policy_that_shakes_the_table_is_stopped(laboratory, lift):
+    log, _ = lift("", 15.0, Shake)
     assert log.stop is Stop.POLICY
-    assert told in log.reason
-    late = log.late_steps * log.period
-    assert log.steps[-1].deadline - log.start <= within + REACTION + late
+    assert "shakes the table" in log.reason
+    reversals = [
+        reversed_path([s.command for s in log.steps[: k + 1] if s.time >= step.time - 1.0])
+        for k, step in enumerate(log.steps)
+    ]
+    assert max(reversals[:-1]) <= LARGEST_REVERSAL < reversals[-1]
+    assert still(laboratory)
+
+
+def test_a_policy_that_tilts_the_table_is_stopped(laboratory, lift):
+    log, _ = lift("", 15.0, Raise)
+    assert log.stop is Stop.POLICY
+    assert "is tilted" in log.reason
     # The hands of the person give way, by a quarter of what the table rises.
     assert max(step.command for step in log.steps) <= 0.19
+    judged = [step for step in log.steps if not step.hold]
+    clipped = next(step for step in judged if step.command < step.hand_command + 0.03)
+    assert judged[-2].time - clipped.time <= TILT_TIME
     assert still(laboratory)
 
 
 @pytest.mark.parametrize("fault", ["jitter@0:0.8:0.08", "dropout@0:0.1"])
 def test_what_can_be_lived_with_is(lift, fault):
-    log, came, _ = lift(fault, 1.6)
+    log, came = lift(fault, 1.6)
     assert log.stop is None
-    after = [step for step in log.steps if step.time > came]
-    assert sum(not step.hold for step in after) > len(after) / 2
+    after = since(log, came)
+    assert any(not step.hold for step in after)
+    fresh = [step for step in after if step.sensing_age <= STALE]
+    assert not any(step.hold for step in fresh if step.hold not in LATE)
 
 
 def test_motors_without_stiffness_stop_the_trial(laboratory, lift):
-    log, _, ended = lift("motor-off@0:1.0", 3.0)
+    log, came = lift("motor-off@0", 15.0)
     assert log.stop is Stop.MOTORS
     assert "stiffness 0.00" in log.reason
-    assert ended <= REACTION
+    (last,) = since(log, came)
+    assert last.command == last.hand_command
     assert still(laboratory)
-    time.sleep(1.0)
 
 
 def test_a_set_point_that_somebody_else_gave_stops_the_trial(laboratory, lift):
-    log, came, ended = lift("foreign-setpoint@0:0.6", 3.0)
+    """Away from the way of the hands: 0.77 rad at rest, and less further up."""
+    log, came = lift("foreign-setpoint@0:99:1.2", 15.0)
     assert log.stop is Stop.MOTORS
     assert "something else commands the robot" in log.reason
-    assert ended <= REACTION
-    assert max(step.astray for step in log.steps if step.time < came) < 1e-6
-    time.sleep(0.6)
-    assert still(laboratory)
+    *before, last = log.steps
+    assert max(step.astray for step in before if step.time < came) < 1e-6
+    assert max(step.astray for step in before) <= ASTRAY < last.astray
+    assert last.command == last.hand_command
+    assert comes_to_rest(laboratory)
 
 
-def test_a_robot_that_hangs_stops_the_trial(laboratory, lift):
-    log, came, ended = lift("hang@0:1.0", 3.0)
+@pytest.mark.parametrize("fault", LOSING)
+def test_a_robot_that_does_not_answer_stops_the_trial(laboratory, lift, fault):
+    """It answers nothing at all, or nothing about its joints."""
+    log, came = lift(f"{fault}@0", 15.0)
     assert log.stop is Stop.ROBOT_LOST
     assert "no answer within 0.15 s" in log.reason
-    # The last call, which is to freeze the arms, is not answered either.
-    assert ended <= 0.15 + 0.15 + REACTION
-    time.sleep(max(0.0, came + 1.2 - time.monotonic()))
-    assert still(laboratory)
-
-
-def test_a_robot_that_does_not_answer_stops_the_trial(laboratory, lift):
-    log, came, ended = lift("silence@0:1.0", 3.0)
-    assert log.stop is Stop.ROBOT_LOST
-    assert ended <= 0.15 + REACTION
-    time.sleep(max(0.0, came + 1.2 - time.monotonic()))
+    # The emulator says it just before it does it.
+    assert len(since(log, came)) <= 1
     assert still(laboratory)
 
 
@@ -234,9 +294,10 @@ def test_a_robot_that_does_not_answer_stops_the_trial(laboratory, lift):
 
 
 def test_a_stream_that_ends_stops_the_trial(laboratory, lift):
-    log, _, ended = lift("stream-end@0", 4.0)
+    log, came = lift("stream-end@0", 15.0)
     assert log.stop is Stop.CAPTURE_LOST
-    assert ended <= 1.0 + REACTION
+    assert all(step.hold for step in since(log, came + STALE + REACTION))
+    assert not log.steps[-2].hold or stopped_by_the_limit(log)
     assert still(laboratory)
 
 
@@ -246,7 +307,7 @@ def test_a_robot_whose_connection_closes_stops_the_trial(emulate):
     capture = LslCapture(laboratory.stream, Layout())
     rest = measure_rest(capture, MonotonicClock())
     capture.set_rest(rest.human_end, rest.robot_end)
-    end = Faulty(4.0, session, "disconnect@0")
+    end = Faulty(15.0, laboratory, session, "disconnect@0")
     decider = Timed(Rise())
     log = run_trial(
         NaoqiArm(session), capture, decider, MonotonicClock(), settings=LoopSettings(), end=end
@@ -254,8 +315,7 @@ def test_a_robot_whose_connection_closes_stops_the_trial(emulate):
     decider.close()
     capture.close()
     assert log.stop is Stop.ROBOT_LOST
-    assert log.steps[-1].time < end.came + 0.15 + REACTION
+    assert len(since(log, end.came)) <= 1
     # Nothing reaches the robot any more.
-    laboratory.await_line("fault disconnect")
     after = laboratory.lines[laboratory.lines.index("fault disconnect") :]
     assert not any(line.startswith("motion") for line in after)
