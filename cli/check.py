@@ -110,7 +110,8 @@ def _files(submission: Submission) -> Iterator[Check]:
         text += f". Write in policy.toml {' and '.join(wanted)}"
     yield Check(name="manifest", ok=True, message=text, warning=bool(wanted))
     wrong = list(undeclared(submission.folder, contents, manifest.packages))
-    text = "; ".join(wrong) or ", ".join(manifest.packages) or "none but Python's own"
+    none = "none: a network runs without code" if manifest.model else "none but Python's own"
+    text = "; ".join(wrong) or ", ".join(manifest.packages) or none
     yield Check(name="packages", ok=not wrong, message=text)
 
 

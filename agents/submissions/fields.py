@@ -12,6 +12,7 @@ from urllib.parse import urlsplit
 from ..errors import InputError
 from ..loading.parameters import merged
 from ..registry import POLICIES, own_entries
+from .folder import NAME as PART
 from .packages import PACKAGES, installed
 
 NAME: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9 ._+-]{0,39}")
@@ -88,6 +89,14 @@ def entry_point(value: Any) -> str:
     if parts[0] in {*sys.stdlib_module_names, *PACKAGES.values(), "colift"}:
         raise _wrong(value, f"{valid}: {parts[0]} is a module of Python or of a package")
     return value
+
+
+def model(value: Any) -> str:
+    """Return the path of a network in the folder."""
+    parts = value.split("/") if isinstance(value, str) else []
+    if not (parts and parts[-1].endswith(".onnx") and all(map(PART.fullmatch, parts))):
+        raise _wrong(value, 'the path of an ONNX file in this folder, such as "policy.onnx"')
+    return "/".join(parts)
 
 
 def parameters(value: Any) -> str:

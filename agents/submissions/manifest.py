@@ -33,6 +33,9 @@ class Manifest:
     """Training data, and where to find it; ``nothing`` if there is none."""
     link: str = ""
     """Address of a page, paper or repository with more information."""
+    model: str = ""
+    """The network that is the policy, a file ``.onnx`` in the folder: no code of the folder runs,
+    and ``entry_point``, ``parameters``, ``packages`` and ``preload`` are not given."""
     entry_point: str = "policy:Policy"
     """``module:Class``, with the module in the folder."""
     parameters: str = ""
@@ -50,12 +53,16 @@ READ: Final[Mapping[str, Callable[[Any], Any]]] = {
     "licence": fields.line,
     "trained_on": fields.text,
     "link": fields.link,
+    "model": fields.model,
     "entry_point": fields.entry_point,
     "parameters": fields.parameters,
     "packages": fields.packages,
     "preload": fields.flag,
 }
 """Validator of each key's value."""
+
+OF_CODE: Final = ("entry_point", "parameters", "packages", "preload")
+"""Keys of a policy that is code, and not a network."""
 
 REQUIRED: Final = tuple(field.name for field in fields_of(Manifest) if field.default is MISSING)
 
@@ -95,6 +102,11 @@ def read_manifest(data: bytes, where: str = MANIFEST) -> Manifest:
     missing = [key for key in REQUIRED if key not in content]
     if missing:
         raise InputError(f"{where}: {missing[0]} is missing; it must have {', '.join(REQUIRED)}")
+    for key in OF_CODE:
+        if key in content and "model" in content:
+            raise InputError(
+                f"{where}: model and {key} exclude each other: a network runs without code of yours"
+            )
     values = {}
     for key, value in content.items():
         try:

@@ -1,4 +1,4 @@
-"""A submission: a folder with ``policy.toml`` and ``policy.py``, as a policy that can be run."""
+"""A submission: a folder with ``policy.toml`` and its code or network, as a policy to be run."""
 
 import hashlib
 import os
@@ -18,6 +18,10 @@ from .trusted import TrustedSubmission
 
 DIGEST: Final = 16
 """Hexadecimal digits of the digests in tables."""
+
+
+NETWORK: Final = "colift.agents.onnx.policy:OnnxPolicy"
+"""The policy that runs a submission's network."""
 
 
 def digest_with(source: str, parameters: str) -> str:
@@ -48,8 +52,8 @@ class Submission:
         """
         return SandboxedPolicy(
             name=self._name(parameters),
-            place=self.manifest.entry_point,
-            parameters=merged(self.manifest.parameters, parameters),
+            place=self._place,
+            parameters=self._parameters(parameters),
             folder=self.folder,
             source_digest=self._digest(parameters),
             preload=self.manifest.preload,
@@ -60,11 +64,24 @@ class Submission:
         """Return the policy to run in this process, without isolation: its code must be trusted."""
         return TrustedSubmission(
             name=self._name(parameters),
-            entry_point=self.manifest.entry_point,
-            parameters=merged(self.manifest.parameters, parameters),
+            entry_point=self._place,
+            parameters=self._parameters(parameters),
             folder=self.folder,
             source_digest=self._digest(parameters),
         )
+
+    @property
+    def _place(self) -> str:
+        return NETWORK if self.manifest.model else self.manifest.entry_point
+
+    def _parameters(self, parameters: str) -> str:
+        if not self.manifest.model:
+            return merged(self.manifest.parameters, parameters)
+        if parameters:
+            raise InputError(
+                f"{self.manifest.name} is a network, which has no parameters; got {parameters!r}"
+            )
+        return f"model={self.manifest.model}"
 
     def _name(self, parameters: str) -> str:
         return f"{self.manifest.name},{parameters}" if parameters else self.manifest.name
@@ -127,6 +144,9 @@ def _submission(folder: Path, contents: Contents, shown: str) -> Submission:
     if MANIFEST not in contents.paths:
         raise _without_manifest(shown)
     manifest = read_manifest((folder / MANIFEST).read_bytes(), f"{shown}/{MANIFEST}")
+    if manifest.model:
+        _check_network(folder, manifest.model, contents, shown)
+        return Submission(folder=folder, manifest=manifest, contents=contents)
     module, _, _ = manifest.entry_point.partition(":")
     file = module.replace(".", "/")
     if not {f"{file}.py", f"{file}/__init__.py"} & set(contents.paths):
@@ -136,3 +156,17 @@ def _submission(folder: Path, contents: Contents, shown: str) -> Submission:
             f"the folder has {', '.join(sources[:5]) or 'no Python file'}"
         )
     return Submission(folder=folder, manifest=manifest, contents=contents)
+
+
+def _check_network(folder: Path, model: str, contents: Contents, shown: str) -> None:
+    """Raise an InputError if a network is missing, or must not be run."""
+    if model not in contents.paths:
+        networks = [path for path in contents.paths if path.endswith(".onnx")]
+        raise InputError(
+            f"{shown}/{MANIFEST}: model {model!r} is not in the folder; it has "
+            f"{', '.join(networks[:5]) or 'no .onnx file'}"
+        )
+    # Only this kind of submission needs the extra.
+    from ..onnx.network import read_network
+
+    read_network(folder / model, f"{shown}/{model}")

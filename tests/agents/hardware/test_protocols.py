@@ -1,8 +1,8 @@
 """Faults over the real protocols: another process is the robot and the motion capture.
 
-How long each reaction takes is asserted in simulated time (test_faults.py). Here a machine that has
-other work delays robot, motion capture and loop alike: a fault begins when the emulator says so, and
-stays until the trial has ended; the limits are those of the trial's own log.
+How long each reaction takes is asserted in simulated time (test_faults.py). Here a machine that
+has other work delays robot, motion capture and loop alike: a fault begins when the emulator says
+so, and stays until the trial has ended; the limits are those of the trial's own log.
 """
 
 import time

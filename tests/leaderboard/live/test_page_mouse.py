@@ -36,8 +36,8 @@ def test_a_lift_by_mouse_from_the_click_to_the_replay(url, sessions):
     assert log.heights.tolist() == pytest.approx(heights[:used])
     report = json.loads(folder.with_name("001-copy.times.json").read_text())
     delays = [each for part in report["seat_0"] for each in part["delays_ms"]]
-    assert len(delays) > 100
-    assert 0 < min(delays) < 500
+    assert len(delays) > 20  # At ten pictures a second, too.
+    assert 0 < min(delays) < 4000
 
 
 async def lifted(url: str) -> Hand:
