@@ -19,6 +19,9 @@ from ..errors import InputError
 AGENTS: Final = Path(__file__).resolve().parents[1]
 """The part of colift that the guest sees: ``colift.agents``, without the humans."""
 
+OURS: Final = "colift.agents."
+"""Beginning of the modules of colift's own policies; a submission's folder has no code for them."""
+
 EPISODE: Final = "episode"
 PRELOAD: Final = "preload"
 PROBE: Final = "probe"

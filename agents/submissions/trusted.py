@@ -5,13 +5,14 @@ import importlib
 import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
 from ..agent import Agent
 from ..loading.loading import PolicySpec
+from ..sandbox.protocol import OURS
 from ..spec import InProcess
 
 _importing: Final = threading.Lock()
@@ -54,13 +55,18 @@ class TrustedSubmission(InProcess):
 
     def check(self) -> None:
         """Raise an InputError if its class cannot be loaded, or has no such parameter."""
-        with _imports_from(self.folder):
+        with self._imports():
             self._spec.check()
 
     def make(self) -> Agent:
         """Return a new policy object."""
-        with _imports_from(self.folder):
+        with self._imports():
             return self._spec.make()
+
+    def _imports(self) -> AbstractContextManager[None]:
+        """Return the context of its modules: a network's folder has none."""
+        own = self.entry_point.startswith(OURS)
+        return contextlib.chdir(self.folder) if own else _imports_from(self.folder)
 
     @property
     def _spec(self) -> PolicySpec:

@@ -19,14 +19,13 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
-from ..protocol import ORDER, PRELOAD, PROBE, Assignment, Limits
+from ..protocol import ORDER, OURS, PRELOAD, PROBE, Assignment, Limits
 from . import landlock, linux
 from .probe import probe
 from .restrictions import Restrictions
 from .server import serve, serve_forks
 from .spawn import Ends, spawn
 
-OURS: Final = "colift.agents."
 LOADED: Final = "colift.agents.loading.loaded"
 
 _TRIAL_SECONDS: Final = 30.0

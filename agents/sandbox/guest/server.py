@@ -25,7 +25,17 @@ from ...loading.description import described
 from ...loading.loading import PolicySpec
 from ...loading.parameters import make_with, read_values
 from ...registry import summary
-from ..protocol import INTERNALS, NAME, REASON, Assignment, Channel, ClosedError, WireError, packed
+from ..protocol import (
+    INTERNALS,
+    NAME,
+    OURS,
+    REASON,
+    Assignment,
+    Channel,
+    ClosedError,
+    WireError,
+    packed,
+)
 
 _OURS: Final = f"{Path(__file__).parent}/"
 """Colift's own files, whose lines in a traceback would not help the policy's author."""
@@ -140,8 +150,9 @@ class _Server:
 
 
 def _load(place: str) -> type[Agent]:
-    """Return the policy's class; modules beside its file can be imported."""
-    sys.path.insert(0, str(Path.cwd()))
+    """Return the policy's class; modules beside its file can be imported, if it is not colift's."""
+    if not place.startswith(OURS):
+        sys.path.insert(0, str(Path.cwd()))
     return PolicySpec(text=place).load()
 
 

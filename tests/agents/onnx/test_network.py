@@ -1,0 +1,283 @@
+"""What of a network is refused before it runs, and that the message names it."""
+
+import re
+
+import numpy as np
+import pytest
+
+pytest.importorskip("onnx", reason="needs onnx: uv sync --all-extras")
+
+from colift.agents.errors import InputError
+from colift.agents.onnx.network import LARGEST, parse_network
+from colift.agents.onnx.sizes import check_sizes
+from onnx import TensorProto, helper
+
+from .networks import DOUBLE, FLOAT, model, node, proportional, recurrent, value, weights
+
+SEEN, ACTION = [value("seen", [5])], [value("action", [1])]
+FIRST = weights("first", [0], np.int64)
+PICK = ("Gather", "seen first", "action")
+
+
+def checked(made):
+    """Return what is refused of a model, or an empty text."""
+    data = made if isinstance(made, bytes) else made.SerializeToString()
+    try:
+        check_sizes(parse_network(data, "policy.onnx"))
+    except InputError as error:
+        return str(error)
+    return ""
+
+
+def picked(**changes):
+    """Return a good network with changes: its action is the first number that it sees."""
+    parts = {"nodes": [PICK], "inputs": SEEN, "outputs": ACTION, "tensors": [FIRST]}
+    return model(**{**parts, **changes})
+
+
+def external():
+    made = picked()
+    tensor = made.graph.initializer[0]
+    helper_entry = tensor.external_data.add()
+    helper_entry.key, helper_entry.value = "location", "../secret"
+    tensor.data_location = TensorProto.EXTERNAL
+    tensor.ClearField("raw_data")
+    return made
+
+
+def branching():
+    inner = helper.make_graph(
+        [node("Identity", "seen", "inner")], "inner", [], [value("inner", [5])]
+    )
+    return picked(
+        nodes=[node("If", "yes", "action", then_branch=inner, else_branch=inner)],
+        tensors=[weights("yes", True, np.bool_)],
+    )
+
+
+def with_function():
+    body = helper.make_function(
+        "own", "Own", ["x"], ["y"], [node("Identity", "x", "y")], [helper.make_opsetid("", 17)]
+    )
+    return picked(functions=[body])
+
+
+def sparse():
+    made = picked()
+    made.graph.sparse_initializer.add()
+    return made
+
+
+def of_wrong_data():
+    made = picked()
+    made.graph.initializer[0].dims[0] = 7
+    return made
+
+
+def of_another_shape():
+    made = picked()
+    made.graph.initializer[0].dims[:] = [-1, 2**40]
+    return made
+
+
+def filled(shape):
+    """Return a network that makes a tensor of a shape from nothing."""
+    return picked(
+        nodes=[
+            PICK[:2] + ("picked",),
+            node("ConstantOfShape", "shape", "huge", value=weights("", [1.0])),
+            ("ReduceSum", "huge", "sum"),
+            ("Add", "picked sum", "wide"),
+            ("Reshape", "wide one", "action"),
+        ],
+        tensors=[FIRST, weights("shape", shape, np.int64), weights("one", [1], np.int64)],
+    )
+
+
+def expanded(shape):
+    return picked(
+        nodes=[
+            ("Expand", "seen shape", "huge"),
+            ("ReduceMax", "huge", "most"),
+            ("Reshape", "most one", "action"),
+        ],
+        tensors=[weights("shape", shape, np.int64), weights("one", [1], np.int64)],
+    )
+
+
+def of_unknown_size():
+    """Return a network the size of whose tensor depends on what it sees, and denies it."""
+    made = picked(
+        nodes=[
+            node("Cast", "seen", "shape", to=TensorProto.INT64),
+            node("ConstantOfShape", "shape", "huge"),
+            node("ReduceSum", "huge", "sum", keepdims=0),
+            node("Reshape", "sum one", "action"),
+        ],
+        tensors=[weights("one", [1], np.int64)],
+    )
+    made.graph.output[0].type.tensor_type.elem_type = FLOAT
+    made.graph.value_info.append(value("huge", [1, 1, 1, 1, 1], FLOAT))
+    return made
+
+
+def of_long_memory():
+    """Return a network whose recurrent operator has far larger inner tensors than its output."""
+    return picked(
+        nodes=[
+            node("Expand", "seen shape", "long"),
+            node("Reshape", "long steps", "sequence"),
+            helper.make_node("GRU", ["sequence", "W", "R"], ["", "last"], hidden_size=200),
+            node("Slice", "last from to", "part"),
+            node("Reshape", "part one", "action"),
+        ],
+        inputs=[value("seen", [5], FLOAT)],
+        outputs=[value("action", [1], FLOAT)],
+        tensors=[
+            weights("shape", [20_000, 5], np.int64),
+            weights("steps", [100_000, 1, 1], np.int64),
+            weights("W", np.ones((1, 600, 1)), np.float32),
+            weights("R", np.ones((1, 600, 200)), np.float32),
+            weights("from", [0, 0, 0], np.int64),
+            weights("to", [1, 1, 1], np.int64),
+            weights("one", [1], np.int64),
+        ],
+    )
+
+
+REFUSED = {
+    "text": (b"import os\n", "is not an ONNX file"),
+    "nothing": (b"", "is not an ONNX file: it has no graph"),
+    "half": (proportional().SerializeToString()[:-30], "is not an ONNX file"),
+    "large": (bytes(LARGEST + 1), "has more than 16 MiB"),
+    "of the future": (picked(ir_version=99), "has the IR version 99; 7 to 10 can be run"),
+    "old": (picked(opset=9), "has the opset 9; 13 to 21 can be run"),
+    "new": (picked(opset=99), "has the opset 99; 13 to 21 can be run"),
+    "another domain": (picked(domains=["com.evil"]), "operators of the domain 'com.evil'"),
+    "an operator of another domain": (
+        picked(nodes=[node("Run", "seen", "action", domain="com.evil")]),
+        "operator 'Run' of the domain 'com.evil'",
+    ),
+    "chance": (
+        picked(nodes=[node("RandomNormal", "", "action", shape=[1])]),
+        "operator 'RandomNormal', which is not allowed",
+    ),
+    "a loop": (branching(), "operator 'If', which is not allowed"),
+    "functions": (with_function(), "functions"),
+    "sparse weights": (sparse(), "sparse weights"),
+    "external data": (external(), "the weights 'first' in another file"),
+    "NaN": (
+        picked(
+            nodes=[PICK[:2] + ("picked",), ("Mul", "picked gain", "action")],
+            tensors=[FIRST, weights("gain", [np.nan])],
+        ),
+        "NaN in the weights 'gain'",
+    ),
+    "NaN in a constant": (
+        picked(
+            nodes=[
+                node("Constant", "", "gain", value=weights("", [np.nan])),
+                ("Gather", "seen first", "picked"),
+                ("Mul", "picked gain", "action"),
+            ]
+        ),
+        "NaN in the attribute 'value' of Constant",
+    ),
+    "half precision": (
+        picked(tensors=[FIRST, weights("half", [1.0], np.float16)]),
+        "the weights 'half', whose type is not float, double, int32, int64 or bool",
+    ),
+    "wrong data": (of_wrong_data(), "the weights 'first', whose data are not of its shape"),
+    "a shape that is none": (of_another_shape(), "the weights 'first' of the shape"),
+    "no input": (picked(nodes=[node("Identity", "first", "action")], inputs=[]), "inputs none"),
+    "three inputs": (
+        picked(inputs=[*SEEN, value("state", [1]), value("goal", [1])]),
+        "inputs 'seen', 'state', 'goal'",
+    ),
+    "two observations and one output": (
+        picked(inputs=[*SEEN, value("more", [5])]),
+        "outputs 'action'; with its inputs it must have the action and the new state",
+    ),
+    "two outputs": (
+        picked(nodes=[PICK, ("Neg", "action", "more")], outputs=[*ACTION, value("more", [1])]),
+        "outputs 'action', 'more'; with its inputs it must have the action",
+    ),
+    "a batch of any size": (
+        picked(inputs=[value("seen", ["batch", 5])]),
+        r"'seen' with the shape \[batch, 5\]: every size must be a number",
+    ),
+    "another observation": (
+        picked(inputs=[value("seen", [6])]),
+        r"observation 'seen' with the shape \[6\]; it must be \[5\] or \[1, 5\]",
+    ),
+    "whole numbers": (
+        picked(inputs=[value("seen", [5], TensorProto.INT64)]),
+        "'seen', which is no tensor of float or double",
+    ),
+    "a large state": (
+        picked(
+            nodes=[PICK, ("Neg", "state", "after")],
+            inputs=[*SEEN, value("state", [10**9])],
+            outputs=[*ACTION, value("after", [10**9])],
+        ),
+        "state 'state' with the shape",
+    ),
+    "another new state": (
+        picked(
+            nodes=[PICK, ("Identity", "seen", "after")],
+            inputs=[*SEEN, value("state", [1])],
+            outputs=[*ACTION, value("after", [5])],
+        ),
+        "new state 'after' with another shape or type than the state 'state'",
+    ),
+    "two actions": (
+        picked(nodes=[("Neg", "seen", "action")], outputs=[value("action", [5])]),
+        r"action 'action' with the shape \[5\]; it must be \[1\]",
+    ),
+    "no such tensor": (picked(nodes=[("Neg", "nowhere", "action")]), "is not a sound graph"),
+    "10 GB from nothing": (filled([50_000, 50_000]), "computes 'huge' of ConstantOfShape"),
+    "10 GB by Expand": (expanded([500_000, 500, 5]), "computes 'huge' of Expand"),
+    "a size that depends on the input": (of_unknown_size(), "'huge' of ConstantOfShape, whose"),
+    "a long memory": (of_long_memory(), "numbers in a GRU; at most"),
+    "many operators": (
+        picked(nodes=[PICK, *[("Neg", "seen", f"n{i}") for i in range(2000)]]),
+        "has 2001 operators; at most 2000",
+    ),
+    "much together": (
+        picked(
+            nodes=[PICK, *[("Expand", "seen shape", f"n{i}") for i in range(20)]],
+            tensors=[FIRST, weights("shape", [50_000, 5], np.int64)],
+        ),
+        "computes 5000001 numbers in a step",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_a_hostile_file_is_refused_by_name(name):
+    made, told = REFUSED[name]
+    found = checked(made)
+    assert found
+    assert re.search(told, found), found
+
+
+GOOD = {
+    "one operator": picked(),
+    "proportional": proportional(),
+    "in single precision": proportional(FLOAT),
+    "without a row": proportional(shape=(5,)),
+    "recurrent": recurrent(),
+    "the newest opset": picked(opset=21, ir_version=10),
+}
+
+
+@pytest.mark.parametrize("name", GOOD)
+def test_a_good_network_is_not_refused(name):
+    assert checked(GOOD[name]) == ""
+
+
+def test_the_signature_is_read():
+    network = parse_network(recurrent().SerializeToString(), "policy.onnx")
+    assert (network.observation.name, network.observation.shape) == ("seen", (5,))
+    assert (network.state.shape, network.state.kind) == ((1,), DOUBLE)
+    assert network.outputs == ("action", "after")
