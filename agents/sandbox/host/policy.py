@@ -1,5 +1,6 @@
 """The specification of a policy that runs in a sandbox."""
 
+import atexit
 import contextlib
 import os
 import threading
@@ -121,6 +122,8 @@ def _kept(isolation: str, seen: Path | None, limits: Limits) -> Sandbox:
     """Return this thread's sandbox, started if there is none."""
     if getattr(_local, "process", None) != os.getpid():
         _local.process, _local.sandboxes = os.getpid(), OrderedDict()
+        if threading.current_thread() is threading.main_thread():
+            atexit.register(_close_own, os.getpid())
     kept: OrderedDict[object, Sandbox] = _local.sandboxes
     key = isolation, seen, limits
     if key not in kept:
@@ -129,6 +132,12 @@ def _kept(isolation: str, seen: Path | None, limits: Limits) -> Sandbox:
     while len(kept) > KEPT:
         kept.popitem(last=False)[1].close()
     return kept[key]
+
+
+def _close_own(process: int) -> None:
+    """End the sandboxes of this thread, unless they are those of the process that forked it."""
+    if process == os.getpid():
+        close_sandboxes()
 
 
 def close_sandboxes() -> None:

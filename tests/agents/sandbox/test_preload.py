@@ -1,9 +1,13 @@
 """Policies whose module is imported once for all episodes."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from colift.agents.errors import PolicyError
 from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
+from colift.agents.submissions.new import write_template
 
 POLICY = """
 import mmap, os, time
@@ -118,3 +122,27 @@ def test_a_module_that_cannot_be_imported_fails_every_episode_with_the_reason(
             assert agent.printed == "so far\n"
             with pytest.raises(PolicyError):
                 agent.reset(1)
+
+
+LEFT_OPEN = """
+import sys
+from pathlib import Path
+import numpy as np
+from colift.agents.submissions.submission import read_submission
+
+with read_submission(Path(sys.argv[1])).sandboxed("limits").agent() as agent:
+    agent.reset(0)
+    agent.act(np.zeros(5))
+"""
+
+
+def test_a_process_that_ends_leaves_no_socket_open(tmp_path):
+    """Its sandboxes are kept for the next episode, which never comes."""
+    folder = tmp_path / "mine"
+    write_template(folder)
+    manifest = folder / "policy.toml"
+    manifest.write_text(manifest.read_text().replace("preload = false", "preload = true"))
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", LEFT_OPEN, folder], capture_output=True, text=True
+    )
+    assert (done.returncode, done.stderr) == (0, "")
