@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from ..agents.submissions.from_file import write_from
-from ..agents.submissions.new import FILES, write_template
+from ..agents.submissions.new import write_template
 from .printing import argument
 
 
@@ -16,8 +16,9 @@ def new(
         str | None,
         typer.Option(
             "--from",
-            metavar="FILE.py:Class",
-            help="Policy to submit instead of the template; parameters follow a comma.",
+            metavar="FILE.py:Class|FILE.onnx",
+            help="Policy to submit instead of the template; parameters follow a comma. Or a "
+            "network, which runs without code.",
         ),
     ] = None,
 ) -> None:
@@ -26,11 +27,8 @@ def new(
     policy.py holds the policy, one class; policy.toml names its authors and requirements. With
     --from, the submission is the policy of 'colift run FILE.py:Class,name=value'.
     """
-    if source is None:
-        write_template(folder)
-    else:
-        write_from(folder, source)
-    for name in FILES:
+    files = write_template(folder) if source is None else write_from(folder, source)
+    for name in files:
         print(f"wrote {folder / name}")
     step = "edit them" if source is None else "name the authors in policy.toml"
     print(f"Next: {step}, then colift check {argument(folder)}")

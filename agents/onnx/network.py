@@ -227,13 +227,13 @@ def port(value: Any) -> Port:
     tensor = value.type.tensor_type
     if value.type.WhichOneof("value") != "tensor_type" or tensor.elem_type not in FLOATS:
         raise InputError(f"has the input or output {where}, which is no tensor of float or double")
-    sizes = [each.dim_value or each.dim_param or "?" for each in tensor.shape.dim]
-    if not tensor.HasField("shape") or not all(isinstance(s, int) and s > 0 for s in sizes):
+    sizes = tuple(int(each.dim_value) for each in tensor.shape.dim)
+    if not tensor.HasField("shape") or min(sizes, default=1) <= 0:
+        shown = ", ".join(str(d.dim_value or d.dim_param or "?") for d in tensor.shape.dim)
         raise InputError(
-            f"has {where} with the shape [{', '.join(map(str, sizes))[:_SHOWN]}]: every size must "
-            "be a number"
+            f"has {where} with the shape [{shown[:_SHOWN]}]: every size must be a number"
         )
-    return Port(name=value.name, kind=tensor.elem_type, shape=tuple(sizes))
+    return Port(name=value.name, kind=tensor.elem_type, shape=sizes)
 
 
 def _observation(inputs: Sequence[Any]) -> Port:

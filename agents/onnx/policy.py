@@ -47,7 +47,7 @@ class OnnxPolicy:
     def act(self, observation: Observation) -> float:
         """Return the change of the hands' height [m]; the state goes on."""
         seen, state = self._network.observation, self._network.state
-        fed = {seen.name: np.asarray(observation, seen.dtype).reshape(seen.shape)}
+        fed: dict[str, Any] = {seen.name: np.asarray(observation, seen.dtype).reshape(seen.shape)}
         if state is not None:
             fed[state.name] = self._state
         action, *after = self._session.run(self._network.outputs, fed)

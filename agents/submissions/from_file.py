@@ -1,4 +1,4 @@
-"""A new submission from a class in a file, ``file.py:Class``."""
+"""A new submission from a class in a file, ``file.py:Class``, or from a network."""
 
 import ast
 from pathlib import Path
@@ -11,6 +11,9 @@ from ..near_names import did_you_mean
 from . import fields
 from .new import DESCRIPTION, POLICY, write_files
 from .packages import needed
+
+MODEL: Final = "policy.onnx"
+"""The file of a network."""
 
 LARGEST: Final = 2**20
 """Largest source file [bytes]."""
@@ -27,8 +30,8 @@ def classes(path: Path) -> dict[str, ast.ClassDef]:
     return {node.name: node for node in _tree(path).body if isinstance(node, ast.ClassDef)}
 
 
-def write_from(folder: Path, text: str) -> None:
-    """Write a new submission with the policy of a file.
+def write_from(folder: Path, text: str) -> tuple[str, ...]:
+    """Write a new submission with the policy of a file; return its files.
 
     Parameters
     ----------
@@ -36,19 +39,21 @@ def write_from(folder: Path, text: str) -> None:
         The folder to write, as for :func:`.write_template`.
     text
         ``file.py:Class``, with parameters after a comma if any. The file alone is copied, as
-        ``policy.py``; it is not run.
+        ``policy.py``; it is not run. Or ``file.onnx``, a network.
 
     Raises
     ------
     InputError
-        If there is no such file or class, the parameters are not ``name=value``, or as
-        :func:`.write_template`.
+        If there is no such file or class, the parameters are not ``name=value``, the network must
+        not be run, or as :func:`.write_template`.
     """
+    if text.endswith(".onnx"):
+        return _write_network(folder, Path(text))
     place, _, parameters = PolicySpec(text=text).parts
     file, colon, name = place.rpartition(":")
     if not (colon and file.endswith(".py")):
         raise InputError(
-            f"a policy to copy must be file.py:Class, with parameters if any, got {text!r}"
+            f"a policy to copy must be file.py:Class,parameters or file.onnx, got {text!r}"
         )
     path = Path(file)
     found = classes(path)
@@ -62,7 +67,16 @@ def write_from(folder: Path, text: str) -> None:
         "parameters": merged(parameters),
         "packages": list(needed(source)),
     }
-    write_files(folder, source, content)
+    return write_files(folder, source, content)
+
+
+def _write_network(folder: Path, path: Path) -> tuple[str, ...]:
+    # Only this kind of submission needs the extra.
+    from ..onnx.network import read_network
+
+    read_network(path, str(path))
+    content = {"description": "A network.", "model": MODEL}
+    return write_files(folder, path.read_bytes(), content)
 
 
 def _tree(path: Path) -> ast.Module:

@@ -9,7 +9,7 @@ from typing import Any, Final
 
 from ..errors import InputError
 from . import fields
-from .manifest import MANIFEST
+from .manifest import MANIFEST, OF_CODE
 
 PLACEHOLDER: Final = "my-policy"
 """The name of the policy in the template."""
@@ -26,6 +26,9 @@ POLICY: Final = "policy.py"
 COMMENTS: Final = 34
 """Column of the comments in the manifest."""
 
+NETWORK: Final = "# an ONNX file in this folder"
+"""The comment on a network."""
+
 FILES: Final = (MANIFEST, POLICY)
 """The files of the template."""
 
@@ -35,8 +38,8 @@ def template(name: str) -> str:
     return files(__package__).joinpath("template", name).read_text()
 
 
-def write_template(folder: Path) -> None:
-    """Write a new submission: a proportional controller, with comments.
+def write_template(folder: Path) -> tuple[str, ...]:
+    """Write a new submission, a proportional controller with comments; return its files.
 
     Parameters
     ----------
@@ -48,20 +51,21 @@ def write_template(folder: Path) -> None:
     InputError
         If it is not a new or empty folder, or cannot be written.
     """
-    write_files(folder, template(POLICY).encode(), {})
+    return write_files(folder, template(POLICY).encode(), {})
 
 
-def write_files(folder: Path, policy: bytes, content: Mapping[str, Any]) -> None:
-    """Write a new submission.
+def write_files(folder: Path, policy: bytes, content: Mapping[str, Any]) -> tuple[str, ...]:
+    """Write a new submission, and return its files.
 
     Parameters
     ----------
     folder
         As for :func:`write_template`.
     policy
-        The source of its policy.
+        The source of its policy, or the bytes of its network.
     content
-        Values of the manifest that replace those of the template.
+        Values of the manifest that replace those of the template; with ``model``, the name of the
+        network's file, those of code are left out.
 
     Raises
     ------
@@ -74,10 +78,12 @@ def write_files(folder: Path, policy: bytes, content: Mapping[str, Any]) -> None
         folder.mkdir(parents=True, exist_ok=True)
         if any(folder.iterdir()):
             raise InputError(f"{folder} is not empty; name a new folder")
-        (folder / POLICY).write_bytes(policy)
+        name = content.get("model", POLICY)
+        (folder / name).write_bytes(policy)
         (folder / MANIFEST).write_text(_manifest({"name": _name(folder), **content}))
     except OSError as error:
         raise InputError(f"cannot write to {folder}: {error.strerror}") from error
+    return MANIFEST, name
 
 
 def _manifest(content: Mapping[str, Any]) -> str:
@@ -85,6 +91,10 @@ def _manifest(content: Mapping[str, Any]) -> str:
     lines = []
     for line in template(MANIFEST).splitlines():
         key, sign, _ = line.partition(" = ")
+        if key in OF_CODE and "model" in content:
+            if key == OF_CODE[0]:
+                lines.append(f"model = {json.dumps(content['model'])}".ljust(COMMENTS) + NETWORK)
+            continue
         if sign and key in content:
             _, _, comment = line.partition("  #")
             written = json.dumps(content[key], ensure_ascii=False)  # TOML reads it as JSON does.

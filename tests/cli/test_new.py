@@ -89,8 +89,8 @@ def test_a_folders_parameters_change_its_name_and_digest(colift, pd):
         ("pd.py:Pd", "pd.py has no class 'Pd'; did you mean PD? it has Helper, PD"),
         ("pd.py:PD,lead", "parameters must be name=value, separated by commas; got 'lead'"),
         ("nowhere.py:PD", "cannot read nowhere.py: No such file or directory"),
-        ("pd.py", "a policy to copy must be file.py:Class, with parameters if any, got 'pd.py'"),
-        ("blend", "a policy to copy must be file.py:Class, with parameters if any, got 'blend'"),
+        ("pd.py", "a policy to copy must be file.py:Class,parameters or file.onnx, got 'pd.py'"),
+        ("blend", "a policy to copy must be file.py:Class,parameters or file.onnx, got 'blend'"),
         ("bad.py:PD", "bad.py is not Python: "),
     ],
 )

@@ -10,6 +10,7 @@ pytest.importorskip("onnxruntime", reason="needs onnxruntime: uv sync --all-extr
 from colift.agents.registry import SUITES, entries
 from colift.agents.sandbox.host.policy import close_sandboxes
 from colift.agents.submissions.new import write_template
+from colift.agents.submissions.submission import read_submission
 
 from ..agents.onnx.networks import (
     RECURRENT_IN_PYTHON,
@@ -71,6 +72,18 @@ def test_it_becomes_a_row_whose_bundle_can_be_verified(colift, tmp_path):
     assert next_step.startswith("Next: colift verify ")
     verified = colift(*next_step.removeprefix("Next: colift ").split())
     assert verified.returncode == 0, verified.stdout + verified.stderr
+
+
+def test_a_file_becomes_a_folder(colift, tmp_path):
+    (tmp_path / "trained.onnx").write_bytes(recurrent().SerializeToString())
+    done = colift("new", "mine", "--from", "trained.onnx")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.splitlines()[:2] == ["wrote mine/policy.toml", "wrote mine/policy.onnx"]
+    submission = read_submission(tmp_path / "mine")
+    assert (submission.manifest.model, submission.manifest.name) == ("policy.onnx", "mine")
+    (tmp_path / "trained.onnx").write_text("no network")
+    done = colift("new", "other", "--from", "trained.onnx")
+    assert (done.returncode, done.stderr) == (2, "error: trained.onnx is not an ONNX file\n")
 
 
 def test_a_file_that_must_not_be_run_is_named(colift, tmp_path):

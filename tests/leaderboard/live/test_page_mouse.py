@@ -32,7 +32,8 @@ def test_a_lift_by_mouse_from_the_click_to_the_replay(url, sessions):
     folder = next(sessions.glob("*/lifts/001-copy"))
     log = read_bundle(folder).recipe.suite().scenarios[0].human.log
     used = len(log.times)
-    assert used > 0.9 * len(hand.samples)
+    moved = max(i for i, height in enumerate(heights) if height != heights[-1])
+    assert used > moved  # Only what a page sends after the end, the later the busier, is left out.
     assert log.heights.tolist() == pytest.approx(heights[:used])
     report = json.loads(folder.with_name("001-copy.times.json").read_text())
     delays = [each for part in report["seat_0"] for each in part["delays_ms"]]
