@@ -1,10 +1,11 @@
 """What the tests of the hardware loop share: trials in the simulated laboratory."""
 
+import time
 from contextlib import ExitStack, closing
 
 import numpy as np
 import pytest
-from colift.agents.hardware.decisions import Inline
+from colift.agents.hardware.decisions import Inline, Timed
 from colift.agents.hardware.dry_run import DryArm
 from colift.agents.hardware.loop import LoopSettings, run_trial
 from colift.agents.hardware.nao.naoqi import NAMES, NaoqiArm, hand_heights
@@ -43,6 +44,18 @@ class Lab(SimulatedLaboratory):
     def set_points(self, since=0.0):
         """Return the height of the hands by their set-points in each frame since a time [m]."""
         return np.array([height for time, height in self.hands if time > since])
+
+
+class Patient(Timed):
+    """Asks in a thread, and waits as long as a busy machine needs, but for a policy that sticks."""
+
+    def decide(self, observation, budget):
+        return super().decide(observation, budget if self._policy.sticks else 60.0)
+
+    def await_answer(self):
+        """Wait until the policy has answered."""
+        while self._answers.empty():
+            time.sleep(0.001)
 
 
 class Faulty(AfterDuration):

@@ -1,6 +1,7 @@
 """One who commands at a time, over libqi."""
 
 import time
+from contextlib import suppress
 
 import pytest
 from colift.agents.errors import InputError
@@ -8,7 +9,17 @@ from colift.agents.hardware.claim import KEY, NOBODY, STALE, RobotClaim, claimed
 from colift.agents.hardware.clocks import MonotonicClock
 from colift.agents.hardware.nao.naoqi import NaoqiArm
 from colift.agents.hardware.nao.session import NaoqiSession
-from colift.agents.hardware.ports import RobotTakenError
+from colift.agents.hardware.ports import RobotLostError, RobotTakenError
+
+
+class Patient(NaoqiSession):
+    """Asks again: a busy machine may keep the emulator from answering in time."""
+
+    def calls(self, service, calls, **options):
+        for _ in range(20):
+            with suppress(RobotLostError):
+                return super().calls(service, calls, **options)
+        return super().calls(service, calls, **options)
 
 
 @pytest.fixture
@@ -17,7 +28,7 @@ def connect(laboratory):
     sessions = []
 
     def made():
-        sessions.append(NaoqiSession(laboratory.url))
+        sessions.append(Patient(laboratory.url))
         return sessions[-1]
 
     yield made
@@ -50,7 +61,7 @@ def test_a_claim_without_a_heartbeat_is_taken_over_and_its_owner_stops(connect, 
         assert arm.state().stiffness == 1.0
         # Somebody who does not look takes it: the heartbeat tells, and nothing is sent any more.
         RobotClaim(connect())._write(NOBODY._replace(name="another", token="another"))
-        end = time.monotonic() + 10
+        end = time.monotonic() + 60
         while not arm.taken and time.monotonic() < end:
             time.sleep(0.05)
         with pytest.raises(RobotTakenError, match="commanded by another"):

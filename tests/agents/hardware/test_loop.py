@@ -6,12 +6,13 @@ import threading
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
-from colift.agents.hardware.decisions import Timed
 from colift.agents.hardware.loop import LoopSettings
 from colift.agents.hardware.stops import HoldReason, Stop
 from colift.robots.nao.facts import JOINTS
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+
+from .conftest import Patient
 
 FRAME = 0.01
 
@@ -24,6 +25,11 @@ class Says:
 
     def reset(self, seed):
         self.left = list(self.actions)
+
+    @property
+    def sticks(self):
+        """Whether the next action has to be waited for."""
+        return bool(self.left) and callable(self.left[0])
 
     def act(self, observation):
         self.seen.append(observation)
@@ -87,7 +93,7 @@ def test_a_policy_that_fails_is_held_and_one_that_goes_on_failing_is_stopped(pla
 def test_a_policy_that_does_not_answer_is_not_waited_for(play):
     answer = threading.Event()
     hangs = Says([[0.01]] * 5 + [lambda: [0.01] if answer.wait(60) else None])
-    trial = play(hangs, duration=4.0, decider=Timed)
+    trial = play(hangs, duration=4.0, decider=Patient)
     answer.set()
     assert [step.hold for step in trial.log.steps[5:8]] == [
         HoldReason.POLICY_LATE,

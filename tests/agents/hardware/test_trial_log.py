@@ -5,10 +5,11 @@ import threading
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
-from colift.agents.hardware.decisions import Timed
 from colift.agents.hardware.rerun import logged_commands, rerun_trial
 from colift.agents.hardware.trial_log import read_trial, write_trial
 from colift.agents.loading.loading import PolicySpec
+
+from .conftest import Patient
 
 
 def played_again(trial, path, policy):
@@ -68,6 +69,10 @@ def test_a_policy_that_was_late_is_late_again(play, tmp_path):
         def reset(self, seed):
             self.step = 0
 
+        @property
+        def sticks(self):
+            return self.step == 4
+
         def act(self, observation):
             self.step += 1
             if self.waits and self.step == 5:
@@ -76,11 +81,14 @@ def test_a_policy_that_was_late_is_late_again(play, tmp_path):
 
     def answer(lab):
         go_on.set()
-        for thread in threading.enumerate():
-            if thread.name == "policy":
-                thread.join(0.2)
+        asked[0].await_answer()
 
-    trial = play(Late(waits=True), faults={8: answer}, duration=2.0, decider=Timed)
+    def decider(policy):
+        asked.append(Patient(policy))
+        return asked[0]
+
+    asked = []
+    trial = play(Late(waits=True), faults={8: answer}, duration=2.0, decider=decider)
     held = [step.hold for step in trial.log.steps]
     assert held[4:8] == ["the policy was late", *["the policy is still at an earlier step"] * 3]
     assert not any(held[:4] + held[8:])
