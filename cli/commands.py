@@ -16,6 +16,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "render": "render:render_episode",
         "play": "play:play",
         "demonstrate": "demonstrate:demonstrate_lifts",
+        "export": "export:export_lifts",
         "paper": "paper:paper",
     },
     "Submit a policy": {

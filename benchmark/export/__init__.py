@@ -1,0 +1,1 @@
+"""Export of lifts as data sets: Minari and LeRobot, each lift proved by its replay."""

@@ -1,0 +1,59 @@
+"""A new folder, written beside its place and then renamed: all of it, or nothing."""
+
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ...agents.errors import InputError
+from .provenance import STAMP
+
+
+def check_new(folder: Path, *, replace: bool) -> None:
+    """Refuse a place for a new data set, before any work is done.
+
+    Parameters
+    ----------
+    folder
+        The place.
+    replace
+        Whether an older export may be there, which will be replaced.
+
+    Raises
+    ------
+    InputError
+        If there is something else, or nothing can be written there.
+    """
+    if folder.is_symlink() or folder.exists():
+        if not folder.is_dir():
+            raise InputError(f"{folder} is a file, must be a new folder")
+        if not replace:
+            raise InputError(f"{folder} is there already; name a new folder, or add --force")
+        if not (folder / STAMP).is_file():
+            raise InputError(f"{folder} is no export: it has no {STAMP}, and is not replaced")
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=folder.parent):
+            pass
+    except OSError as error:
+        raise InputError(f"cannot write to {folder.parent}: {error.strerror}") from error
+
+
+@contextmanager
+def new_folder(folder: Path, *, replace: bool) -> Iterator[Path]:
+    """Yield an empty folder beside its later place, and rename it if the body does not fail.
+
+    Raises
+    ------
+    InputError
+        As :func:`check_new`.
+    """
+    check_new(folder, replace=replace)
+    with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as temporary:
+        made = Path(temporary) / "new"
+        made.mkdir()
+        yield made
+        check_new(folder, replace=replace)
+        if folder.exists():
+            folder.rename(Path(temporary) / "older")
+        made.rename(folder)

@@ -1,0 +1,136 @@
+"""The lifts of a bundle with observations, each proved: its replay gives the bundle's hashes."""
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
+from contextlib import closing
+from dataclasses import dataclass
+
+from ...agents.errors import InputError
+from ..bundle import Bundle, one_line
+from ..episode.episode import Episode
+from ..episode.replay import ReplayError, replay
+from ..episode.scenario import Scenario
+from ..execution.provenance import POLICIES_ONLY, fingerprint
+from ..suites.suite import Suite
+from ..verification.deviation import first_difference
+from ..verification.episode_check import episode_checks
+from .lifts import ExportedLift
+from .observing import ObservedLift
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Proof:
+    """Some lifts of one scenario, to be replayed."""
+
+    scenario: Scenario
+    seeds: tuple[int, ...]
+    episodes: tuple[Episode, ...]
+    policy: str
+    """Name of the bundle's policy."""
+    both: bool
+    """Whether the human's part is kept."""
+
+    def __call__(self) -> list[ExportedLift]:
+        """Return the lifts; worker processes run this.
+
+        Raises
+        ------
+        InputError
+            If a replay differs from the bundle in a bit.
+        """
+        with closing(ObservedLift(self.scenario, both=self.both)) as lift:
+            pairs = zip(self.seeds, self.episodes, strict=True)
+            return [self._proved(lift, seed, claim) for seed, claim in pairs]
+
+    def _proved(self, lift: ObservedLift, seed: int, claim: Episode) -> ExportedLift:
+        logged = claim.trace
+        try:
+            found = replay(lift, seed, logged.human_action, logged.action, claim.failure)
+        except ReplayError as error:
+            raise _refused(lift, seed, error.step, error.message) from None
+        difference = first_difference(logged, found)
+        if difference is not None:
+            raise _refused(lift, seed, *difference)
+        if found.failure != claim.failure:
+            message = f"failure says {claim.failure!r}, the replay gives {found.failure!r}"
+            raise _refused(lift, seed, len(logged.action), message)
+        last = logged.state[-1].tobytes() if len(logged.state) else b""
+        return lift.exported(self.policy, found.failure, last)
+
+
+def _refused(lift: ObservedLift, seed: int, step: int, message: str) -> InputError:
+    name = one_line(f"{lift.scenario.name} seed {seed}")
+    return InputError(f"{name}, step {step}: {message}; a lift that is not proved is not exported")
+
+
+def proved_lifts(
+    bundle: Bundle,
+    suite: Suite,
+    *,
+    both: bool = False,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda lifts: None,
+) -> Iterator[ExportedLift]:
+    """Yield the lifts of a bundle in its order, with what the agents saw.
+
+    Observations and rewards are in no bundle: they follow from the actions, by the replay. So each
+    lift is proved on the way.
+
+    Parameters
+    ----------
+    bundle
+        The bundle; nothing in it is trusted.
+    suite
+        Its suite.
+    both
+        Whether the human's part is kept.
+    executor
+        Replays the lifts; None does so in this process.
+    progress
+        Called with the number of lifts that were replayed since the last call.
+
+    Raises
+    ------
+    InputError
+        If the suite is not the one of this colift, or a replay differs from the bundle in a bit;
+        the message names the lift, the step and the difference.
+    """
+    claimed = bundle.results["suite_digest"]
+    if suite.digest != claimed:
+        raise InputError(
+            f"results.json: suite_digest is {claimed}, in this colift {suite.name} has "
+            f"{suite.digest}: export the bundle with colift {bundle.results['colift']}"
+        )
+    proofs = [
+        Proof(
+            scenario=check.scenario,
+            seeds=check.seeds,
+            episodes=check.episodes,
+            policy=one_line(bundle.results["policy"]["name"]),
+            both=both,
+        )
+        for check in episode_checks(bundle, suite, same_platform=True)
+    ]
+    parts = map(_called, proofs) if executor is None else executor.map(_called, proofs)
+    try:
+        for part in parts:
+            progress(len(part))
+            yield from part
+    except InputError as error:
+        other = _other_platform(bundle)
+        if not other:
+            raise
+        raise InputError(
+            f"{error}. The bundle is from another platform ({other}): export it there"
+        ) from None
+
+
+def _called(proof: Proof) -> list[ExportedLift]:
+    return proof()
+
+
+def _other_platform(bundle: Bundle) -> str:
+    """Return the names of the differences of the bundle's platform from this one."""
+    there, here = bundle.platform, fingerprint()
+    differ = {name for name in {**here, **there} if there.get(name) != here.get(name)}
+    return one_line(", ".join(sorted(differ - set(POLICIES_ONLY))))

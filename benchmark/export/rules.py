@@ -1,0 +1,142 @@
+"""The fixed sets for offline learning: which agents, and what a set can and cannot show."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final
+
+from ...agents.agent import Agent
+from ...agents.errors import InputError
+from ...agents.loading.loading import PolicySpec, source_digest
+from ...agents.policies.anticipate import Anticipate
+from .agents import Clipped, Follower, SeededPartner
+
+EXPERT: Final = "anticipate"
+
+
+@dataclass(frozen=True, kw_only=True)
+class SetRule:
+    """The rule of a fixed set."""
+
+    agents: tuple[str, ...]
+    """Agents at the robot's end, in turn from lift to lift: names of :func:`agent`."""
+    about: str
+    """The set in a sentence or two."""
+    shows: tuple[str, ...]
+    """What it can and cannot show."""
+    converted: bool = False
+    """Whether a second human holds the robot's end, shown as a robot."""
+    recorded: bool = False
+    """Whether people move as in recordings, which the user provides."""
+
+
+_FOLLOW: Final = (
+    "Every robot here lags. A clone lags as much; to do better, a learner has to combine the "
+    "people's motion, which is the same whoever follows, with other actions than those it saw."
+)
+_PEOPLE: Final = (
+    "The human's path hardly depends on the robot. A model of that path is worth more than a value "
+    "function here, and a set of other tasks may rank methods differently."
+)
+_SCORE: Final = (
+    "It has people of training only. Score a policy by `colift run`: `standard-v1` has people and "
+    "seeds that are not here, and a board has hidden ones."
+)
+
+RULES: Final[Mapping[str, SetRule]] = {
+    "follow": SetRule(
+        agents=("follow",),
+        about="Robots that follow the seen height, between `copy` and `proportional`, with a gain "
+        "of each lift's own and noise on it.",
+        shows=(_FOLLOW, _PEOPLE, _SCORE),
+    ),
+    "human": SetRule(
+        agents=("human",),
+        about="Teams of two simulated people. The second one, who holds the robot's end, is shown "
+        "as a robot: with the robot's senses, and the change of the hand's reference in a step as "
+        "the action.",
+        shows=(
+            "The actions are converted: a person's arm carried them out, which is softer than a "
+            "robot's. On a robot the same changes lead elsewhere, so a value function learned here "
+            "is about a person's arm. `--view both` has the references themselves, which replay.",
+            "The person saw and felt more than the robot's observation holds.",
+            _SCORE,
+        ),
+        converted=True,
+    ),
+    "mixed": SetRule(
+        agents=("follow", "expert"),
+        about="Lifts of `follow` and of `expert` in turn.",
+        shows=(
+            "A learner that can tell good actions from bad ones should come near `expert`; a clone "
+            "ends between the two.",
+            _PEOPLE,
+            _SCORE,
+        ),
+    ),
+    "expert": SetRule(
+        agents=("expert",),
+        about="Lifts with `anticipate`, the best of the built-in policies.",
+        shows=(
+            "A clone can come near its teacher, which has seen more than the five numbers of one "
+            "step: the history of a second is needed.",
+            "There is little to see beside good actions, so that little can be learned about bad "
+            "ones.",
+            _SCORE,
+        ),
+    ),
+    "recorded": SetRule(
+        agents=("follow", "expert"),
+        about="Real people's recorded motion, with robots of `follow` and of `expert` in turn; "
+        "each lift with a new simulated arm.",
+        shows=(
+            "The motion is recorded and does not react to the robot, but for the arm that gives "
+            "way. Trials repeat when there are fewer than lifts.",
+            "A policy that was trained on it has met these people: do not score it on the same "
+            "recordings.",
+        ),
+        recorded=True,
+    ),
+}
+
+NAMES: Final[Mapping[str, str]] = {
+    "follow": "copy..proportional, noisy",
+    "expert": EXPERT,
+    "human": "human_human",
+}
+"""Names of the agents in the metadata of lifts."""
+
+
+def rule(name: str) -> SetRule:
+    """Return the rule of a set.
+
+    Raises
+    ------
+    InputError
+        If there is no such set; the message lists them.
+    """
+    if name not in RULES:
+        raise InputError(f"unknown set {name!r:.80}; known: {', '.join(RULES)}")
+    return RULES[name]
+
+
+def agent(kind: str, seed: int) -> Agent:
+    """Return an agent of a set.
+
+    Parameters
+    ----------
+    kind
+        ``follow``, ``expert`` or ``human``.
+    seed
+        The lift's seed.
+    """
+    if kind == "follow":
+        return Follower(seed)
+    if kind == "human":
+        return SeededPartner(seed)
+    return Clipped(PolicySpec(text=EXPERT).make())
+
+
+def digest(kind: str) -> str:
+    """Return the hash of an agent's code."""
+    sources = {"follow": Follower, "human": SeededPartner, "expert": Anticipate}
+    return source_digest(sources[kind])

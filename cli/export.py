@@ -1,0 +1,203 @@
+"""``colift export``: lifts as data sets for offline learning."""
+
+import re
+import shlex
+from pathlib import Path
+from typing import Annotated, Final
+
+import typer
+
+from ..agents.errors import InputError
+from ..benchmark.bundle import Bundle, one_line, read_bundle
+from ..benchmark.execution.pool import checked_jobs
+from ..benchmark.export.contents import Contents
+from ..benchmark.export.exporting import FORMATS, Words, check_format, export
+from ..benchmark.export.fixed_sets import SetLift, play_set, set_digest, set_plan
+from ..benchmark.export.folder import check_new
+from ..benchmark.export.observing import spaces
+from ..benchmark.export.provenance import VIEWS, Provenance, of_scenario
+from ..benchmark.export.proving import proved_lifts
+from ..benchmark.export.rules import NAMES, RULES, digest, rule
+from ..benchmark.live.session import is_session
+from ..benchmark.suites.suite import Suite
+from .options import Jobs
+from .progress import reported_interrupt, workers
+
+SIZE: Final = 300
+"""Lifts of a fixed set."""
+
+LICENCE: Final = "MIT"
+"""Licence of simulated lifts: colift's own."""
+
+OWN_LICENCE: Final = "other"
+"""Licence of recorded people's lifts: it is the recordings'."""
+
+
+def export_lifts(
+    bundle: Annotated[
+        Path | None,
+        typer.Argument(metavar="BUNDLE", help="Folder of 'colift run --out'; none with --set."),
+    ] = None,
+    to: Annotated[
+        str, typer.Option("--to", metavar="FORMAT", help=f"Format: {' or '.join(FORMATS)}.")
+    ] = "minari",
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="DIR", help="New folder for the data set.")
+    ] = None,
+    view: Annotated[
+        str,
+        typer.Option(
+            "--view", metavar="VIEW", help=f"Whose part is kept: {' or '.join(VIEWS)} agents."
+        ),
+    ] = VIEWS[0],
+    fixed: Annotated[
+        str | None,
+        typer.Option("--set", metavar="NAME", help=f"A fixed set: {', '.join(RULES)}."),
+    ] = None,
+    lifts: Annotated[
+        int | None,
+        typer.Option("--lifts", metavar="N", help="Lifts of a fixed set: 30, 300 (default), 3000."),
+    ] = None,
+    recordings: Annotated[
+        Path | None,
+        typer.Option(
+            "--recordings", metavar="CSV", help="Recorded human motion, for the set 'recorded'."
+        ),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace an older export in --out.")] = (
+        False
+    ),
+    jobs: Jobs = None,
+) -> None:
+    """Export lifts as a data set, each proved by its replay; or a fixed set for offline learning.
+
+    A bundle has no observations: each lift is replayed, and exported only if every bit is equal.
+    """
+    if (bundle is None) == (fixed is None):
+        raise InputError("name either a result bundle, or a fixed set by --set")
+    if out is None:
+        raise InputError("--out DIR is missing: the new folder for the data set")
+    if fixed is None and not (recordings is None and lifts is None):
+        raise InputError("--lifts and --recordings belong to --set: a bundle has its own")
+    check_format(to, view)
+    check_new(out, replace=force)
+    jobs = checked_jobs(jobs)
+    with reported_interrupt(f"{out} is not written"):
+        if bundle is not None:
+            _bundle(bundle, to, out, view, force, jobs)
+        elif fixed is not None:
+            _set(fixed, SIZE if lifts is None else lifts, recordings, to, out, view, force, jobs)
+
+
+def _bundle(folder: Path, to: str, out: Path, view: str, force: bool, jobs: int) -> None:
+    if is_session(folder):
+        raise InputError(f"{folder} is a session: name the bundle of one of its lifts")
+    bundle = read_bundle(folder)
+    suite = bundle.run().suite
+    provenance = _of_bundle(bundle, suite, folder, to, view)
+    real = bundle.recipe.recordings is not None or bundle.recipe.inputs is not None
+    words = Words(
+        about=f"Lifts of {provenance.policy} on {provenance.suite}, from a result bundle.",
+        people="recorded or live people" if real else "simulated people of the suite",
+        shows=(
+            "Each lift was replayed from both agents' actions, and every bit of its states was "
+            "equal to the bundle's.",
+            "A policy that is trained on lifts of a suite has met its people and seeds: its score "
+            "on that suite says nothing. The fixed sets have people of training only.",
+        ),
+        licence=OWN_LICENCE if real else LICENCE,
+    )
+    number = len(bundle.episodes)
+    with workers("replaying", number, min(jobs, number)) as (pool, progress):
+        contents = export(
+            out,
+            proved_lifts(bundle, suite, both=view == "both", executor=pool, progress=progress),
+            spaces(suite.scenarios[0]),
+            provenance,
+            words,
+            form=to,
+            replace=force,
+        )
+    _report(contents, out)
+    print("Each lift was replayed: equal to the bit.")
+
+
+def _of_bundle(bundle: Bundle, suite: Suite, folder: Path, to: str, view: str) -> Provenance:
+    policy = bundle.results["policy"]
+    return Provenance(
+        name=_plain(f"{suite.name}-{policy['name']}"),
+        source=f"colift export {shlex.quote(folder.name)} --to {to} --view {view}",
+        policy=one_line(policy["name"]),
+        policy_digest=policy["digest"],
+        suite=suite.name,
+        suite_digest=suite.digest,
+        view=view,
+        converted=False,
+        **of_scenario(suite.scenarios[0]),
+    )
+
+
+def _set(
+    name: str,
+    lifts: int,
+    recordings: Path | None,
+    to: str,
+    out: Path,
+    view: str,
+    force: bool,
+    jobs: int,
+) -> None:
+    chosen = rule(name)
+    plan = set_plan(name, lifts, both=view == "both", recordings=recordings)
+    words = Words(
+        about=chosen.about,
+        people=_people(plan, recordings),
+        shows=chosen.shows,
+        licence=OWN_LICENCE if chosen.recorded else LICENCE,
+    )
+    with workers("lifting", lifts, min(jobs, lifts)) as (pool, progress):
+        contents = export(
+            out,
+            play_set(plan, executor=pool, progress=progress),
+            spaces(plan[0].scenario, converted=plan[0].converted),
+            _of_set(name, plan, recordings, to, view),
+            words,
+            form=to,
+            replace=force,
+        )
+    _report(contents, out)
+
+
+def _of_set(
+    name: str, plan: list[SetLift], recordings: Path | None, to: str, view: str
+) -> Provenance:
+    agents = rule(name).agents
+    motion = "" if recordings is None else f" --recordings {shlex.quote(recordings.name)}"
+    return Provenance(
+        name=f"{name}-{len(plan)}" + ("" if view == VIEWS[0] else f"-{view}"),
+        source=f"colift export --set {name} --lifts {len(plan)}{motion} --to {to} --view {view}",
+        policy="; ".join(NAMES[kind] for kind in agents),
+        policy_digest="; ".join(map(digest, agents)),
+        suite=f"set {name}",
+        suite_digest=set_digest(plan),
+        view=view,
+        converted=plan[0].converted,
+        **of_scenario(plan[0].scenario),
+    )
+
+
+def _people(plan: list[SetLift], recordings: Path | None) -> str:
+    drawn = f"{plan[0].scenario.subject.name} to {plan[-1].scenario.subject.name}"
+    if recordings is None:
+        return f"simulated, a new one in each lift: {drawn}"
+    return f"the motion recorded in {recordings.name}, with the arms of {drawn}"
+
+
+def _report(contents: Contents, out: Path) -> None:
+    left_out = f", {contents.empty} without a step left out" if contents.empty else ""
+    print(f"{contents.lifts} lifts, {contents.steps} steps{left_out}\nwritten: {out}")
+
+
+def _plain(text: str) -> str:
+    """Return a name of a data set: letters, digits, ``-`` and ``_``."""
+    return re.sub(r"[^A-Za-z0-9_]+", "-", text).strip("-")[:80] or "lifts"
