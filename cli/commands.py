@@ -21,7 +21,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
     },
     "Submit a policy": {
         "new": "new:new",
-        "train": "train:app",
+        "train": "train_offline:app",
         "check": "check:check",
         "submit": "submit:submit_policy",
         "verify": "verify:verify_bundle",

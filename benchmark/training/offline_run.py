@@ -1,0 +1,124 @@
+"""A training from a data set: blocks of updates, checkpoints, and the policy at the end. Needs JAX.
+
+Nothing of it depends on the engine: offline, a learner sees the file alone. The curve has errors in
+the engine, which are for the reader.
+"""
+
+import time
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import Any, Final
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from ...agents.errors import InputError
+from .course import Course, Point
+from .offline_data import OfflineData
+from .offline_result import Weights, checked_network, engine_error, write_policy
+from .perceptron import Layers, numpy_layers
+
+BLOCK: Final = 500
+"""Updates that are made in one go."""
+
+POINTS: Final = 4
+"""Points of a curve; each is a checkpoint."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Learning:
+    """An algorithm with its data: what :func:`train` repeats."""
+
+    start: Any
+    """The state of the beginning: arrays in tuples and lists."""
+    arrays: tuple[jax.Array, ...]
+    """The arrays of the data that it needs."""
+    update: Callable[[Any, tuple[jax.Array, ...], jax.Array], Any]
+    """Returns the state after one more update, from the arrays; the key draws some of their rows.
+
+    It must not hold the arrays itself: they would be compiled into the code."""
+    actor: Callable[[Any], Layers]
+    """Returns the layers of the policy of a state."""
+    about: str
+    """Description for the manifest."""
+
+
+def check_updates(updates: int) -> None:
+    """Raise an InputError if a number of updates is no multiple of :data:`BLOCK`."""
+    if updates < BLOCK or updates % BLOCK:
+        raise InputError(f"updates must be a multiple of {BLOCK}, got {updates}")
+
+
+def train(
+    learning: Learning,
+    data: OfflineData,
+    course: Course,
+    *,
+    updates: int,
+    batch: int,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda updates: None,
+) -> None:
+    """Train a policy and write it into the folder of the course; resume it if it was interrupted.
+
+    The weights follow from settings, data and seed.
+
+    Parameters
+    ----------
+    learning, data
+        How, and from what, it learns.
+    course
+        Where the policy is written.
+    updates, batch
+        Number of updates, and steps of the data in each.
+    executor
+        Plays the lifts of the curve; None does so in this process.
+    progress
+        Called with the number of updates that were made since the last call.
+
+    Raises
+    ------
+    InputError
+        If the course cannot be resumed, the training diverges, or a file cannot be written.
+    """
+    begin = time.perf_counter()
+    leaves, structure = jax.tree.flatten(learning.start)
+    shapes = {f"leaf{i}": np.shape(leaf) for i, leaf in enumerate(leaves)}
+    stored, first, state = course.load({**shapes, "update": ()}), 0, learning.start
+    if stored is not None:
+        state = jax.tree.unflatten(structure, [jnp.asarray(stored[name]) for name in shapes])
+        first = int(stored["update"])
+        progress(first)
+    begin -= course.seconds
+
+    @jax.jit
+    def block(state: Any, arrays: tuple[jax.Array, ...], key: jax.Array) -> Any:
+        def step(state: Any, key: jax.Array) -> tuple[Any, None]:
+            return learning.update(state, arrays, key), None
+
+        return jax.lax.scan(step, state, jax.random.split(key, BLOCK))[0]
+
+    every = max(updates // POINTS // BLOCK, 1) * BLOCK
+    seed = jax.random.fold_in(jax.random.key(course.seed), 1)
+    for done in range(first + BLOCK, updates + 1, BLOCK):
+        state = block(state, learning.arrays, jax.random.fold_in(seed, done))
+        progress(BLOCK)
+        if done % every == 0 or done == updates:
+            kept = zip(shapes, map(np.asarray, jax.tree.leaves(state)), strict=True)
+            weights = _weights(learning.actor(state), data)
+            error = engine_error(checked_network(weights), executor)
+            point = Point(done * batch, time.perf_counter() - begin, error)
+            course.keep(point, {**dict(kept), "update": np.array(done)})
+    write_policy(
+        course,
+        _weights(learning.actor(state), data),
+        description=learning.about,
+        trained_on=f"{data.steps} steps of {data.lifts} lifts: the data set {data.name}, "
+        f"SHA-256 {data.digest}.",
+    )
+
+
+def _weights(actor: Layers, data: OfflineData) -> Weights:
+    return {**numpy_layers(actor), "centre": data.centre, "deviation": data.deviation}
