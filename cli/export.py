@@ -17,7 +17,7 @@ from ..benchmark.export.folder import check_new
 from ..benchmark.export.observing import spaces
 from ..benchmark.export.provenance import VIEWS, Provenance, of_scenario
 from ..benchmark.export.proving import proved_lifts
-from ..benchmark.export.rules import NAMES, RULES, digest, rule
+from ..benchmark.export.rules import CONVERTED, NAMES, RULES, digest, rule
 from ..benchmark.live.session import is_session
 from ..benchmark.suites.suite import Suite
 from .options import Jobs
@@ -152,7 +152,7 @@ def _set(
     words = Words(
         about=chosen.about,
         people=_people(plan, recordings),
-        shows=chosen.shows,
+        shows=(CONVERTED, *chosen.shows) if plan[0].converted else chosen.shows,
         licence=OWN_LICENCE if chosen.recorded else LICENCE,
     )
     with workers("lifting", lifts, min(jobs, lifts)) as (pool, progress):

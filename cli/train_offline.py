@@ -5,7 +5,7 @@ import importlib
 from collections.abc import Callable
 from concurrent.futures import Executor
 from pathlib import Path
-from typing import Annotated, Any, Final
+from typing import Annotated, Any
 
 import typer
 
@@ -13,11 +13,9 @@ from ..agents.errors import InputError
 from ..agents.extras import how_to_install
 from ..benchmark.training.course import Course
 from ..benchmark.training.offline_data import read_data
+from ..benchmark.training.offline_settings import CLONE, IQL, CloneSettings, IqlSettings
 from .options import Jobs
 from .train import Out, Seeds, _train_all, app
-
-UPDATES: Final = 10_000
-"""Updates of the networks."""
 
 Data = Annotated[
     Path, typer.Argument(metavar="DATA", help="Minari data set: a folder of 'colift export'.")
@@ -27,50 +25,51 @@ Updates = Annotated[
 ]
 
 
-@app.command()
+@app.command(CLONE)
 def clone(
-    data: Data, out: Out, seeds: Seeds = 1, updates: Updates = UPDATES, jobs: Jobs = None
+    data: Data,
+    out: Out,
+    seeds: Seeds = 1,
+    updates: Updates = CloneSettings.updates,
+    jobs: Jobs = None,
 ) -> None:
-    """Clone the behaviour in a data set, from the file alone."""
-    _learn("cloning", data, out, seeds, {"updates": updates}, jobs)
+    """Clone the behaviour in a data set, from the file alone (extras: export, train)."""
+    _learn(CLONE, "cloning", CloneSettings(updates=updates), data, out, seeds, jobs)
 
 
-@app.command()
+@app.command(IQL)
 def iql(
     data: Data,
     out: Out,
     seeds: Seeds = 1,
-    updates: Updates = UPDATES,
+    updates: Updates = IqlSettings.updates,
     gamma: Annotated[
-        float | None, typer.Option(metavar="G", help="Discount per step; default: 0.7.")
-    ] = None,
+        float, typer.Option(metavar="G", help="Discount per step.")
+    ] = IqlSettings.gamma,
     expectile: Annotated[
-        float | None,
-        typer.Option(metavar="T", help="0.5 for the mean action, near 1 for the best; 0.9."),
-    ] = None,
+        float, typer.Option(metavar="T", help="0.5: values of the mean action; 1: of the best.")
+    ] = IqlSettings.expectile,
     beta: Annotated[
-        float | None, typer.Option(metavar="B", help="Weight of better actions; 0 clones; 3.")
-    ] = None,
+        float, typer.Option(metavar="B", help="Weight of better actions; 0 clones.")
+    ] = IqlSettings.beta,
     jobs: Jobs = None,
 ) -> None:
-    """Learn from a data set by implicit Q-learning, from the file alone."""
-    chosen = {"updates": updates, "gamma": gamma, "expectile": expectile, "beta": beta}
-    settings = {name: value for name, value in chosen.items() if value is not None}
-    _learn("iql", data, out, seeds, settings, jobs)
+    """Learn from a data set by implicit Q-learning, from the file alone (extras: export, train)."""
+    settings = IqlSettings(updates=updates, gamma=gamma, expectile=expectile, beta=beta)
+    _learn(IQL, "iql", settings, data, out, seeds, jobs)
 
 
 def _learn(
+    name: str,
     module: str,
+    settings: CloneSettings | IqlSettings,
     folder: Path,
     out: Path,
     seeds: int,
-    changes: dict[str, Any],
     jobs: int | None,
 ) -> None:
     """Train all seeds by one of the modules that need JAX."""
     trainer, run = _with_jax(module), _with_jax("offline_run")
-    kind = trainer.CloneSettings if module == "cloning" else trainer.IqlSettings
-    settings = kind(**changes)
     data = read_data(folder)
     settings = dataclasses.replace(settings, data=data.digest)
 
@@ -85,7 +84,7 @@ def _learn(
             progress=progress,
         )
 
-    _train_all(trainer.NAME, settings, seeds, out, settings.updates, jobs, train)
+    _train_all(name, settings, seeds, out, settings.updates, jobs, train)
 
 
 def _with_jax(module: str) -> Any:

@@ -88,11 +88,11 @@ def set_plan(
     motions = () if recordings is None else load_recordings(recordings)
     return [
         SetLift(
-            scenario=_scenario(FIRST_SEED + i, chosen.converted, motions),
+            scenario=_scenario(FIRST_SEED + i, chosen.human, motions),
             seed=FIRST_SEED + i,
             kind=chosen.agents[_turn(i, motions) % len(chosen.agents)],
             both=both,
-            converted=chosen.converted and not both,
+            converted=chosen.human and not both,
         )
         for i in range(lifts)
     ]

@@ -23,8 +23,8 @@ class SetRule:
     """The set in a sentence or two."""
     shows: tuple[str, ...]
     """What it can and cannot show."""
-    converted: bool = False
-    """Whether a second human holds the robot's end, shown as a robot."""
+    human: bool = False
+    """Whether a second human holds the robot's end, converted if it is alone in the set."""
     recorded: bool = False
     """Whether people move as in recordings, which the user provides."""
 
@@ -51,17 +51,13 @@ RULES: Final[Mapping[str, SetRule]] = {
     ),
     "human": SetRule(
         agents=("human",),
-        about="Teams of two simulated people. The second one, who holds the robot's end, is shown "
-        "as a robot: with the robot's senses, and the change of the hand's reference in a step as "
-        "the action.",
+        about="Teams of two simulated people, one of them at the robot's end.",
         shows=(
-            "The actions are converted: a person's arm carried them out, which is softer than a "
-            "robot's. On a robot the same changes lead elsewhere, so a value function learned here "
-            "is about a person's arm. `--view both` has the references themselves, which replay.",
-            "The person saw and felt more than the robot's observation holds.",
+            "A person's arm is softer than a robot's: on a robot the same references lead "
+            "elsewhere, and a value function learned here is about a person's arm.",
             _SCORE,
         ),
-        converted=True,
+        human=True,
     ),
     "mixed": SetRule(
         agents=("follow", "expert"),
@@ -97,6 +93,13 @@ RULES: Final[Mapping[str, SetRule]] = {
         recorded=True,
     ),
 }
+
+CONVERTED: Final = (
+    "The second person is shown as a robot: with the robot's senses, and the change of the hand's "
+    "reference in a step as the action. The person saw and felt more than that. These actions do "
+    "not replay; the references of `--view both` do."
+)
+"""A further sentence on a set in which a human is shown as a robot."""
 
 NAMES: Final[Mapping[str, str]] = {
     "follow": "copy..proportional, noisy",

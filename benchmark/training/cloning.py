@@ -6,44 +6,16 @@ with the inputs s of :class:`.Window`, the history of a second and a half, and a
 the network pi (D. Pomerleau, "ALVINN: an autonomous land vehicle in a neural network", NIPS 1988).
 """
 
-from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any
 
 import jax
 import jax.numpy as jnp
 import optax
 
 from .offline_data import OfflineData
-from .offline_run import Learning, check_updates
+from .offline_run import Learning
+from .offline_settings import CloneSettings
 from .perceptron import Layers, forward, new_layers
-
-NAME: Final = "clone"
-
-
-@dataclass(frozen=True, kw_only=True)
-class CloneSettings:
-    """Settings of the training.
-
-    Raises
-    ------
-    InputError
-        If one is out of range.
-    """
-
-    data: str = ""
-    """Digest of the data."""
-    updates: int = 10_000
-    """Steps of the optimiser; a multiple of 500."""
-    batch: int = 256
-    """Steps of the data in each."""
-    rate: float = 1e-3
-    """First learning rate of Adam; it falls to zero by a cosine."""
-    hidden: tuple[int, ...] = (64, 64)
-    """Units of the hidden layers."""
-
-    def __post_init__(self) -> None:
-        """Check the ranges."""
-        check_updates(self.updates)
 
 
 def learning(settings: CloneSettings, data: OfflineData, seed: int) -> Learning:

@@ -14,65 +14,22 @@ size, so that beta means the same in every set, and gamma looks a third of a sec
 effect of a command has ended by then.
 """
 
-from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import optax
 
-from ...agents.errors import InputError
 from .offline_data import OfflineData
-from .offline_run import Learning, check_updates
+from .offline_run import Learning
+from .offline_settings import IqlSettings
 from .perceptron import Layers, forward, new_layers
-
-NAME: Final = "iql"
 
 CENTIMETRES: Final = 100.0
 """Rewards are of the order of one then."""
 
 LARGEST_WEIGHT: Final = 20.0
 """Bound of an action's weight."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class IqlSettings:
-    """Settings of the training.
-
-    Raises
-    ------
-    InputError
-        If one is out of range.
-    """
-
-    data: str = ""
-    """Digest of the data."""
-    updates: int = 10_000
-    """Steps of the optimiser; a multiple of 500."""
-    batch: int = 256
-    """Steps of the data in each."""
-    rate: float = 1e-3
-    """First learning rate of Adam; it falls to zero by a cosine."""
-    hidden: tuple[int, ...] = (64, 64)
-    """Units of the hidden layers of all networks."""
-    gamma: float = 0.7
-    """Discount per step."""
-    expectile: float = 0.9
-    """tau: a half is the mean, 1 the best."""
-    beta: float = 3.0
-    """Weight of an advantage; 0 is behaviour cloning."""
-    slow: float = 0.005
-    """Share of a network that its slow copy takes over in an update."""
-
-    def __post_init__(self) -> None:
-        """Check the ranges."""
-        check_updates(self.updates)
-        if not 0 <= self.gamma < 1:
-            raise InputError(f"gamma must be in [0, 1), got {self.gamma}")
-        if not 0.5 <= self.expectile < 1:
-            raise InputError(f"expectile must be in [0.5, 1), got {self.expectile}")
-        if not 0 <= self.beta < 100:
-            raise InputError(f"beta must be in [0, 100), got {self.beta}")
 
 
 class Networks(NamedTuple):

@@ -68,7 +68,8 @@ def write_policy(course: Course, weights: Weights, *, description: str, trained_
     made = course.folder / f".{course.policy.name}.partial"
     shutil.rmtree(made, ignore_errors=True)
     content = BytesIO()
-    np.savez(content, **{name: np.asarray(weights[name]) for name in sorted(weights)})
+    arrays: dict[str, Any] = {name: np.asarray(weights[name]) for name in sorted(weights)}
+    np.savez(content, **arrays)
     about = {
         "name": f"{course.identity['trainer']} seed {course.seed}",
         "description": description,

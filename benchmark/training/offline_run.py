@@ -14,14 +14,11 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from ...agents.errors import InputError
 from .course import Course, Point
 from .offline_data import OfflineData
 from .offline_result import Weights, checked_network, engine_error, write_policy
+from .offline_settings import BLOCK
 from .perceptron import Layers, numpy_layers
-
-BLOCK: Final = 500
-"""Updates that are made in one go."""
 
 POINTS: Final = 4
 """Points of a curve; each is a checkpoint."""
@@ -43,12 +40,6 @@ class Learning:
     """Returns the layers of the policy of a state."""
     about: str
     """Description for the manifest."""
-
-
-def check_updates(updates: int) -> None:
-    """Raise an InputError if a number of updates is no multiple of :data:`BLOCK`."""
-    if updates < BLOCK or updates % BLOCK:
-        raise InputError(f"updates must be a multiple of {BLOCK}, got {updates}")
 
 
 def train(

@@ -13,11 +13,12 @@ from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.training import cloning, iql, offline_result
 from colift.benchmark.training.course import open_course
 from colift.benchmark.training.offline_data import OfflineData
-from colift.benchmark.training.offline_run import BLOCK, train
+from colift.benchmark.training.offline_run import train
+from colift.benchmark.training.offline_settings import BLOCK, CloneSettings, IqlSettings
 from colift.benchmark.training.perceptron import forward
 
 SMALL = {"updates": 2 * BLOCK, "batch": 64, "rate": 5e-3, "hidden": (8,)}
-TRAINERS = {"clone": (cloning, cloning.CloneSettings), "iql": (iql, iql.IqlSettings)}
+TRAINERS = {"clone": (cloning, CloneSettings), "iql": (iql, IqlSettings)}
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -101,7 +102,7 @@ def test_the_same_seed_gives_the_same_weights_interrupted_or_not(trainer, whole,
 
 
 def test_another_seed_gives_other_weights(whole, linear, tmp_path):
-    other = trained("clone", cloning.CloneSettings(**SMALL), linear, tmp_path, seed=1)
+    other = trained("clone", CloneSettings(**SMALL), linear, tmp_path, seed=1)
     assert not same(weights(whole["clone"]), weights(other))
 
 
@@ -149,14 +150,14 @@ def test_the_result_is_a_submission_that_lifts(whole):
 
 
 def test_a_training_that_diverges_is_named(linear, tmp_path):
-    settings = cloning.CloneSettings(**{**SMALL, "rate": 1e38})
+    settings = CloneSettings(**{**SMALL, "rate": 1e38})
     with pytest.raises(InputError, match=r"must be finite|not finite"):
         trained("clone", settings, linear, tmp_path)
     assert not (tmp_path / "seed-0").exists()
 
 
 def test_a_folder_of_other_data_is_refused(whole):
-    settings = cloning.CloneSettings(**SMALL, data="b" * 16)
+    settings = CloneSettings(**SMALL, data="b" * 16)
     with pytest.raises(InputError, match=r"of another training: data is , not b{16}"):
         open_course(whole["clone"].folder, "clone", settings, 0)
 
@@ -164,11 +165,11 @@ def test_a_folder_of_other_data_is_refused(whole):
 @pytest.mark.parametrize(
     ("kind", "change", "told"),
     [
-        (cloning.CloneSettings, {"updates": 700}, "updates must be a multiple of 500, got 700"),
-        (iql.IqlSettings, {"updates": 0}, "updates must be a multiple of 500, got 0"),
-        (iql.IqlSettings, {"gamma": 1.0}, "gamma must be in"),
-        (iql.IqlSettings, {"expectile": 0.4}, "expectile must be in"),
-        (iql.IqlSettings, {"beta": -1.0}, "beta must be in"),
+        (CloneSettings, {"updates": 700}, "updates must be a multiple of 500, got 700"),
+        (IqlSettings, {"updates": 0}, "updates must be a multiple of 500, got 0"),
+        (IqlSettings, {"gamma": 1.0}, "gamma must be in"),
+        (IqlSettings, {"expectile": 0.4}, "expectile must be in"),
+        (IqlSettings, {"beta": -1.0}, "beta must be in"),
     ],
 )
 def test_settings_out_of_range_are_refused_by_name(kind, change, told):
