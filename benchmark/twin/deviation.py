@@ -1,15 +1,15 @@
 """The deviation of the twin from the engine, lift by lift."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...agents.agent import Agent
 from ...agents.humans import Partner
-from ...agents.loading.loading import InMemorySpec, PolicySpec
-from ...agents.spec import AgentSpec
+from ...agents.loading.loading import PolicySpec
 from ..episode.episode import run_episode
 from ..episode.lift import Lift
 from ..episode.scenario import Scenario
@@ -75,14 +75,13 @@ def policy_deviation(name: str, people: Sequence[int] = PEOPLE) -> TwinDeviation
         Seeds: each person makes one lift of each behaviour.
     """
     lifts, spec = _lifts("nao", people), PolicySpec(text=name)
-    return _deviation(name, _in_engine(spec, lifts), play(spec.make, lifts))
+    return _deviation(name, _in_engine(spec.make, lifts), play(spec.make, lifts))
 
 
 def pair_deviation(people: Sequence[int] = PEOPLE) -> TwinDeviation:
     """Return the deviation for two humans."""
     lifts = _lifts("human", people)
-    spec = InMemorySpec(name=PAIR, factory=Partner, source=Partner)
-    return _deviation(PAIR, _in_engine(spec, lifts), play_pairs(lifts))
+    return _deviation(PAIR, _in_engine(Partner, lifts), play_pairs(lifts))
 
 
 def _lifts(partner: str, people: Sequence[int]) -> list[tuple[Scenario, int]]:
@@ -93,11 +92,13 @@ def _lifts(partner: str, people: Sequence[int]) -> list[tuple[Scenario, int]]:
     ]
 
 
-def _in_engine(spec: AgentSpec, lifts: Sequence[tuple[Scenario, int]]) -> NDArray[np.float64]:
+def _in_engine(
+    make: Callable[[], Agent], lifts: Sequence[tuple[Scenario, int]]
+) -> NDArray[np.float64]:
     errors = []
     for scenario, seed in lifts:
         lift = Lift(scenario)
-        errors.append(run_episode(lift, spec.make(), seed).scores["rmse_mm"])
+        errors.append(run_episode(lift, make(), seed).scores["rmse_mm"])
         lift.close()
     return np.array(errors)
 
