@@ -55,6 +55,8 @@ class Moving(NamedTuple):
     """Shift of the reference by the reflex [m]."""
     arm: Arm
     """The NAO's arms."""
+    pulled: jax.Array
+    """Sum of the far hands' force over the frames since it was last set to zero [N]."""
 
 
 class Plant(NamedTuple):
@@ -78,7 +80,7 @@ def begin(count: int) -> Plant:
     """Return lifts at rest."""
     zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
     weight = jnp.full(count, WEIGHT_SHARE)
-    moving = Moving(zero, zero, zero, zero, zero, zero, weight, zero, zero, rest(count))
+    moving = Moving(zero, zero, zero, zero, zero, zero, weight, zero, zero, rest(count), zero)
     return Plant(moving, past, past, past)
 
 
@@ -158,6 +160,7 @@ def _frame(
     pitch_rate = (far_velocity - velocity) / TABLE_LENGTH * (1 + sine**2 / 2)
     centre = acceleration + TABLE_LENGTH / 2 / FRAME * (pitch_rate - now.pitch_rate)
     force = arms - mass * acceleration
+    far_force = TABLE_MASS * (GRAVITY + centre) - force - WEIGHT_SHARE
     after = Moving(
         height=height,
         velocity=velocity,
@@ -165,9 +168,10 @@ def _frame(
         pitch_rate=pitch_rate,
         far_height=arm.hand,
         far_velocity=far_velocity,
-        far_force=TABLE_MASS * (GRAVITY + centre) - force - WEIGHT_SHARE,
+        far_force=far_force,
         reference=reference,
         reflex=now.reflex,
         arm=arm,
+        pulled=now.pulled + far_force,
     )
     return after, force

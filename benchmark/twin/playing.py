@@ -1,5 +1,6 @@
 """A step of lifts: the person's voluntary correction, the sensors, and the frames of a step."""
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple, TypeVar
 
@@ -10,7 +11,9 @@ from ...agents.actions import action_limit
 from ...agents.agent import FRAME
 from ...agents.humans.scripted import CORRECTION_GAIN, CORRECTION_LIMIT
 from ...robots.nao.kinematics import STROKE
+from ..episode.level import DROP_TILT, GRIP_FORCE
 from ..episode.seat import REFERENCE_RANGE
+from ..world.table import TABLE_LENGTH
 from . import plant
 from .arm import ArmVariation
 from .body import Body, delayed
@@ -130,7 +133,8 @@ def advance(
     def move(state: Plant, first: int, last: int) -> Plant:
         return plant.advance(state, body, references[first:last], commands[first:last], variation)
 
-    state, frames = in_chunks(playing.plant, size, move)
+    moving = playing.plant.moving._replace(pulled=jnp.zeros_like(command))
+    state, frames = in_chunks(playing.plant._replace(moving=moving), size, move)
     return Playing(state, command, correction, playing.step + 1), frames
 
 
@@ -158,3 +162,12 @@ def ramp(start: jax.Array, stop: jax.Array, size: int) -> jax.Array:
     """Return values (f, n) that move at constant speed from ``start`` to ``stop``, both (n,)."""
     share = jnp.arange(1, size + 1, dtype=jnp.float32)[:, jnp.newaxis] / size
     return start + (stop - start) * share
+
+
+def dropped(playing: Playing, size: int) -> jax.Array:
+    """Return whether each table (n,) was dropped in the step just made, of ``size`` frames.
+
+    The tests are those of :meth:`.Level.failure`; the hands never let go, so that there is no gap.
+    """
+    tilted = jnp.abs(playing.plant.differences[0]) > TABLE_LENGTH * math.sin(DROP_TILT)
+    return tilted | (jnp.abs(playing.plant.moving.pulled) > GRIP_FORCE * size)

@@ -1,4 +1,4 @@
-"""Registration of ``colift/Lift-v0`` with Gymnasium, and the environment by one call."""
+"""Registration of the environments with Gymnasium, and the environment by one call."""
 
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Final
@@ -7,9 +7,11 @@ import wrapt
 
 if TYPE_CHECKING:
     from gymnasium import Env
+    from gymnasium.vector import VectorEnv
 
 GYMNASIUM: Final = "gymnasium"
 ID: Final = "colift/Lift-v0"
+TWIN_ID: Final = "colift/Lift-twin-v0"
 
 
 def register_with_gymnasium() -> None:
@@ -22,6 +24,17 @@ def register_with_gymnasium() -> None:
 
 def _register(gymnasium: ModuleType) -> None:
     gymnasium.register(id=ID, entry_point="colift.benchmark.environment.single:RobotEnv")
+    gymnasium.register(id=TWIN_ID, vector_entry_point=_twin)
+
+
+def _twin(**settings: Any) -> "VectorEnv[Any, Any, Any]":
+    """Return the vector environment on the twin, which needs the extra ``train``."""
+    from colift.benchmark.twin.libraries import require_jax
+
+    require_jax()
+    from colift.benchmark.environment.twin import TwinEnv
+
+    return TwinEnv(**settings)
 
 
 def make(

@@ -1,0 +1,7 @@
+"""The vector environment on the twin; its tests run in a process of their own."""
+
+from pathlib import Path
+
+
+def test_the_vector_environment(in_own_process):
+    in_own_process(Path(__file__).with_name("jax_twin_env.py"))
