@@ -16,6 +16,8 @@ from ..benchmark.training.apg_settings import NAME as APG
 from ..benchmark.training.apg_settings import ApgSettings
 from ..benchmark.training.cem import CemSettings
 from ..benchmark.training.course import Course, Point, open_course, write_summary
+from ..benchmark.training.ppo_settings import NAME as PPO
+from ..benchmark.training.ppo_settings import PpoSettings
 from ..benchmark.twin.libraries import require_jax
 from .options import Jobs
 from .printing import argument, show
@@ -119,6 +121,32 @@ def apg(
         train_course(settings, course, progress)
 
     _train_all(APG, settings, seeds, out, updates, 1, train)
+
+
+@app.command()
+def ppo(
+    out: Out,
+    seeds: Seeds = 1,
+    updates: Annotated[
+        int, typer.Option(metavar="N", help="Times that lifts are played and learned from.")
+    ] = PpoSettings.updates,
+    pool: Annotated[
+        int, typer.Option(metavar="N", help="Lifts drawn in the beginning.")
+    ] = PpoSettings.pool,
+    lifts: Annotated[
+        int, typer.Option(metavar="N", help="Lifts of an update, from the pool.")
+    ] = PpoSettings.lifts,
+    jobs: Jobs = None,
+) -> None:
+    """Train a network by proximal policy optimisation, on the twin (extra: train)."""
+    settings = PpoSettings(updates=updates, pool=pool, lifts=lifts)
+    require_jax()
+    from ..benchmark.training import ppo as proximal
+
+    def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
+        proximal.train(settings, course, executor=executor, progress=progress)
+
+    _train_all(PPO, settings, seeds, out, updates, jobs, train)
 
 
 def _train_all(

@@ -115,8 +115,8 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Let copies and pickles be new environments, to be reset: no two share a world."""
-        options = {"reward": self._reward, "drawing": self._drawing}
-        return partial(type(self), **options), (self.lift.scenario, self.render_mode)
+        make = partial(type(self), reward=self._reward, drawing=self._drawing)
+        return make, (self.lift.scenario, self.render_mode)
 
     def observation_space(self, agent: str) -> Box:
         """Return the observation space of ``agent``."""

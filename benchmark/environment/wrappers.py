@@ -104,7 +104,7 @@ class HoldingPace(
         return observation, float(reward), terminated, truncated, info
 
 
-class Scaled(gymnasium.Wrapper[Single, Single, Observation, Action], RecordConstructorArgs):
+class Scaled(gymnasium.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
     """Actions in [-1, 1], and observations by fixed scales, in single precision.
 
     Observations of :class:`History` are divided by the :func:`.scales` of the network, others by
@@ -144,7 +144,8 @@ class Scaled(gymnasium.Wrapper[Single, Single, Observation, Action], RecordConst
         return self._scaled(observation), float(reward), terminated, truncated, info
 
     def _scaled(self, observation: Observation) -> Single:
-        return (observation / self._scales).astype(np.float32)
+        scaled: Single = (observation / self._scales).astype(np.float32)
+        return scaled
 
 
 def training_view(

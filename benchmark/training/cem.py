@@ -6,7 +6,7 @@ same new lifts, and the distribution moves to the best of them (S. Mannor, R. Ru
 """
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import partial
@@ -16,23 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...agents.errors import InputError
-from ...agents.submissions.network.policy import FIXED, Network, Policy
-from ..environment.drawing import TRAINING_SEEDS
-from ..episode.lift import Lift
-from ..episode.metrics import rmse_mm
-from ..suites.suite import BEHAVIOURS
-from ..world import since_reset
+from ...agents.submissions.network.policy import FIXED, Policy
 from .course import Course, Point
-from .data import Timing, scenario
 from .result import Weights, checked_network, write_policy
+from .validation import LEARNING_SEEDS, MakeAgent, play, validation_error
 
 NAME: Final = "cem"
-
-LEARNING_SEEDS: Final = TRAINING_SEEDS[:90_000]
-"""Seeds of the people and lifts that candidates play."""
-
-VALIDATION_SEEDS: Final = TRAINING_SEEDS[90_000:90_040]
-"""Seeds of the people and lifts of the curve: ten of each behaviour, none is learned from."""
 
 Array = NDArray[np.float64]
 
@@ -111,7 +100,8 @@ def train(
         rng = np.random.default_rng([course.seed, generation])
         candidates = rng.normal(mean, deviation, (settings.population, len(mean)))
         lifts = rng.choice(LEARNING_SEEDS, settings.lifts, replace=False).tolist()
-        errors, played = play(settings, candidates, lifts, executor, progress)
+        policies = [policy(settings, each) for each in candidates]
+        errors, played = play(policies, lifts, executor, progress)
         best = candidates[np.argsort(errors.mean(axis=1), kind="stable")[: settings.elite]]
         extra = settings.noise * (1 - (generation + 1) / settings.generations) * initial
         keep = settings.inertia
@@ -119,9 +109,9 @@ def train(
         deviation = keep * deviation + (1 - keep) * np.hypot(best.std(axis=0), extra)
         steps += played
 
-        error, _ = play(settings, mean[np.newaxis], VALIDATION_SEEDS, executor)
+        error = validation_error(policy(settings, mean), executor)
         course.keep(
-            Point(steps, time.perf_counter() - begin, float(error.mean())),
+            Point(steps, time.perf_counter() - begin, error),
             {"mean": mean, "deviation": deviation, "generation": np.array(generation + 1)},
         )
     write_policy(
@@ -171,40 +161,12 @@ def unpack(settings: CemSettings, parameters: Array) -> Weights:
     }
 
 
-def play(
-    settings: CemSettings,
-    candidates: Array,
-    seeds: Sequence[int],
-    executor: Executor | None = None,
-    progress: Callable[[int], None] = lambda lifts: None,
-) -> tuple[Array, int]:
-    """Return the RMSE of each candidate in each lift (candidates, lifts) [mm], and all steps."""
-    networks = [checked_network(unpack(settings, each)) for each in candidates]
-    play_one = partial(lift_together, networks)
-    errors, steps = [], 0
-    for error, length in (
-        map(play_one, seeds) if executor is None else executor.map(play_one, seeds)
-    ):
-        errors.append(error)
-        steps += length * len(candidates)
-        progress(1)
-    return np.array(errors).T, steps
+def policy(settings: CemSettings, parameters: Array) -> MakeAgent:
+    """Return what makes the policy of a vector of parameters.
 
-
-def lift_together(networks: Sequence[Network], seed: int) -> tuple[list[float], int]:
-    """Return the RMSE of each network in the lift of a seed [mm], and the steps of a lift.
-
-    The person is drawn by the seed, too. A dropped table counts as in the score.
+    Raises
+    ------
+    InputError
+        If a parameter is not finite.
     """
-    lift = Lift(scenario(seed, BEHAVIOURS, Timing()))
-    errors = []
-    for network in networks:
-        lift.reset(seed)
-        human, robot = lift.scripted_human(), Policy(network)
-        while not lift.done:
-            action = robot.act(lift.partner_observation())
-            lift.step(human.act(lift.human_observation()), action)
-        ends = since_reset(lift.world.human_end), since_reset(lift.world.robot_end)
-        errors.append(rmse_mm(*ends, horizon=lift.horizon))
-    lift.close()
-    return errors, lift.horizon // lift.frames_per_step
+    return partial(Policy, checked_network(unpack(settings, parameters)))

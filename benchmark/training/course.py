@@ -89,7 +89,8 @@ class Course:
         content = BytesIO()
         identity = np.array(json.dumps(self.identity))
         curve = np.array(self.curve, dtype=np.float64).reshape(-1, len(Point._fields))
-        np.savez(content, **{"_identity": identity, "_curve": curve}, **state)
+        arrays: dict[str, Any] = {"_identity": identity, "_curve": curve, **state}
+        np.savez(content, **arrays)
         write_whole(self.checkpoint, content.getvalue())
         lines = (f"{steps},{seconds:.1f},{rmse:.3f}" for steps, seconds, rmse in self.curve)
         text = "\n".join([",".join(Point._fields), *lines]) + "\n"

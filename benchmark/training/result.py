@@ -71,7 +71,8 @@ def write_policy(
     made = course.folder / f".{course.policy.name}.partial"
     shutil.rmtree(made, ignore_errors=True)
     content = BytesIO()
-    np.savez(content, **{name: np.asarray(weights[name]) for name in sorted(weights)})
+    arrays: dict[str, Any] = {name: np.asarray(weights[name]) for name in sorted(weights)}
+    np.savez(content, **arrays)
     try:
         about: dict[str, Any] = {
             "name": f"{course.identity['trainer']} seed {course.seed}",

@@ -10,18 +10,17 @@ from ..printing import Cell, table
 
 
 def training_table(trainer: str, courses: Sequence[Course]) -> Table:
-    """Return a row per seed, and the mean of all; seconds are those of this machine."""
+    """Return a row per seed, and the mean of all."""
     rows: list[Sequence[Cell] | None] = [
-        (str(each.seed), f"{each.steps:,}", f"{each.seconds:.0f}", f"{each.curve[-1].rmse_mm:.2f}")
-        for each in courses
+        (str(each.seed), f"{each.steps:,}", f"{each.curve[-1].rmse_mm:.2f}") for each in courses
     ]
     errors = [each.curve[-1].rmse_mm for each in courses]
     if len(errors) > 1:
         spread = f"{np.mean(errors):.2f} ± {np.std(errors, ddof=1):.2f}"
-        rows += [None, ("mean ± SD", "", "", spread)]
+        rows += [None, ("mean ± SD", "", spread)]
     return table(
-        f"Trained by {trainer}; RMSE on the validation lifts",
-        ("seed", "steps", "s", "RMSE mm"),
+        f"Trained by {trainer}: validation lifts",
+        ("seed", "steps", "RMSE mm"),
         rows,
         caption="Scores come from a suite: colift run.",
     )

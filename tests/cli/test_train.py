@@ -3,14 +3,14 @@
 import json
 
 import pytest
-from colift.benchmark.training import cem
+from colift.benchmark.training import validation
 
 TINY = ("--generations", "1", "--population", "3", "--elite", "1", "--lifts", "1", "--jobs", "1")
 
 
 @pytest.fixture(autouse=True)
 def one_lift_to_validate(monkeypatch):
-    monkeypatch.setattr(cem, "VALIDATION_SEEDS", cem.VALIDATION_SEEDS[:1])
+    monkeypatch.setattr(validation, "VALIDATION_SEEDS", validation.VALIDATION_SEEDS[:1])
 
 
 def test_a_folder_per_seed_a_table_and_policies_that_run(colift, tmp_path):

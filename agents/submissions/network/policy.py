@@ -119,7 +119,7 @@ class Policy:
         """Begin a lift."""
         self.senses.reset()
 
-    def act(self, observation: np.ndarray) -> float:
+    def act(self, observation: np.ndarray) -> np.ndarray:
         """Return the change of the hands' height [m]."""
         senses = self.senses(observation)
-        return line(senses) + self.network.correction(senses)
+        return np.array([line(senses) + self.network.correction(senses)])

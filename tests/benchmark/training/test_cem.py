@@ -1,25 +1,29 @@
 """The cross-entropy method: what it learns, and that nothing but settings and seed decides it."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
+from colift.agents.submissions.network.policy import Policy
 from colift.agents.submissions.submission import read_submission
 from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.execution.pool import process_pool
 from colift.benchmark.suites.suite import BEHAVIOURS
-from colift.benchmark.training import cem
-from colift.benchmark.training.cem import CemSettings, lift_together, start, train, unpack
+from colift.benchmark.training import cem, validation
+from colift.benchmark.training.cem import CemSettings, start, train
 from colift.benchmark.training.course import open_course
 from colift.benchmark.training.data import Timing, scenario
 from colift.benchmark.training.result import checked_network
+from colift.benchmark.training.validation import lift_together, validation_error
 
 TINY = CemSettings(generations=2, population=4, elite=2, lifts=2, steps=2, hidden=1)
 
 
 @pytest.fixture(autouse=True)
 def two_lifts_to_validate(monkeypatch):
-    monkeypatch.setattr(cem, "VALIDATION_SEEDS", cem.VALIDATION_SEEDS[:2])
+    monkeypatch.setattr(validation, "VALIDATION_SEEDS", validation.VALIDATION_SEEDS[:2])
 
 
 def weights(course):
@@ -34,7 +38,7 @@ def same(one, other):
 @pytest.fixture(scope="module")
 def trained(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(cem, "VALIDATION_SEEDS", cem.VALIDATION_SEEDS[:2])
+        patched.setattr(validation, "VALIDATION_SEEDS", validation.VALIDATION_SEEDS[:2])
         course = open_course(tmp_path_factory.mktemp("trained") / "out", "cem", TINY, 0)
         train(TINY, course)
     return course
@@ -70,11 +74,11 @@ def test_an_interrupted_training_resumes_to_the_same_weights(trained, tmp_path):
 def test_the_first_distribution_extrapolates_and_the_errors_are_the_benchmark_s(trained):
     mean, _ = start(TINY, 0)
     seed = 100_003
-    [error], steps = lift_together([checked_network(unpack(TINY, mean))], seed)
+    [error], steps = lift_together([cem.policy(TINY, mean)], seed)
     lift = Lift(scenario(seed, BEHAVIOURS, Timing()))
     policy = read_submission(trained.policy).trusted()
     played = run_episode(lift, policy.make(), seed)
-    [own], _ = lift_together([checked_network(weights(trained))], seed)
+    [own], _ = lift_together([partial(Policy, checked_network(weights(trained)))], seed)
     assert own == pytest.approx(played.scores["rmse_mm"])
     assert steps * lift.frames_per_step == lift.horizon
     assert own != error
@@ -86,9 +90,9 @@ def test_the_best_candidates_lead(tmp_path):
     settings = CemSettings(generations=3, population=12, elite=3, lifts=2, steps=2, hidden=1)
     course = open_course(tmp_path, "cem", settings, 0)
     mean, _ = start(settings, 0)
-    before, _ = cem.play(settings, mean[np.newaxis], cem.VALIDATION_SEEDS)
+    before = validation_error(cem.policy(settings, mean))
     train(settings, course)
-    assert course.curve[-1].rmse_mm < 0.95 * before.mean()
+    assert course.curve[-1].rmse_mm < 0.95 * before
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,67 @@
+"""
+PPO of Stable-Baselines3
+========================
+
+A policy is trained in the engine by PPO, and scored on the quick suite. PyTorch for processors is
+enough, and smaller than the default build::
+
+    pip install torch --index-url https://download.pytorch.org/whl/cpu
+    pip install stable-baselines3
+
+It takes some minutes, and is not run by the tests or with the documentation.
+"""
+
+import colift
+import numpy as np
+from colift.agents.submissions.network.policy import CORRECTION, Senses, line, scales
+from colift.benchmark.environment import training_view
+from stable_baselines3 import PPO
+from stable_baselines3.common.env_util import make_vec_env
+
+STEPS = 20  # Steps of the human's motion that the policy sees.
+
+
+class Trained:
+    """The trained network as a policy of the benchmark: the same inputs, the same line."""
+
+    def __init__(self, model: PPO) -> None:
+        self.model = model
+        self.senses = Senses(STEPS)
+
+    def reset(self, seed: int) -> None:
+        """Begin a lift."""
+        self.senses.reset()
+
+    def act(self, observation: np.ndarray) -> float:
+        """Return the change of the hands' height [m]."""
+        seen = self.senses(observation)
+        inputs = (seen / scales(STEPS)).astype(np.float32)
+        correction, _ = self.model.predict(inputs, deterministic=True)
+        return line(seen) + CORRECTION * float(correction[0])
+
+
+if __name__ == "__main__":
+    envs = make_vec_env(
+        "colift/Lift-v0",
+        n_envs=8,
+        seed=0,
+        env_kwargs={"scenario": "any", "subject": "draw", "reward": "score"},
+        wrapper_class=training_view,
+        wrapper_kwargs={"steps": STEPS},
+    )
+    model = PPO(
+        "MlpPolicy",
+        envs,
+        n_steps=512,
+        batch_size=256,
+        gamma=0.9,
+        gae_lambda=0.9,
+        policy_kwargs={"log_std_init": np.log(0.3)},
+        seed=0,
+        device="cpu",
+        verbose=1,
+    )
+    model.learn(200_000)
+    model.save("ppo_colift")
+    envs.close()
+    print(colift.evaluate(Trained(model), suite="quick-v1"))
