@@ -1,10 +1,21 @@
 """The libraries ``onnx`` and ``onnxruntime``, optional dependencies."""
 
 import importlib
-from typing import Any
+import importlib.util
+from typing import Any, Final
 
 from ..errors import InputError
 from ..extras import how_to_install
+
+NAMES: Final = ("onnx", "onnxruntime")
+"""The libraries."""
+
+
+def require_libraries() -> None:
+    """Raise an InputError if one of the libraries is not installed; they are not imported."""
+    for name in NAMES:
+        if importlib.util.find_spec(name) is None:
+            raise _missing(name)
 
 
 def import_library(name: str) -> Any:
@@ -23,6 +34,8 @@ def import_library(name: str) -> Any:
     try:
         return importlib.import_module(name)
     except ImportError as error:
-        raise InputError(
-            f"a policy in an ONNX file needs {name.partition('.')[0]}: {how_to_install('onnx')}"
-        ) from error
+        raise _missing(name.partition(".")[0]) from error
+
+
+def _missing(name: str) -> InputError:
+    return InputError(f"a policy in an ONNX file needs {name}: {how_to_install('onnx')}")

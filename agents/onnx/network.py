@@ -13,30 +13,20 @@ import numpy as np
 
 from ..agent import RobotObservation
 from ..errors import InputError
+from .allowed import (
+    IR_VERSIONS,
+    LARGEST,
+    MOST_NODES,
+    MOST_STATE,
+    OPERATORS,
+    OPSETS,
+    OWN_DOMAINS,
+)
 from .libraries import import_library
-from .operators import OPERATORS
 
 onnx = import_library("onnx")
 numpy_helper = import_library("onnx.numpy_helper")
 _message = import_library("google.protobuf.message")
-
-LARGEST: Final = 16 * 2**20
-"""Largest file [bytes]."""
-
-OPSETS: Final = range(13, 22)
-"""Versions of ONNX's operators that are allowed: the oldest onnxruntime of the extra has all."""
-
-IR_VERSIONS: Final = range(7, 11)
-"""Versions of the file format that are allowed."""
-
-MOST_NODES: Final = 2000
-"""Most operators of a network."""
-
-MOST_STATE: Final = 65_536
-"""Most numbers in a network's state."""
-
-OWN_DOMAINS: Final = ("", "ai.onnx")
-"""Names of ONNX's own operators."""
 
 _SHOWN: Final = 60
 

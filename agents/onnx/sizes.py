@@ -5,19 +5,13 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 from ..errors import InputError
+from .allowed import LARGEST_SUM, LARGEST_TENSOR, RECURRENT
 from .libraries import import_library
 from .network import Network, quoted
-from .operators import RECURRENT
 
 onnx = import_library("onnx")
 checker = import_library("onnx.checker")
 shape_inference = import_library("onnx.shape_inference")
-
-LARGEST_TENSOR: Final = 2**18
-"""Most numbers in a tensor that is computed: 2 MiB."""
-
-LARGEST_SUM: Final = 2**22
-"""Most numbers in all tensors of a step: 32 MiB."""
 
 ACTIONS: Final = ((), (1,), (1, 1))
 """Shapes of the action."""

@@ -8,6 +8,8 @@ from typing import Final
 
 from ..errors import InputError, Remedy
 from ..loading.parameters import merged
+from ..onnx.allowed import LARGEST
+from ..onnx.libraries import require_libraries
 from ..sandbox.host.levels import strongest
 from ..sandbox.host.policy import SandboxedPolicy
 from .folder import Contents, read_folder
@@ -145,7 +147,7 @@ def _submission(folder: Path, contents: Contents, shown: str) -> Submission:
         raise _without_manifest(shown)
     manifest = read_manifest((folder / MANIFEST).read_bytes(), f"{shown}/{MANIFEST}")
     if manifest.model:
-        _check_network(folder, manifest.model, contents, shown)
+        _check_network(manifest.model, contents, shown)
         return Submission(folder=folder, manifest=manifest, contents=contents)
     module, _, _ = manifest.entry_point.partition(":")
     file = module.replace(".", "/")
@@ -158,15 +160,18 @@ def _submission(folder: Path, contents: Contents, shown: str) -> Submission:
     return Submission(folder=folder, manifest=manifest, contents=contents)
 
 
-def _check_network(folder: Path, model: str, contents: Contents, shown: str) -> None:
-    """Raise an InputError if a network is missing, or must not be run."""
-    if model not in contents.paths:
+def _check_network(model: str, contents: Contents, shown: str) -> None:
+    """Raise an InputError if a network is missing or too large.
+
+    It is read in the sandbox only: a small file can take much memory.
+    """
+    require_libraries()
+    sizes = {file.path: file.size for file in contents.files}
+    if model not in sizes:
         networks = [path for path in contents.paths if path.endswith(".onnx")]
         raise InputError(
             f"{shown}/{MANIFEST}: model {model!r} is not in the folder; it has "
             f"{', '.join(networks[:5]) or 'no .onnx file'}"
         )
-    # Only this kind of submission needs the extra.
-    from ..onnx.network import read_network
-
-    read_network(folder / model, f"{shown}/{model}")
+    if sizes[model] > LARGEST:
+        raise InputError(f"{shown}/{model} has {sizes[model]} bytes; a network may have {LARGEST}")

@@ -90,7 +90,7 @@ def test_a_file_that_must_not_be_run_is_named(colift, tmp_path):
     made = proportional()
     made.graph.node[0].op_type = "RandomNormalLike"
     write_network(tmp_path / "net", made)
-    told = "net/policy.onnx uses the operator 'RandomNormalLike', which is not allowed"
+    told = "policy.onnx uses the operator 'RandomNormalLike', which is not allowed"
     for words in (("check", "net"), ("run", "net"), ("submit", "net", "--board", "board")):
         done = colift(*words, COLUMNS="200")
         assert done.returncode != 0

@@ -8,7 +8,8 @@ import pytest
 pytest.importorskip("onnx", reason="needs onnx: uv sync --all-extras")
 
 from colift.agents.errors import InputError
-from colift.agents.onnx.network import LARGEST, parse_network
+from colift.agents.onnx.allowed import LARGEST
+from colift.agents.onnx.network import parse_network
 from colift.agents.onnx.sizes import check_sizes
 from onnx import TensorProto, helper
 

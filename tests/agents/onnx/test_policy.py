@@ -1,5 +1,7 @@
 """A network as a policy: the actions of the same policy in Python, in a sandbox and without one."""
 
+import sys
+
 import numpy as np
 import pytest
 
@@ -7,10 +9,15 @@ pytest.importorskip("onnx", reason="needs onnx: uv sync --all-extras")
 pytest.importorskip("onnxruntime", reason="needs onnxruntime: uv sync --all-extras")
 
 from colift.agents.errors import InputError
+from colift.agents.onnx.allowed import LARGEST
 from colift.agents.onnx.policy import OnnxPolicy
 from colift.agents.sandbox.host.policy import close_sandboxes
-from colift.agents.submissions.submission import open_submission, read_submission
+from colift.agents.submissions.submission import (
+    open_submission,
+    read_submission,
+)
 
+from ...conftest import peak_memory
 from .networks import (
     FLOAT,
     GAIN,
@@ -155,8 +162,31 @@ def test_a_manifest_that_does_not_fit_is_refused(tmp_path, keys, told):
 def test_the_file_is_named_where_it_is_refused(tmp_path):
     folder = write_network(tmp_path / "net", proportional())
     (folder / "policy.onnx").write_bytes(b"no network")
-    with pytest.raises(InputError, match=r"net/policy\.onnx is not an ONNX file"):
+    with pytest.raises(InputError, match=r"policy net: policy\.onnx is not an ONNX file"):
+        open_submission(folder).sandboxed().check()
+    (folder / "policy.onnx").write_bytes(bytes(LARGEST + 1))
+    with pytest.raises(InputError, match=r"net/policy\.onnx has 16777217 bytes"):
         open_submission(folder)
+
+
+@pytest.mark.parametrize("library", ["onnx", "onnxruntime"])
+def test_without_the_extra_it_is_named(tmp_path, monkeypatch, library):
+    folder = write_network(tmp_path / "net", proportional())
+    monkeypatch.setitem(sys.modules, library, None)
+    with pytest.raises(InputError, match=rf"needs {library}: .*(onnx|--all-extras)"):
+        open_submission(folder)
+
+
+def test_a_small_file_that_takes_much_memory_harms_nobody(tmp_path):
+    """Empty entries take a hundred times as much memory as they have bytes."""
+    folder = write_network(tmp_path / "net", proportional())
+    entries = b"\x2a\x00" * (2**23 - 50)
+    length = [len(entries) >> 7 * k & 127 | 128 * (k < 3) for k in range(4)]
+    (folder / "policy.onnx").write_bytes(b"\x08\x08\x3a" + bytes(length) + entries)
+    before = peak_memory()
+    with pytest.raises(InputError, match=r"is not an ONNX file|memory"):
+        open_submission(folder).sandboxed().check()
+    assert peak_memory() - before < 2**28
 
 
 def test_a_network_has_no_parameters(tmp_path):
