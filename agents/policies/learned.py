@@ -5,11 +5,8 @@ from functools import cache
 from importlib.resources import files
 from pathlib import Path
 
-import numpy as np
-
-from ..agent import Action, Observation, RobotObservation
-from ..control.portable import PORTABLE
-from ..control.recurrent import Network, act, read_network, rest
+from ..control.recurrent import Network, read_network
+from ..control.recurrent_controller import RecurrentController
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,36 +15,6 @@ class LearnedParameters:
 
     model: str | None = None
     """File ``weights.npz`` of a folder written by ``colift train apg``; None: the shipped one."""
-
-
-class RecurrentController:
-    """The control law of :class:`Learned` with a given network.
-
-    Parameters
-    ----------
-    network
-        The weights.
-    """
-
-    def __init__(self, network: Network) -> None:
-        self._network = network
-        self._internals: dict[str, float] = {}
-
-    def reset(self, seed: int) -> None:
-        """Begin an episode."""
-        self._memory = rest(self._network)
-
-    def act(self, observation: Observation) -> Action:
-        """Return the change of the command [m]."""
-        observation = np.asarray(observation, dtype=np.float64)
-        self._memory, change = act(self._network, self._memory, observation, PORTABLE)
-        command = float(observation[RobotObservation.HAND_COMMAND] + change)
-        self._internals = {"prediction": command - self._memory.sag, "sag": self._memory.sag}
-        return np.array([change])
-
-    def internals(self) -> dict[str, float]:
-        """Return the height expected of the human's end after the step, and the arms' sag [m]."""
-        return self._internals
 
 
 class Learned(RecurrentController):

@@ -1,6 +1,6 @@
 """The vector environment on the twin: thousands of lifts at once, for one agent, the robot."""
 
-from typing import Any, ClassVar, Final
+from typing import Any, Final
 
 import jax
 import jax.numpy as jnp
@@ -55,7 +55,9 @@ class TwinEnv(VectorEnv[Array, Array, Array]):
         If a setting is out of range, or the twin does not model the scenario.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"autoreset_mode": AutoresetMode.NEXT_STEP}
+    metadata: dict[str, Any] = {  # noqa: RUF012 - Gymnasium's convention
+        "autoreset_mode": AutoresetMode.NEXT_STEP
+    }
 
     def __init__(
         self,
@@ -153,7 +155,8 @@ class TwinEnv(VectorEnv[Array, Array, Array]):
     def _due(self) -> Due:
         """Return the coming step's share of the lifts."""
         step = np.minimum(self._number, self._steps[self._chosen] - 1)
-        return _due(self._body, jnp.asarray(step))
+        share: Due = _due(self._body, jnp.asarray(step))
+        return share
 
     def _observation(self) -> Array:
         """Return what the robots observe (n, 5)."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...agents.control.recurrent import Network, network_of
-from ...agents.policies.learned import RecurrentController
+from ...agents.control.recurrent_controller import RecurrentController
 from ...agents.submissions import recurrent
 from .anticipation import FIRST_SEED
 from .apg import Learner, begin, train

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from colift.agents.control.recurrent import read_network
-from colift.agents.policies.learned import RecurrentController
+from colift.agents.control.recurrent_controller import RecurrentController
 
 
 class Policy(RecurrentController):

@@ -11,9 +11,10 @@ from colift.agents.control.recurrent import (
     read_network,
     rest,
 )
+from colift.agents.control.recurrent_controller import RecurrentController
 from colift.agents.errors import InputError
 from colift.agents.policies.extrapolate import Extrapolate
-from colift.agents.policies.learned import Learned, LearnedParameters, RecurrentController
+from colift.agents.policies.learned import Learned, LearnedParameters
 
 UNITS = 3
 
