@@ -8,10 +8,6 @@ from ..episode.scenario import Scenario
 from ..episode.seeding import derive_seed
 from ..suites.catalogue import make_scenario
 from ..suites.suite import BEHAVIOURS
-from ..world import BodyParameters, BulletWorld, FarEnd
-from ..world.bullet import pybullet
-from ..world.human_body import HumanBody
-from ..world.table import HANDS, SLIDE
 
 TRAINING_SEEDS: Final = range(100_000, 200_000)
 """Seeds of people and lifts to learn from: no suite, calibration or test uses them."""
@@ -71,34 +67,3 @@ def make_drawing(
         ),
         new_people=subject == DRAW,
     )
-
-
-class SharedWorld(BulletWorld):
-    """A world that can take one person after another: a new world takes 20 ms.
-
-    The person's mass is changed in the engine; with it, everything is as in a new world, bit for
-    bit.
-    """
-
-    def with_person(self, human: BodyParameters, far_end: FarEnd) -> "SharedWorld":
-        """Exchange the person, and return the world, which is to be reset.
-
-        Parameters
-        ----------
-        human
-            The next person.
-        far_end
-            The holder of the far end, who stays.
-        """
-        for link in (SLIDE, HANDS):
-            inertia = pybullet.getDynamicsInfo(self._tree, link, physicsClientId=self.client)[2]
-            pybullet.changeDynamics(
-                self._tree,
-                link,
-                mass=human.mass,
-                localInertiaDiagonal=inertia,  # Else the engine derives one from the mass.
-                physicsClientId=self.client,
-            )
-        self._mass = human.mass
-        self._body = HumanBody(human, self._step)
-        return self

@@ -14,7 +14,7 @@ from ..episode.lift import Lift
 from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..rendering.scene import Scene, check_render_mode
 from ..suites.catalogue import make_scenario
-from .drawing import Drawing, SharedWorld, make_drawing
+from .drawing import Drawing, make_drawing
 from .rewards import LEVEL, SCORE, check_reward, score_rewards
 from .settings import (
     HUMAN,
@@ -25,6 +25,7 @@ from .settings import (
     check_times,
     observation_space,
 )
+from .shared_world import SharedWorld
 
 
 class ParallelLift(ParallelEnv[str, Observation, Action]):
