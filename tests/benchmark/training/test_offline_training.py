@@ -1,11 +1,6 @@
-"""Cloning and implicit Q-learning, in a process of their own: JAX and forks do not mix."""
+"""Cloning and implicit Q-learning; the tests are in ``jax_offline.py``, a process of its own."""
 
 from pathlib import Path
-
-import pytest
-
-pytest.importorskip("jax")
-pytest.importorskip("optax")
 
 
 def test_learning_from_data(in_own_process):
