@@ -1,61 +1,30 @@
-"""Checks of an ONNX file before anything of it runs: its format, its signature, its contents.
+"""Checks of an ONNX file before anything of it runs: its format and its contents.
 
 The file is parsed by the library ``onnx``. What it would compute is checked by :mod:`.sizes`.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
-from ..agent import RobotObservation
 from ..errors import InputError
 from .allowed import (
     IR_VERSIONS,
     LARGEST,
     MOST_NODES,
-    MOST_STATE,
     OPERATORS,
     OPSETS,
     OWN_DOMAINS,
 )
 from .libraries import import_library
+from .signature import TYPES, Port, observation_of, outputs_of, quoted, state_of
 
 onnx = import_library("onnx")
 numpy_helper = import_library("onnx.numpy_helper")
 _message = import_library("google.protobuf.message")
-
-_SHOWN: Final = 60
-
-_TYPES: Final = {
-    onnx.TensorProto.FLOAT: np.float32,
-    onnx.TensorProto.DOUBLE: np.float64,
-    onnx.TensorProto.INT32: np.int32,
-    onnx.TensorProto.INT64: np.int64,
-    onnx.TensorProto.BOOL: np.bool_,
-}
-"""Types of numbers that tensors may have."""
-
-FLOATS: Final = (onnx.TensorProto.FLOAT, onnx.TensorProto.DOUBLE)
-"""Types of the inputs and outputs."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Port:
-    """An input or output of a network."""
-
-    name: str
-    kind: int
-    """Type of its numbers, as in the file."""
-    shape: tuple[int, ...]
-
-    @property
-    def dtype(self) -> type:
-        """Type of its numbers, as NumPy names it."""
-        return _TYPES[self.kind]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,15 +88,10 @@ def parse_network(data: bytes, name: str) -> Network:
     return Network(
         name=name,
         model=model,
-        observation=_observation(inputs),
-        state=_state(inputs),
-        outputs=_outputs(inputs, graph.output),
+        observation=observation_of(inputs),
+        state=state_of(inputs),
+        outputs=outputs_of(inputs, graph.output),
     )
-
-
-def quoted(name: str) -> str:
-    """Return a name from a file in quotes, as much as fits into a message."""
-    return repr(name if len(name) <= _SHOWN else f"{name[:_SHOWN]}...")
 
 
 def _check_versions(model: Any) -> None:
@@ -176,23 +140,22 @@ def _check_node(node: Any) -> None:
         )
     if node.op_type not in OPERATORS:
         raise InputError(f"uses the operator {quoted(node.op_type)}, which is not allowed")
+    kinds = onnx.AttributeProto
+    plain = (kinds.FLOAT, kinds.FLOATS, kinds.INT, kinds.INTS, kinds.STRING, kinds.STRINGS)
     for attribute in node.attribute:
         where = f"the attribute {quoted(attribute.name)} of {node.op_type}"
-        kinds = onnx.AttributeProto
         if attribute.ref_attr_name or attribute.type in (kinds.GRAPH, kinds.GRAPHS):
             raise InputError(f"has a subgraph or a reference in {where}, which is not allowed")
         if attribute.type == kinds.TENSOR:
             _check_tensor(attribute.t, where)
-        elif attribute.type not in (
-            *(kinds.FLOAT, kinds.FLOATS, kinds.INT, kinds.INTS, kinds.STRING, kinds.STRINGS),
-        ):
+        elif attribute.type not in plain:
             raise InputError(f"has {where}, whose type is not allowed")
 
 
 def _check_tensor(tensor: Any, where: str) -> None:
     if tensor.external_data or tensor.data_location == onnx.TensorProto.EXTERNAL:
         raise InputError(f"has {where} in another file: save all data in one")
-    if tensor.data_type not in _TYPES:
+    if tensor.data_type not in TYPES:
         raise InputError(f"has {where}, whose type is not float, double, int32, int64 or bool")
     # Whatever a shape says, there are no more numbers than bytes.
     if any(size < 0 for size in tensor.dims) or math.prod(tensor.dims) > LARGEST:
@@ -203,58 +166,3 @@ def _check_tensor(tensor: Any, where: str) -> None:
         raise InputError(f"has {where}, whose data are not of its shape and type") from error
     if values.dtype.kind == "f" and np.isnan(values).any():
         raise InputError(f"has NaN in {where}")
-
-
-def port(value: Any) -> Port:
-    """Return an input or output with its shape.
-
-    Raises
-    ------
-    InputError
-        If it is no tensor of floats, or its shape is not fixed.
-    """
-    where = quoted(value.name)
-    tensor = value.type.tensor_type
-    if value.type.WhichOneof("value") != "tensor_type" or tensor.elem_type not in FLOATS:
-        raise InputError(f"has the input or output {where}, which is no tensor of float or double")
-    sizes = tuple(int(each.dim_value) for each in tensor.shape.dim)
-    if not tensor.HasField("shape") or min(sizes, default=1) <= 0:
-        shown = ", ".join(str(d.dim_value or d.dim_param or "?") for d in tensor.shape.dim)
-        raise InputError(
-            f"has {where} with the shape [{shown[:_SHOWN]}]: every size must be a number"
-        )
-    return Port(name=value.name, kind=tensor.elem_type, shape=sizes)
-
-
-def _observation(inputs: Sequence[Any]) -> Port:
-    if not 1 <= len(inputs) <= 2:
-        names = ", ".join(quoted(value.name) for value in inputs[:5]) or "none"
-        raise InputError(f"has the inputs {names}; it must have the observation, and may a state")
-    found, size = port(inputs[0]), len(RobotObservation)
-    if found.shape not in ((size,), (1, size)):
-        raise InputError(
-            f"has the observation {quoted(found.name)} with the shape {list(found.shape)}; it must "
-            f"be [{size}] or [1, {size}]"
-        )
-    return found
-
-
-def _state(inputs: Sequence[Any]) -> Port | None:
-    if len(inputs) == 1:
-        return None
-    found = port(inputs[1])
-    if math.prod(found.shape) > MOST_STATE:
-        raise InputError(
-            f"has the state {quoted(found.name)} with the shape {list(found.shape)}; at most "
-            f"{MOST_STATE} numbers are allowed"
-        )
-    return found
-
-
-def _outputs(inputs: Sequence[Any], outputs: Sequence[Any]) -> tuple[str, ...]:
-    names = tuple(value.name for value in outputs)
-    if len(names) != len(inputs):
-        shown = ", ".join(map(quoted, names[:5])) or "none"
-        wanted = "the action" if len(inputs) == 1 else "the action and the new state"
-        raise InputError(f"has the outputs {shown}; with its inputs it must have {wanted}")
-    return names

@@ -7,7 +7,8 @@ from typing import Any, Final
 from ..errors import InputError
 from .allowed import LARGEST_SUM, LARGEST_TENSOR, RECURRENT
 from .libraries import import_library
-from .network import Network, quoted
+from .network import Network
+from .signature import quoted
 
 onnx = import_library("onnx")
 checker = import_library("onnx.checker")
