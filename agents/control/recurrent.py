@@ -2,6 +2,8 @@
 
 import io
 import zipfile
+from functools import cache
+from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any, Final, NamedTuple
@@ -181,3 +183,9 @@ def read_network(file: Path | Traversable) -> Network:
             return network_of(arrays, file.name)
     except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
         raise InputError(f"{file.name}: not an .npz file of weights: {error}") from None
+
+
+@cache
+def shipped_network() -> Network:
+    """Return the network of the policy ``learned``, trained by ``colift train apg``."""
+    return read_network(files(__package__).joinpath("data", "learned.npz"))

@@ -1,11 +1,9 @@
 """Control by a recurrent network that was learned through the twin."""
 
 from dataclasses import dataclass
-from functools import cache
-from importlib.resources import files
 from pathlib import Path
 
-from ..control.recurrent import Network, read_network
+from ..control.recurrent import read_network, shipped_network
 from ..control.recurrent_controller import RecurrentController
 
 
@@ -29,9 +27,4 @@ class Learned(RecurrentController):
 
     def __init__(self, *, parameters: LearnedParameters | None = None) -> None:
         model = (parameters or LearnedParameters()).model
-        super().__init__(_shipped() if model is None else read_network(Path(model)))
-
-
-@cache
-def _shipped() -> Network:
-    return read_network(files("colift.agents.control").joinpath("data", "learned.npz"))
+        super().__init__(shipped_network() if model is None else read_network(Path(model)))
