@@ -59,6 +59,8 @@ class CemSettings:
         for name in ("generations", "population", "elite", "lifts", "steps", "hidden"):
             if getattr(self, name) < 1:
                 raise InputError(f"{name} must be at least 1, got {getattr(self, name)}")
+        if self.lifts > len(LEARNING_SEEDS):
+            raise InputError(f"lifts must be at most {len(LEARNING_SEEDS)}, got {self.lifts}")
         if self.elite >= self.population:
             raise InputError(f"elite must be below population, {self.population}, got {self.elite}")
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from ...agents.errors import InputError
+from .validation import LEARNING_SEEDS
 
 NAME: Final = "ppo"
 
@@ -48,5 +49,7 @@ class PpoSettings:
         for name in ("updates", "pool", "lifts", "steps", "hidden", "epochs", "batches"):
             if getattr(self, name) < 1:
                 raise InputError(f"{name} must be at least 1, got {getattr(self, name)}")
+        if self.pool > len(LEARNING_SEEDS):
+            raise InputError(f"pool must be at most {len(LEARNING_SEEDS)}, got {self.pool}")
         if self.lifts > self.pool:
             raise InputError(f"lifts must be at most pool, {self.pool}, got {self.lifts}")
