@@ -1,7 +1,7 @@
 """What the tests of the hardware loop share: trials in the simulated laboratory."""
 
 import time
-from contextlib import ExitStack, closing
+from contextlib import ExitStack, closing, suppress
 
 import numpy as np
 import pytest
@@ -9,7 +9,9 @@ from colift.agents.hardware.decisions import Inline, Timed
 from colift.agents.hardware.dry_run import DryArm
 from colift.agents.hardware.loop import LoopSettings, run_trial
 from colift.agents.hardware.nao.naoqi import NAMES, NaoqiArm, hand_heights
+from colift.agents.hardware.nao.session import NaoqiSession
 from colift.agents.hardware.operator import StopButton
+from colift.agents.hardware.ports import RobotLostError
 from colift.agents.hardware.trial_end import AfterDuration
 from colift.agents.hardware.trial_log import LoggedTrial
 from colift.agents.loading.loading import PolicySpec
@@ -56,6 +58,16 @@ class Patient(Timed):
         """Wait until the policy has answered."""
         while self._answers.empty():
             time.sleep(0.001)
+
+
+class PatientSession(NaoqiSession):
+    """Asks again: a busy machine may keep the emulator from answering in time."""
+
+    def calls(self, service, calls, **options):
+        for _ in range(20):
+            with suppress(RobotLostError):
+                return super().calls(service, calls, **options)
+        return super().calls(service, calls, **options)
 
 
 class Faulty(AfterDuration):

@@ -1,25 +1,15 @@
 """One who commands at a time, over libqi."""
 
 import time
-from contextlib import suppress
 
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.hardware.claim import KEY, NOBODY, STALE, RobotClaim, claimed, holder
 from colift.agents.hardware.clocks import MonotonicClock
 from colift.agents.hardware.nao.naoqi import NaoqiArm
-from colift.agents.hardware.nao.session import NaoqiSession
-from colift.agents.hardware.ports import RobotLostError, RobotTakenError
+from colift.agents.hardware.ports import RobotTakenError
 
-
-class Patient(NaoqiSession):
-    """Asks again: a busy machine may keep the emulator from answering in time."""
-
-    def calls(self, service, calls, **options):
-        for _ in range(20):
-            with suppress(RobotLostError):
-                return super().calls(service, calls, **options)
-        return super().calls(service, calls, **options)
+from .conftest import PatientSession
 
 
 @pytest.fixture
@@ -28,7 +18,7 @@ def connect(laboratory):
     sessions = []
 
     def made():
-        sessions.append(Patient(laboratory.url))
+        sessions.append(PatientSession(laboratory.url))
         return sessions[-1]
 
     yield made

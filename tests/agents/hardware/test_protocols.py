@@ -26,6 +26,8 @@ from colift.agents.hardware.setup import measure_rest
 from colift.agents.hardware.stops import HoldReason, Stop
 from colift.agents.hardware.trial_end import AfterDuration
 
+from .conftest import PatientSession
+
 AT = 6
 """Step before which the fault comes."""
 
@@ -145,7 +147,7 @@ def disturbed(fault, log, came):
 
 def well(laboratory):
     """End the faults, and wait until the robot answers and late frames have come."""
-    session = NaoqiSession(laboratory.url)
+    session = PatientSession(laboratory.url)
     session.call("ColiftFaults", "clear", within=3.0)
     session.call("ALMotion", "getAngles", NAMES, False, within=3.0)
     session.close()
@@ -170,13 +172,13 @@ def since(log, came):
 
 def still(laboratory, seconds=0.5):
     """Return whether the set-points of the hands, asked for by somebody else, do not move."""
-    session = NaoqiSession(laboratory.url)
+    session = PatientSession(laboratory.url)
     seen = []
     end = time.monotonic() + seconds
-    while time.monotonic() < end:
+    while time.monotonic() < end or len(seen) <= 5:
         seen.append(session.call("ALMotion", "getAngles", NAMES, False, within=3.0))
     session.close()
-    return len(seen) > 5 and all(angles == seen[0] for angles in seen)
+    return all(angles == seen[0] for angles in seen)
 
 
 def comes_to_rest(laboratory, seconds=30):
