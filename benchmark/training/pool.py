@@ -28,13 +28,13 @@ LONGEST: Final = 11.0
 WANDERING: Final = "wandering"
 """Name of the behaviour :class:`.Wandering`, which is in no registry."""
 
-LATENCY_OFF: Final = 0.03
+LATENCY_OFF: Final = 0.01
 """Most by which the sensors of a wide lift are earlier or later than the benchmark's [s]."""
 
-NOISE: Final = (0.2, 4.0)
+NOISE: Final = (0.1, 2.0)
 """Least and most noise of their samples, over that of the benchmark."""
 
-LOST: Final = 0.1
+LOST: Final = 0.05
 """Most of their samples that are lost."""
 
 TYPICAL: Final = 6.0

@@ -38,10 +38,13 @@ class Wandering:
     """Fewest and most of the movements that are followed by a rest."""
     rest: tuple[float, float] = (0.05, 1.5)
     """Shortest and longest rest [s], even in its logarithm."""
-    drift: tuple[float, float] = (1e-4, 6e-3)
-    """Least and most deviation of the hand from its movement [m], even in its logarithm."""
-    drift_time: tuple[float, float] = (0.15, 0.8)
-    """Shortest and longest correlation of that deviation [s]."""
+    drift: tuple[float, float] = (5e-4, 0.12)
+    """Lowest and highest speed of the hand's drift from its movement [m/s], even in its logarithm:
+    at the highest, little is left of the movement."""
+    drift_time: tuple[float, float] = (0.15, 1.5)
+    """Shortest and longest correlation of that drift [s], even in its logarithm."""
+    farthest_drift: float = 0.06
+    """Largest standard deviation of the drift [m]."""
 
     def plan(self, subject: Subject, seed: int) -> Plan:
         """Return the plan of one episode; pure in ``(self, seed)``."""
@@ -76,12 +79,14 @@ class Wandering:
     def _drifting(self, plan: Plan, rng: np.random.Generator) -> Plan:
         """Return the plan with a smooth deviation that is nothing at both ends."""
         count = len(plan.target)
-        width = interpolate(self.drift_time, rng.random()) / FRAME
+        time = _even_in_log(self.drift_time, rng)
+        size = min(_even_in_log(self.drift, rng) * time, self.farthest_drift)
+        width = time / FRAME
         bell = np.exp(-0.5 * (np.arange(-3 * int(width), 3 * int(width) + 1) / width) ** 2)
         white = rng.standard_normal(count + len(bell) - 1)
         smooth = np.convolve(white, bell / math.sqrt(float((bell**2).sum())), mode="valid")
         fade = np.minimum(np.arange(count), np.arange(count)[::-1]) / 50
-        target = plan.target + _even_in_log(self.drift, rng) * smooth * np.minimum(fade, 1.0) ** 2
+        target = plan.target + size * smooth * np.minimum(fade, 1.0) ** 2
         target = np.clip(target, -0.02, GOAL_RANGE[1])
         target.flags.writeable = False
         return Plan(
