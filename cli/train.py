@@ -73,7 +73,7 @@ def cem(
     settings = CemSettings(generations=generations, population=population, elite=elite, lifts=lifts)
 
     def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
-        cross_entropy.train(settings, course, executor=executor, progress=progress)
+        cross_entropy.train_cem(settings, course, executor=executor, progress=progress)
 
     _train_all(cross_entropy.NAME, settings, seeds, out, generations * lifts, jobs, train)
 
@@ -115,10 +115,10 @@ def apg(
         smoothness=smoothness,
     )
     require_jax()
-    from ..benchmark.training.apg_course import train_course
+    from ..benchmark.training.apg_course import train_apg
 
     def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
-        train_course(settings, course, progress)
+        train_apg(settings, course, progress)
 
     _train_all(APG, settings, seeds, out, updates, 1, train)
 
@@ -144,7 +144,7 @@ def ppo(
     from ..benchmark.training import ppo as proximal
 
     def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
-        proximal.train(settings, course, executor=executor, progress=progress)
+        proximal.train_ppo(settings, course, executor=executor, progress=progress)
 
     _train_all(PPO, settings, seeds, out, updates, jobs, train)
 

@@ -74,7 +74,7 @@ def _learn(
     settings = dataclasses.replace(settings, data=data.digest)
 
     def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
-        run.train(
+        run.train_offline(
             trainer.learning(settings, data, course.seed),
             data,
             course,

@@ -25,7 +25,7 @@ class ArrayFunctions(Protocol):
         """Return arrays joined along the first axis."""
 
 
-class Portable:
+class PortableFunctions:
     """NumPy without BLAS and without vector extensions, for one vector at a time.
 
     BLAS chooses the order of a sum by processor and threads, NumPy its ``tanh`` by vector
@@ -50,4 +50,4 @@ class Portable:
         return np.concatenate(values)
 
 
-PORTABLE: Final = Portable()
+PORTABLE: Final = PortableFunctions()

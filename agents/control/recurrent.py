@@ -32,7 +32,7 @@ INPUTS: Final = 6
 MOST_UNITS: Final = 4096
 
 
-class Network(NamedTuple):
+class GatedNetwork(NamedTuple):
     """The weights of u gated recurrent units (K. Cho et al., EMNLP 2014) and a linear output."""
 
     inputs: Any
@@ -68,7 +68,7 @@ class Memory(NamedTuple):
 
 
 def act(
-    network: Network, memory: Memory, observation: Any, functions: ArrayFunctions
+    network: GatedNetwork, memory: Memory, observation: Any, functions: ArrayFunctions
 ) -> tuple[Memory, Any]:
     """Return the memory after a step, and the change of the command [m].
 
@@ -112,7 +112,7 @@ def act(
     return Memory(units, height, command, sag, begun), wanted - command
 
 
-def gated(network: Network, units: Any, inputs: Any, functions: ArrayFunctions) -> Any:
+def gated(network: GatedNetwork, units: Any, inputs: Any, functions: ArrayFunctions) -> Any:
     """Return the units (u, ...) after a step.
 
     With the logistic function S of reset gate r and update gate z,
@@ -130,12 +130,12 @@ def gated(network: Network, units: Any, inputs: Any, functions: ArrayFunctions) 
     return update * units + (1.0 - update) * candidate
 
 
-def rest(network: Network) -> Memory:
+def memory_at_rest(network: GatedNetwork) -> Memory:
     """Return the memory at the beginning of a lift."""
     return Memory(np.zeros(network.units), 0.0, 0.0, 0.0, 0.0)
 
 
-def network_of(arrays: Any, source: str) -> Network:
+def network_of(arrays: Any, source: str) -> GatedNetwork:
     """Return the network of named arrays, in double precision.
 
     Raises
@@ -144,7 +144,7 @@ def network_of(arrays: Any, source: str) -> Network:
         If an array is missing, of a wrong shape, or not finite.
     """
     try:
-        found = {name: np.asarray(arrays[name], dtype=np.float64) for name in Network._fields}
+        found = {name: np.asarray(arrays[name], dtype=np.float64) for name in GatedNetwork._fields}
     except (KeyError, ValueError, TypeError) as error:
         raise InputError(f"{source}: not the weights of a recurrent policy: {error}") from None
     memory = found["memory"]
@@ -167,10 +167,10 @@ def network_of(arrays: Any, source: str) -> Network:
             )
         if not np.isfinite(found[name]).all():
             raise InputError(f"{source}: {name} has numbers that are not finite")
-    return Network(**found)
+    return GatedNetwork(**found)
 
 
-def read_network(file: Path | Traversable) -> Network:
+def read_gated(file: Path | Traversable) -> GatedNetwork:
     """Return the network of an ``.npz`` file.
 
     Raises
@@ -186,6 +186,6 @@ def read_network(file: Path | Traversable) -> Network:
 
 
 @cache
-def shipped_network() -> Network:
+def shipped_network() -> GatedNetwork:
     """Return the network of the policy ``learned``, trained by ``colift train apg``."""
-    return read_network(files(__package__).joinpath("data", "learned.npz"))
+    return read_gated(files(__package__).joinpath("data", "learned.npz"))

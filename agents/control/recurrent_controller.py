@@ -4,7 +4,7 @@ import numpy as np
 
 from ..agent import Action, Observation, RobotObservation
 from .portable import PORTABLE
-from .recurrent import Network, act, rest
+from .recurrent import GatedNetwork, act, memory_at_rest
 
 
 class RecurrentController:
@@ -16,13 +16,13 @@ class RecurrentController:
         The weights.
     """
 
-    def __init__(self, network: Network) -> None:
+    def __init__(self, network: GatedNetwork) -> None:
         self._network = network
         self._internals: dict[str, float] = {}
 
     def reset(self, seed: int) -> None:
         """Begin an episode."""
-        self._memory = rest(self._network)
+        self._memory = memory_at_rest(self._network)
 
     def act(self, observation: Observation) -> Action:
         """Return the change of the command [m]."""

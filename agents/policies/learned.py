@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..control.recurrent import read_network, shipped_network
+from ..control.recurrent import read_gated, shipped_network
 from ..control.recurrent_controller import RecurrentController
 
 
@@ -27,4 +27,4 @@ class Learned(RecurrentController):
 
     def __init__(self, *, parameters: LearnedParameters | None = None) -> None:
         model = (parameters or LearnedParameters()).model
-        super().__init__(shipped_network() if model is None else read_network(Path(model)))
+        super().__init__(shipped_network() if model is None else read_gated(Path(model)))

@@ -17,8 +17,8 @@ from ..episode.level import LEVEL
 from ..episode.metrics import FAILED_FRAME_MM
 from ..episode.scenario import CONTROL_PERIOD, LATENCY
 from ..twin import playing as lifting
-from ..twin.lifts import Lifts, draw, some
-from ..twin.playing import Due, Playing
+from ..twin.lifts import Lifts, draw_lifts, some
+from ..twin.playing import Due, LiftState
 from .drawing import ANY, DRAW, make_drawing
 from .rewards import REWARDS, SCORE, UNIT
 
@@ -103,13 +103,13 @@ class TwinEnv(VectorEnv[Array, Array, Array]):
         if seed is not None or self._lifts is None:
             self._rng = np.random.default_rng(seed)
             seeds = self._rng.integers(2**62, size=self._size)
-            self._lifts = draw(self._drawing.lift(int(each)) for each in seeds)
+            self._lifts = draw_lifts(self._drawing.lift(int(each)) for each in seeds)
             self._steps = np.asarray(self._lifts.steps)
         self._chosen = self._rng.integers(self._size, size=self.num_envs)
         self._body = some(self._lifts, self._chosen)
         self._number = np.zeros(self.num_envs, np.int64)
         self._over = np.zeros(self.num_envs, bool)
-        self._state = lifting.begin(self._body)
+        self._state = lifting.lifts_at_rest(self._body)
         return self._observation(), {}
 
     def step(self, actions: Array) -> tuple[Array, Array, Array, Array, dict[str, Any]]:
@@ -150,7 +150,7 @@ class TwinEnv(VectorEnv[Array, Array, Array]):
         drawn = self._rng.integers(self._size, size=self.num_envs)
         self._chosen = np.where(started, drawn, self._chosen)
         self._body = some(self._lifts, self._chosen)
-        self._state = _renewed(self._state, lifting.begin(self._body), jnp.asarray(started))
+        self._state = _renewed(self._state, lifting.lifts_at_rest(self._body), jnp.asarray(started))
 
     def _due(self) -> Due:
         """Return the coming step's share of the lifts."""
@@ -182,10 +182,10 @@ _observe = jax.jit(lifting.observe, static_argnums=3)
 
 @jax.jit
 def _advance(
-    state: Playing, lifts: Lifts, due: Due, actions: jax.Array
-) -> tuple[Playing, jax.Array, jax.Array, jax.Array]:
+    state: LiftState, lifts: Lifts, due: Due, actions: jax.Array
+) -> tuple[LiftState, jax.Array, jax.Array, jax.Array]:
     """Return the lifts after a step, both rewards, and whether each was dropped."""
-    state, frames = lifting.advance(state, lifts.body, due, actions)
+    state, frames = lifting.control_step(state, lifts.body, due, actions)
     size = lifts.reference.shape[1]
     return (
         state,
@@ -196,7 +196,7 @@ def _advance(
 
 
 @jax.jit
-def _renewed(state: Playing, fresh: Playing, started: jax.Array) -> Playing:
+def _renewed(state: LiftState, fresh: LiftState, started: jax.Array) -> LiftState:
     """Return the lifts, some of them at rest again."""
 
     def chosen(new: jax.Array, old: jax.Array) -> jax.Array:

@@ -15,7 +15,7 @@ from ..episode.episode import run_episode
 from ..episode.lift import Lift
 from ..suites.catalogue import make_scenario
 from ..suites.suite import BEHAVIOURS
-from ..twin.lifts import Lifts, draw, some
+from ..twin.lifts import Lifts, draw_lifts, some
 from ..twin.rollout import rollout
 
 UNITS: Final = 64
@@ -70,7 +70,7 @@ def twin_speed() -> dict[str, float]:
 
 
 def _drawn() -> Lifts:
-    lifts = draw(
+    lifts = draw_lifts(
         (make_scenario(BEHAVIOURS[i % len(BEHAVIOURS)], f"draw-{_SEED + i}"), _SEED + i)
         for i in range(DRAWN)
     )

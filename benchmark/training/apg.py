@@ -20,10 +20,10 @@ import jax.numpy as jnp
 import numpy as np
 import optax
 
-from ...agents.control.recurrent import INPUTS, Network
+from ...agents.control.recurrent import INPUTS, GatedNetwork
 from ..twin.rollout import recurrent, rollout
 from .apg_settings import PARTS, ApgSettings
-from .pool import Batch, Pool, draw_batch, draw_pool
+from .pool import LearningBatch, Pool, draw_batch, draw_pool
 
 LARGEST_GRADIENT: Final = 5.0
 """Norm to which gradients are cut."""
@@ -32,7 +32,7 @@ LARGEST_GRADIENT: Final = 5.0
 class Learner(NamedTuple):
     """All that changes during the training."""
 
-    network: Network
+    network: GatedNetwork
     optimiser: Any
     update: int
     """Updates done."""
@@ -46,7 +46,7 @@ class Update(NamedTuple):
     """Mean RMSE of the batch's lifts in the twin [mm]."""
 
 
-def first_network(units: int, seed: int) -> Network:
+def first_network(units: int, seed: int) -> GatedNetwork:
     """Return the network to begin with: small random weights, and no correction of the line."""
     rng = np.random.default_rng(seed)
 
@@ -54,7 +54,7 @@ def first_network(units: int, seed: int) -> Network:
         drawn = rng.standard_normal((rows, columns)) / np.sqrt(columns)
         return jnp.asarray(drawn, jnp.float32)
 
-    return Network(
+    return GatedNetwork(
         inputs=weights(3 * units, INPUTS),
         memory=weights(3 * units, units),
         bias=jnp.zeros(3 * units),
@@ -72,13 +72,15 @@ def optimiser(settings: ApgSettings) -> optax.GradientTransformation:
     return optax.chain(optax.clip_by_global_norm(LARGEST_GRADIENT), optax.adam(schedule))
 
 
-def begin(settings: ApgSettings, seed: int) -> Learner:
+def first_learner(settings: ApgSettings, seed: int) -> Learner:
     """Return the learner before the first update."""
     network = first_network(settings.units, seed)
     return Learner(network, optimiser(settings).init(network), 0)
 
 
-def loss(network: Network, batch: Batch, smoothness: float) -> tuple[jax.Array, jax.Array]:
+def loss(
+    network: GatedNetwork, batch: LearningBatch, smoothness: float
+) -> tuple[jax.Array, jax.Array]:
     """Return the loss [mm] and the mean RMSE [mm] of a batch."""
     policy, memory = recurrent(network, batch.lifts.size)
     found = rollout(policy, memory, batch.lifts, batch.variation, batch.sensing)
@@ -86,7 +88,7 @@ def loss(network: Network, batch: Batch, smoothness: float) -> tuple[jax.Array, 
     return cost.mean(), found.rmse_mm.mean()
 
 
-def train(
+def updates(
     settings: ApgSettings, seed: int, learner: Learner | None = None, pool: Pool | None = None
 ) -> Iterator[Update]:
     """Yield the learner after each update; the same seed gives the same weights.
@@ -102,7 +104,7 @@ def train(
     pool
         The drawn lifts; none: draw them.
     """
-    learner = learner or begin(settings, seed)
+    learner = learner or first_learner(settings, seed)
     lifts = pool or draw_pool(settings.lifts, settings.wide)
     gradient, descend = _functions(settings)
     network, state = learner.network, learner.optimiser
@@ -130,15 +132,15 @@ def _functions(settings: ApgSettings) -> tuple[Any, Any]:
     size = settings.batch // PARTS
 
     @jax.jit
-    def gradient(network: Network, lifts: Pool, key: jax.Array) -> tuple[Any, Network]:
+    def gradient(network: GatedNetwork, lifts: Pool, key: jax.Array) -> tuple[Any, GatedNetwork]:
         batch = draw_batch(lifts, size, settings.wide, settings.varied, key)
         of_batch = partial(loss, batch=batch, smoothness=settings.smoothness)
         return jax.value_and_grad(of_batch, has_aux=True)(network)
 
     @jax.jit
     def descend(
-        network: Network, state: Any, parts: list[tuple[Any, Network]]
-    ) -> tuple[Network, Any, jax.Array]:
+        network: GatedNetwork, state: Any, parts: list[tuple[Any, GatedNetwork]]
+    ) -> tuple[GatedNetwork, Any, jax.Array]:
         total = jax.tree.map(lambda *each: sum(each) / PARTS, *(part for _, part in parts))
         steps, state = descent.update(total, state, network)
         rmse = sum(rmse for (_, rmse), _ in parts) / PARTS

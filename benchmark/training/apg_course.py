@@ -10,11 +10,11 @@ import jax.numpy as jnp
 import numpy as np
 from numpy.typing import NDArray
 
-from ...agents.control.recurrent import Network, network_of
+from ...agents.control.recurrent import GatedNetwork, network_of
 from ...agents.control.recurrent_controller import RecurrentController
 from ...agents.submissions import recurrent
 from .anticipation import FIRST_SEED
-from .apg import Learner, begin, train
+from .apg import Learner, first_learner, updates
 from .apg_settings import ApgSettings
 from .course import Course, Point, check_finite
 from .pool import draw_pool
@@ -25,7 +25,7 @@ EVERY: Final = 100
 """Updates between two points of the curve."""
 
 
-def train_course(
+def train_apg(
     settings: ApgSettings, course: Course, progress: Callable[[int], None] = lambda many: None
 ) -> None:
     """Train, or go on where the course was interrupted, and write the policy.
@@ -44,7 +44,7 @@ def train_course(
     InputError
         If the course cannot be resumed, the training diverges, or a file cannot be written.
     """
-    learner = begin(settings, course.seed)
+    learner = first_learner(settings, course.seed)
     state = course.load(_shapes(learner))
     if state is not None:
         learner = _unpacked(learner, state)
@@ -52,7 +52,7 @@ def train_course(
     start = time.perf_counter() - course.seconds
     pool = draw_pool(settings.lifts, settings.wide)
     steps_of_update = settings.batch * float(pool.lifts.steps.mean())
-    for update in train(settings, course.seed, learner, pool):
+    for update in updates(settings, course.seed, learner, pool):
         learner = update.learner
         check_finite(f"the RMSE of update {learner.update}", np.array(update.rmse_mm))
         progress(1)
@@ -74,7 +74,7 @@ def train_course(
     )
 
 
-def in_numpy(network: Network) -> Network:
+def in_numpy(network: GatedNetwork) -> GatedNetwork:
     """Return a network of JAX in NumPy, in double precision."""
     return network_of(network._asdict(), "trained weights")
 

@@ -19,7 +19,7 @@ from ...agents.errors import InputError
 from ...agents.submissions.network.policy import FIXED, Policy
 from .course import Course, Point
 from .result import Weights, checked_network, write_policy
-from .validation import LEARNING_SEEDS, MakeAgent, play, validation_error
+from .validation import LEARNING_SEEDS, MakeAgent, lift_errors, validation_error
 
 NAME: Final = "cem"
 
@@ -65,7 +65,7 @@ class CemSettings:
             raise InputError(f"elite must be below population, {self.population}, got {self.elite}")
 
 
-def train(
+def train_cem(
     settings: CemSettings,
     course: Course,
     *,
@@ -103,7 +103,7 @@ def train(
         candidates = rng.normal(mean, deviation, (settings.population, len(mean)))
         lifts = rng.choice(LEARNING_SEEDS, settings.lifts, replace=False).tolist()
         policies = [policy(settings, each) for each in candidates]
-        errors, played = play(policies, lifts, executor, progress)
+        errors, played = lift_errors(policies, lifts, executor, progress)
         best = candidates[np.argsort(errors.mean(axis=1), kind="stable")[: settings.elite]]
         extra = settings.noise * (1 - (generation + 1) / settings.generations) * initial
         keep = settings.inertia

@@ -19,7 +19,7 @@ from .perceptron import Layers, forward, new_layers
 
 
 def learning(settings: CloneSettings, data: OfflineData, seed: int) -> Learning:
-    """Return the training, to be run by :func:`.offline_run.train`.
+    """Return the training, to be run by :func:`.offline_run.train_offline`.
 
     Parameters
     ----------

@@ -229,7 +229,7 @@ def write_whole(path: Path, content: bytes) -> None:
         raise InputError(f"cannot write {path}: {error.strerror}") from error
 
 
-def replace_folder(made: Path, folder: Path) -> None:
+def put_in_place(made: Path, folder: Path) -> None:
     """Put a folder that is complete in the place of another, or of nothing."""
     shutil.rmtree(folder, ignore_errors=True)
     made.replace(folder)

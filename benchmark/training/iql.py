@@ -54,7 +54,7 @@ def worth(critic: Layers, inputs: jax.Array, actions: jax.Array) -> jax.Array:
 
 
 def learning(settings: IqlSettings, data: OfflineData, seed: int) -> Learning:
-    """Return the training, to be run by :func:`.offline_run.train`.
+    """Return the training, to be run by :func:`.offline_run.train_offline`.
 
     Parameters
     ----------

@@ -8,17 +8,21 @@ import time
 from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Final
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
+from ...agents.submissions import offline
+from ...agents.submissions.offline.policy import Network, Policy
 from .course import Course, Point
 from .offline_data import OfflineData
-from .offline_result import Weights, checked_network, engine_error, write_policy
 from .offline_settings import BLOCK
 from .perceptron import Layers, numpy_layers
+from .result import Weights, usable, write_policy
+from .validation import validation_error
 
 POINTS: Final = 4
 """Points of a curve; each is a checkpoint."""
@@ -26,7 +30,7 @@ POINTS: Final = 4
 
 @dataclass(frozen=True, kw_only=True)
 class Learning:
-    """An algorithm with its data: what :func:`train` repeats."""
+    """An algorithm with its data: what :func:`train_offline` repeats."""
 
     start: Any
     """The state of the beginning: arrays in tuples and lists."""
@@ -42,7 +46,7 @@ class Learning:
     """Description for the manifest."""
 
 
-def train(
+def train_offline(
     learning: Learning,
     data: OfflineData,
     course: Course,
@@ -99,7 +103,8 @@ def train(
         if done % every == 0 or done == updates:
             kept = zip(shapes, map(np.asarray, jax.tree.leaves(state)), strict=True)
             weights = _weights(learning.actor(state), data)
-            error = engine_error(checked_network(weights), executor)
+            policy = partial(Policy, usable(weights, Network))
+            error = validation_error(policy, executor)
             point = Point(done * batch, time.perf_counter() - begin, error)
             course.keep(point, {**dict(kept), "update": np.array(done)})
     write_policy(
@@ -108,6 +113,8 @@ def train(
         description=learning.about,
         trained_on=f"{data.steps} steps of {data.lifts} lifts: the data set {data.name}, "
         f"SHA-256 {data.digest}.",
+        package=offline,
+        check=partial(usable, make=Network),
     )
 
 

@@ -158,7 +158,7 @@ def _cut(lift: DrawnLift) -> DrawnLift:
     )
 
 
-class Batch(NamedTuple):
+class LearningBatch(NamedTuple):
     """Lifts to learn from, with what differs from the benchmark."""
 
     lifts: Lifts
@@ -168,7 +168,7 @@ class Batch(NamedTuple):
     """(n,) weight of each lift in the loss."""
 
 
-def draw_batch(pool: Pool, size: int, wide: float, varied: float, key: jax.Array) -> Batch:
+def draw_batch(pool: Pool, size: int, wide: float, varied: float, key: jax.Array) -> LearningBatch:
     """Return a batch of the pool's lifts, with arms and sensors drawn anew.
 
     Parameters
@@ -203,4 +203,4 @@ def draw_batch(pool: Pool, size: int, wide: float, varied: float, key: jax.Array
     chance = LOST * is_wide * jax.random.uniform(keys[6], (size,))
     lost = jax.random.uniform(jax.random.fold_in(key, 1), (longest, size)) < chance
     sensing = Sensing(noise, lost.astype(jnp.float32))
-    return Batch(lifts, variation, sensing, pool.weight[chosen])
+    return LearningBatch(lifts, variation, sensing, pool.weight[chosen])

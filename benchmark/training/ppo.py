@@ -26,7 +26,7 @@ from ..suites.suite import BEHAVIOURS
 from ..twin import lifts as twin_lifts
 from ..twin import playing as twin
 from ..twin.lifts import DrawnLift, Lifts
-from ..twin.playing import Playing
+from ..twin.playing import LiftState
 from .course import Course, Point
 from .data import Timing, scenario
 from .ppo_settings import PpoSettings
@@ -46,7 +46,7 @@ Tree = Any
 """Arrays in named tuples and dictionaries."""
 
 
-class Senses(NamedTuple):
+class PastSenses(NamedTuple):
     """The past of n lifts; see :class:`.network.policy.Senses`, of which this is the twin."""
 
     seen: jax.Array
@@ -55,7 +55,7 @@ class Senses(NamedTuple):
     """(3, n) hand commands, newest first [m]."""
 
 
-class Played(NamedTuple):
+class Experience(NamedTuple):
     """Steps of lifts, each array with the axes (steps, lifts)."""
 
     inputs: jax.Array
@@ -72,7 +72,7 @@ class Played(NamedTuple):
     """1 until the lift's horizon, then 0."""
 
 
-def train(
+def train_ppo(
     settings: PpoSettings,
     course: Course,
     *,
@@ -109,7 +109,7 @@ def train(
         progress(first)
     begin -= course.seconds
     steps = course.steps
-    pool = draw(settings, course.seed, executor)
+    pool = draw_pool_of(settings, course.seed, executor)
     update = _compiled(settings)
     every = max(settings.updates // 20, 1)
     for number in range(first, settings.updates):
@@ -134,7 +134,7 @@ def train(
     )
 
 
-def draw(settings: PpoSettings, seed: int, executor: Executor | None = None) -> Lifts:
+def draw_pool_of(settings: PpoSettings, seed: int, executor: Executor | None = None) -> Lifts:
     """Return the pool of lifts of a training: all behaviours, a new person in each."""
     rng = np.random.default_rng([seed, 1])
     chosen = rng.choice(LEARNING_SEEDS, settings.pool, replace=False).tolist()
@@ -191,7 +191,7 @@ def output(network: Tree, inputs: jax.Array) -> jax.Array:
     return found
 
 
-def sense(senses: Senses, view: jax.Array, first: jax.Array) -> tuple[Senses, jax.Array]:
+def sense(senses: PastSenses, view: jax.Array, first: jax.Array) -> tuple[PastSenses, jax.Array]:
     """Return the past after one more observation, and the inputs [m].
 
     Parameters
@@ -214,17 +214,17 @@ def sense(senses: Senses, view: jax.Array, first: jax.Array) -> tuple[Senses, ja
     seen, commands = jnp.vstack((human, seen)), jnp.vstack((command, commands))
     now = jnp.stack((human, command - human, hand - command, end - human))
     inputs = jnp.concatenate((now, commands[:-1] - commands[1:], seen[:-1] - seen[1:]))
-    return Senses(seen[:-1], commands[:-1]), inputs.T
+    return PastSenses(seen[:-1], commands[:-1]), inputs.T
 
 
-def play(settings: PpoSettings, parameters: Tree, lifts: Lifts, key: jax.Array) -> Played:
+def collect(settings: PpoSettings, parameters: Tree, lifts: Lifts, key: jax.Array) -> Experience:
     """Return whole lifts with a policy whose corrections are noisy."""
     divisor = jnp.asarray(scales(settings.steps), jnp.float32)
     noise = jnp.exp(parameters["log_noise"])
 
     def step(
-        state: tuple[Playing, Senses], now: tuple[twin.Due, jax.Array]
-    ) -> tuple[tuple[Playing, Senses], Played]:
+        state: tuple[LiftState, PastSenses], now: tuple[twin.Due, jax.Array]
+    ) -> tuple[tuple[LiftState, PastSenses], Experience]:
         playing, senses = state
         due, drawn = now
         view = twin.observe(playing, due.noise, lifts.latency, CONTROL_PERIOD)
@@ -234,9 +234,9 @@ def play(settings: PpoSettings, parameters: Tree, lifts: Lifts, key: jax.Array) 
         line = LEAD * metres[:, FIXED] - metres[:, 1]
         valid = (playing.step < lifts.steps).astype(jnp.float32)
         change = line + CORRECTION * jnp.tanh(action)
-        playing, frames = twin.advance(playing, lifts.body, due, change)
+        playing, frames = twin.control_step(playing, lifts.body, due, change)
         square = jnp.minimum((frames.human_end - frames.robot_end) ** 2, WORST).mean(axis=0)
-        played = Played(
+        played = Experience(
             inputs=inputs,
             action=action,
             log_density=_log_density(drawn, parameters["log_noise"]),
@@ -247,14 +247,14 @@ def play(settings: PpoSettings, parameters: Tree, lifts: Lifts, key: jax.Array) 
         return (playing, senses), played
 
     count, longest = lifts.size, lifts.longest()
-    rest = Senses(jnp.zeros((settings.steps, count)), jnp.zeros((3, count)))
+    rest = PastSenses(jnp.zeros((settings.steps, count)), jnp.zeros((3, count)))
     shares = twin.Due(lifts.reference, lifts.seen_target, lifts.noise)
     drawn = jax.random.normal(key, (longest, count))
-    _, played = jax.lax.scan(step, (twin.begin(lifts), rest), (shares, drawn))
+    _, played = jax.lax.scan(step, (twin.lifts_at_rest(lifts), rest), (shares, drawn))
     return played
 
 
-def advantages(settings: PpoSettings, played: Played) -> jax.Array:
+def advantages(settings: PpoSettings, played: Experience) -> jax.Array:
     """Return the generalised estimate of each action's advantage (s, n); 0 after the horizon."""
 
     def back(
@@ -272,7 +272,11 @@ def advantages(settings: PpoSettings, played: Played) -> jax.Array:
 
 
 def objective(
-    settings: PpoSettings, parameters: Tree, played: Played, advantage: jax.Array, aim: jax.Array
+    settings: PpoSettings,
+    parameters: Tree,
+    played: Experience,
+    advantage: jax.Array,
+    aim: jax.Array,
 ) -> jax.Array:
     """Return the clipped objective with the error of the values, to be minimised."""
     drawn = played.action - output(parameters["policy"], played.inputs)
@@ -305,7 +309,7 @@ def _update(
     """Return parameters and optimiser after one update, and the steps that were played."""
     choice, noise, order = jax.random.split(key, 3)
     chosen = jax.random.choice(choice, settings.pool, (settings.lifts,), replace=False)
-    played = play(settings, learning[0], twin_lifts.some(pool, chosen), noise)
+    played = collect(settings, learning[0], twin_lifts.some(pool, chosen), noise)
     advantage = advantages(settings, played)
     aim = advantage + played.value
     total = played.valid.sum()

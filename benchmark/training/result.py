@@ -6,7 +6,7 @@ from importlib.resources import files
 from io import BytesIO
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Final
+from typing import Any, Final, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,15 +15,17 @@ from ...agents.errors import InputError
 from ...agents.submissions import network
 from ...agents.submissions.network.policy import Network
 from ...agents.submissions.new import write_files
-from .course import Course, replace_folder, write_whole
+from .course import Course, put_in_place, write_whole
 
 WEIGHTS: Final = "weights.npz"
 
 Weights = Mapping[str, NDArray[Any]]
 
+Made = TypeVar("Made")
 
-def checked_network(weights: Weights) -> Network:
-    """Return the network of trained weights.
+
+def usable(weights: Weights, make: Callable[[Weights], Made]) -> Made:
+    """Return what ``make`` builds from trained weights.
 
     Raises
     ------
@@ -31,9 +33,14 @@ def checked_network(weights: Weights) -> Network:
         If a weight is not finite, or the shapes do not fit together.
     """
     try:
-        return Network(weights)
+        return make(weights)
     except ValueError as error:
         raise InputError(f"trained weights cannot be used: {error}") from error
+
+
+def checked_network(weights: Weights) -> Network:
+    """Return the network of trained weights; see :func:`usable`."""
+    return usable(weights, Network)
 
 
 def write_policy(
@@ -82,7 +89,7 @@ def write_policy(
         source = files(package).joinpath("policy.py").read_bytes()
         write_files(made, source, about)
         write_whole(made / WEIGHTS, content.getvalue())
-        replace_folder(made, course.policy)
+        put_in_place(made, course.policy)
     except OSError as error:
         raise InputError(f"cannot write {course.policy}: {error.strerror}") from error
     finally:

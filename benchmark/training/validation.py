@@ -27,7 +27,7 @@ VALIDATION_SEEDS: Final = TRAINING_SEEDS[90_000:90_040]
 MakeAgent = Callable[[], Agent]
 
 
-def play(
+def lift_errors(
     policies: Sequence[MakeAgent],
     seeds: Sequence[int],
     executor: Executor | None = None,
@@ -78,5 +78,5 @@ def lift_together(policies: Sequence[MakeAgent], seed: int) -> tuple[list[float]
 
 def validation_error(policy: MakeAgent, executor: Executor | None = None) -> float:
     """Return the mean RMSE of a policy on the validation lifts [mm]."""
-    errors, _ = play([policy], VALIDATION_SEEDS, executor)
+    errors, _ = lift_errors([policy], VALIDATION_SEEDS, executor)
     return float(errors.mean())

@@ -16,13 +16,13 @@ from ..episode.turns import policy_seed
 from ..world.table import WEIGHT_SHARE
 from . import pair as pair_plant
 from . import playing as lifting
-from .lifts import Lifts, draw, partner_body
-from .playing import Due, Frames, Playing, in_chunks, ramp
+from .lifts import Lifts, draw_lifts, partner_body
+from .playing import Due, Frames, LiftState, in_chunks, ramp
 
 Array = NDArray[np.float64]
 
 
-def play(make: Callable[[], Agent], lifts: Sequence[tuple[Scenario, int]]) -> Array:
+def play_agents(make: Callable[[], Agent], lifts: Sequence[tuple[Scenario, int]]) -> Array:
     """Return the RMSE [mm] of each lift (n,) with an agent at the robot's end, in the twin.
 
     Parameters
@@ -32,13 +32,13 @@ def play(make: Callable[[], Agent], lifts: Sequence[tuple[Scenario, int]]) -> Ar
     lifts
         Scenarios with a NAO, and seeds.
     """
-    drawn = draw(lifts)
+    drawn = draw_lifts(lifts)
     agents = [make() for _ in lifts]
     for agent in agents:
         agent.reset(policy_seed())
     period = lifts[0][0].control_period
     step = jax.jit(partial(_step, drawn, period))
-    state = lifting.begin(drawn)
+    state = lifting.lifts_at_rest(drawn)
     view = lifting.observe(state, drawn.noise[0], drawn.latency, period)
     steps = np.asarray(drawn.steps)
     squares, actions = np.zeros(len(lifts)), np.zeros(len(lifts), np.float32)
@@ -48,18 +48,18 @@ def play(make: Callable[[], Agent], lifts: Sequence[tuple[Scenario, int]]) -> Ar
             actions[index] = np.asarray(agents[index].act(views[:, index])).ravel()[0]
         state, view, added = step(state, jnp.asarray(actions))
         squares += np.where(number < steps, np.asarray(added, np.float64), 0.0)
-    return rmse_mm(squares, steps * drawn.reference.shape[1])
+    return lift_rmse_mm(squares, steps * drawn.reference.shape[1])
 
 
-def rmse_mm(squares: Array, frames: Array) -> Array:
+def lift_rmse_mm(squares: Array, frames: Array) -> Array:
     """Return the RMSE [mm] of sums of squared height differences [m2] over so many frames."""
     return np.asarray(1000 * np.sqrt(squares / frames))
 
 
 def _step(
-    drawn: Lifts, period: float, state: Playing, actions: jax.Array
-) -> tuple[Playing, jax.Array, jax.Array]:
-    state, frames = lifting.advance(state, drawn.body, lifting.due(drawn, state.step), actions)
+    drawn: Lifts, period: float, state: LiftState, actions: jax.Array
+) -> tuple[LiftState, jax.Array, jax.Array]:
+    state, frames = lifting.control_step(state, drawn.body, lifting.due(drawn, state.step), actions)
     noise = lifting.due(drawn, state.step).noise
     return state, lifting.observe(state, noise, drawn.latency, period), frames.squares()
 
@@ -69,7 +69,7 @@ def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
 
     The second person is :class:`.Partner`, unchanged: it gets the observations of the task.
     """
-    drawn = draw(lifts)
+    drawn = draw_lifts(lifts)
     body, far_body = drawn.body, partner_body(len(lifts))
     person = SEATS["human"].person
     assert person is not None
@@ -81,19 +81,19 @@ def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
 
     @jax.jit
     def step(
-        pair: pair_plant.Pair, correction: jax.Array, now: Due, far: jax.Array
-    ) -> tuple[pair_plant.Pair, jax.Array, Frames]:
+        pair: pair_plant.PairPlant, correction: jax.Array, now: Due, far: jax.Array
+    ) -> tuple[pair_plant.PairPlant, jax.Array, Frames]:
         wanted = lifting.corrected(correction, pair.heights, body, now.seen_target, size)
         references = ramp(correction, wanted, size) + now.reference
 
-        def move(state: pair_plant.Pair, first: int, last: int) -> pair_plant.Pair:
+        def move(state: pair_plant.PairPlant, first: int, last: int) -> pair_plant.PairPlant:
             mine, others = references[first:last], far[first:last]
-            return pair_plant.advance(state, body, far_body, mine, others)
+            return pair_plant.advance_pair(state, body, far_body, mine, others)
 
         pair, frames = in_chunks(pair, size, move)
         return pair, wanted, frames
 
-    pair, correction = pair_plant.begin(len(lifts)), jnp.zeros(len(lifts))
+    pair, correction = pair_plant.pair_at_rest(len(lifts)), jnp.zeros(len(lifts))
     squares, far = np.zeros(len(lifts)), np.zeros((size, len(lifts)))
     for number in range(drawn.longest()):
         views = _partner_views(pair, delay, size, number)
@@ -102,10 +102,10 @@ def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
         now = lifting.due(drawn, jnp.asarray(number))
         pair, correction, frames = step(pair, correction, now, jnp.asarray(far, jnp.float32))
         squares += np.where(number < steps, np.asarray(frames.squares(), np.float64), 0.0)
-    return rmse_mm(squares, steps * size)
+    return lift_rmse_mm(squares, steps * size)
 
 
-def _partner_views(pair: pair_plant.Pair, delay: int, size: int, step: int) -> Array:
+def _partner_views(pair: pair_plant.PairPlant, delay: int, size: int, step: int) -> Array:
     """Return what each second person observes (n, HumanObservation.size(f))."""
     heights = np.asarray(pair.heights, np.float64)
     far = heights + np.asarray(pair.differences, np.float64)

@@ -81,7 +81,7 @@ class Arm(NamedTuple):
     """(n,) filtered force that the hands bear [N]."""
 
 
-def rest(count: int) -> Arm:
+def arms_at_rest(count: int) -> Arm:
     """Return arms at rest under their share of the table's weight."""
     zero = jnp.zeros(count)
     weight = jnp.full(count, WEIGHT_SHARE)

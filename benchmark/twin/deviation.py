@@ -15,7 +15,7 @@ from ..episode.lift import Lift
 from ..episode.scenario import Scenario
 from ..suites.catalogue import make_scenario
 from ..suites.suite import BEHAVIOURS
-from .agents import play, play_pairs
+from .agents import play_agents, play_pairs
 
 POLICIES: Final = ("copy", "proportional", "extrapolate", "anticipate", "learned")
 """One that follows, one that regulates, one that predicts a line, and two that were learned."""
@@ -75,7 +75,7 @@ def policy_deviation(name: str, people: Sequence[int] = PEOPLE) -> TwinDeviation
         Seeds: each person makes one lift of each behaviour.
     """
     lifts, spec = _lifts("nao", people), PolicySpec(text=name)
-    return _deviation(name, _in_engine(spec.make, lifts), play(spec.make, lifts))
+    return _deviation(name, _in_engine(spec.make, lifts), play_agents(spec.make, lifts))
 
 
 def pair_deviation(people: Sequence[int] = PEOPLE) -> TwinDeviation:

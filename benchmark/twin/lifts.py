@@ -77,7 +77,7 @@ def check_modelled(scenario: Scenario) -> None:
         )
 
 
-def draw(lifts: Iterable[tuple[Scenario, int]]) -> Lifts:
+def draw_lifts(lifts: Iterable[tuple[Scenario, int]]) -> Lifts:
     """Return the lifts of scenarios and seeds, the same as :class:`.Lift` plays.
 
     Raises

@@ -31,7 +31,7 @@ from .body import DEPTH, Body, activated, delayed, pushed, wanted_shift
 _HALF_MOMENT: Final = TABLE_MASS * TABLE_LENGTH / 2
 
 
-class Moving(NamedTuple):
+class MovingPair(NamedTuple):
     """What a frame changes; all (n,)."""
 
     height: jax.Array
@@ -52,10 +52,10 @@ class Moving(NamedTuple):
     """Shift of the second [m]."""
 
 
-class Pair(NamedTuple):
+class PairPlant(NamedTuple):
     """The state of n lifts; histories are (DEPTH, n), newest first."""
 
-    moving: Moving
+    moving: MovingPair
     heights: jax.Array
     """History of the first person's end [m]."""
     differences: jax.Array
@@ -66,19 +66,19 @@ class Pair(NamedTuple):
     """History of the second person's force, beyond the share of the weight [N]."""
 
 
-def begin(count: int) -> Pair:
+def pair_at_rest(count: int) -> PairPlant:
     """Return lifts at rest."""
     zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
-    return Pair(Moving(*[zero] * len(Moving._fields)), past, past, past, past)
+    return PairPlant(MovingPair(*[zero] * len(MovingPair._fields)), past, past, past, past)
 
 
-def advance(
-    pair: Pair,
+def advance_pair(
+    pair: PairPlant,
     body: Body,
     far_body: Body,
     references: jax.Array,
     far_references: jax.Array,
-) -> Pair:
+) -> PairPlant:
     """Return the lifts some frames later, at most :data:`.CHUNK`.
 
     Parameters
@@ -102,7 +102,9 @@ def advance(
         delayed(pair.far_forces, far_body.felt, count),
     )
 
-    def frame(now: Moving, due: tuple[jax.Array, ...]) -> tuple[Moving, tuple[jax.Array, ...]]:
+    def frame(
+        now: MovingPair, due: tuple[jax.Array, ...]
+    ) -> tuple[MovingPair, tuple[jax.Array, ...]]:
         wanted, far_wanted, shift, far_shift = due
         reflex, far_reflex = activated(now.reflex, shift), activated(now.far_reflex, far_shift)
         after, force, far_force = _frame(
@@ -114,7 +116,7 @@ def advance(
     moving, (heights, differences, forces, far_forces) = jax.lax.scan(
         frame, pair.moving, (references, far_references, shifts, far_shifts)
     )
-    return Pair(
+    return PairPlant(
         moving=moving,
         heights=pushed(pair.heights, heights),
         differences=pushed(pair.differences, differences),
@@ -124,8 +126,8 @@ def advance(
 
 
 def _frame(
-    now: Moving, body: Body, far_body: Body, reference: jax.Array, far_reference: jax.Array
-) -> tuple[Moving, jax.Array, jax.Array]:
+    now: MovingPair, body: Body, far_body: Body, reference: jax.Array, far_reference: jax.Array
+) -> tuple[MovingPair, jax.Array, jax.Array]:
     """Return the lifts a frame later, and both people's forces beyond the weight [N]."""
     moment = _HALF_MOMENT + far_body.mass * TABLE_LENGTH
     inertia = TABLE_INERTIA + far_body.mass * TABLE_LENGTH**2

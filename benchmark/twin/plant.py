@@ -24,7 +24,7 @@ from ..world.table import (
     TABLE_MASS,
     WEIGHT_SHARE,
 )
-from .arm import Arm, ArmVariation, drive, rest
+from .arm import Arm, ArmVariation, arms_at_rest, drive
 from .body import DEPTH, Body, activated, delayed, pushed, wanted_shift
 
 _IMPLICIT: Final = 1 + FRAME * GRIP_DAMPING / TABLE_INERTIA / 2
@@ -76,15 +76,17 @@ class Plant(NamedTuple):
         return self.moving.arm.hand
 
 
-def begin(count: int) -> Plant:
+def plant_at_rest(count: int) -> Plant:
     """Return lifts at rest."""
     zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
     weight = jnp.full(count, WEIGHT_SHARE)
-    moving = Moving(zero, zero, zero, zero, zero, zero, weight, zero, zero, rest(count), zero)
+    moving = Moving(
+        zero, zero, zero, zero, zero, zero, weight, zero, zero, arms_at_rest(count), zero
+    )
     return Plant(moving, past, past, past)
 
 
-def advance(
+def advance_plant(
     plant: Plant,
     body: Body,
     references: jax.Array,

@@ -14,15 +14,14 @@ from ...robots.nao.kinematics import STROKE
 from ..episode.level import DROP_TILT, GRIP_FORCE
 from ..episode.seat import REFERENCE_RANGE
 from ..world.table import TABLE_LENGTH
-from . import plant
 from .arm import ArmVariation
 from .body import Body, delayed
 from .lifts import Lifts, chunk
-from .pair import Pair
-from .plant import Plant
+from .pair import PairPlant
+from .plant import Plant, advance_plant, plant_at_rest
 
 
-class Playing(NamedTuple):
+class LiftState(NamedTuple):
     """The state of n lifts between two steps."""
 
     plant: Plant
@@ -58,10 +57,10 @@ class Frames(NamedTuple):
         return ((self.human_end - self.robot_end) ** 2).sum(axis=0)
 
 
-def begin(lifts: Lifts) -> Playing:
+def lifts_at_rest(lifts: Lifts) -> LiftState:
     """Return the lifts at rest."""
     zero = jnp.zeros(lifts.size)
-    return Playing(plant.begin(lifts.size), zero, zero, jnp.zeros((), jnp.int32))
+    return LiftState(plant_at_rest(lifts.size), zero, zero, jnp.zeros((), jnp.int32))
 
 
 def due(lifts: Lifts, step: jax.Array) -> Due:
@@ -69,7 +68,7 @@ def due(lifts: Lifts, step: jax.Array) -> Due:
     return Due(lifts.reference[step], lifts.seen_target[step], lifts.noise[step])
 
 
-def observe(playing: Playing, noise: jax.Array, latency: jax.Array, period: float) -> jax.Array:
+def observe(playing: LiftState, noise: jax.Array, latency: jax.Array, period: float) -> jax.Array:
     """Return the robot's observations (5, n), laid out as :class:`.RobotObservation`.
 
     Parameters
@@ -100,13 +99,13 @@ def corrected(
     return jnp.clip(wanted, -CORRECTION_LIMIT, CORRECTION_LIMIT)
 
 
-def advance(
-    playing: Playing,
+def control_step(
+    playing: LiftState,
     body: Body,
     now: Due,
     action: jax.Array,
     variation: ArmVariation | None = None,
-) -> tuple[Playing, Frames]:
+) -> tuple[LiftState, Frames]:
     """Return the lifts after a step, and the heights in its frames.
 
     Parameters
@@ -131,19 +130,19 @@ def advance(
     commands = ramp(playing.command, command, size)
 
     def move(state: Plant, first: int, last: int) -> Plant:
-        return plant.advance(state, body, references[first:last], commands[first:last], variation)
+        return advance_plant(state, body, references[first:last], commands[first:last], variation)
 
     moving = playing.plant.moving._replace(pulled=jnp.zeros_like(command))
     state, frames = in_chunks(playing.plant._replace(moving=moving), size, move)
-    return Playing(state, command, correction, playing.step + 1), frames
+    return LiftState(state, command, correction, playing.step + 1), frames
 
 
-State = TypeVar("State", Plant, Pair)
+Held = TypeVar("Held", Plant, PairPlant)
 
 
 def in_chunks(
-    state: State, size: int, move: Callable[[State, int, int], State]
-) -> tuple[State, Frames]:
+    state: Held, size: int, move: Callable[[Held, int, int], Held]
+) -> tuple[Held, Frames]:
     """Return the state after a step of ``size`` frames, and the heights in these.
 
     ``move`` returns the state after the frames from a first to before a last one.
@@ -164,7 +163,7 @@ def ramp(start: jax.Array, stop: jax.Array, size: int) -> jax.Array:
     return start + (stop - start) * share
 
 
-def dropped(playing: Playing, size: int) -> jax.Array:
+def dropped(playing: LiftState, size: int) -> jax.Array:
     """Return whether each table (n,) was dropped in the step just made, of ``size`` frames.
 
     The tests are those of :meth:`.Level.failure`; the hands never let go, so that there is no gap.

@@ -7,11 +7,11 @@ import jax
 import jax.numpy as jnp
 
 from ...agents.agent import FRAME, RobotObservation
-from ...agents.control.recurrent import Memory, Network, act
+from ...agents.control.recurrent import GatedNetwork, Memory, act
 from . import playing as lifting
 from .arm import ArmVariation
 from .lifts import Lifts
-from .playing import Playing
+from .playing import LiftState
 
 
 class JaxFunctions:
@@ -59,7 +59,7 @@ Policy = Callable[[Any, jax.Array], tuple[Any, jax.Array]]
 """Returns memory and actions (n,) [m] for a memory and observations (5, n)."""
 
 
-def recurrent(network: Network, count: int) -> tuple[Policy, Memory]:
+def recurrent(network: GatedNetwork, count: int) -> tuple[Policy, Memory]:
     """Return the policy of a network, and its memory at the beginning of n lifts."""
 
     def policy(memory: Memory, view: jax.Array) -> tuple[Memory, jax.Array]:
@@ -92,8 +92,8 @@ def rollout(
     extra = sensing or Sensing(jnp.zeros((longest, 2, count)), jnp.zeros((longest, count)))
 
     def step(
-        state: tuple[Playing, Any, jax.Array], now: tuple[lifting.Due, jax.Array, jax.Array]
-    ) -> tuple[tuple[Playing, Any, jax.Array], tuple[jax.Array, jax.Array]]:
+        state: tuple[LiftState, Any, jax.Array], now: tuple[lifting.Due, jax.Array, jax.Array]
+    ) -> tuple[tuple[LiftState, Any, jax.Array], tuple[jax.Array, jax.Array]]:
         playing, memory, last = state
         share, added, lost = now
         view = lifting.observe(playing, share.noise + added, lifts.latency, period)
@@ -103,13 +103,13 @@ def rollout(
         memory, action = policy(memory, view)
         valid = (playing.step < lifts.steps).astype(jnp.float32)
         before = playing.command
-        playing, frames = lifting.advance(playing, lifts.body, share, action, variation)
+        playing, frames = lifting.control_step(playing, lifts.body, share, action, variation)
         return (playing, memory, seen), (
             frames.squares() * valid,
             (playing.command - before) * valid,
         )
 
-    start = (lifting.begin(lifts), memory, jnp.zeros((2, count)))
+    start = (lifting.lifts_at_rest(lifts), memory, jnp.zeros((2, count)))
     shares = lifting.Due(lifts.reference, lifts.seen_target, lifts.noise)
     _, (squares, changes) = jax.lax.scan(
         jax.checkpoint(step), start, (shares, extra.noise, extra.lost)

@@ -4,7 +4,7 @@ import json
 
 import jax
 import pytest
-from colift.benchmark.training import offline_result
+from colift.benchmark.training import validation
 
 FAST = ("--updates", "500", "--jobs", "1")
 
@@ -19,7 +19,7 @@ def compiled_once(tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def two_lifts_to_validate(monkeypatch):
-    monkeypatch.setattr(offline_result, "VALIDATION_SEEDS", offline_result.VALIDATION_SEEDS[:2])
+    monkeypatch.setattr(validation, "VALIDATION_SEEDS", validation.VALIDATION_SEEDS[:2])
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from colift.agents.control.recurrent import read_network
+from colift.agents.control.recurrent import read_gated
 from colift.agents.control.recurrent_controller import RecurrentController
 
 
@@ -10,4 +10,4 @@ class Policy(RecurrentController):
     """Holds the human's last pace, corrected by gated recurrent units."""
 
     def __init__(self) -> None:
-        super().__init__(read_network(Path(__file__).with_name("weights.npz")))
+        super().__init__(read_gated(Path(__file__).with_name("weights.npz")))

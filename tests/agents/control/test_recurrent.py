@@ -5,11 +5,11 @@ import pytest
 from colift.agents.control.portable import PORTABLE
 from colift.agents.control.recurrent import (
     INPUTS,
-    Network,
+    GatedNetwork,
     act,
+    memory_at_rest,
     network_of,
-    read_network,
-    rest,
+    read_gated,
 )
 from colift.agents.control.recurrent_controller import RecurrentController
 from colift.agents.errors import InputError
@@ -51,7 +51,7 @@ def test_without_corrections_it_is_a_straight_line_above_the_sag():
 
 def test_the_units_are_those_of_the_equations():
     network = network_of(weights(), "drawn")
-    memory, _ = act(network, rest(network), views()[0], PORTABLE)
+    memory, _ = act(network, memory_at_rest(network), views()[0], PORTABLE)
     view = views()[0]
     inputs = np.array([0, 10 * (view[0] - 0.1), 0, 20 * (view[3] - view[0]), 0, 0.0])
     inputs[5] = 50 * (view[1] - view[0])
@@ -90,13 +90,13 @@ def test_a_missing_array_and_another_file_are_refused(tmp_path):
         network_of(some, "file.npz")
     (tmp_path / "weights.npz").write_text("no archive")
     with pytest.raises(InputError, match=r"weights\.npz: not an \.npz file of weights"):
-        read_network(tmp_path / "weights.npz")
+        read_gated(tmp_path / "weights.npz")
 
 
 def test_the_policy_takes_the_weights_of_a_file(tmp_path):
     np.savez(tmp_path / "mine.npz", **weights())
     learned = Learned(parameters=LearnedParameters(model=str(tmp_path / "mine.npz")))
-    assert isinstance(learned._network, Network)
+    assert isinstance(learned._network, GatedNetwork)
     assert learned._network.units == UNITS
     with pytest.raises(InputError, match=r"none\.npz"):
         Learned(parameters=LearnedParameters(model=str(tmp_path / "none.npz")))

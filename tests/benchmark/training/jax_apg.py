@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from colift.agents.agent import RobotObservation
 from colift.agents.control.portable import PORTABLE
-from colift.agents.control.recurrent import Network, act, rest
+from colift.agents.control.recurrent import GatedNetwork, act, memory_at_rest
 from colift.agents.errors import InputError
 from colift.benchmark.training import apg, apg_course
 from colift.benchmark.training.apg_settings import NAME, ApgSettings
@@ -23,7 +23,7 @@ def pool():
 
 @pytest.fixture(scope="module")
 def whole(pool):
-    return list(apg.train(TINY, 0, pool=pool))
+    return list(apg.updates(TINY, 0, pool=pool))
 
 
 @pytest.fixture(autouse=True)
@@ -53,18 +53,18 @@ def test_every_update_changes_the_weights(whole):
 
 
 def test_the_same_seed_gives_the_same_weights_and_another_others(whole, pool):
-    again = next(apg.train(TINY, 0, pool=pool))
+    again = next(apg.updates(TINY, 0, pool=pool))
     assert same(again.learner.network, whole[0].learner.network)
-    other = next(apg.train(TINY, 1, pool=pool))
+    other = next(apg.updates(TINY, 1, pool=pool))
     assert not same(other.learner.network, whole[0].learner.network)
 
 
 def test_the_network_acts_the_same_in_numpy(whole):
     network = whole[-1].learner.network
     rng = np.random.default_rng(0)
-    plain = Network(*(np.asarray(array, np.float64) for array in network))
+    plain = GatedNetwork(*(np.asarray(array, np.float64) for array in network))
     policy, many = recurrent(network, 1)
-    memory = rest(plain)
+    memory = memory_at_rest(plain)
     for _ in range(5):
         view = 0.1 + 0.01 * rng.standard_normal(len(RobotObservation))
         memory, action = act(plain, memory, view, PORTABLE)
@@ -80,9 +80,9 @@ def test_an_interrupted_training_ends_with_the_same_policy(tmp_path, whole):
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        apg_course.train_course(TINY, first, killed)
+        apg_course.train_apg(TINY, first, killed)
     second = open_course(tmp_path, NAME, TINY, 0)
-    apg_course.train_course(TINY, second)
+    apg_course.train_apg(TINY, second)
     with np.load(second.policy / "weights.npz") as stored:
         for name, array in whole[-1].learner.network._asdict().items():
             assert np.array_equal(stored[name], np.asarray(array)), name
@@ -92,8 +92,8 @@ def test_an_interrupted_training_ends_with_the_same_policy(tmp_path, whole):
 
 def test_a_training_that_diverges_stops_with_a_message(tmp_path, monkeypatch, whole):
     broken = whole[0]._replace(rmse_mm=float("nan"))
-    monkeypatch.setattr(apg_course, "train", lambda *arguments: iter([broken]))
+    monkeypatch.setattr(apg_course, "updates", lambda *arguments: iter([broken]))
     course = open_course(tmp_path, NAME, TINY, 0)
     with pytest.raises(InputError, match="RMSE of update 1 has numbers that are not finite"):
-        apg_course.train_course(TINY, course)
+        apg_course.train_apg(TINY, course)
     assert not course.policy.exists()

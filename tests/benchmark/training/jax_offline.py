@@ -10,10 +10,10 @@ from colift.agents.submissions.submission import read_submission
 from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.training import cloning, iql, offline_result
+from colift.benchmark.training import cloning, iql, validation
 from colift.benchmark.training.course import open_course
 from colift.benchmark.training.offline_data import OfflineData
-from colift.benchmark.training.offline_run import train
+from colift.benchmark.training.offline_run import train_offline
 from colift.benchmark.training.offline_settings import BLOCK, CloneSettings, IqlSettings
 from colift.benchmark.training.perceptron import forward
 
@@ -31,7 +31,7 @@ def compiled_once(tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def two_lifts_to_validate(monkeypatch):
-    monkeypatch.setattr(offline_result, "VALIDATION_SEEDS", offline_result.VALIDATION_SEEDS[:2])
+    monkeypatch.setattr(validation, "VALIDATION_SEEDS", validation.VALIDATION_SEEDS[:2])
 
 
 def data(actions, rewards, inputs):
@@ -62,7 +62,7 @@ def trained(trainer, settings, steps, folder, seed=0, report=lambda point: None)
     module, _ = TRAINERS[trainer]
     course = open_course(folder, trainer, settings, seed, report)
     learning = module.learning(settings, steps, seed)
-    train(learning, steps, course, updates=settings.updates, batch=settings.batch)
+    train_offline(learning, steps, course, updates=settings.updates, batch=settings.batch)
     return course
 
 
@@ -79,7 +79,7 @@ def same(one, other):
 def whole(linear, tmp_path_factory):
     """Return a finished course of each trainer."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(offline_result, "VALIDATION_SEEDS", offline_result.VALIDATION_SEEDS[:2])
+        patched.setattr(validation, "VALIDATION_SEEDS", validation.VALIDATION_SEEDS[:2])
         return {
             name: trained(name, kind(**SMALL), linear, tmp_path_factory.mktemp(name) / "out")
             for name, (_, kind) in TRAINERS.items()

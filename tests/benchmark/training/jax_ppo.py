@@ -49,19 +49,19 @@ def lifts():
 
 @pytest.fixture(scope="module")
 def played(parameters, lifts):
-    return ppo.play(TINY, parameters, lifts, jax.random.key(0))
+    return ppo.collect(TINY, parameters, lifts, jax.random.key(0))
 
 
 @pytest.fixture(scope="module")
 def trained(tmp_path_factory):
     course = open_course(tmp_path_factory.mktemp("trained"), "ppo", TINY, 0)
-    ppo.train(TINY, course)
+    ppo.train_ppo(TINY, course)
     return course
 
 
 def test_the_inputs_and_the_network_are_those_of_the_shipped_policy(parameters):
     network = Network(ppo.weights(parameters))
-    senses, past = shipped.Senses(3), ppo.Senses(jnp.zeros((3, 1)), jnp.zeros((3, 1)))
+    senses, past = shipped.Senses(3), ppo.PastSenses(jnp.zeros((3, 1)), jnp.zeros((3, 1)))
     for number, view in enumerate(np.random.default_rng(1).normal(0, 0.05, (6, 5))):
         past, inputs = ppo.sense(past, jnp.asarray(view)[:, None], jnp.asarray(number == 0))
         wanted = senses(view)
@@ -84,7 +84,7 @@ def test_an_advantage_is_the_discounted_sum_of_surprises_until_the_horizon():
     reward, value = np.array([-1.0, -2.0, -4.0, -8.0]), np.array([0.5, -1.0, 2.0, 9.0])
     valid = np.array([1.0, 1.0, 1.0, 0.0])
     zero = jnp.zeros((4, 1))
-    played = ppo.Played(
+    played = ppo.Experience(
         inputs=zero,
         action=zero,
         log_density=zero,
@@ -122,10 +122,10 @@ def test_an_interrupted_training_resumes_to_the_same_weights(trained, tmp_path):
 
     parts = open_course(tmp_path, "ppo", TINY, 0, stop)
     with pytest.raises(KeyboardInterrupt):
-        ppo.train(TINY, parts)
+        ppo.train_ppo(TINY, parts)
     parts = open_course(tmp_path, "ppo", TINY, 0)
     done = []
-    ppo.train(TINY, parts, progress=done.append)
+    ppo.train_ppo(TINY, parts, progress=done.append)
     assert done == [1] * TINY.updates
     one, other = ((course.policy / "weights.npz").read_bytes() for course in (trained, parts))
     assert one == other

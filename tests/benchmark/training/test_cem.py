@@ -12,7 +12,7 @@ from colift.benchmark.episode.lift import Lift
 from colift.benchmark.execution.pool import process_pool
 from colift.benchmark.suites.suite import BEHAVIOURS
 from colift.benchmark.training import cem, validation
-from colift.benchmark.training.cem import CemSettings, start, train
+from colift.benchmark.training.cem import CemSettings, start, train_cem
 from colift.benchmark.training.course import open_course
 from colift.benchmark.training.data import Timing, scenario
 from colift.benchmark.training.result import checked_network
@@ -40,17 +40,17 @@ def trained(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(validation, "VALIDATION_SEEDS", validation.VALIDATION_SEEDS[:2])
         course = open_course(tmp_path_factory.mktemp("trained") / "out", "cem", TINY, 0)
-        train(TINY, course)
+        train_cem(TINY, course)
     return course
 
 
 def test_the_weights_are_the_same_with_workers_and_others_with_another_seed(trained, tmp_path):
     again = open_course(tmp_path, "cem", TINY, 0)
     with process_pool(2) as pool:
-        train(TINY, again, executor=pool)
+        train_cem(TINY, again, executor=pool)
     assert same(weights(again), weights(trained))
     other = open_course(tmp_path, "cem", TINY, 1)
-    train(TINY, other)
+    train_cem(TINY, other)
     assert not same(weights(other), weights(trained))
 
 
@@ -60,11 +60,11 @@ def test_an_interrupted_training_resumes_to_the_same_weights(trained, tmp_path):
 
     course = open_course(tmp_path, "cem", TINY, 0, stop)
     with pytest.raises(KeyboardInterrupt):
-        train(TINY, course)
+        train_cem(TINY, course)
     assert not course.policy.exists()
     course = open_course(tmp_path, "cem", TINY, 0)
     done = []
-    train(TINY, course, progress=done.append)
+    train_cem(TINY, course, progress=done.append)
     assert done[0] == TINY.lifts
     assert sum(done) == TINY.generations * TINY.lifts
     assert same(weights(course), weights(trained))
@@ -91,7 +91,7 @@ def test_the_best_candidates_lead(tmp_path):
     course = open_course(tmp_path, "cem", settings, 0)
     mean, _ = start(settings, 0)
     before = validation_error(cem.policy(settings, mean))
-    train(settings, course)
+    train_cem(settings, course)
     assert course.curve[-1].rmse_mm < 0.95 * before
 
 

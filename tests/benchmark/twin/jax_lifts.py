@@ -11,8 +11,8 @@ from colift.agents.humans import Cued
 from colift.agents.policies.copy import Copy
 from colift.benchmark.episode.level import Level
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.twin.agents import play
-from colift.benchmark.twin.lifts import draw
+from colift.benchmark.twin.agents import play_agents
+from colift.benchmark.twin.lifts import draw_lifts
 from colift.benchmark.twin.rollout import Sensing, rollout
 
 LIFTS = [(make_scenario(behaviour, "S2"), 7) for behaviour in ("smooth", "pause")]
@@ -35,16 +35,16 @@ class Other(Level):
 def test_what_is_not_modelled_is_refused_by_name(changes, message):
     scenario = dataclasses.replace(LIFTS[0][0], **changes)
     if message is None:
-        assert draw([(scenario, 1)]).size == 1
+        assert draw_lifts([(scenario, 1)]).size == 1
         return
     with pytest.raises(InputError, match=message):
-        draw([(scenario, 1)])
+        draw_lifts([(scenario, 1)])
 
 
 def test_lifts_of_two_periods_are_refused():
     other = make_scenario("smooth", "S2", control_period=0.05)
     with pytest.raises(InputError, match="one control period, got 2"):
-        draw([*LIFTS, (other, 7)])
+        draw_lifts([*LIFTS, (other, 7)])
 
 
 def copying(memory, view):
@@ -52,20 +52,20 @@ def copying(memory, view):
 
 
 def test_a_rollout_has_the_errors_of_the_same_policy_played_step_by_step():
-    lifts = draw(LIFTS)
+    lifts = draw_lifts(LIFTS)
     together = rollout(copying, None, lifts).rmse_mm
-    assert np.asarray(together) == pytest.approx(play(Copy, LIFTS), rel=1e-4)
+    assert np.asarray(together) == pytest.approx(play_agents(Copy, LIFTS), rel=1e-4)
 
 
 def test_a_lift_is_the_same_whatever_is_played_beside_it():
-    alone = rollout(copying, None, draw(LIFTS[:1])).rmse_mm
+    alone = rollout(copying, None, draw_lifts(LIFTS[:1])).rmse_mm
     assert float(alone[0]) == pytest.approx(
-        float(rollout(copying, None, draw(LIFTS)).rmse_mm[0]), rel=1e-5
+        float(rollout(copying, None, draw_lifts(LIFTS)).rmse_mm[0]), rel=1e-5
     )
 
 
 def test_the_gradient_is_that_of_differences():
-    lifts = draw(LIFTS)
+    lifts = draw_lifts(LIFTS)
 
     def error(lead):
         def policy(last, view):
@@ -79,7 +79,7 @@ def test_the_gradient_is_that_of_differences():
 
 
 def test_a_lost_sample_is_the_last_one_again():
-    lifts = draw(LIFTS[:1])
+    lifts = draw_lifts(LIFTS[:1])
     steps = lifts.longest()
     all_lost = Sensing(jnp.zeros((steps, 2, 1)), jnp.ones((steps, 1)))
     held = rollout(copying, None, lifts, sensing=all_lost).rmse_mm
