@@ -12,9 +12,11 @@ from ...agents.agent import FRAME, RobotObservation
 from ...agents.control.recurrent import STEPS_AHEAD
 from ...agents.errors import InputError
 from ...agents.humans import Subject
+from ...agents.humans.subject import BOUNDS
 from ..episode.lift import MOCAP_NOISE
 from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..episode.seeding import derive_seed
+from ..suites.suite import BEHAVIOURS
 from ..twin.arm import ArmVariation
 from ..twin.lifts import DrawnLift, Lifts, carried_out, some, stack
 from ..twin.rollout import Sensing, rollout
@@ -116,31 +118,39 @@ def straight_line(last: jax.Array, view: jax.Array) -> tuple[jax.Array, jax.Arra
 
 
 def _wide(seed: int) -> Scenario:
-    """Return a lift with a widely drawn body and latency."""
+    """Return a lift with a widely drawn person and latency, in every other one a wanderer."""
     rng = np.random.default_rng(derive_seed(seed, "wide"))
     off = round(LATENCY_OFF / FRAME)
     latency = round(LATENCY / FRAME) + int(rng.integers(-off, off + 1))
-    return Scenario(
-        behaviour=WANDERING,
-        human=Wandering(),
-        subject=_body(Subject.draw(seed), rng),
-        control_period=CONTROL_PERIOD,
-        latency=latency * FRAME,
-    )
+    timing = Timing(latency=latency * FRAME, control_period=CONTROL_PERIOD)
+    known = scenario(seed, BEHAVIOURS, timing)
+    person = _wide_person(known.subject, rng)
+    if rng.random() < 0.5:
+        return dataclasses.replace(known, subject=person)
+    return dataclasses.replace(known, behaviour=WANDERING, human=Wandering(), subject=person)
 
 
-def _body(person: Subject, rng: np.random.Generator) -> Subject:
-    """Return the person with an arm, a tremor and a pull from wide ranges."""
+def _wide_person(person: Subject, rng: np.random.Generator) -> Subject:
+    """Return the person with habits and a body from wide ranges, slow lifts as often as quick."""
 
     def even(low: float, high: float) -> float:
         return math.exp(rng.uniform(math.log(low), math.log(high)))
 
+    fewest = int(rng.integers(0, 3))
     stiffness = even(100.0, 800.0)
     mass = even(0.5, 2.0)
     ratio = rng.uniform(0.5, 1.1)
     damping = min(max(2 * ratio * math.sqrt(stiffness * mass), 5.0), 30.0)
     return dataclasses.replace(
         person,
+        amplitude=rng.uniform(*BOUNDS["amplitude"]),
+        amplitude_spread=rng.uniform(0.1, 0.5),
+        duration=even(*BOUNDS["duration"]),
+        duration_spread=rng.uniform(0.0, 0.3),
+        lowering_ratio=rng.uniform(*BOUNDS["lowering_ratio"]),
+        skew_up=rng.uniform(*BOUNDS["skew_up"]),
+        skew_down=rng.uniform(*BOUNDS["skew_down"]),
+        submovements=(fewest, fewest + int(rng.integers(0, 3))),
         stiffness=stiffness,
         mass=mass,
         damping=damping,

@@ -28,19 +28,19 @@ class Wandering:
     find out which person it has.
     """
 
-    distance: tuple[float, float] = (0.01, 0.28)
+    distance: tuple[float, float] = (0.02, 0.28)
     """Shortest and longest movement [m], even in its logarithm; its spread is drawn per lift."""
-    speed: tuple[float, float] = (0.02, 0.45)
+    speed: tuple[float, float] = (0.04, 0.45)
     """Lowest and highest mean pace of a lift [m/s] at its peak, even in its logarithm."""
-    interrupted: tuple[float, float] = (0.0, 0.7)
+    interrupted: tuple[float, float] = (0.0, 0.5)
     """Fewest and most of the movements that are given up on the way."""
-    resting: tuple[float, float] = (0.0, 0.8)
+    resting: tuple[float, float] = (0.0, 0.6)
     """Fewest and most of the movements that are followed by a rest."""
     rest: tuple[float, float] = (0.05, 1.5)
     """Shortest and longest rest [s], even in its logarithm."""
-    drift: tuple[float, float] = (5e-4, 0.12)
+    drift: tuple[float, float] = (5e-4, 0.05)
     """Lowest and highest speed of the hand's drift from its movement [m/s], even in its logarithm:
-    at the highest, little is left of the movement."""
+    at the highest, a slow movement is lost in it."""
     drift_time: tuple[float, float] = (0.15, 1.5)
     """Shortest and longest correlation of that drift [s], even in its logarithm."""
     farthest_drift: float = 0.06
@@ -53,7 +53,6 @@ class Wandering:
         farthest = _even_in_log((5 * self.distance[0], self.distance[1]), rng)
         interrupted = interpolate(self.interrupted, rng.random())
         resting = interpolate(self.resting, rng.random())
-        up = rng.random() < 0.5
         ready = interpolate(REST_BEFORE, rng.random())
         segments: list[Segment] = [still("ready", 0.0, ready)]
         state, time = np.zeros(3), ready
