@@ -76,7 +76,6 @@ def _drawn() -> Lifts:
     )
     return lifts._replace(
         reference=lifts.reference[:STEPS],
-        target=lifts.target[:STEPS],
         seen_target=lifts.seen_target[:STEPS],
         noise=lifts.noise[:STEPS],
         steps=jnp.full(DRAWN, STEPS),

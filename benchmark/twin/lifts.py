@@ -8,7 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 from numpy.typing import NDArray
 
-from ...agents.agent import HISTORY, HumanObservation
+from ...agents.agent import FRAME, HISTORY, HumanObservation
 from ...agents.errors import InputError
 from ...agents.humans import Embodied, ScriptedHuman
 from ..episode.level import Level
@@ -30,8 +30,6 @@ class Lifts(NamedTuple):
 
     reference: jax.Array
     """(s, f, n) what the person's hand would pull towards if nothing were missing [m]."""
-    target: jax.Array
-    """(s, f, n) the person's intended height [m]."""
     seen_target: jax.Array
     """(s, n) the intended height one visual delay before the step [m]."""
     noise: jax.Array
@@ -149,7 +147,7 @@ def stack(drawn: Sequence[DrawnLift]) -> Lifts:
         raise InputError(f"the twin cannot divide a step of {size} frames")
     steps = [len(lift.target) for lift in drawn]
     people = [lift.scenario.subject for lift in drawn]
-    delays = [round(100 * person.visual_delay) for person in people]
+    delays = [round(person.visual_delay / FRAME) for person in people]
 
     def joined(arrays: Sequence[Array]) -> jax.Array:
         longest = max(steps)
@@ -161,7 +159,6 @@ def stack(drawn: Sequence[DrawnLift]) -> Lifts:
 
     return Lifts(
         reference=joined([lift.reference for lift in drawn]),
-        target=joined([lift.target for lift in drawn]),
         seen_target=joined(
             [_seen(lift.target, delay) for lift, delay in zip(drawn, delays, strict=True)]
         ),
