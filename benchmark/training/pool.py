@@ -30,6 +30,9 @@ LONGEST: Final = 11.0
 WANDERING: Final = "wandering"
 """Name of the behaviour :class:`.Wandering`, which is in no registry."""
 
+WANDERERS: Final = 0.2
+"""Share of the wide lifts that are with a wanderer."""
+
 LATENCY_OFF: Final = 0.01
 """Most by which the sensors of a wide lift are earlier or later than the benchmark's [s]."""
 
@@ -118,14 +121,14 @@ def straight_line(last: jax.Array, view: jax.Array) -> tuple[jax.Array, jax.Arra
 
 
 def _wide(seed: int) -> Scenario:
-    """Return a lift with a widely drawn person and latency, in every other one a wanderer."""
+    """Return a lift with a widely drawn person and latency, in some a wanderer."""
     rng = np.random.default_rng(derive_seed(seed, "wide"))
     off = round(LATENCY_OFF / FRAME)
     latency = round(LATENCY / FRAME) + int(rng.integers(-off, off + 1))
     timing = Timing(latency=latency * FRAME, control_period=CONTROL_PERIOD)
     known = scenario(seed, BEHAVIOURS, timing)
     person = _wide_person(known.subject, rng)
-    if rng.random() < 0.5:
+    if rng.random() >= WANDERERS:
         return dataclasses.replace(known, subject=person)
     return dataclasses.replace(known, behaviour=WANDERING, human=Wandering(), subject=person)
 
