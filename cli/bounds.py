@@ -1,4 +1,4 @@
-"""``colift bounds``, ``ablate`` and ``sweep``: studies of ``anticipate`` with drawn subjects."""
+"""``colift bounds``, ``ablate`` and ``sweep``: studies of the best policies with drawn subjects."""
 
 from pathlib import Path
 from typing import Annotated
@@ -49,7 +49,7 @@ def bounds(
     recordings: RecordedLifts = None,
     jobs: Jobs = None,
 ) -> None:
-    """Measure anticipate, the paper's policies and the bounds with drawn subjects."""
+    """Measure learned, its rivals and the bounds with drawn subjects."""
     suite = held_out_suite(people, each, seed) if recordings is None else recorded_suite(recordings)
     specs = {name: PolicySpec(text=name) for name in (POLICY, *RIVALS)}
     total = episodes_to_play(len(specs), suite, bounds=len(BOUNDS))

@@ -1,17 +1,15 @@
-"""``colift learn``: learning of policies and of the causal bound in the world."""
+"""``colift learn``: learning of policies in the world."""
 
 import dataclasses
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from typer.core import TyperGroup
 
-from ..agents.control.anticipation import Anticipation, anticipation_json, load_anticipation
+from ..agents.control.anticipation import Anticipation, anticipation_json
 from ..agents.control.learned_task import task_json
 from ..agents.errors import InputError
-from ..benchmark.bounds import causal
 from ..benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
 from ..benchmark.execution.pool import checked_jobs
 from ..benchmark.training import anticipation
@@ -137,42 +135,14 @@ def anticipate(
     command = f"colift learn anticipate --lifts {lifts} --rounds {rounds} --seed {seed}"
     if timing != Timing():
         command += f" --latency {latency:g} --control-period {control_period:g}"
-    _learn(command, lifts, rounds, seed, anticipation.HIDDEN, timing, out, jobs)
-
-
-@app.command("causal_bound")
-def learn_causal_bound(
-    lifts: Annotated[int, typer.Option(metavar="N", help="Lifts.")] = causal.LIFTS,
-    seed: Seed = causal.FIRST_SEED,
-    out: Out = None,
-    jobs: Jobs = None,
-) -> None:
-    """Learn the causal bound: a larger model than anticipate, from other lifts and subjects."""
-    command = f"colift learn causal_bound --lifts {lifts} --seed {seed}"
-    _learn(command, lifts, 1, seed, causal.HIDDEN, Timing(), out, jobs, load_anticipation())
-
-
-def _learn(
-    command: str,
-    lifts: int,
-    rounds: int,
-    seed: int,
-    hidden: Sequence[int],
-    timing: Timing,
-    out: Path | None,
-    jobs: int | None,
-    partner: Anticipation | None = None,
-) -> None:
     check_output(out)
     models: list[Anticipation] = []
     with workers("lifting", rounds * lifts, jobs) as (pool, progress):
         for lesson in anticipation.learn_anticipation(
             lifts=lifts,
             rounds=rounds,
-            hidden=hidden,
             timing=timing,
             first_seed=seed,
-            partner=partner,
             executor=pool,
             progress=progress,
         ):

@@ -17,7 +17,7 @@ from ..statistics import Estimate, paired_difference
 from ..suites.suite import BEHAVIOURS, Suite
 from ..training.anticipation import CURRICULUM, HIDDEN, Lesson, learned
 from ..training.data import Timing, TrainingData
-from .causal import AnticipationSpec
+from .anticipation_spec import AnticipationSpec
 
 WHOLE: Final = "nothing: the complete policy"
 

@@ -3,69 +3,58 @@
 import hashlib
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 from typing import Final
 
 from ...agents.agent import Agent
-from ...agents.control.anticipation import Anticipation, anticipation_json, read_anticipation
+from ...agents.control.recurrent import GatedNetwork, read_gated
+from ...agents.control.recurrent_controller import RecurrentController
 from ...agents.errors import InputError
-from ...agents.policies.anticipate import AnticipateParameters, AnticipationController
 from ...agents.spec import InProcess
 from ..comparison.playing import Bound
+from ..episode.scenario import CONTROL_PERIOD, LATENCY
 from ..execution.runner import Run, run_suite
 from ..suites.suite import Suite
 from .oracle import ORACLE, oracle_run
 
+CAUSAL_BOUND: Final = "causal_bound"
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class AnticipationSpec(InProcess):
-    """The control of :class:`.Anticipate` with a given model, as :class:`.AgentSpec`."""
 
-    name: str
-    model: Anticipation
-    parameters: AnticipateParameters = field(default_factory=AnticipateParameters)
+@dataclass(frozen=True, kw_only=True)
+class CausalBound(InProcess):
+    """The causal bound, as :class:`.AgentSpec`.
+
+    It is an estimate, not a proof: the lowest error known of a policy with a policy's observation,
+    the paper's latency and control period. It has the equations of :class:`.Learned`, and was
+    trained in the same way, by gradients through the twin's lifts, for the error alone: nothing was
+    given away for smoothness, for other people than the benchmark's, or for other arms.
+    """
+
+    name: str = CAUSAL_BOUND
 
     def check(self) -> None:
-        """Do nothing: its parts have checked themselves."""
+        """Do nothing: the weights are shipped."""
 
     def digest(self) -> str:
-        """Return a hash of model and parameters."""
-        content = f"{anticipation_json(self.model)}{self.parameters}"
-        return hashlib.sha256(content.encode()).hexdigest()[:16]
+        """Return a hash of the weights."""
+        return hashlib.sha256(_weights().read_bytes()).hexdigest()[:16]
 
     def make(self) -> Agent:
         """Return a new robot."""
-        return AnticipationController(self.model, self.parameters)
-
-
-CAUSAL_BOUND: Final = "causal_bound"
-
-FIRST_SEED: Final = 150_000
-"""Seed of the first lift that it learns from: other people and lifts than those of the policy."""
-
-LIFTS: Final = 2400
-"""Lifts that it learns from, in one round: its robot has anticipated from the first."""
-
-HIDDEN: Final = (128, 128, 128)
-"""Units of its hidden layers: twice the policy's, so more than three times the weights."""
-
-ONLY_LEVEL: Final = AnticipateParameters(smoothness=0.0)
-"""A bound of the error alone: it trades none of it for smoothness."""
+        return RecurrentController(causal_bound())
 
 
 @cache
-def causal_bound() -> AnticipationSpec:
-    """Return the bound that is shipped, for the paper's latency and control period.
+def causal_bound() -> GatedNetwork:
+    """Return the network of the bound that is shipped."""
+    return read_gated(_weights())
 
-    It is an estimate, not a proof: what a larger network than the policy's learns in the same way,
-    from other lifts, with nothing given away for smoothness.
-    """
-    text = files(__package__).joinpath("data", "causal_bound.json")
-    return AnticipationSpec(
-        name=CAUSAL_BOUND, model=read_anticipation(text.read_text()), parameters=ONLY_LEVEL
-    )
+
+def _weights() -> Traversable:
+    return files(__package__).joinpath("data", "causal_bound.npz")
 
 
 def causal_run(
@@ -81,16 +70,15 @@ def causal_run(
     InputError
         If the suite has another latency or control period than it was learned with.
     """
-    bound = causal_bound()
-    learned = bound.model.latency, bound.model.window.interval
+    learned = LATENCY, CONTROL_PERIOD
     for scenario in suite.scenarios:
         found = scenario.latency, scenario.control_period
         if found != learned:
             raise InputError(
                 f"{CAUSAL_BOUND} was learned with a latency and a control period of {learned} s, "
-                f"{scenario.name} has {found} s; 'colift sweep' learns others"
+                f"{scenario.name} has {found} s"
             )
-    return run_suite(bound, suite, executor=executor, progress=progress)
+    return run_suite(CausalBound(), suite, executor=executor, progress=progress)
 
 
 BOUNDS: Final[Mapping[str, Bound]] = {CAUSAL_BOUND: causal_run, ORACLE: oracle_run}

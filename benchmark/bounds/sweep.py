@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from functools import partial
 from typing import Final
 
 import numpy as np
@@ -15,8 +14,7 @@ from ..results.baselines import human_human_run
 from ..suites.suite import Suite
 from ..training.anticipation import ROUNDS, learn_anticipation
 from ..training.data import Timing
-from . import causal
-from .causal import AnticipationSpec
+from .anticipation_spec import AnticipationSpec
 from .oracle import ORACLE, oracle_run
 
 LATENCIES: Final = (0.0, 0.05, 0.1, 0.15, 0.2)
@@ -28,7 +26,7 @@ PERIODS: Final = (0.02, 0.04, 0.06, 0.08, 0.1)
 FIXED: Final = ("reactive", "blend")
 """Policies that are not learned anew for each timing: they have no parameters that depend on it."""
 
-NAMES: Final = (*FIXED, "anticipate", causal.CAUSAL_BOUND, ORACLE)
+NAMES: Final = (*FIXED, "anticipate", ORACLE)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,7 +51,7 @@ def timings() -> tuple[Timing, ...]:
 
 def lifts_to_play(suite: Suite, lifts: int) -> int:
     """Return how many lifts :func:`sweep` plays, for a progress bar."""
-    return len(timings()) * (2 * ROUNDS * lifts + len(NAMES) * suite.size) + suite.size
+    return len(timings()) * (ROUNDS * lifts + len(NAMES) * suite.size) + suite.size
 
 
 def sweep(
@@ -63,11 +61,11 @@ def sweep(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
 ) -> Iterator[Swept]:
-    """Yield the scores of each policy and bound at each timing.
+    """Yield the scores of each policy and of the oracle at each timing.
 
-    `anticipate` and the causal bound are learned for each timing, as the shipped ones and on their
-    seeds: what is known of people depends on when one looks. From fewer lifts than the shipped ones
-    both are somewhat worse than they could be; from a hundred or so they may even sway.
+    `anticipate` is learned for each timing, as the shipped one and on its seeds: what is known of
+    people depends on when one looks. From fewer lifts than the shipped one it is somewhat worse
+    than it could be; from a hundred or so it may even sway.
 
     Parameters
     ----------
@@ -80,22 +78,12 @@ def sweep(
     """
     for timing in timings():
         timed = suite.with_timing(timing.latency, timing.control_period)
-        learn = partial(learn_anticipation, timing=timing, executor=executor, progress=progress)
-        *_, policy = learn(lifts=lifts, rounds=ROUNDS)
-        *_, bound = learn(
-            lifts=lifts,
-            rounds=ROUNDS,
-            first_seed=causal.FIRST_SEED,
-            hidden=causal.HIDDEN,
-            partner=policy.model,
-            parameters=causal.ONLY_LEVEL,
+        *_, policy = learn_anticipation(
+            lifts=lifts, rounds=ROUNDS, timing=timing, executor=executor, progress=progress
         )
         specs: list[AgentSpec] = [
             *(PolicySpec(text=name) for name in FIXED),
             AnticipationSpec(name="anticipate", model=policy.model),
-            AnticipationSpec(
-                name=causal.CAUSAL_BOUND, model=bound.model, parameters=causal.ONLY_LEVEL
-            ),
         ]
         for spec in specs:
             run = run_suite(spec, timed, executor=executor, progress=progress)

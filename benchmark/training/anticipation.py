@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from ...agents.control.anticipation import Anticipation, FeatureWindow
 from ...agents.errors import InputError
 from ...agents.estimators.perceptron import Perceptron
-from ...agents.policies.anticipate import AnticipateParameters
 from ..environment.drawing import TRAINING_SEEDS
 from ..suites.suite import BEHAVIOURS
 from .data import LEADS, ROAMING, Timing, TrainingData, training_data
@@ -113,7 +112,6 @@ def collect_training_data(
     window: FeatureWindow,
     behaviours: Sequence[str],
     timing: Timing,
-    parameters: AnticipateParameters | None = None,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
 ) -> TrainingData:
@@ -137,7 +135,6 @@ def collect_training_data(
         window=window,
         behaviours=behaviours,
         timing=timing,
-        parameters=parameters,
     )
     parts = []
     for part in map(play, seeds) if executor is None else executor.map(play, seeds, chunksize=8):
@@ -161,8 +158,6 @@ def learn_anticipation(
     hidden: Sequence[int] = HIDDEN,
     timing: Timing | None = None,
     first_seed: int = FIRST_SEED,
-    partner: Anticipation | None = None,
-    parameters: AnticipateParameters | None = None,
     behaviours: Sequence[str] = CURRICULUM,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
@@ -179,10 +174,6 @@ def learn_anticipation(
         Latency and control period.
     first_seed
         Seed of the first lift.
-    partner
-        What the robot of the first round anticipates with; none: it extrapolates.
-    parameters
-        Control law of the robot; by default that of :class:`.Anticipate`.
     behaviours
         How the people move, see :func:`.scenario`.
     executor
@@ -198,7 +189,7 @@ def learn_anticipation(
     import_sklearn("neural_network")
     timing = timing or Timing()
     window = window_for(timing)
-    model = partner
+    model: Anticipation | None = None
     data: TrainingData | None = None
     for number in range(rounds):
         first = first_seed + number * lifts
@@ -208,7 +199,6 @@ def learn_anticipation(
             window=window,
             behaviours=behaviours,
             timing=timing,
-            parameters=parameters,
             executor=executor,
             progress=progress,
         )

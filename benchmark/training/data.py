@@ -101,7 +101,6 @@ def training_data(
     window: FeatureWindow,
     behaviours: Sequence[str],
     timing: Timing,
-    parameters: AnticipateParameters | None = None,
 ) -> TrainingData:
     """Return what the lift of a seed shows; without a model, the robot extrapolates.
 
@@ -113,7 +112,7 @@ def training_data(
     human = lift.scripted_human()
     robot: Agent = Extrapolate()
     if model is not None:
-        robot = AnticipationController(model, parameters or AnticipateParameters())
+        robot = AnticipationController(model, AnticipateParameters())
     robot.reset(0)
     rng = np.random.default_rng(derive_seed(seed, "disturbance"))
     size, persistence = DISTURBANCE

@@ -35,11 +35,22 @@ def baseline(rmse, strata):
     )
 
 
-def paired(mine, *, bound=4.0, blend=16.0, human_human=8.0, sparc=-2.0, force=0.1, strata=CELLS):
+def paired(
+    mine,
+    *,
+    bound=4.0,
+    anticipate=5.0,
+    blend=16.0,
+    human_human=8.0,
+    sparc=-2.0,
+    force=0.1,
+    strata=CELLS,
+):
     return PairedResults(
         suite=make_suite("quick-v1"),
         policies=(
-            policy_results("anticipate", mine, sparc, force, strata),
+            policy_results("learned", mine, sparc, force, strata),
+            policy_results("anticipate", anticipate, sparc, 0.2, strata),
             policy_results("blend", blend, -2.3, 0.2, strata),
             policy_results("reactive", 20.0, -2.9, 0.3, strata),
         ),
@@ -66,6 +77,8 @@ def test_ratios_are_of_the_means_on_each_behaviour():
     assert not found["RMSE over that of the causal bound, jerky"].holds
     assert found["RMSE over that of blend, smooth"].value == pytest.approx(4.4 / 16)
     assert "RMSE over that of blend, pause" not in found
+    anticipate = found["RMSE over that of anticipate, over all"]
+    assert (anticipate.value, anticipate.holds) == (pytest.approx(5.7 / 5), False)
 
 
 def test_smoother_and_gentler_are_paired_differences():
@@ -75,6 +88,7 @@ def test_smoother_and_gentler_are_paired_differences():
     assert found["SPARC minus that of reactive, paired"].holds
     force = found["rms force at the human's hands minus that with blend [N], paired"]
     assert (force.value, force.holds) == (pytest.approx(0.05), False)
+    assert "rms force at the human's hands minus that with anticipate [N], paired" in found
 
 
 def test_recorded_lifts_are_set_against_blend_alone():
