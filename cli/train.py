@@ -103,6 +103,9 @@ def apg(
     smoothness: Annotated[
         float, typer.Option(metavar="X", help="Cost of bends, relative to the RMSE.")
     ] = ApgSettings.smoothness,
+    gentleness: Annotated[
+        float, typer.Option(metavar="X", help="Cost of the force at the human's hands, in mm/N.")
+    ] = ApgSettings.gentleness,
 ) -> None:
     """Train a recurrent network by gradients through whole lifts of the twin (extra: train)."""
     settings = ApgSettings(
@@ -113,6 +116,7 @@ def apg(
         wide=wide,
         varied=varied,
         smoothness=smoothness,
+        gentleness=gentleness,
     )
     require_jax()
     from ..benchmark.training.apg_course import train_apg

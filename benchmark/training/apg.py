@@ -2,10 +2,12 @@
 
 The loss of a batch is the mean over its lifts of
 
-    weight (RMSE + smoothness bend),
+    weight (RMSE + smoothness bend + gentleness force),
 
-both in millimetres: the score, and the root mean square of the second differences of the command.
-The weight is 1 but for people with wide habits (:mod:`.pool`).
+the score [mm], the root mean square of the second differences of the command [mm], and that of the
+force at the human's hands beyond half of the table's weight [N].
+The weight is 1 but for people with wide habits (:mod:`.pool`), whose force does not count: a robot
+that is to be gentle with people whom it cannot foresee follows late.
 Nothing is estimated: the gradient is that of the lifts themselves (compare J. Freeman et al.,
 "Brax", NeurIPS 2021, on short-horizon actor-critic and analytic gradients).
 """
@@ -79,13 +81,14 @@ def first_learner(settings: ApgSettings, seed: int) -> Learner:
 
 
 def loss(
-    network: GatedNetwork, batch: LearningBatch, smoothness: float
+    network: GatedNetwork, batch: LearningBatch, smoothness: float, gentleness: float
 ) -> tuple[jax.Array, jax.Array]:
     """Return the loss [mm] and the mean RMSE [mm] of a batch."""
     policy, memory = recurrent(network, batch.lifts.size)
     found = rollout(policy, memory, batch.lifts, batch.variation, batch.sensing)
-    cost = batch.weight * (found.rmse_mm + smoothness * found.bend_mm)
-    return cost.mean(), found.rmse_mm.mean()
+    force = batch.common * found.force_n
+    cost = found.rmse_mm + smoothness * found.bend_mm + gentleness * force
+    return (batch.weight * cost).mean(), found.rmse_mm.mean()
 
 
 def updates(
@@ -134,7 +137,12 @@ def _functions(settings: ApgSettings) -> tuple[Any, Any]:
     @jax.jit
     def gradient(network: GatedNetwork, lifts: Pool, key: jax.Array) -> tuple[Any, GatedNetwork]:
         batch = draw_batch(lifts, size, settings.wide, settings.varied, key)
-        of_batch = partial(loss, batch=batch, smoothness=settings.smoothness)
+        of_batch = partial(
+            loss,
+            batch=batch,
+            smoothness=settings.smoothness,
+            gentleness=settings.gentleness,
+        )
         return jax.value_and_grad(of_batch, has_aux=True)(network)
 
     @jax.jit

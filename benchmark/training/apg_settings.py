@@ -38,6 +38,8 @@ class ApgSettings:
     """Variation of the arms."""
     smoothness: float = 0.05
     """Cost of bends, relative to the RMSE."""
+    gentleness: float = 0.0
+    """Cost of the force at the human's hands [mm/N]."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
@@ -48,7 +50,7 @@ class ApgSettings:
             raise InputError(f"--batch must be a multiple of {PARTS}, got {self.batch}")
         if not 0 <= self.wide < 1:
             raise InputError(f"--wide must be at least 0 and below 1, got {self.wide}")
-        for name in ("varied", "smoothness"):
+        for name in ("varied", "smoothness", "gentleness"):
             if not 0 <= getattr(self, name) < math.inf:
                 raise InputError(f"--{name} must be at least 0, got {getattr(self, name)}")
         if not 0 < self.rate < 1:

@@ -179,6 +179,8 @@ class LearningBatch(NamedTuple):
     sensing: Sensing
     weight: jax.Array
     """(n,) weight of each lift in the loss."""
+    common: jax.Array
+    """(n,) 1 with people of the benchmark's population, else 0."""
 
 
 def draw_batch(pool: Pool, size: int, wide: float, varied: float, key: jax.Array) -> LearningBatch:
@@ -216,4 +218,4 @@ def draw_batch(pool: Pool, size: int, wide: float, varied: float, key: jax.Array
     chance = LOST * is_wide * jax.random.uniform(keys[6], (size,))
     lost = jax.random.uniform(jax.random.fold_in(key, 1), (longest, size)) < chance
     sensing = Sensing(noise, lost.astype(jnp.float32))
-    return LearningBatch(lifts, variation, sensing, pool.weight[chosen])
+    return LearningBatch(lifts, variation, sensing, pool.weight[chosen], 1.0 - is_wide)

@@ -53,6 +53,8 @@ class Outcome(NamedTuple):
     """(n,) RMSE of the table's ends [mm]."""
     bend_mm: jax.Array
     """(n,) root mean square of the second differences of the command [mm]."""
+    force_n: jax.Array
+    """(n,) root mean square force of the human's hands, beyond the share of the weight [N]."""
 
 
 Policy = Callable[[Any, jax.Array], tuple[Any, jax.Array]]
@@ -93,7 +95,7 @@ def rollout(
 
     def step(
         state: tuple[LiftState, Any, jax.Array], now: tuple[lifting.Due, jax.Array, jax.Array]
-    ) -> tuple[tuple[LiftState, Any, jax.Array], tuple[jax.Array, jax.Array]]:
+    ) -> tuple[tuple[LiftState, Any, jax.Array], tuple[jax.Array, jax.Array, jax.Array]]:
         playing, memory, last = state
         share, added, lost = now
         view = lifting.observe(playing, share.noise + added, lifts.latency, period)
@@ -106,12 +108,13 @@ def rollout(
         playing, frames = lifting.control_step(playing, lifts.body, share, action, variation)
         return (playing, memory, seen), (
             frames.squares() * valid,
+            (playing.plant.forces[:size] ** 2).mean(axis=0) * valid,
             (playing.command - before) * valid,
         )
 
     start = (lifting.lifts_at_rest(lifts), memory, jnp.zeros((2, count)))
     shares = lifting.Due(lifts.reference, lifts.seen_target, lifts.noise)
-    _, (squares, changes) = jax.lax.scan(
+    _, (squares, forces, changes) = jax.lax.scan(
         jax.checkpoint(step), start, (shares, extra.noise, extra.lost)
     )
     frames = lifts.steps * size
@@ -119,4 +122,5 @@ def rollout(
     return Outcome(
         rmse_mm=1000 * jnp.sqrt(squares.sum(axis=0) / frames + 1e-12),
         bend_mm=1000 * jnp.sqrt(bends + 1e-12),
+        force_n=jnp.sqrt(forces.sum(axis=0) / lifts.steps + 1e-12),
     )

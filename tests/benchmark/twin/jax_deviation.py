@@ -1,7 +1,15 @@
 """The twin against the engine: unchanged policies, two humans, and wrong constants."""
 
+import jax.numpy as jnp
 import pytest
+from colift.agents.policies.extrapolate import Extrapolate
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.training.pool import straight_line
 from colift.benchmark.twin import arm, body, deviation, pair, plant
+from colift.benchmark.twin.lifts import carried_out, stack
+from colift.benchmark.twin.rollout import rollout
 
 ONE = deviation.PEOPLE[:1]
 
@@ -15,6 +23,13 @@ def test_every_policy_is_within_the_limits(policy):
 def test_two_humans_are_within_the_limits():
     found = deviation.pair_deviation(ONE)
     assert found.within_limits, found
+
+
+def test_the_force_at_the_humans_hands_is_that_of_the_engine():
+    scenario = make_scenario("pause", "draw-190001")
+    engine = run_episode(Lift(scenario), Extrapolate(), 190_001).scores["human_force_n"]
+    twin = rollout(straight_line, jnp.zeros(1), stack([carried_out(scenario, 190_001)]))
+    assert float(twin.force_n[0]) == pytest.approx(engine, rel=0.01)
 
 
 @pytest.mark.parametrize(
