@@ -20,8 +20,9 @@ from ..suites.suite import BEHAVIOURS
 from ..twin.arm import ArmVariation
 from ..twin.lifts import DrawnLift, Lifts, carried_out, some, stack
 from ..twin.rollout import Sensing, rollout
-from .anticipation import CURRICULUM, FIRST_SEED, LAST_SEED
+from .anticipation import CURRICULUM, FIRST_SEED
 from .data import Timing, scenario
+from .validation import LEARNING_SEEDS
 from .wandering import Wandering
 
 LONGEST: Final = 11.0
@@ -83,9 +84,10 @@ def draw_pool(count: int, wide: float, first_seed: int = FIRST_SEED) -> Pool:
     InputError
         If there are fewer than 2, or a seed is not for learning.
     """
-    if not (count >= 2 and first_seed >= FIRST_SEED and first_seed + count - 1 <= LAST_SEED):
+    first, last = LEARNING_SEEDS[0], LEARNING_SEEDS[-1]
+    if not (count >= 2 and first <= first_seed and first_seed + count - 1 <= last):
         raise InputError(
-            f"lifts to learn from are at least 2, on seeds {FIRST_SEED} to {LAST_SEED}; got "
+            f"lifts to learn from are at least 2, on seeds {first} to {last}; got "
             f"{count} from {first_seed}"
         )
     seeds = range(first_seed, first_seed + count)
