@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 
 from ..episode.scenario import CONTROL_PERIOD, LATENCY
 from ..rendering.style import FAINT, HUMAN, INK, PAPER, ROBOT, style_axes
-from .causal import CAUSAL_BOUND
 from .oracle import ORACLE
 from .sweep import Swept
 
@@ -19,10 +18,9 @@ LOOKS: Final = {
     "reactive": (FAINT, "-", "o"),
     "blend": ("#8A4F9E", "-", "o"),
     "anticipate": (ROBOT, "-", "o"),
-    CAUSAL_BOUND: (INK, "--", "s"),
     ORACLE: (INK, ":", "s"),
 }
-"""Colour, line and marker; the bounds are black."""
+"""Colour, line and marker; the oracle, a bound, is black."""
 
 
 def sweep_json(swept: Sequence[Swept], human_human: float) -> str:
