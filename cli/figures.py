@@ -10,7 +10,7 @@ import typer
 
 from ..agents.errors import EvaluatorFault, InputError
 from ..benchmark.figures.making import FigureStatus, remake, statuses
-from ..benchmark.figures.registry import clone
+from ..benchmark.figures.registry import clone_folder
 from .options import check_exclusive
 from .printing import left, show, table
 
@@ -53,7 +53,7 @@ def figures(
     for file in files:
         if not file.is_file():
             raise InputError(f"--recordings: there is no file {file}")
-    root = clone()
+    root = clone_folder()
     found = statuses(root)
     unknown = [name for name in names or () if name not in found]
     if unknown:

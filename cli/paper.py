@@ -54,14 +54,14 @@ def paper(
 
 def _summary(report: "Report") -> list[RenderableType]:
     """Return Table I and the list of the claims."""
-    from ..benchmark.paper.pages import HEADER, table_notes, table_rows, verdict
+    from ..benchmark.paper.pages import HEADER, claims_verdict, table_notes, table_rows
 
     titles = [HEADER[column].replace(": ", ":\n") for column in SHOWN]
     rows = [
         [row[column].replace(" (", "\n(") for column in SHOWN] for row in table_rows(report.table)
     ]
     claims = table(
-        verdict(sum(claim.holds for claim in report.claims), len(report.claims)),
+        claims_verdict(sum(claim.holds for claim in report.claims), len(report.claims)),
         ("claim", left("measured"), "holds"),
         ((each.claim, each.measured, "yes" if each.holds else "no") for each in report.claims),
     )

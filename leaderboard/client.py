@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import IO, Any, Final
 
 from ..agents.errors import InputError
-from .storage.archive import pack
+from .storage.archive import pack_archive
 
 API: Final = "/api/v1"
 
@@ -66,7 +66,7 @@ class RemoteBoard:
             If the board does not answer or refuses it; the message is the board's.
         """
         with tempfile.TemporaryFile() as file:
-            pack(folder, file)
+            pack_archive(folder, file)
             size = file.tell()
             headers = {
                 **self._identity,

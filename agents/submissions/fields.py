@@ -37,10 +37,10 @@ def authors(value: Any) -> tuple[str, ...]:
     """Return the names of the authors."""
     if not isinstance(value, list) or not 0 < len(value) <= MOST_AUTHORS:
         raise _wrong(value, f'a list of 1 to {MOST_AUTHORS} names, such as ["Ada Lovelace"]')
-    return tuple(line(each) for each in value)
+    return tuple(text_line(each) for each in value)
 
 
-def line(value: Any) -> str:
+def text_line(value: Any) -> str:
     """Return a line of text."""
     if not (isinstance(value, str) and 0 < len(value.strip()) <= LONGEST_LINE):
         raise _wrong(value, f"a text of 1 to {LONGEST_LINE} characters")

@@ -52,7 +52,7 @@ class File:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Contents:
+class FolderContents:
     """The files of a folder, in the order of their paths."""
 
     files: tuple[File, ...]
@@ -85,7 +85,7 @@ def is_part(name: str) -> bool:
     return not (name.startswith(".") or name == "__pycache__")
 
 
-def read_folder(folder: Path, limits: FolderLimits = LIMITS) -> Contents:
+def read_folder(folder: Path, limits: FolderLimits = LIMITS) -> FolderContents:
     """Return the files of a folder, for which :func:`is_part` holds.
 
     Only regular files are accepted. No link is followed, not even one that appears during the
@@ -100,7 +100,7 @@ def read_folder(folder: Path, limits: FolderLimits = LIMITS) -> Contents:
     return _walk(folder, limits, lambda path, data: None)
 
 
-def copy_folder(folder: Path, target: Path, limits: FolderLimits = LIMITS) -> Contents:
+def copy_folder(folder: Path, target: Path, limits: FolderLimits = LIMITS) -> FolderContents:
     """Copy the files that :func:`read_folder` reads, and return them.
 
     Parameters
@@ -127,7 +127,7 @@ def copy_folder(folder: Path, target: Path, limits: FolderLimits = LIMITS) -> Co
     return _walk(folder, limits, keep)
 
 
-def _walk(folder: Path, limits: FolderLimits, keep: Callable[[str, bytes], None]) -> Contents:
+def _walk(folder: Path, limits: FolderLimits, keep: Callable[[str, bytes], None]) -> FolderContents:
     if not folder.is_dir():
         raise InputError(f"{folder}: " + ("not a folder" if folder.exists() else "no such folder"))
     files: list[File] = []
@@ -149,7 +149,7 @@ def _walk(folder: Path, limits: FolderLimits, keep: Callable[[str, bytes], None]
             files.append(File(path=path, size=length, sha256=sha.hexdigest()))
     except OSError as error:
         raise InputError(f"cannot read {folder}: {error.strerror} ({error.filename!r})") from error
-    return Contents(files=tuple(sorted(files, key=lambda file: file.path)))
+    return FolderContents(files=tuple(sorted(files, key=lambda file: file.path)))
 
 
 def _files(folder: Path, limits: FolderLimits) -> Iterator[tuple[str, int, Iterator[bytes]]]:

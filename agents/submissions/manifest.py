@@ -50,7 +50,7 @@ READ: Final[Mapping[str, Callable[[Any], Any]]] = {
     "name": fields.name,
     "authors": fields.authors,
     "description": fields.text,
-    "licence": fields.line,
+    "licence": fields.text_line,
     "trained_on": fields.text,
     "link": fields.link,
     "model": fields.model,

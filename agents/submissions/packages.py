@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Final
 
-from .folder import Contents
+from .folder import FolderContents
 
 PACKAGES: Final[Mapping[str, str]] = {
     "filterpy": "filterpy",
@@ -31,7 +31,7 @@ def installed(package: str) -> bool:
     return importlib.util.find_spec(PACKAGES[package]) is not None
 
 
-def undeclared(folder: Path, contents: Contents, packages: tuple[str, ...]) -> Iterator[str]:
+def undeclared(folder: Path, contents: FolderContents, packages: tuple[str, ...]) -> Iterator[str]:
     """Yield a message for each import that is neither declared nor in :data:`ALWAYS`.
 
     The sources are parsed, never run: only ``import`` statements are seen.

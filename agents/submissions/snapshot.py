@@ -13,13 +13,13 @@ from pathlib import Path
 from typing import Final
 
 from ..errors import InputError
-from .folder import LIMITS, Contents, copy_folder, read_folder
+from .folder import LIMITS, FolderContents, copy_folder, read_folder
 
 KEPT_DAYS: Final = 7
 """Days that a copy is kept after its last use."""
 
 
-def snapshot(folder: Path) -> tuple[Path, Contents]:
+def snapshot(folder: Path) -> tuple[Path, FolderContents]:
     """Return the private copy of a folder, and its files.
 
     Raises
@@ -30,7 +30,7 @@ def snapshot(folder: Path) -> tuple[Path, Contents]:
     return _stored(lambda target: copy_folder(folder, target))
 
 
-def snapshot_file(path: Path) -> tuple[Path, Contents]:
+def snapshot_file(path: Path) -> tuple[Path, FolderContents]:
     """Return a private folder with a copy of one file alone, and its content.
 
     Raises
@@ -44,14 +44,14 @@ def snapshot_file(path: Path) -> tuple[Path, Contents]:
     if path.stat().st_size > LIMITS.file_bytes:
         raise InputError(f"{path} has more than {LIMITS.file_bytes} bytes")
 
-    def copy(target: Path) -> Contents:
+    def copy(target: Path) -> FolderContents:
         shutil.copyfile(path, target / path.name)
         return read_folder(target)
 
     return _stored(copy)
 
 
-def _stored(copy: Callable[[Path], Contents]) -> tuple[Path, Contents]:
+def _stored(copy: Callable[[Path], FolderContents]) -> tuple[Path, FolderContents]:
     """Return the folder that ``copy`` fills, named by its digest, and its files."""
     cache = _cache()
     with _folder_in(cache) as made:
@@ -99,7 +99,7 @@ def _unwritable(cache: Path, error: OSError) -> InputError:
     )
 
 
-def _holds(place: Path, contents: Contents) -> bool:
+def _holds(place: Path, contents: FolderContents) -> bool:
     """Whether a copy is there, and unchanged."""
     try:
         return read_folder(place) == contents

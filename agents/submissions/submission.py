@@ -12,7 +12,7 @@ from ..onnx.allowed import LARGEST
 from ..onnx.libraries import require_libraries
 from ..sandbox.host.levels import strongest
 from ..sandbox.host.policy import SandboxedPolicy
-from .folder import Contents, read_folder
+from .folder import FolderContents, read_folder
 from .from_file import classes
 from .manifest import MANIFEST, Manifest, read_manifest
 from .snapshot import snapshot
@@ -40,7 +40,7 @@ class Submission:
     folder: Path
     """Where the files are; absolute."""
     manifest: Manifest
-    contents: Contents
+    contents: FolderContents
 
     @property
     def digest(self) -> str:
@@ -141,7 +141,7 @@ def _without_manifest(shown: str) -> InputError:
     )
 
 
-def _submission(folder: Path, contents: Contents, shown: str) -> Submission:
+def _submission(folder: Path, contents: FolderContents, shown: str) -> Submission:
     """Return the submission of files that have been read; ``shown`` is the user's path."""
     if MANIFEST not in contents.paths:
         raise _without_manifest(shown)
@@ -160,7 +160,7 @@ def _submission(folder: Path, contents: Contents, shown: str) -> Submission:
     return Submission(folder=folder, manifest=manifest, contents=contents)
 
 
-def _check_network(model: str, contents: Contents, shown: str) -> None:
+def _check_network(model: str, contents: FolderContents, shown: str) -> None:
     """Raise an InputError if a network is missing or too large.
 
     It is read in the sandbox only: a small file can take much memory.

@@ -22,7 +22,7 @@ def one_line(text: str) -> str:
     return "".join(shown)[:LONGEST_REASON]
 
 
-def columns(metrics: Metrics) -> tuple[str, ...]:
+def column_names(metrics: Metrics) -> tuple[str, ...]:
     """Return the names of the columns."""
     return ("behaviour", "subject", "trial", "seed", *metrics, "reached", "failure")
 
@@ -38,13 +38,13 @@ def table_row(episode: Episode, metrics: Metrics) -> dict[str, object]:
         reached(episode.scores, metrics),
         episode.failure or "",
     )
-    return dict(zip(columns(metrics), values, strict=True))
+    return dict(zip(column_names(metrics), values, strict=True))
 
 
 def dump_table(episodes: Sequence[Episode], metrics: Metrics) -> bytes:
     """Return the table as a CSV file; the field of a missing score is empty."""
     text = io.StringIO()
-    writer = csv.DictWriter(text, fieldnames=columns(metrics), lineterminator="\n")
+    writer = csv.DictWriter(text, fieldnames=column_names(metrics), lineterminator="\n")
     writer.writeheader()
     for episode in episodes:
         row = table_row(episode, metrics)
@@ -81,8 +81,8 @@ def parse_table(
         rows = list(csv.reader(io.StringIO(data.decode(), newline=""), strict=True))
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{EPISODES}: not a CSV file in UTF-8: {error}") from None
-    if not rows or tuple(rows[0]) != columns(metrics):
-        raise InputError(f"{EPISODES}: the first line must be {','.join(columns(metrics))}")
+    if not rows or tuple(rows[0]) != column_names(metrics):
+        raise InputError(f"{EPISODES}: the first line must be {','.join(column_names(metrics))}")
     if len(rows) - 1 != len(traces):
         raise InputError(f"{EPISODES}: {len(rows) - 1} episodes, but {TRACES} has {len(traces)}")
     episodes = tuple(
@@ -98,7 +98,7 @@ def parse_table(
 
 
 def _episode(row: list[str], trace: Trace, log: str, metrics: Metrics, where: str) -> Episode:
-    names = columns(metrics)
+    names = column_names(metrics)
     if len(row) != len(names):
         raise InputError(f"{where}: {len(row)} fields, must be {len(names)}")
     values = dict(zip(names, row, strict=True))

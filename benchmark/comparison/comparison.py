@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from ..results.baselines import HUMAN_HUMAN_LABEL
-from .front import Point, exact, pareto_front
+from .front import FrontPoint, exact, pareto_front
 from .paired_results import PairedResults
 from .ranking import Ranking, SubsetKind, rank_policies
 
@@ -17,7 +17,7 @@ class Comparison:
     """On all episodes."""
     behaviours: tuple[Ranking, ...]
     subjects: tuple[Ranking, ...]
-    points: tuple[Point, ...]
+    points: tuple[FrontPoint, ...]
     """The policies, the most level first; then the human-human baseline and the bounds."""
 
     @property
@@ -40,9 +40,9 @@ def compare(results: PairedResults) -> Comparison:
     )
 
 
-def _points(results: PairedResults, overall: Ranking) -> tuple[Point, ...]:
+def _points(results: PairedResults, overall: Ranking) -> tuple[FrontPoint, ...]:
     policies = [
-        Point(
+        FrontPoint(
             name=ranked.name,
             rmse_mm=ranked.rmse_mm,
             sparc=ranked.sparc,
@@ -51,7 +51,7 @@ def _points(results: PairedResults, overall: Ranking) -> tuple[Point, ...]:
         for ranked in overall.policies
     ]
     others = [
-        Point(
+        FrontPoint(
             name=name,
             rmse_mm=overall.references_rmse_mm[name],
             sparc=exact(baseline.means["sparc"]),

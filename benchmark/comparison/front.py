@@ -14,7 +14,7 @@ from ..statistics import Estimate
 
 
 @dataclass(frozen=True, kw_only=True)
-class Point:
+class FrontPoint:
     """Error and smoothness of a policy, of the human-human baseline or of a bound."""
 
     name: str
@@ -31,7 +31,7 @@ class Point:
         """Sort key of smoothness: first the fewest lifts without, then the mean."""
         return -self.missing, -math.inf if self.sparc is None else self.sparc.mean
 
-    def dominates(self, other: "Point") -> bool:
+    def dominates(self, other: "FrontPoint") -> bool:
         """Whether it is at least as good in both, and better in one."""
         mine = (-self.rmse_mm.mean, self.smoothness)
         theirs = (-other.rmse_mm.mean, other.smoothness)
@@ -43,7 +43,7 @@ def exact(value: float | None) -> Estimate | None:
     return None if value is None else Estimate(mean=value, ci95=(value, value))
 
 
-def pareto_front(points: Sequence[Point]) -> tuple[Point, ...]:
+def pareto_front(points: Sequence[FrontPoint]) -> tuple[FrontPoint, ...]:
     """Return the policies that no other dominates, in the order of their error.
 
     A policy without smoothness is never on the front: holding still is not smooth.

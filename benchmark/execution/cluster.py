@@ -12,7 +12,7 @@ from contextlib import suppress
 from typing import Any, Final, ParamSpec, TypeVar
 
 from ...agents.errors import EvaluatorFault
-from .provenance import compare, origin
+from .provenance import check_same_origin, origin
 
 LARGE: Final = 2**16
 """Size from which a value is sent once, apart from the calls that contain it [bytes]."""
@@ -60,7 +60,7 @@ def call(data: bytes, large: Mapping[str, bytes], wanted: Mapping[str, str]) -> 
     InputError
         If the origin of this worker is not the wanted one.
     """
-    compare(origin(), wanted, "on a worker that has joined", "on the others")
+    check_same_origin(origin(), wanted, "on a worker that has joined", "on the others")
 
     class Whole(pickle.Unpickler):
         def persistent_load(self, digest: str) -> bytes:

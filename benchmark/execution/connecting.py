@@ -9,7 +9,7 @@ from typing import Any, Final
 from ...agents.errors import InputError, error_text
 from ...agents.extras import how_to_install
 from .cluster import Cluster
-from .provenance import COLIFT, compare, origin
+from .provenance import COLIFT, check_same_origin, origin
 
 CONNECT_SECONDS: Final = 10.0
 """Time limit for the scheduler to answer, and for a first worker [s]."""
@@ -98,9 +98,9 @@ def _agreed(client: Any, address: str) -> dict[str, str]:
             continue  # It has just died; its successor is compared when it works.
         if isinstance(answer, BaseException):
             raise InputError(f"Dask worker {worker} cannot run colift: {error_text(answer)}")
-        compare(answer, {COLIFT: origin()[COLIFT]}, f"on worker {worker}", "here")
+        check_same_origin(answer, {COLIFT: origin()[COLIFT]}, f"on worker {worker}", "here")
         agreed = agreed or answer
-        compare(answer, agreed, f"on worker {worker}", "on another worker")
+        check_same_origin(answer, agreed, f"on worker {worker}", "on another worker")
     if agreed is None:
         raise InputError(f"every worker of the Dask scheduler {address} has just died")
     return agreed

@@ -122,7 +122,9 @@ def platform_of(origin: Mapping[str, str]) -> dict[str, str]:
     return {name: value for name, value in origin.items() if name != COLIFT}
 
 
-def compare(found: Mapping[str, str], wanted: Mapping[str, str], where: str, other: str) -> None:
+def check_same_origin(
+    found: Mapping[str, str], wanted: Mapping[str, str], where: str, other: str
+) -> None:
     """Raise an InputError that names the first difference of two origins, if there is one.
 
     Parameters

@@ -47,7 +47,7 @@ class RecordedFigure:
         return (*printed, *(Path(picture).name for picture in self.pictures))
 
 
-def clone() -> Path:
+def clone_folder() -> Path:
     """Return the folder of the clone that this code belongs to.
 
     Raises

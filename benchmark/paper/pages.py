@@ -86,7 +86,7 @@ def report_pages(
         "exhibits": exhibits,
         "drawn": {name: b64encode(png).decode("ascii") for name, png in drawn.items()},
         "claims": claims,
-        "verdict": verdict(sum(claim.holds for claim in claims), len(claims)),
+        "verdict": claims_verdict(sum(claim.holds for claim in claims), len(claims)),
     }
     html, markdown = (render(__package__, f"report.{kind}", **content) for kind in ("html", "md"))
     return html, markdown
@@ -133,6 +133,6 @@ def _ours(cell: Reproduction, digits: str = ".2f") -> str:
     return f"{cell.mean:{digits}} ({low} to {high})"
 
 
-def verdict(count: int, total: int) -> str:
+def claims_verdict(count: int, total: int) -> str:
     """Return how many of the claims hold, as a sentence."""
     return f"{count} of {total} claims hold."

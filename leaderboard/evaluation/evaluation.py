@@ -93,7 +93,7 @@ def evaluate_entrant(
         After Ctrl-C: there are no partial rows.
     """
     watch, budget = watch or Callbacks(), budget or Budget()
-    playing: Playing = {"executor": executor, "progress": watch.progress, "keep": budget.add}
+    playing: PlayingOptions = {"executor": executor, "progress": watch.progress, "keep": budget.add}
     watch.stage("check")
     _check(entrant, playing)
     watch.stage("public run")
@@ -129,7 +129,7 @@ def evaluate_entrant(
     )
 
 
-class Playing(TypedDict):
+class PlayingOptions(TypedDict):
     """How episodes of an entrant are played; see :func:`.run_suite`."""
 
     executor: Executor | None
@@ -137,7 +137,7 @@ class Playing(TypedDict):
     keep: Callable[[int, Episode], None]
 
 
-def _check(entrant: Entrant, playing: Playing) -> None:
+def _check(entrant: Entrant, playing: PlayingOptions) -> None:
     """Check a policy as ``colift check`` does, with the same code.
 
     Raises

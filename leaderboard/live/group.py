@@ -7,7 +7,7 @@ from ...benchmark.live.process import BINARY, JOIN, LEAVE, packet
 from ...benchmark.live.seats import ALL
 from .page import TAKEN_OVER, Message, Page
 from .relay import RoomLink
-from .sessions import Role, Session
+from .sessions import LiveSession, Role
 
 SEATS: Final[dict[Role, int]] = {"host": 0, "person": 1}
 """Seats of the people who lift."""
@@ -37,7 +37,7 @@ class Group:
         Time of the event loop [s].
     """
 
-    def __init__(self, session: Session, now: float) -> None:
+    def __init__(self, session: LiveSession, now: float) -> None:
         self.session = session
         self.pages: dict[int, Page] = {}
         self.link: RoomLink | None = None

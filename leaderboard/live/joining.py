@@ -10,7 +10,7 @@ from ..service.security import client_of
 from . import limits
 from .page import REFUSED, Page
 from .play import Play, play_of
-from .sessions import Role, Session
+from .sessions import LiveSession, Role
 
 SEATS: Final[dict[str, Role]] = {"0": "host", "1": "person", "spectator": "spectator"}
 """Roles by the seats that pages ask for."""
@@ -47,7 +47,7 @@ async def socket(websocket: WebSocket) -> None:
             await _seated(play, page, session, role)
 
 
-async def _admitted(play: Play, text: str | None) -> tuple[Session | None, Role | None]:
+async def _admitted(play: Play, text: str | None) -> tuple[LiveSession | None, Role | None]:
     """Return the session that a first message names, and the role that its secret allows."""
     try:
         asked = json.loads(text or "")
@@ -63,7 +63,7 @@ async def _admitted(play: Play, text: str | None) -> tuple[Session | None, Role 
     return session, role if role == wanted else None
 
 
-async def _seated(play: Play, page: Page, session: Session, role: Role) -> None:
+async def _seated(play: Play, page: Page, session: LiveSession, role: Role) -> None:
     """Serve a page in its seat, as long as it is there."""
     loop = asyncio.get_running_loop()
     entered = play.keeper.enter(session, role, page)

@@ -15,7 +15,7 @@ from .group import Group
 from .load import busy
 from .page import REFUSED, Page
 from .relay import RoomLink
-from .sessions import Role, Session
+from .sessions import LiveSession, Role
 
 log: Final = logging.getLogger("colift.live")
 
@@ -99,7 +99,7 @@ class Keeper:
         await asyncio.gather(*self._tasks, return_exceptions=True)
         await asyncio.gather(*(link.close() for link in links))
 
-    def enter(self, session: Session, role: Role, page: Page) -> tuple[Group, int] | None:
+    def enter(self, session: LiveSession, role: Role, page: Page) -> tuple[Group, int] | None:
         """Give a page its seat, and the session a room or a place in the queue.
 
         Returns

@@ -32,10 +32,10 @@ async def busy() -> str | None:
     free = None
     if idle is not None and now_idle is not None:
         free = (now_idle - idle) / (time.monotonic() - began)
-    return verdict(late, free)
+    return busy_reason(late, free)
 
 
-def verdict(late: list[float], free: float | None) -> str | None:
+def busy_reason(late: list[float], free: float | None) -> str | None:
     """Return why a machine is busy, from the lateness of ticks [s] and its idle cores."""
     usually = sorted(late)[len(late) * 9 // 10]
     if usually > LATE_S:

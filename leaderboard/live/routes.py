@@ -60,7 +60,7 @@ def page(request: Request) -> HTMLResponse:
 
 
 @router.get("/api/health")
-async def health(request: Request) -> PlayHealth:
+async def play_health(request: Request) -> PlayHealth:
     """Say that the web process answers, and how many rooms there are."""
     play = play_of(request)
     return PlayHealth(rooms=play.keeper.rooms, most=play.config.rooms, waiting=play.keeper.waiting)
@@ -87,7 +87,7 @@ async def new_session(request: Request) -> NewSession:
 
 
 @router.get("/api/sessions/{name}/lifts/{lift}/replay")
-async def replay(
+async def session_replay(
     request: Request, name: str, lift: Annotated[str, Path(pattern=f"^{LIFT.pattern}$")]
 ) -> Response:
     """Send the replay of a lift to those who have a secret of its session."""

@@ -30,7 +30,7 @@ SECRET_BYTES: Final = 18
 
 
 @dataclass(frozen=True, kw_only=True)
-class Session:
+class LiveSession:
     """A session: its folder, and the key from which its secrets derive."""
 
     name: str
@@ -72,11 +72,11 @@ class Sessions:
 
     folder: Path
 
-    def make(self) -> Session:
+    def make(self) -> LiveSession:
         """Make a session, with a new key."""
         now = time.time()
         name = f"{time.strftime('%Y%m%d', time.gmtime(now))}-{secrets.token_hex(6)}"
-        session = Session(name=name, folder=self.folder / name, key=secrets.token_bytes(32))
+        session = LiveSession(name=name, folder=self.folder / name, key=secrets.token_bytes(32))
         self.folder.mkdir(parents=True, exist_ok=True)
         session.folder.mkdir(mode=0o700)
         content = {
@@ -88,7 +88,7 @@ class Sessions:
         write_json(session.folder / SESSION, content, mode=0o600)
         return session
 
-    def find(self, name: str) -> Session | None:
+    def find(self, name: str) -> LiveSession | None:
         """Return a session; None if there is none of that name that can be read."""
         if not NAME.fullmatch(name):
             return None
@@ -97,4 +97,4 @@ class Sessions:
             key = bytes.fromhex(read_json(folder / SESSION)["key"])
         except (OSError, ValueError, KeyError, TypeError):
             return None
-        return Session(name=name, folder=folder, key=key)
+        return LiveSession(name=name, folder=folder, key=key)

@@ -17,7 +17,7 @@ from ...benchmark.comparison.scatter.svg import svg
 from ...benchmark.rendering.page import templates
 from ..records.metrics import board_metrics
 from ..replays.html import script_json
-from ..storage.archive import pack
+from ..storage.archive import pack_archive
 from .formats import FILTERS
 from .links import Links
 
@@ -71,5 +71,5 @@ def template_archive() -> bytes:
     with tempfile.TemporaryDirectory(prefix="colift-") as temporary:
         folder = Path(temporary, PLACEHOLDER)
         write_template(folder)
-        pack(folder, buffer)
+        pack_archive(folder, buffer)
     return buffer.getvalue()

@@ -13,7 +13,7 @@ from ..board.board import Board
 from ..records.season import SeasonInfo
 from ..replays.chosen import replays_of
 from ..replays.html import replay_files, replay_page
-from ..storage.archive import pack
+from ..storage.archive import pack_archive
 from ..views.board import board_view, ordered_seasons
 from ..views.compare import compare_view
 from ..views.exports import news_of, standings_csv, standings_json
@@ -137,4 +137,4 @@ def _write_bundles(board: Board, info: SeasonInfo, links: SiteLinks, folder: Pat
         bundle = board.bundle(info.name, digest)
         if bundle is not None and is_whole(bundle):
             with (folder / links.bundle(info.name, digest)).open("w+b") as file:
-                pack(bundle, file)
+                pack_archive(bundle, file)

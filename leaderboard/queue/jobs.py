@@ -23,7 +23,7 @@ def read_job(found: Any, store: Store) -> Job:
     return Job(**{**own, **public})
 
 
-def outcome(entry: BoardEntry, ended_at: datetime) -> dict[str, Any]:
+def job_outcome(entry: BoardEntry, ended_at: datetime) -> dict[str, Any]:
     """Return the changes of a job when its entry was made."""
     content: dict[str, Any] = {"state": "done", "reason": None, "ended_at": ended_at}
     if entry.row is None:

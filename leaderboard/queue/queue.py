@@ -17,7 +17,7 @@ from ..evaluation.entrant import Entrant
 from ..evaluation.evaluation import episode_count
 from ..records.job import HELD, Job, State
 from ..records.season import Event, Kind
-from .jobs import outcome, read_job, storable_reason
+from .jobs import job_outcome, read_job, storable_reason
 from .quota import Quota, admit, in_turn, last_served
 
 
@@ -82,7 +82,7 @@ class Queue:
                 known = read_entries(
                     connection, entries.c.season == season.name, entries.c.submission == digest
                 )
-                fresh |= outcome(known[0], known[0].at) if known else {}
+                fresh |= job_outcome(known[0], known[0].at) if known else {}
                 place()
                 connection.execute(
                     sa.insert(jobs).values(

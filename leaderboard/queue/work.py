@@ -18,7 +18,7 @@ from ..database.schema import jobs
 from ..evaluation.progress import Stage
 from ..records.job import HELD, Job, State
 from ..records.season import BoardEntry
-from .jobs import is_gone, outcome, read_job, storable_reason
+from .jobs import is_gone, job_outcome, read_job, storable_reason
 from .quota import in_turn, last_served
 
 LEASE: Final = timedelta(seconds=30)
@@ -152,7 +152,7 @@ class WorkerQueue:
             If the job is no longer this worker's.
         """
         with self.board.database.writing() as connection:
-            ended = outcome(entry, self.board.clock())
+            ended = job_outcome(entry, self.board.clock())
             if entry.row is not None:
                 ended["done"] = jobs.c.total
             self._change(connection, job, ended)

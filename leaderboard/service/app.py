@@ -18,7 +18,7 @@ from ..queue import Queue, Quota
 from . import page_routes as pages
 from . import published, reference, submitting
 from .answers import Health
-from .dependencies import PREFIX, Rates, Service, State
+from .dependencies import PREFIX, Rates, Service, ServiceState
 from .documentation import PLACE, Documentation, Pages
 from .errors import FaultHandler, Problem, answer_errors, log
 from .security import Guard, RateLimit
@@ -92,7 +92,7 @@ def create_app(
         redoc_url=None,
     )
     app.state.folder = board.folder
-    app.state.service = State(
+    app.state.service = ServiceState(
         board=board,
         queue=Queue(board, quota or Quota()),
         tokens=Tokens(board),

@@ -36,7 +36,7 @@ class Rates:
 
 
 @dataclass(frozen=True, kw_only=True)
-class State:
+class ServiceState:
     """The state of a service."""
 
     board: Board
@@ -67,13 +67,13 @@ class State:
     """For news of jobs, by address."""
 
 
-def service_state(request: Request) -> State:
+def service_state(request: Request) -> ServiceState:
     """Return the state of the service that a request has come to."""
-    state: State = request.app.state.service
+    state: ServiceState = request.app.state.service
     return state
 
 
-Service = Annotated[State, Depends(service_state)]
+Service = Annotated[ServiceState, Depends(service_state)]
 """The type of a route's parameter."""
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 
 @dataclass(frozen=True, kw_only=True)
-class Parameter:
+class RequestParameter:
     """A part of a path or a query."""
 
     name: str
@@ -39,7 +39,7 @@ class Operation:
     """Whether it requires the header ``Authorization``."""
     body: str
     """Media types and meaning of the body; empty if it has none."""
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[RequestParameter, ...]
     responses: tuple[Response, ...]
 
 
@@ -99,8 +99,8 @@ def _body(content: dict[str, Any] | None) -> str:
     return f"{', '.join(content['content'])}. {content.get('description', '')}".strip()
 
 
-def _parameter(content: dict[str, Any]) -> Parameter:
-    return Parameter(
+def _parameter(content: dict[str, Any]) -> RequestParameter:
+    return RequestParameter(
         name=content["name"],
         place=content["in"],
         kind=kind_of(content["schema"]),

@@ -18,7 +18,7 @@ from ..views.job import STAGES, job_view, open_jobs
 from ..views.method import method_view
 from ..views.policy import PolicyView, policy_view
 from ..views.scenario import scenario_view, scenarios_view
-from .dependencies import Service, State, links_of
+from .dependencies import Service, ServiceState, links_of
 from .published import rules_of
 
 SUBMISSIONS: Final = "/api/v1/submissions"
@@ -45,7 +45,9 @@ def season_board(service: Service, request: Request, season: SeasonName) -> HTML
 
 
 @router.get("/seasons/{season}/policies/{digest}")
-def policy(service: Service, request: Request, season: SeasonName, digest: Digest) -> HTMLResponse:
+def submission_page(
+    service: Service, request: Request, season: SeasonName, digest: Digest
+) -> HTMLResponse:
     """Show a submission."""
     view = policy_view(service.board, season, digest)
     if view is None:
@@ -196,7 +198,7 @@ def job_page(
     return _page(request, "job.html", season=info, view=view, stages=STAGES, api=api)
 
 
-def _replays(service: State, season: str, digest: str) -> list[dict[str, Any]]:
+def _replays(service: ServiceState, season: str, digest: str) -> list[dict[str, Any]]:
     """Return the replays of a submission: none of a suite that this colift plays no more."""
     entry = service.board.entry(season, digest)
     bundle = service.board.bundle(season, digest)
@@ -205,14 +207,14 @@ def _replays(service: State, season: str, digest: str) -> list[dict[str, Any]]:
     return []
 
 
-def _board(service: State, request: Request, season: str | None) -> HTMLResponse:
+def _board(service: ServiceState, request: Request, season: str | None) -> HTMLResponse:
     view = board_view(service.board, season)
     if view is None:
         return _missing(service, request, f"There is no season {season}.")
     return _page(request, "board.html", view=view)
 
 
-def _missing(service: State, request: Request, message: str) -> HTMLResponse:
+def _missing(service: ServiceState, request: Request, message: str) -> HTMLResponse:
     season = find_season(ordered_seasons(service.board), None)
     return _page(request, "missing.html", status=404, season=season, message=message)
 

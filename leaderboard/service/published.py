@@ -22,7 +22,7 @@ from .dependencies import (
     SeasonAsked,
     SeasonName,
     Service,
-    State,
+    ServiceState,
     SubjectAsked,
     api_root,
 )
@@ -132,18 +132,18 @@ async def bundle(
     return Slotted(answer, service.sending, client_of(request), SENDING_S)
 
 
-def _standings(service: State, season: str | None) -> tuple[RankedRow, ...]:
+def _standings(service: ServiceState, season: str | None) -> tuple[RankedRow, ...]:
     _check_season(service, season)
     return service.board.standings(season)
 
 
-def _check_season(service: State, season: str | None) -> None:
+def _check_season(service: ServiceState, season: str | None) -> None:
     names = [each.name for each in service.board.seasons()]
     if season is not None and season not in names:
         raise problem(404, f"there is no season {season}; there are {', '.join(names)}")
 
 
-def _strata(service: State, standing: RankedRow) -> tuple[StratumScore, ...]:
+def _strata(service: ServiceState, standing: RankedRow) -> tuple[StratumScore, ...]:
     bundle = service.board.bundle(standing.row.season, standing.row.submission)
     return () if bundle is None else stratum_scores(bundle)
 
@@ -174,7 +174,7 @@ def rules(service: Service) -> RulesAnswer:
     return rules_of(service)
 
 
-def rules_of(service: State) -> RulesAnswer:
+def rules_of(service: ServiceState) -> RulesAnswer:
     """Return the rules of a service's board."""
     season, quota = service.board.season_info(), service.queue.quota
     return RulesAnswer(

@@ -14,7 +14,7 @@ from starlette.exceptions import HTTPException
 from ...agents.errors import InputError
 from ..records.job import Job
 from .answers import JobAnswer, SubmissionAnswer, SubmitterAnswer
-from .dependencies import BINARY, MISSING, UNKNOWN, JobId, Service, State, api_root
+from .dependencies import BINARY, MISSING, UNKNOWN, JobId, Service, ServiceState, api_root
 from .errors import CLOSE, Problem, problem
 from .security import client_of, seconds
 from .slots import Slotted
@@ -196,7 +196,9 @@ async def post_submission(
     return JobAnswer.of(queued)
 
 
-async def _submitter(service: State, credentials: HTTPAuthorizationCredentials | None) -> str:
+async def _submitter(
+    service: ServiceState, credentials: HTTPAuthorizationCredentials | None
+) -> str:
     """Return a token's owner."""
     if credentials is None:
         raise _nobody("a header 'Authorization: Bearer TOKEN' is missing")
@@ -206,7 +208,7 @@ async def _submitter(service: State, credentials: HTTPAuthorizationCredentials |
     return known
 
 
-def _known(service: State, credentials: HTTPAuthorizationCredentials | None) -> str | None:
+def _known(service: ServiceState, credentials: HTTPAuthorizationCredentials | None) -> str | None:
     return None if credentials is None else service.tokens.submitter(credentials.credentials)
 
 
@@ -215,7 +217,7 @@ def _nobody(message: str) -> HTTPException:
     return problem(401, message, {**CLOSE, "WWW-Authenticate": "Bearer"})
 
 
-def _job(service: State, name: str) -> Job:
+def _job(service: ServiceState, name: str) -> Job:
     found = service.queue.job(name)
     if found is None:
         raise problem(404, f"there is no job {name}")

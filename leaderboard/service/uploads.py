@@ -19,9 +19,9 @@ from ...agents.errors import InputError
 from ...agents.submissions.folder import MIB
 from ..board.board import Board
 from ..database.schema import jobs
-from ..storage.archive import unpack
+from ..storage.archive import unpack_archive
 from ..storage.staging import Incoming, remove_abandoned
-from .dependencies import State
+from .dependencies import ServiceState
 from .errors import CLOSE, problem
 
 BODY: Final = 64 * MIB
@@ -59,7 +59,7 @@ def check_headers(request: Request) -> None:
 
 
 @asynccontextmanager
-async def received(request: Request, service: State) -> AsyncIterator[Incoming]:
+async def received(request: Request, service: ServiceState) -> AsyncIterator[Incoming]:
     """Yield the submission that a request brings, ready to be placed in the board.
 
     What is not placed by the end is not on the disk any more; what it takes meanwhile is bounded by
@@ -108,7 +108,7 @@ async def _receive(stream: AsyncIterator[bytes], file: IO[bytes]) -> None:
 def _incoming(file: IO[bytes], folder: Path, board: Board) -> Incoming:
     folder.mkdir()
     try:
-        unpack(file, folder)  # type: ignore[arg-type]
+        unpack_archive(file, folder)  # type: ignore[arg-type]
         return board.store.incoming(folder)
     except InputError as error:
         # The user knows nothing of our folders.

@@ -35,7 +35,7 @@ _MACOS: Final = "__MACOSX"
 """Folder that the Finder adds to its archives."""
 
 
-def pack(folder: Path, file: IO[bytes]) -> None:
+def pack_archive(folder: Path, file: IO[bytes]) -> None:
     """Write the regular files of a folder as a zip archive; the same files give the same bytes."""
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
         for path in sorted(path for path in folder.rglob("*") if path.is_file()):
@@ -48,7 +48,7 @@ def pack(folder: Path, file: IO[bytes]) -> None:
                     target.write(data)
 
 
-def unpack(file: BinaryIO, folder: Path, limits: FolderLimits = LIMITS) -> None:
+def unpack_archive(file: BinaryIO, folder: Path, limits: FolderLimits = LIMITS) -> None:
     """Write the files of a zip archive into a folder.
 
     The rules are those of :func:`.read_folder`; all names and declared sizes are checked before

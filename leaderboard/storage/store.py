@@ -25,7 +25,7 @@ from typing import Final
 from ...agents.errors import InputError
 from ...agents.submissions.folder import copy_folder
 from ...agents.submissions.submission import Submission, read_submission
-from .archive import pack
+from .archive import pack_archive
 from .files import read_json, sync, sync_tree, write_json
 from .season_secrets import FOLDER, PRIVATE_FILE, SeasonSecrets
 from .staging import Incoming, staging
@@ -199,7 +199,7 @@ class Store:
         with self.staging() as place:
             made = place / packed.name
             with made.open("wb") as file:
-                pack(folder, file)
+                pack_archive(folder, file)
             sync(made)
             made.rename(packed)
         return packed

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...benchmark.comparison.scatter.scene import NARROW, WIDE, Scene
+from ...benchmark.comparison.scatter.scene import NARROW, WIDE, ScatterScene
 from ...benchmark.episode.metric import Metric
 from ..board.board import Board
 from ..board.standings import HumanHumanScores, RankedRow
@@ -13,7 +13,7 @@ from ..records.metrics import board_metrics
 from ..records.season import Event, SeasonInfo
 from .axis import Axis, make_axis
 from .bounds import PublicBound, bounds_of
-from .lifts import Part, StratumScore, human_human_rmse, mean_rmse, stratum_scores
+from .lifts import Part, StratumScore, human_human_mean_rmse, mean_rmse, stratum_scores
 from .picture import make_picture
 
 
@@ -55,8 +55,8 @@ class BoardView:
     """What has been done to the season and its rows, newest first."""
     names: dict[str, str]
     """What the submissions of the events are called."""
-    wide: Scene | None
-    narrow: Scene | None
+    wide: ScatterScene | None
+    narrow: ScatterScene | None
 
     @property
     def causal(self) -> float | None:
@@ -65,7 +65,7 @@ class BoardView:
 
     def human_human_mm(self, behaviour: str) -> float | None:
         """Return the human-human baseline's mean RMSE [mm] on the public lifts of a behaviour."""
-        return human_human_rmse(self._strata, Part(behaviour=behaviour, subject=None))
+        return human_human_mean_rmse(self._strata, Part(behaviour=behaviour, subject=None))
 
     @property
     def behaviours(self) -> tuple[str, ...]:

@@ -21,7 +21,7 @@ from .lifts import (
     Part,
     PublicLift,
     StratumScore,
-    human_human_rmse,
+    human_human_mean_rmse,
     part_estimate,
     parts_of,
     public_lifts,
@@ -131,7 +131,7 @@ def compare_view(
         Column(standing=ranked[digest], rmse_mm=tuple(part_estimate(path, part) for part in parts))
         for digest, path in runs.items()
     )
-    human_human = tuple(human_human_rmse(strata, part) for part in parts)
+    human_human = tuple(human_human_mean_rmse(strata, part) for part in parts)
     pairs = _differences(tuple(runs.values()))
     names = itertools.combinations(runs, 2)
     return CompareView(

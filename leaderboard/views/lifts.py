@@ -145,7 +145,7 @@ def mean_rmse(strata: Sequence[StratumScore], part: Part) -> float | None:
     return sum(stratum.episodes * stratum.rmse_mm for stratum in some) / lifts if some else None
 
 
-def human_human_rmse(strata: Sequence[StratumScore], part: Part | None = None) -> float | None:
+def human_human_mean_rmse(strata: Sequence[StratumScore], part: Part | None = None) -> float | None:
     """Return the human-human baseline's mean RMSE [mm] over a part, if it is known in all of it."""
     some = [stratum for stratum in strata if part is None or part.has(stratum)]
     known = [

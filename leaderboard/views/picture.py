@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import Final
 
-from ...benchmark.comparison.front import Point, exact
-from ...benchmark.comparison.scatter.scene import Scene, make_scene
+from ...benchmark.comparison.front import FrontPoint, exact
+from ...benchmark.comparison.scatter.scene import ScatterScene, make_scene
 from ..board.standings import HumanHumanScores
 from ..records.row import BoardRow
 from .bounds import PublicBound
@@ -18,7 +18,7 @@ def make_picture(
     bounds: Sequence[PublicBound] = (),
     *,
     size: tuple[int, int],
-) -> Scene | None:
+) -> ScatterScene | None:
     """Return the picture; None if there is no policy.
 
     Parameters
@@ -36,7 +36,7 @@ def make_picture(
     if not rows:
         return None
     policies = [
-        Point(
+        FrontPoint(
             name=row.name,
             rmse_mm=row.hidden.rmse_mm,
             sparc=exact(row.public.metrics["sparc"].mean),
@@ -45,7 +45,7 @@ def make_picture(
         for row in rows
     ]
     others = [
-        Point(name=name, rmse_mm=each.rmse_mm, sparc=exact(each.means["sparc"]), kind=kind)
+        FrontPoint(name=name, rmse_mm=each.rmse_mm, sparc=exact(each.means["sparc"]), kind=kind)
         for name, each, kind in (
             *(() if human_human is None else [("two people", human_human, "baseline")]),
             *((bound.name, bound, "bound") for bound in bounds),

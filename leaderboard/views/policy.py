@@ -14,7 +14,7 @@ from .board import find_season, ordered_seasons
 from .lifts import (
     Part,
     PublicLift,
-    human_human_rmse,
+    human_human_mean_rmse,
     is_whole,
     mean_rmse,
     part_estimate,
@@ -191,7 +191,7 @@ def _parts(bundle: Path, other: Path | None) -> tuple[PartScore, ...]:
                 episodes=sum(stratum.episodes for stratum in some),
                 failed=sum(stratum.failed for stratum in some),
                 rmse_mm=part_estimate(bundle, part),
-                human_human_mm=human_human_rmse(some),
+                human_human_mm=human_human_mean_rmse(some),
                 blend_mm=mean_rmse(others, part),
             )
         )

@@ -24,7 +24,7 @@ def root(tmp_path, monkeypatch):
     """A clone with figures of its own."""
     (tmp_path / FOLDER).mkdir(parents=True)
     (tmp_path / FOLDER / REGISTRY).write_text(FIGURES)
-    monkeypatch.setattr("colift.cli.figures.clone", lambda: tmp_path)
+    monkeypatch.setattr("colift.cli.figures.clone_folder", lambda: tmp_path)
     return tmp_path
 
 

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from typing import Final, Literal, Protocol
 
-from ..front import Point
+from ..front import FrontPoint
 from .scale import Box, Place
-from .scene import LINE_HEIGHT, NAME_SIZE, NOTE_SIZE, Dot, Scene
+from .scene import LINE_HEIGHT, NAME_SIZE, NOTE_SIZE, Dot, ScatterScene
 
 Colour = Literal["ink", "faint", "line", "paper", "card", "human", "accent"]
 Anchor = Literal["start", "middle", "end"]
@@ -50,7 +50,7 @@ class Pen(Protocol):
         """Draw the marker of a dot; its tip is shown where the pen can do that."""
 
 
-def draw(scene: Scene, pen: Pen) -> None:
+def draw(scene: ScatterScene, pen: Pen) -> None:
     """Draw a scene, from the back to the front."""
     _draw_axes(scene, pen)
     if scene.front:
@@ -69,7 +69,7 @@ def draw(scene: Scene, pen: Pen) -> None:
         _write_name(dot, pen)
 
 
-def _draw_axes(scene: Scene, pen: Pen) -> None:
+def _draw_axes(scene: ScatterScene, pen: Pen) -> None:
     height, (left, top, right, bottom) = scene.size[1], scene.scale.plot
     _, _, beyond, still = scene.scale.inner
     if scene.scale.beyond:
@@ -121,7 +121,7 @@ def _write_name(dot: Dot, pen: Pen) -> None:
         )
 
 
-def _name_colour(point: Point) -> Colour:
+def _name_colour(point: FrontPoint) -> Colour:
     colours: dict[str, Colour] = {"policy": "ink", "baseline": "human", "bound": "faint"}
     return colours[point.kind]
 

@@ -11,7 +11,7 @@ from matplotlib.patheffects import withStroke
 from ...rendering.style import FAINT, HUMAN, INK, LINE, PAPER, ROBOT, SKY
 from .drawing import Anchor, Colour, draw
 from .scale import Box, Place
-from .scene import RADIUS, Dot, Scene
+from .scene import RADIUS, Dot, ScatterScene
 
 PIXELS: Final = 1.6
 """Pixels of the file per pixel of the scene."""
@@ -31,7 +31,7 @@ COLOURS: Final[dict[Colour, str]] = {
 ALIGNED: Final[dict[Anchor, str]] = {"start": "left", "middle": "center", "end": "right"}
 
 
-def png(scene: Scene) -> bytes:
+def png(scene: ScatterScene) -> bytes:
     """Return the picture as PNG: the same scene gives the same bytes."""
     buffer = io.BytesIO()
     figure = scatter_figure(scene)
@@ -39,7 +39,7 @@ def png(scene: Scene) -> bytes:
     return buffer.getvalue()
 
 
-def scatter_figure(scene: Scene) -> Figure:
+def scatter_figure(scene: ScatterScene) -> Figure:
     """Return the picture as a figure of matplotlib, its axes in pixels of the scene."""
     width, height = scene.size
     figure = Figure(figsize=(width / 100, height / 100), dpi=100, facecolor=PAPER)

@@ -6,7 +6,7 @@ from typing import Final
 
 from ...rendering.ticks import far_limit
 from ...statistics import Interval
-from ..front import Point
+from ..front import FrontPoint
 
 STRIP: Final = 0.115
 """Breadth of a strip for points off the scale, over that of the plot."""
@@ -60,15 +60,15 @@ class Scale:
         _, top, _, bottom = self.inner
         return bottom - (bottom - top) * (sparc - self.y[0]) / (self.y[1] - self.y[0])
 
-    def off(self, point: Point) -> bool:
+    def off(self, point: FrontPoint) -> bool:
         """Whether the error of a point is off the scale."""
         return point.rmse_mm.mean > self.x[1]
 
-    def below(self, point: Point) -> bool:
+    def below(self, point: FrontPoint) -> bool:
         """Whether a point has a smoothness lower than the scale shows."""
         return point.sparc is not None and point.sparc.mean < self.y[0]
 
-    def place(self, point: Point) -> Place:
+    def place(self, point: FrontPoint) -> Place:
         """Return where a point is: in the middle of a strip, or at the edge, if off the scale."""
         _, top, right, bottom = self.inner
         off, margin = self.off(point), MARGIN / 2 * (bottom - top)
@@ -77,7 +77,7 @@ class Scale:
             return x, (bottom + self.plot[3]) / 2
         return x, min(max(self.down(point.sparc.mean), top + margin), bottom - margin)
 
-    def bars(self, point: Point) -> tuple[Box, ...]:
+    def bars(self, point: FrontPoint) -> tuple[Box, ...]:
         """Return the 95 % intervals of a point, as lines; none off the scale."""
         if self.off(point):
             return ()
@@ -91,7 +91,7 @@ class Scale:
         return tuple(bar for bar in bars if bar[:2] != bar[2:])
 
 
-def make_scale(points: Sequence[Point], plot: Box) -> Scale:
+def make_scale(points: Sequence[FrontPoint], plot: Box) -> Scale:
     """Return a scale that shows most of the points; those far off do not count."""
     far = far_limit([point.rmse_mm.mean for point in points if point.kind != "bound"])
     near = [point for point in points if point.rmse_mm.mean <= far]

@@ -11,7 +11,7 @@ import numpy as np
 from ...rendering.labels import nearest, place_labels
 from ...rendering.ticks import round_ticks
 from ...statistics import Interval
-from ..front import Point, pareto_front
+from ..front import FrontPoint, pareto_front
 from .scale import Box, Place, Scale, make_scale
 
 WIDE: Final = (920, 520)
@@ -71,7 +71,7 @@ class Label:
 class Dot:
     """A point, its intervals and its name."""
 
-    point: Point
+    point: FrontPoint
     at: Place
     bars: tuple[Box, ...]
     best: bool
@@ -83,7 +83,7 @@ class Dot:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Scene:
+class ScatterScene:
     """The picture: error across, smoothness up, both better towards the top left."""
 
     size: tuple[int, int]
@@ -111,8 +111,12 @@ class Scene:
 
 
 def make_scene(
-    points: Sequence[Point], *, axis: str, size: tuple[int, int] = WIDE, title: Sequence[str] = ()
-) -> Scene:
+    points: Sequence[FrontPoint],
+    *,
+    axis: str,
+    size: tuple[int, int] = WIDE,
+    title: Sequence[str] = (),
+) -> ScatterScene:
     """Return the scene.
 
     Parameters
@@ -137,7 +141,7 @@ def make_scene(
     if baseline is not None:
         across = scale.across(baseline)
         lines.append((across, scale.plot[1], across, scale.plot[3]))
-    return Scene(
+    return ScatterScene(
         size=size,
         title=tuple(title),
         axis=axis,
@@ -179,8 +183,8 @@ def _ratios(scale: Scale, baseline: float, most: int) -> tuple[Tick, ...]:
 
 
 def _dots(
-    points: Sequence[Point],
-    front: Sequence[Point],
+    points: Sequence[FrontPoint],
+    front: Sequence[FrontPoint],
     scale: Scale,
     notes: Sequence[Note],
     lines: Sequence[Box],
@@ -240,7 +244,7 @@ def _label(at: Place, lines: tuple[str, ...], box: Box) -> Label:
     return Label(box=box, lines=lines, leader=(*at, x, y) if away else None)
 
 
-def _name(point: Point, scale: Scale) -> tuple[str, ...]:
+def _name(point: FrontPoint, scale: Scale) -> tuple[str, ...]:
     """Return the name of a point, with a line of the values that its place does not show."""
     values = [f"{point.rmse_mm.mean:.0f} mm"] if scale.off(point) else []
     if point.sparc is not None and scale.below(point):
@@ -249,7 +253,7 @@ def _name(point: Point, scale: Scale) -> tuple[str, ...]:
     return (name, ", ".join(values)) if values else (name,)
 
 
-def _tip(point: Point) -> str:
+def _tip(point: FrontPoint) -> str:
     sparc = f"SPARC {minus(f'{point.sparc.mean:.2f}')}" if point.sparc else "no smoothness"
     return f"{point.name}: RMSE {point.rmse_mm.mean:.1f} mm, {sparc}"
 
@@ -268,7 +272,7 @@ def _span(one: Place, other: Place) -> Box:
     return left, top, right, bottom
 
 
-def _notes(scale: Scale, points: Sequence[Point], wide: bool) -> tuple[Note, ...]:
+def _notes(scale: Scale, points: Sequence[FrontPoint], wide: bool) -> tuple[Note, ...]:
     """Return what explains the strips and the asterisk."""
     left, top, right, bottom = scale.plot
     floor, height = scale.inner[3], NOTE_SIZE * LINE_HEIGHT + CLEAR
@@ -287,7 +291,7 @@ def _notes(scale: Scale, points: Sequence[Point], wide: bool) -> tuple[Note, ...
     )
 
 
-def _summary(points: Sequence[Point], front: Sequence[Point]) -> str:
+def _summary(points: Sequence[FrontPoint], front: Sequence[FrontPoint]) -> str:
     policies = sum(point.kind == "policy" for point in points)
     best = ", ".join(point.name for point in front) or "none"
     return (

@@ -6,10 +6,10 @@ from markupsafe import Markup, escape
 
 from .drawing import Anchor, Colour, draw
 from .scale import Box, Place
-from .scene import RADIUS, Dot, Scene
+from .scene import RADIUS, Dot, ScatterScene
 
 
-def svg(scene: Scene, kind: str) -> Markup:
+def svg(scene: ScatterScene, kind: str) -> Markup:
     """Return the picture as an element of a page.
 
     Parameters

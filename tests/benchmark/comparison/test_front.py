@@ -1,15 +1,15 @@
 import numpy as np
 import pytest
-from colift.benchmark.comparison.front import Point, exact, pareto_front
+from colift.benchmark.comparison.front import FrontPoint, exact, pareto_front
 from colift.benchmark.statistics import Estimate
 
 
-def point(name: str, rmse_mm: float, sparc: float | None, missing: int = 0) -> Point:
+def point(name: str, rmse_mm: float, sparc: float | None, missing: int = 0) -> FrontPoint:
     rmse = Estimate(mean=rmse_mm, ci95=(rmse_mm, rmse_mm))
-    return Point(name=name, rmse_mm=rmse, sparc=exact(sparc), missing=missing)
+    return FrontPoint(name=name, rmse_mm=rmse, sparc=exact(sparc), missing=missing)
 
 
-def front(*points: Point) -> list[str]:
+def front(*points: FrontPoint) -> list[str]:
     return [each.name for each in pareto_front(points)]
 
 
@@ -40,9 +40,9 @@ def test_moving_only_when_it_is_easy_does_not_make_a_point_smooth() -> None:
 
 def test_a_bound_neither_is_on_it_nor_keeps_a_policy_off_it() -> None:
     rmse = Estimate(mean=0.1, ci95=(0.0, 0.2))
-    assert front(LEVEL, Point(name="oracle", rmse_mm=rmse, sparc=exact(-1.0), kind="bound")) == [
-        "level"
-    ]
+    assert front(
+        LEVEL, FrontPoint(name="oracle", rmse_mm=rmse, sparc=exact(-1.0), kind="bound")
+    ) == ["level"]
 
 
 @pytest.mark.parametrize("seed", range(10))

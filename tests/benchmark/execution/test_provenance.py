@@ -2,7 +2,12 @@
 
 import pytest
 from colift.agents.errors import InputError
-from colift.benchmark.execution.provenance import compare, fingerprint, origin, platform_of
+from colift.benchmark.execution.provenance import (
+    check_same_origin,
+    fingerprint,
+    origin,
+    platform_of,
+)
 
 
 def test_an_origin_is_the_platform_and_colift():
@@ -11,12 +16,12 @@ def test_an_origin_is_the_platform_and_colift():
 
 
 def test_equal_origins_pass_and_only_what_is_wanted_is_compared():
-    compare(origin(), origin(), "here", "here")
-    compare(origin(), {"python": origin()["python"]}, "here", "there")
+    check_same_origin(origin(), origin(), "here", "here")
+    check_same_origin(origin(), {"python": origin()["python"]}, "here", "there")
 
 
 @pytest.mark.parametrize("found", [{"numpy": "2", "libc": "b"}, {"numpy": "2"}])
 def test_the_first_difference_is_named(found):
     told = f"libc is {found.get('libc')!r} on worker 3 and 'a' here"
     with pytest.raises(InputError, match=told):
-        compare(found, {"numpy": "2", "libc": "a"}, "on worker 3", "here")
+        check_same_origin(found, {"numpy": "2", "libc": "a"}, "on worker 3", "here")

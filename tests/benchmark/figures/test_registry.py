@@ -1,6 +1,6 @@
 import pytest
 from colift.agents.errors import InputError
-from colift.benchmark.figures.registry import REGISTRY, RecordedFigure, clone, read_figures
+from colift.benchmark.figures.registry import REGISTRY, RecordedFigure, clone_folder, read_figures
 
 
 def read(folder, text):
@@ -53,7 +53,7 @@ def test_a_wrong_entry_is_refused_with_its_place(tmp_path, text, message):
 
 
 def test_the_figures_are_in_a_clone_only(tmp_path, monkeypatch):
-    assert (clone() / "pyproject.toml").is_file()
+    assert (clone_folder() / "pyproject.toml").is_file()
     monkeypatch.setattr("colift.benchmark.figures.registry.REGISTRY", "elsewhere.toml")
     with pytest.raises(InputError, match="in a clone of colift only"):
-        clone()
+        clone_folder()

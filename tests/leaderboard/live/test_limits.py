@@ -80,8 +80,8 @@ def test_places_come_back_and_nothing_is_remembered_of_those_who_left():
     ],
 )
 def test_a_machine_without_time_says_why(late, free, told):
-    verdict = load.verdict(late, free)
-    assert verdict is None if told is None else told in verdict
+    reason = load.busy_reason(late, free)
+    assert reason is None if told is None else told in reason
 
 
 def test_this_machine_can_be_measured():

@@ -10,7 +10,7 @@ from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.tokens import Tokens
 from colift.leaderboard.queue import Queue, WorkerQueue
 from colift.leaderboard.queue.worker import Worker
-from colift.leaderboard.storage.archive import pack
+from colift.leaderboard.storage.archive import pack_archive
 from playwright.sync_api import expect
 
 from .conftest import running
@@ -63,7 +63,7 @@ def zipped(tmp_path):
         if code:
             (folder / "policy.py").write_text(code)
         with path.open("w+b") as file:
-            pack(folder, file)
+            pack_archive(folder, file)
         return path
 
     return make

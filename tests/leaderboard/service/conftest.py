@@ -14,7 +14,7 @@ from colift.leaderboard.board.tokens import Tokens
 from colift.leaderboard.service.app import create_app
 from colift.leaderboard.service.dependencies import Rates
 from colift.leaderboard.service.security import Rate
-from colift.leaderboard.storage.archive import pack
+from colift.leaderboard.storage.archive import pack_archive
 
 from ..serving import serving as served
 
@@ -104,7 +104,7 @@ def zipped(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., bytes]:
         if policy:
             (folder / "policy.py").write_text(policy)
         file = io.BytesIO()
-        pack(folder, file)
+        pack_archive(folder, file)
         return file.getvalue()
 
     return make

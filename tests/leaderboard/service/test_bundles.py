@@ -39,7 +39,11 @@ def files(folder):
 
 def test_a_bundle_is_packed_once_however_many_ask(client, folder, place, monkeypatch):
     packed = []
-    monkeypatch.setattr(store, "pack", lambda *a, pack=store.pack: (packed.append(a), pack(*a)))
+    monkeypatch.setattr(
+        store,
+        "pack_archive",
+        lambda *a, pack=store.pack_archive: (packed.append(a), pack(*a)),
+    )
     with ThreadPoolExecutor(8) as pool:
         answers = list(pool.map(client.get, [place] * 8))
     assert {answer.status_code for answer in answers} == {200}

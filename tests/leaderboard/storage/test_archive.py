@@ -11,7 +11,7 @@ import pytest
 from colift.agents.errors import InputError
 from colift.agents.submissions.folder import LIMITS, FolderLimits, read_folder
 from colift.agents.submissions.new import write_template
-from colift.leaderboard.storage.archive import DIRECTORY, pack, unpack
+from colift.leaderboard.storage.archive import DIRECTORY, pack_archive, unpack_archive
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -43,7 +43,7 @@ def out(tmp_path):
     def run(file, limits=SMALL):
         folder.mkdir(parents=True)
         try:
-            unpack(file, folder, limits)
+            unpack_archive(file, folder, limits)
         finally:
             assert [path.name for path in (tmp_path / "above").iterdir()] == ["out"]
         found = [path for path in folder.rglob("*") if not path.is_dir()]
@@ -60,7 +60,7 @@ def test_what_was_packed_comes_out_as_the_same_submission(tmp_path, out):
     (folder / "data/weights.bin").write_bytes(bytes(range(256)) * 5000)
     packed = [io.BytesIO(), io.BytesIO()]
     for file in packed:
-        pack(folder, file)
+        pack_archive(folder, file)
     assert packed[0].getvalue() == packed[1].getvalue()
     out(packed[0])
     assert read_folder(tmp_path / "above/out") == read_folder(folder)
@@ -208,6 +208,6 @@ def test_a_damaged_archive_is_refused_or_stays_in_its_folder(tmp_path_factory, c
     folder = above / "out"
     folder.mkdir()
     with contextlib.suppress(InputError):
-        unpack(io.BytesIO(content[: len(content) - cut]), folder, SMALL)
+        unpack_archive(io.BytesIO(content[: len(content) - cut]), folder, SMALL)
     assert [path.name for path in above.iterdir()] == ["out"]
     assert all(path.is_dir() or path.is_file() for path in Path(folder).rglob("*"))

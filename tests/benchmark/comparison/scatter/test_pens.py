@@ -6,20 +6,20 @@ import xml.etree.ElementTree as ET
 
 import pytest
 from colift.benchmark.comparison.comparison import Comparison
-from colift.benchmark.comparison.front import Point
+from colift.benchmark.comparison.front import FrontPoint
 from colift.benchmark.comparison.scatter.png import png, scatter_figure
-from colift.benchmark.comparison.scatter.scene import NARROW, WIDE, Scene, make_scene
+from colift.benchmark.comparison.scatter.scene import NARROW, WIDE, ScatterScene, make_scene
 from colift.benchmark.comparison.scatter.svg import svg
 from colift.benchmark.statistics import Estimate
 from PIL import Image
 
 
 @pytest.fixture(scope="module", params=[WIDE, NARROW])
-def scene(comparison: Comparison, request: pytest.FixtureRequest) -> Scene:
+def scene(comparison: Comparison, request: pytest.FixtureRequest) -> ScatterScene:
     return make_scene(comparison.points, axis="RMSE, mm", size=request.param, title=("A", "b"))
 
 
-def written(scene: Scene) -> list[str]:
+def written(scene: ScatterScene) -> list[str]:
     return [
         *(line for dot in scene.dots if dot.label for line in dot.label.lines),
         *(note.text for note in scene.notes),
@@ -28,7 +28,7 @@ def written(scene: Scene) -> list[str]:
     ]
 
 
-def test_both_write_all_the_text_of_the_scene(scene: Scene) -> None:
+def test_both_write_all_the_text_of_the_scene(scene: ScatterScene) -> None:
     element = ET.fromstring(svg(scene, "wide"))
     (axes,) = scatter_figure(scene).axes
     for texts in (
@@ -38,7 +38,7 @@ def test_both_write_all_the_text_of_the_scene(scene: Scene) -> None:
         assert set(written(scene)) <= set(texts)
 
 
-def test_names_are_no_wider_than_their_boxes(scene: Scene) -> None:
+def test_names_are_no_wider_than_their_boxes(scene: ScatterScene) -> None:
     (axes,) = scatter_figure(scene).axes
     extents = {text.get_text(): text.get_window_extent().width for text in axes.texts}
     for dot in scene.dots:
@@ -47,7 +47,7 @@ def test_names_are_no_wider_than_their_boxes(scene: Scene) -> None:
             assert extents[line] <= dot.label.box[2] - dot.label.box[0]
 
 
-def test_all_text_of_a_file_is_inside_the_picture(scene: Scene) -> None:
+def test_all_text_of_a_file_is_inside_the_picture(scene: ScatterScene) -> None:
     figure = scatter_figure(scene)
     for text in figure.axes[0].texts:
         box = text.get_window_extent()
@@ -55,20 +55,20 @@ def test_all_text_of_a_file_is_inside_the_picture(scene: Scene) -> None:
         assert figure.bbox.y0 <= box.y0 < box.y1 <= figure.bbox.y1
 
 
-def test_every_point_says_what_it_is(scene: Scene) -> None:
+def test_every_point_says_what_it_is(scene: ScatterScene) -> None:
     element = ET.fromstring(svg(scene, "wide"))
     assert [each.text for each in element.iter("title")] == [dot.tip for dot in scene.dots]
     assert element.get("aria-label") == scene.summary
 
 
-def test_the_page_gives_all_colours(scene: Scene) -> None:
+def test_the_page_gives_all_colours(scene: ScatterScene) -> None:
     values = re.findall(r'(?:fill|stroke)="([^"]+)"', svg(scene, "wide"))
     assert all(value == "none" or value.startswith("var(--") for value in values)
 
 
 def test_a_name_is_no_markup() -> None:
     value = Estimate(mean=10.0, ci95=(9.0, 11.0))
-    one = Point(name="<b>$x_1$ & y</b>", rmse_mm=value, sparc=Estimate(mean=-2, ci95=(-3, -1)))
+    one = FrontPoint(name="<b>$x_1$ & y</b>", rmse_mm=value, sparc=Estimate(mean=-2, ci95=(-3, -1)))
     scene = make_scene([one], axis="RMSE")
     texts = [each.text for each in ET.fromstring(svg(scene, "wide")).iter("text")]
     drawn = [each.get_text() for each in scatter_figure(scene).axes[0].texts]
@@ -76,7 +76,7 @@ def test_a_name_is_no_markup() -> None:
     assert one.name in drawn
 
 
-def test_the_same_scene_gives_the_same_file(scene: Scene) -> None:
+def test_the_same_scene_gives_the_same_file(scene: ScatterScene) -> None:
     assert png(scene) == png(scene)
     with Image.open(io.BytesIO(png(scene))) as image:
         assert image.width == pytest.approx(1.6 * scene.size[0])

@@ -5,8 +5,15 @@ import itertools
 import numpy as np
 import pytest
 from colift.benchmark.comparison.comparison import Comparison
-from colift.benchmark.comparison.front import Point, exact
-from colift.benchmark.comparison.scatter.scene import NARROW, RADIUS, WIDE, Dot, Scene, make_scene
+from colift.benchmark.comparison.front import FrontPoint, exact
+from colift.benchmark.comparison.scatter.scene import (
+    NARROW,
+    RADIUS,
+    WIDE,
+    Dot,
+    ScatterScene,
+    make_scene,
+)
 from colift.benchmark.statistics import Estimate
 
 Box = tuple[float, float, float, float]
@@ -16,14 +23,14 @@ def around(mean: float, half: float = 0.5) -> Estimate:
     return Estimate(mean=mean, ci95=(mean - half, mean + half))
 
 
-def point(name: str, rmse_mm: float, sparc: float | None = -2.0, **rest: object) -> Point:
-    return Point(name=name, rmse_mm=around(rmse_mm), sparc=exact(sparc), **rest)  # type: ignore[arg-type]
+def point(name: str, rmse_mm: float, sparc: float | None = -2.0, **rest: object) -> FrontPoint:
+    return FrontPoint(name=name, rmse_mm=around(rmse_mm), sparc=exact(sparc), **rest)  # type: ignore[arg-type]
 
 
 BASELINE = point("human-human baseline", 9.5, -2.8, kind="baseline")
 
 
-def crowd(size: int) -> list[Point]:
+def crowd(size: int) -> list[FrontPoint]:
     """Policies that differ by a few millimetres, two of them not at all."""
     rng = np.random.default_rng(0)
     means, smooth = rng.uniform(1.0, 6.0, size), rng.normal(-2.0, 0.2, size)
@@ -32,11 +39,11 @@ def crowd(size: int) -> list[Point]:
     return [*map(point, names, means, smooth), BASELINE]
 
 
-def scene(points: list[Point], size: tuple[int, int] = WIDE) -> Scene:
+def scene(points: list[FrontPoint], size: tuple[int, int] = WIDE) -> ScatterScene:
     return make_scene(points, axis="RMSE", size=size)
 
 
-def dots(drawn: Scene) -> dict[str, Dot]:
+def dots(drawn: ScatterScene) -> dict[str, Dot]:
     return {dot.point.name: dot for dot in drawn.dots}
 
 
@@ -45,7 +52,7 @@ def overlap(one: Box, other: Box) -> bool:
     return across and one[1] < other[3] and other[1] < one[3]
 
 
-def assert_clear(drawn: Scene) -> None:
+def assert_clear(drawn: ScatterScene) -> None:
     """Check that names cover neither each other, nor a dot, nor a note, and are in the plot."""
     names = [dot.label.box for dot in drawn.dots if dot.label]
     markers = [
