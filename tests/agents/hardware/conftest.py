@@ -21,19 +21,19 @@ from colift.benchmark.suites.catalogue import make_scenario
 
 
 class Lab(SimulatedLaboratory):
-    """The simulated laboratory, which notes what reaches its server and where the hands are."""
+    """The simulated laboratory, which notes what reaches its server, and the set-points."""
 
     def __init__(self, behaviour):
         self.button = StopButton()
         super().__init__(Conditions(scenario=make_scenario(behaviour, "S1")), self.button)
         self.sent = []
-        self.hands = []
+        self.angles = []
 
     def _pass(self, seconds):
         for _ in range(round(seconds / 0.01)):
             super()._pass(0.01)
             angles = self._laboratory.services["ALMotion"].getAngles(NAMES, False)
-            self.hands.append((self.now(), *hand_heights(np.array([angles]))))
+            self.angles.append((self.now(), angles))
 
     def calls(self, service, calls, *, within=0.15):
         self.sent += [(self.now(), *call) for call in calls]
@@ -45,7 +45,8 @@ class Lab(SimulatedLaboratory):
 
     def set_points(self, since=0.0):
         """Return the height of the hands by their set-points in each frame since a time [m]."""
-        return np.array([height for time, height in self.hands if time > since])
+        angles = [angles for time, angles in self.angles if time > since]
+        return np.array(hand_heights(np.reshape(angles, (-1, len(NAMES)))))
 
 
 class Patient(Timed):
