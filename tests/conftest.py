@@ -91,15 +91,25 @@ def _no_jax(request):
 
 
 @pytest.fixture
-def in_own_process():
-    """Run the tests of a module ``jax_*.py`` in a process of its own; skip if JAX is missing."""
+def in_own_process(once):
+    """Run the tests of a module ``jax_*.py`` in a process of its own; skip if JAX is missing.
+
+    It computes on one thread, as the commands do. Compiling takes longer than computing there: it
+    is quick rather than good, and is done once.
+    """
     if importlib.util.find_spec("jax") is None:
         pytest.skip("JAX is not installed")
+    compiling = {
+        "XLA_FLAGS": "--xla_cpu_multi_thread_eigen=false --xla_backend_optimization_level=0",
+        "JAX_COMPILATION_CACHE_DIR": str(once("compiled", lambda folder: None)),
+        "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0",
+        "JAX_PERSISTENT_CACHE_MIN_ENTRY_SIZE_BYTES": "-1",
+    }
 
     def run(module: Path):
         environment = {
             name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")
-        }
+        } | compiling
         command = [sys.executable, "-m", "pytest", "-n", "0", "-q", "-p", "no:cacheprovider"]
         done = subprocess.run(
             [*command, str(module)], env=environment, capture_output=True, text=True

@@ -85,6 +85,43 @@ def parse_arrays(data: bytes, file: str, most: int = MOST_BYTES) -> Arrays:
         raise InputError(f"{file}: damaged, or not an .npz file: {error_text(error)}") from None
 
 
+def take_array(
+    arrays: Arrays, name: str, dtype: str, shape: tuple[int | None, ...], file: str
+) -> NDArray[Any]:
+    """Take an array out of those of a file.
+
+    Parameters
+    ----------
+    arrays
+        The arrays of the file, by name; this one is removed.
+    name
+        Its name.
+    dtype
+        The type that it must have, such as ``<f8``.
+    shape
+        The shape that it must have; None is any length.
+    file
+        Name of the file, for messages.
+
+    Raises
+    ------
+    InputError
+        If there is no such array, or its type or shape is another.
+    """
+    if name not in arrays:
+        raise InputError(f"{file}: {name} is missing")
+    array = arrays.pop(name)
+    lengths = zip(array.shape, shape, strict=False)
+    fits = array.ndim == len(shape) and all(due in (None, length) for length, due in lengths)
+    if array.dtype.str != dtype or not fits:
+        due = ", ".join("any" if length is None else str(length) for length in shape)
+        raise InputError(
+            f"{file}: {name} is {array.dtype.str} of shape {array.shape}, must be {dtype} of "
+            f"shape ({due})"
+        )
+    return array
+
+
 def _check_directory(entries: list[zipfile.ZipInfo], file: str, most: int) -> None:
     names = [entry.filename for entry in entries]
     if len(names) > MOST_ARRAYS:

@@ -10,7 +10,7 @@ from ...agents.errors import InputError
 from ...agents.humans import Cued, HandLog, Played
 from ...agents.humans.cued import KINDS
 from ..episode.scenario import Scenario
-from .arrays import Arrays, dump_arrays, parse_arrays
+from .arrays import Arrays, dump_arrays, parse_arrays, take_array
 from .files import INPUTS
 
 HANDS: Final = ("human", "far")
@@ -60,7 +60,7 @@ def parse_inputs(data: bytes, lifts: int) -> list[Played]:
         If it is not such a file, or not of so many lifts.
     """
     arrays = parse_arrays(data, INPUTS, MOST_BYTES)
-    cues = _taken(arrays, "cue", "<i8", (lifts, 2))
+    cues = take_array(arrays, "cue", "<i8", (lifts, 2), INPUTS)
     logs = _logs(arrays, "human", lifts)
     far = _logs(arrays, "far", lifts) if "far_samples" in arrays else [None] * lifts
     if arrays:
@@ -76,12 +76,15 @@ def parse_inputs(data: bytes, lifts: int) -> list[Played]:
 
 
 def _logs(arrays: Arrays, hand: str, lifts: int) -> list[HandLog]:
-    scalars = [_taken(arrays, f"{hand}_{name}", "<f8", (lifts,)).tolist() for name in _SCALARS]
-    counts = _taken(arrays, f"{hand}_samples", "<i8", (lifts,)).tolist()
+    def taken(name: str, dtype: str, length: int) -> NDArray[Any]:
+        return take_array(arrays, f"{hand}_{name}", dtype, (length,), INPUTS)
+
+    scalars = [taken(name, "<f8", lifts).tolist() for name in _SCALARS]
+    counts = taken("samples", "<i8", lifts).tolist()
     if min(counts, default=0) < 0:
         raise InputError(f"{INPUTS}: a number of samples must not be negative")
     total = sum(counts)
-    series = [_taken(arrays, f"{hand}_{name}", kind, (total,)) for name, kind in _SERIES.items()]
+    series = [taken(name, kind, total) for name, kind in _SERIES.items()]
     found, begin = [], 0
     for offset, delay, count in zip(*scalars, counts, strict=True):
         times, heights, frames = (each[begin : begin + count] for each in series)
@@ -93,16 +96,3 @@ def _logs(arrays: Arrays, hand: str, lifts: int) -> list[HandLog]:
         except InputError as error:
             raise InputError(f"{INPUTS}: {error}") from None
     return found
-
-
-def _taken(arrays: Arrays, name: str, kind: str, shape: tuple[int, ...]) -> NDArray[Any]:
-    """Take an array out; it must have this type and shape."""
-    if name not in arrays:
-        raise InputError(f"{INPUTS}: there is no array {name}")
-    array = arrays.pop(name)
-    if array.dtype.str != kind or array.shape != shape:
-        raise InputError(
-            f"{INPUTS}: {name} is {array.dtype.str} of shape {array.shape}, must be {kind} of "
-            f"shape {shape}"
-        )
-    return array

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...agents.errors import InputError
 from ..episode.recorder import HASH_BYTES
 from ..episode.trace import ADDED, BY_STEP, Trace
-from .arrays import Arrays
+from .arrays import Arrays, take_array
 from .files import TRACES
 
 INTERNALS: Final = "internals/"
@@ -91,10 +91,7 @@ def parse_traces(arrays: Arrays) -> tuple[tuple[Trace, ...], tuple[int, ...]]:
             raise InputError(
                 f"{TRACES}: episode {episode} has {n} frames in {m} steps, must be {m * per_step}"
             )
-    state = _taken(arrays, "state", "|u1", 2)
-    due = (sum(steps), HASH_BYTES)
-    if state.shape != due:
-        raise InputError(f"{TRACES}: state has the shape {state.shape}, must be {due}")
+    state = take_array(arrays, "state", "|u1", (sum(steps), HASH_BYTES), TRACES)
     if len(arrays) > MOST_INTERNALS:
         raise InputError(f"{TRACES}: {len(arrays)} internals, at most {MOST_INTERNALS} are kept")
     internals = {name: _internal(arrays, name, sum(steps)) for name in sorted(arrays)}
@@ -111,27 +108,16 @@ def parse_traces(arrays: Arrays) -> tuple[tuple[Trace, ...], tuple[int, ...]]:
     return tuple(traces), places
 
 
-def _taken(arrays: Arrays, name: str, dtype: str, dimensions: int) -> NDArray[Any]:
-    if name not in arrays:
-        raise InputError(f"{TRACES}: {name} is missing")
-    array = arrays.pop(name)
-    if array.dtype.str != dtype or array.ndim != dimensions:
-        raise InputError(
-            f"{TRACES}: {name} must be of type {dtype} and have {dimensions} dimension(s), "
-            f"got {array.dtype.str} and {array.ndim}"
-        )
-    return array
-
-
 def _counts(arrays: Arrays, name: str) -> tuple[int, ...]:
-    counts = tuple(_taken(arrays, name, "<i8", 1).tolist())
+    counts = tuple(take_array(arrays, name, "<i8", (None,), TRACES).tolist())
     if min(counts, default=0) < 0:
         raise InputError(f"{TRACES}: {name} must not be negative")
     return counts
 
 
 def _series(arrays: Arrays, name: str, length: int) -> NDArray[np.float64]:
-    array: NDArray[np.float64] = _taken(arrays, name, "<f8", 2 if name in BY_STEP else 1)
+    shape = (None, None) if name in BY_STEP else (None,)
+    array: NDArray[np.float64] = take_array(arrays, name, "<f8", shape, TRACES)
     if len(array) != length:
         raise InputError(f"{TRACES}: {name} has {len(array)} rows, must have {length}")
     if not np.isfinite(array).all():
@@ -144,7 +130,7 @@ def _internal(arrays: Arrays, name: str, length: int) -> NDArray[np.float64]:
     plain = name.startswith(INTERNALS) and _PLAIN_NAME.fullmatch(name.removeprefix(INTERNALS))
     if not plain:
         raise InputError(f"{TRACES}: {name!r:.80} is not an array of a bundle")
-    array: NDArray[np.float64] = _taken(arrays, name, "<f8", 1)
+    array: NDArray[np.float64] = take_array(arrays, name, "<f8", (None,), TRACES)
     if len(array) != length:
         raise InputError(f"{TRACES}: {name} has {len(array)} rows, must have {length}")
     if (array.view("<u8")[np.isnan(array)] != _NAN).any():

@@ -25,9 +25,6 @@ FIRST_SEED: Final = 120_000
 """Seed of the first lift and of its person: one of those for training, which no suite has, and
 beyond those that the built-in policies were learned from."""
 
-SIZES: Final = (30, 300, 3000)
-"""Lifts of the sets that results are compared on."""
-
 MOST_LIFTS: Final = 10_000
 """Largest set."""
 
@@ -66,7 +63,7 @@ def set_plan(
     name
         Name of the set.
     lifts
-        Its size; :data:`SIZES` are the usual ones.
+        Its size; results are compared on sets of 30, 300 and 3000 lifts.
     both
         Whether the human's part is kept. People who hold the robot's end are not converted then.
     recordings

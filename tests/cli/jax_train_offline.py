@@ -2,19 +2,10 @@
 
 import json
 
-import jax
 import pytest
 from colift.benchmark.training import validation
 
 FAST = ("--updates", "500", "--jobs", "1")
-
-
-@pytest.fixture(scope="module", autouse=True)
-def compiled_once(tmp_path_factory):
-    """Keep compiled code for the second seed: compiling takes longer than the training."""
-    jax.config.update("jax_compilation_cache_dir", str(tmp_path_factory.mktemp("compiled")))
-    jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
-    jax.config.update("jax_persistent_cache_min_entry_size_bytes", -1)
 
 
 @pytest.fixture(autouse=True)

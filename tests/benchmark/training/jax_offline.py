@@ -1,6 +1,5 @@
 """Cloning and implicit Q-learning; run in a process of their own by test_offline_training.py."""
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -19,14 +18,6 @@ from colift.benchmark.training.perceptron import forward
 
 SMALL = {"updates": 2 * BLOCK, "batch": 64, "rate": 5e-3, "hidden": (8,)}
 TRAINERS = {"clone": (cloning, CloneSettings), "iql": (iql, IqlSettings)}
-
-
-@pytest.fixture(scope="module", autouse=True)
-def compiled_once(tmp_path_factory):
-    """Keep compiled code for all trainings: compiling takes longer than they do."""
-    jax.config.update("jax_compilation_cache_dir", str(tmp_path_factory.mktemp("compiled")))
-    jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
-    jax.config.update("jax_persistent_cache_min_entry_size_bytes", -1)
 
 
 @pytest.fixture(autouse=True)

@@ -4,10 +4,10 @@ import re
 
 import httpx
 import pytest
-from axe_core_python.sync_playwright import Axe
 from colift.leaderboard.replays.html import SCRIPTS
 from playwright.sync_api import expect
 
+from ..browser import serious
 from .browsing import WAIT_MS, enter, wait_for, wait_for_phase
 
 SCREENS = {
@@ -29,16 +29,6 @@ ENDED = """
 @pytest.fixture(params=SCREENS)
 def screen(request, open_page):
     return open_page(**SCREENS[request.param])
-
-
-def serious(page, options=None):
-    found = Axe().run(page, options=options)["violations"]
-    return [
-        (each["id"], node["html"][:200])
-        for each in found
-        if each["impact"] in ("serious", "critical")
-        for node in each["nodes"][:3]
-    ]
 
 
 def looked_at(page):

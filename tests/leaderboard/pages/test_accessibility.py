@@ -4,11 +4,11 @@ import re
 
 import httpx
 import pytest
-from axe_core_python.sync_playwright import Axe
 from colift.agents.submissions.new import write_template
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.queue import Queue, WorkerQueue
 
+from ..browser import serious
 from .boards import digest
 
 PAGES = (
@@ -63,16 +63,6 @@ def test_everybody_can_read_a_page(page, url, path):
 def test_a_filtered_board_can_be_read_too(page, url):
     page.goto(f"{url}/#behaviour=jerky&sort=-rmse")
     assert serious(page) == []
-
-
-def serious(page, options=None):
-    found = Axe().run(page, options=options)["violations"]
-    return [
-        (each["id"], node["html"][:200])
-        for each in found
-        if each["impact"] in ("serious", "critical")
-        for node in each["nodes"][:3]
-    ]
 
 
 def test_nothing_in_a_page_is_inline(url, path):
