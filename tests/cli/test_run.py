@@ -182,10 +182,10 @@ def test_an_interrupted_run_is_not_begun_anew(colift, slow, interrupted):
 
 def test_ctrl_c_in_the_baselines_keeps_the_run(tmp_path):
     bundle = tmp_path / "bundle"
-    # So many that the baselines, thrice as many, take seconds on any machine.
-    options = ("copy", "--suite", "quick-v1", "--seeds", "0:8", "--jobs", 1, "--out", bundle)
+    # So many that the baselines, thrice as many, take a second on any machine.
+    options = ("copy", "--suite", "quick-v1", "--seeds", "0:4", "--jobs", 1, "--out", bundle)
     process = begin(*options)
-    wait_for_episodes(bundle, 32, process)
+    wait_for_episodes(bundle, 16, process)
     end = processor_time(process.pid) + 0.2  # Out of the run, into the baselines.
     while processor_time(process.pid) < end:
         time.sleep(0.01)

@@ -57,17 +57,17 @@ def test_a_lift_that_has_ended_begins_anew():
 
 
 def test_dropping_never_earns():
-    env = make(num_envs=1, pool=1)
+    env = make(num_envs=2, pool=1)
     env.reset(seed=2)
     total, over = 0.0, False
     while not over:
-        action = np.array([[0.04]], np.float32)
+        action = np.full((2, 1), 0.04, np.float32)
         _, reward, terminated, truncated, _ = env.step(action)
         total, over = total + reward[0], bool(terminated[0] or truncated[0])
     env.reset(seed=2)
     held, over = 0.0, False
     while not over:
-        _, reward, _, truncated, _ = env.step(np.zeros((1, 1), np.float32))
+        _, reward, _, truncated, _ = env.step(np.zeros((2, 1), np.float32))
         held, over = held + reward[0], bool(truncated[0])
     assert total < held
 
