@@ -1,17 +1,25 @@
 """Proximal policy optimisation on the twin; run by test_ppo.py in a process of its own."""
 
+import os
 from functools import partial
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 import pytest
 from colift.agents.submissions.network import policy as shipped
 from colift.agents.submissions.network.policy import Network, Policy
-from colift.benchmark.training import ppo, validation
+from colift.benchmark.training import validation
 from colift.benchmark.training.course import open_course
 from colift.benchmark.training.ppo_settings import PpoSettings
 from colift.benchmark.training.validation import lift_together, validation_error
+from colift.benchmark.twin.libraries import require_jax
+
+# Compiling takes longer than computing here.
+os.environ["XLA_FLAGS"] = "--xla_backend_optimization_level=0"
+require_jax()
+
+import jax  # noqa: E402
+import jax.numpy as jnp  # noqa: E402
+from colift.benchmark.training import ppo  # noqa: E402
 
 TINY = PpoSettings(updates=8, pool=32, lifts=32, steps=3, hidden=8, epochs=4, batches=8, rate=5e-3)
 SEEDS = [100_000, 100_001, 100_002, 100_003]
