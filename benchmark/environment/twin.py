@@ -109,7 +109,7 @@ class TwinEnv(VectorEnv[Array, Array, Array]):
         self._body = some(self._lifts, self._chosen)
         self._number = np.zeros(self.num_envs, np.int64)
         self._over = np.zeros(self.num_envs, bool)
-        self._state = lifting.lifts_at_rest(self._body)
+        self._state = lifting.at_rest(self._body.size)
         return self._observation(), {}
 
     def step(self, actions: Array) -> tuple[Array, Array, Array, Array, dict[str, Any]]:
@@ -150,7 +150,7 @@ class TwinEnv(VectorEnv[Array, Array, Array]):
         drawn = self._rng.integers(self._size, size=self.num_envs)
         self._chosen = np.where(started, drawn, self._chosen)
         self._body = some(self._lifts, self._chosen)
-        self._state = _renewed(self._state, lifting.lifts_at_rest(self._body), jnp.asarray(started))
+        self._state = _renewed(self._state, lifting.at_rest(self._body.size), jnp.asarray(started))
 
     def _due(self) -> Due:
         """Return the coming step's share of the lifts."""

@@ -94,7 +94,7 @@ def draw_pool(count: int, wide: float, first_seed: int = FIRST_SEED) -> Pool:
     common = count - round(wide * count)
     drawn = [carried_out(scenario(seed, CURRICULUM, Timing()), seed) for seed in seeds[:common]]
     drawn += [carried_out(_wide(seed), seed) for seed in seeds[common:]]
-    lifts = stack([_cut(lift) for lift in drawn])
+    lifts = stack([cut(lift) for lift in drawn])
     return Pool(lifts, common, _weights(lifts, common))
 
 
@@ -166,7 +166,8 @@ def _wide_person(person: Subject, rng: np.random.Generator) -> Subject:
     )
 
 
-def _cut(lift: DrawnLift) -> DrawnLift:
+def cut(lift: DrawnLift) -> DrawnLift:
+    """Return the first :data:`LONGEST` seconds of a lift."""
     steps = round(LONGEST / CONTROL_PERIOD)
     return lift._replace(
         reference=lift.reference[:steps], target=lift.target[:steps], noise=lift.noise[:steps]

@@ -38,7 +38,7 @@ def play_agents(make: Callable[[], Agent], lifts: Sequence[tuple[Scenario, int]]
         agent.reset(policy_seed())
     period = lifts[0][0].control_period
     step = jax.jit(partial(_step, drawn, period))
-    state = lifting.lifts_at_rest(drawn)
+    state = lifting.at_rest(drawn.size)
     view = lifting.observe(state, drawn.noise[0], drawn.latency, period)
     steps = np.asarray(drawn.steps)
     squares, actions = np.zeros(len(lifts)), np.zeros(len(lifts), np.float32)

@@ -57,10 +57,10 @@ class Frames(NamedTuple):
         return ((self.human_end - self.robot_end) ** 2).sum(axis=0)
 
 
-def lifts_at_rest(lifts: Lifts) -> LiftState:
-    """Return the lifts at rest."""
-    zero = jnp.zeros(lifts.size)
-    return LiftState(plant_at_rest(lifts.size), zero, zero, jnp.zeros((), jnp.int32))
+def at_rest(count: int) -> LiftState:
+    """Return lifts at rest."""
+    zero = jnp.zeros(count)
+    return LiftState(plant_at_rest(count), zero, zero, jnp.zeros((), jnp.int32))
 
 
 def due(lifts: Lifts, step: jax.Array) -> Due:
@@ -122,10 +122,40 @@ def control_step(
         Arms that differ from the benchmark's; none: its own.
     """
     size = now.reference.shape[0]
-    limit = action_limit(size * FRAME)
-    command = jnp.clip(playing.command + jnp.clip(action, -limit, limit), *STROKE)
     correction = corrected(playing.correction, playing.plant.heights, body, now.seen_target, size)
     references = ramp(playing.correction, correction, size) + now.reference
+    playing, frames = hands_step(playing, body, references, action, variation)
+    return playing._replace(correction=correction), frames
+
+
+def hands_step(
+    playing: LiftState,
+    body: Body,
+    references: jax.Array,
+    action: jax.Array,
+    variation: ArmVariation | None = None,
+) -> tuple[LiftState, Frames]:
+    """Return the lifts after a step in which the person's hand is moved from outside.
+
+    Parameters
+    ----------
+    playing
+        The lifts; the person's voluntary correction is left as it is.
+    body
+        The people.
+    references
+        (f, n) what their hands pull towards in each frame [m], cut to the range of heights.
+    action, variation
+        As of :func:`control_step`.
+
+    Returns
+    -------
+    tuple
+        The lifts, and the heights in the frames of the step.
+    """
+    size = references.shape[0]
+    limit = action_limit(size * FRAME)
+    command = jnp.clip(playing.command + jnp.clip(action, -limit, limit), *STROKE)
     references = jnp.clip(references, *REFERENCE_RANGE)
     commands = ramp(playing.command, command, size)
 
@@ -134,7 +164,7 @@ def control_step(
 
     moving = playing.plant.moving._replace(pulled=jnp.zeros_like(command))
     state, frames = in_chunks(playing.plant._replace(moving=moving), size, move)
-    return LiftState(state, command, correction, playing.step + 1), frames
+    return LiftState(state, command, playing.correction, playing.step + 1), frames
 
 
 Held = TypeVar("Held", Plant, PairPlant)

@@ -112,7 +112,7 @@ def rollout(
             (playing.command - before) * valid,
         )
 
-    start = (lifting.lifts_at_rest(lifts), memory, jnp.zeros((2, count)))
+    start = (lifting.at_rest(lifts.size), memory, jnp.zeros((2, count)))
     shares = lifting.Due(lifts.reference, lifts.seen_target, lifts.noise)
     _, (squares, forces, changes) = jax.lax.scan(
         jax.checkpoint(step), start, (shares, extra.noise, extra.lost)
