@@ -16,8 +16,14 @@ from ..benchmark.training.apg_settings import NAME as APG
 from ..benchmark.training.apg_settings import ApgSettings
 from ..benchmark.training.cem import CemSettings
 from ..benchmark.training.course import Course, Point, open_course, write_summary
+from ..benchmark.training.ppo_settings import (
+    CO_PLAY,
+    SELF_PLAY,
+    CoPlaySettings,
+    PpoSettings,
+    SelfPlaySettings,
+)
 from ..benchmark.training.ppo_settings import NAME as PPO
-from ..benchmark.training.ppo_settings import PpoSettings
 from ..benchmark.twin.libraries import require_jax
 from .options import Jobs
 from .printing import argument, show
@@ -29,6 +35,13 @@ MOST_SEEDS = 100
 Seeds = Annotated[int, typer.Option(metavar="N", help="Independent trainings, seeds 0 to N-1.")]
 Out = Annotated[
     Path, typer.Option(metavar="DIR", help="Folder for the policies; the same again resumes.")
+]
+Updates = Annotated[
+    int, typer.Option(metavar="N", help="Times that lifts are played and learned from.")
+]
+LiftsOfUpdate = Annotated[int, typer.Option(metavar="N", help="Lifts of an update.")]
+Haste = Annotated[
+    float, typer.Option(metavar="X", help="Cost of distance from the goal for the person.")
 ]
 
 Train = Callable[[Course, Executor | None, Callable[[int], None]], None]
@@ -131,26 +144,67 @@ def apg(
 def ppo(
     out: Out,
     seeds: Seeds = 1,
-    updates: Annotated[
-        int, typer.Option(metavar="N", help="Times that lifts are played and learned from.")
-    ] = PpoSettings.updates,
+    updates: Updates = PpoSettings.updates,
     pool: Annotated[
         int, typer.Option(metavar="N", help="Lifts drawn in the beginning.")
     ] = PpoSettings.pool,
-    lifts: Annotated[
-        int, typer.Option(metavar="N", help="Lifts of an update, from the pool.")
-    ] = PpoSettings.lifts,
+    lifts: LiftsOfUpdate = PpoSettings.lifts,
     jobs: Jobs = None,
 ) -> None:
     """Train a network by proximal policy optimisation, on the twin (extra: train)."""
     settings = PpoSettings(updates=updates, pool=pool, lifts=lifts)
     require_jax()
-    from ..benchmark.training import ppo as proximal
+    from ..benchmark.training.ppo import train_ppo
 
     def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
-        proximal.train_ppo(settings, course, executor=executor, progress=progress)
+        train_ppo(settings, course, executor=executor, progress=progress)
 
     _train_all(PPO, settings, seeds, out, updates, jobs, train)
+
+
+@app.command(SELF_PLAY)
+def self_play(
+    out: Out,
+    seeds: Seeds = 1,
+    updates: Updates = SelfPlaySettings.updates,
+    lifts: LiftsOfUpdate = SelfPlaySettings.lifts,
+    haste: Haste = SelfPlaySettings.haste,
+    jobs: Jobs = None,
+) -> None:
+    """Train by the same with a person who learns, too: no behaviour of ours (extra: train)."""
+    settings = SelfPlaySettings(updates=updates, lifts=lifts, haste=haste)
+    require_jax()
+    from ..benchmark.training.self_play import train_self_play
+
+    def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
+        train_self_play(settings, course, executor=executor, progress=progress)
+
+    _train_all(SELF_PLAY, settings, seeds, out, updates, jobs, train)
+
+
+@app.command(CO_PLAY)
+def co_play(
+    out: Out,
+    seeds: Seeds = 1,
+    population: Annotated[
+        int, typer.Option(metavar="N", help="Trainings by self-play before; each gives 3 people.")
+    ] = CoPlaySettings.population,
+    updates: Annotated[
+        int, typer.Option(metavar="N", help="Updates of each training, and of the last.")
+    ] = CoPlaySettings.updates,
+    lifts: LiftsOfUpdate = CoPlaySettings.lifts,
+    haste: Haste = CoPlaySettings.haste,
+    jobs: Jobs = None,
+) -> None:
+    """Train with a population of people who learned by self-play (extra: train)."""
+    settings = CoPlaySettings(population=population, updates=updates, lifts=lifts, haste=haste)
+    require_jax()
+    from ..benchmark.training.co_play import train_co_play
+
+    def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
+        train_co_play(settings, course, executor=executor, progress=progress)
+
+    _train_all(CO_PLAY, settings, seeds, out, (population + 1) * updates, jobs, train)
 
 
 def _train_all(

@@ -1,5 +1,6 @@
 """Settings of proximal policy optimisation, readable without JAX."""
 
+import math
 from dataclasses import dataclass
 from typing import Final
 
@@ -7,6 +8,15 @@ from ...agents.errors import InputError
 from .validation import LEARNING_SEEDS
 
 NAME: Final = "ppo"
+SELF_PLAY: Final = "self-play"
+CO_PLAY: Final = "co-play"
+"""Names of the trainers."""
+
+MOST_POPULATION: Final = 100
+"""Largest population."""
+
+KEPT: Final = 3
+"""People who are kept from a training: of its beginning, its half and its end."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,9 +32,9 @@ class PpoSettings:
     updates: int = 120
     """Times that lifts are played and learned from."""
     pool: int = 3000
-    """Lifts that are drawn in the beginning."""
+    """People who are drawn in the beginning, each for one lift."""
     lifts: int = 512
-    """Lifts of an update, chosen from the pool."""
+    """Lifts of an update, with people from the pool."""
     steps: int = 20
     """Steps of the human's motion that the network sees."""
     hidden: int = 64
@@ -53,3 +63,53 @@ class PpoSettings:
             raise InputError(f"pool must be at most {len(LEARNING_SEEDS)}, got {self.pool}")
         if self.lifts > self.pool:
             raise InputError(f"lifts must be at most pool, {self.pool}, got {self.lifts}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class SelfPlaySettings(PpoSettings):
+    """Settings of a training with a person who learns, too; of the pool, the bodies are used.
+
+    Raises
+    ------
+    InputError
+        If one is out of range.
+    """
+
+    haste: float = 0.05
+    """Cost of a step for the person at 1 cm from the goal; 1 is the cost of a step 1 cm apart."""
+
+    def __post_init__(self) -> None:
+        """Check the ranges."""
+        super().__post_init__()
+        if not 0 < self.haste < math.inf:
+            raise InputError(f"haste must be above 0, got {self.haste}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class CoPlaySettings(SelfPlaySettings):
+    """Settings of a training with a population; ``updates`` are those of each of its trainings.
+
+    Raises
+    ------
+    InputError
+        If one is out of range.
+    """
+
+    population: int = 4
+    """Trainings by self-play, of which people are kept."""
+
+    def __post_init__(self) -> None:
+        """Check the ranges."""
+        super().__post_init__()
+        if not 1 <= self.population <= MOST_POPULATION:
+            raise InputError(f"population must be 1 to {MOST_POPULATION}, got {self.population}")
+        people = KEPT * self.population
+        if self.lifts < people:
+            raise InputError(
+                f"lifts must be at least one per person of the population, {people}, got "
+                f"{self.lifts}"
+            )
+        if self.updates < 2:
+            raise InputError(
+                f"updates must be at least 2, got {self.updates}: people are kept from half of them"
+            )

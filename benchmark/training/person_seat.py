@@ -1,0 +1,132 @@
+"""The person's seat on the twin for a learner: a private goal, its senses, its hand, its cost.
+
+No behaviour of the benchmark is in here: no plan, no stroke, no motor noise, and no correction. A
+goal is a height and no movement; how the hand gets there is learned. The arms and reflexes of the
+drawn people remain, as they are part of the plant.
+"""
+
+from collections.abc import Iterable
+from typing import Final, NamedTuple
+
+import jax
+import jax.numpy as jnp
+
+from ...agents.agent import FRAME
+from ...agents.humans import GOAL_RANGE
+from ..episode.lift import MOCAP_NOISE
+from ..episode.scenario import CONTROL_PERIOD
+from ..episode.seat import REFERENCE_RANGE, body_parameters
+from ..suites.catalogue import make_subject
+from ..twin.body import Body, bodies, delayed
+from ..twin.playing import Frames, LiftState, ramp
+
+STEPS: Final = 80
+"""Length of a lift: 8 s."""
+
+CHANGES: Final = 0.05
+"""Probability of another goal in each step: one every 2 s."""
+
+FRAMES: Final = round(CONTROL_PERIOD / FRAME)
+"""Frames of a step."""
+
+PACE: Final = 0.02
+"""Most by which an uncorrected hand moves in a step [m]: 0.2 m/s."""
+
+CORRECTION: Final = 0.03
+"""Largest correction of that movement in a step [m]: a hand makes up to 0.5 m/s."""
+
+SCALES: Final = (0.1, 0.1, 0.02, 0.02, 0.02, 0.02, 0.02, 5.0, 5.0)
+"""Scale of each input [m], of the last two [N]."""
+
+CENTIMETRE: Final = 0.01
+"""[m]"""
+
+
+class Goals(NamedTuple):
+    """n lifts without a plan."""
+
+    goal: jax.Array
+    """(s, n) height that the person wants the own end at [m]."""
+    noise: jax.Array
+    """(s, 2, n) error of the motion capture at either end, for the robot [m]."""
+    body: Body
+    """The people's arms."""
+
+
+def people(seeds: Iterable[int]) -> Body:
+    """Return the arms of the people of seeds."""
+    return bodies([body_parameters(make_subject(f"draw-{seed}")) for seed in seeds])
+
+
+def draw_goals(body: Body, key: jax.Array) -> Goals:
+    """Return a lift for each of n people: at first no goal but the rest, then now and then one."""
+    count = body.mass.shape[0]
+    when, where, errors = jax.random.split(key, 3)
+    heights = jax.random.uniform(where, (STEPS, count), minval=0.0, maxval=GOAL_RANGE[1])
+    new = jax.random.bernoulli(when, CHANGES, (STEPS, count))
+    last = jax.lax.cummax(jnp.where(new, jnp.arange(STEPS)[:, jnp.newaxis], -1))
+    goal = jnp.where(last < 0, 0.0, jnp.take_along_axis(heights, last, axis=0))
+    noise = MOCAP_NOISE * jax.random.normal(errors, (STEPS, 2, count))
+    return Goals(goal, noise, body)
+
+
+class Past(NamedTuple):
+    """A person's memory of the last step; all (n,)."""
+
+    hand: jax.Array
+    """The hand's reference at its end [m]."""
+    seen: jax.Array
+    """Height of the other end above the own one, as it was seen [m]."""
+    felt: jax.Array
+    """Force of the hands beyond the weight, as it was felt [N]."""
+
+
+def nothing_sensed(count: int) -> Past:
+    """Return the memory of ``count`` people before their lifts."""
+    return Past(*[jnp.zeros(count)] * len(Past._fields))
+
+
+def sense(playing: LiftState, body: Body, past: Past, goal: jax.Array) -> tuple[Past, jax.Array]:
+    """Return the memory of what is sensed now, and the inputs (n, 9), scaled.
+
+    All of it is in the human's observation of the engine, :class:`.HumanObservation`.
+
+    ====== ==================================================================
+    0      height of the own end
+    1      goal above it
+    2      hand's reference above it
+    3, 4   its change in the last step, and in the one before
+    5, 6   other end above the own one, as old as the eye is slow, and its change in a step
+    7, 8   force of the hands beyond the weight, as old as the sense of it, and its change
+    ====== ==================================================================
+
+    Parameters
+    ----------
+    playing, body
+        The lifts and the people.
+    past
+        Their memory.
+    goal
+        (n,) their goals [m].
+    """
+    now, before, earlier = (playing.plant.heights[age * FRAMES] for age in range(3))
+    seen = delayed(playing.plant.differences, body.seen, 1)[0]
+    felt = delayed(playing.plant.forces, body.felt, 1)[0]
+    own = (now, goal - now, past.hand - now, now - before, before - earlier)
+    inputs = jnp.stack((*own, seen, seen - past.seen, felt, felt - past.felt), axis=1)
+    return Past(past.hand, seen, felt), inputs / jnp.asarray(SCALES)
+
+
+def moved(past: Past, goal: jax.Array, action: jax.Array) -> tuple[Past, jax.Array]:
+    """Return the memory after a step, and the hand's references in it (f, n) [m].
+
+    The hand goes to the goal at :data:`PACE`, corrected by an action (n,).
+    """
+    change = jnp.clip(goal - past.hand, -PACE, PACE) + CORRECTION * jnp.tanh(action)
+    hand = jnp.clip(past.hand + change, *REFERENCE_RANGE)
+    return past._replace(hand=hand), ramp(past.hand, hand, FRAMES)
+
+
+def cost(frames: Frames, goal: jax.Array) -> jax.Array:
+    """Return the mean distance of the own end from the goal over a step (n,) [cm]."""
+    return jnp.abs(frames.human_end - goal).mean(axis=0) / CENTIMETRE

@@ -1,0 +1,29 @@
+"""Self-play and co-play, in a process of their own: JAX has threads, and forks do not mix."""
+
+from pathlib import Path
+
+import pytest
+from colift.agents.errors import InputError
+from colift.benchmark.training.ppo_settings import CoPlaySettings, SelfPlaySettings
+
+
+def test_self_play_and_co_play(in_own_process):
+    in_own_process(Path(__file__).with_name("jax_self_play.py"))
+
+
+@pytest.mark.parametrize(
+    ("make", "told"),
+    [
+        (lambda: SelfPlaySettings(haste=0.0), "haste must be above 0, got 0.0"),
+        (lambda: SelfPlaySettings(haste=float("nan")), "haste must be above 0, got nan"),
+        (lambda: CoPlaySettings(population=0), "population must be 1 to 100, got 0"),
+        (lambda: CoPlaySettings(updates=1), "updates must be at least 2, got 1"),
+        (
+            lambda: CoPlaySettings(population=4, lifts=11),
+            "lifts must be at least one per person of the population, 12, got 11",
+        ),
+    ],
+)
+def test_a_setting_out_of_range_is_named(make, told):
+    with pytest.raises(InputError, match=told):
+        make()
