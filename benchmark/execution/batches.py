@@ -11,6 +11,7 @@ from typing import Final
 from ...agents.agent import Action, Agent, Observation
 from ...agents.errors import EvaluatorFault, InputError, error_text
 from ...agents.spec import AgentSpec, Paced
+from ..channels import Channel, teleoperated
 from ..episode.episode import Episode, run_episode
 from ..episode.lift import Lift
 from ..episode.scenario import Scenario
@@ -31,10 +32,12 @@ class Batch:
     seeds: tuple[int, ...]
     places: tuple[int, ...]
     """The place of each episode in the suite, counted from 0."""
+    channel: Channel | None = None
+    """The channel between the robot and the policy; None if there is none."""
 
     def play(self) -> Iterator[tuple[int, Episode]]:
         """Yield the place and the episode of each seed; see :func:`play`."""
-        episodes = play(self.policy, self.scenario, self.seeds)
+        episodes = play(self.policy, self.scenario, self.seeds, self.channel)
         return zip(self.places, episodes, strict=True)
 
     def __call__(self) -> list[tuple[int, Episode]]:
@@ -51,8 +54,15 @@ class Batch:
         )
 
 
-def play(policy: AgentSpec, scenario: Scenario, seeds: tuple[int, ...]) -> Iterator[Episode]:
+def play(
+    policy: AgentSpec,
+    scenario: Scenario,
+    seeds: tuple[int, ...],
+    channel: Channel | None = None,
+) -> Iterator[Episode]:
     """Play the scenario with each seed, with a new policy object for each episode.
+
+    A channel is outside of the policy's sandbox.
 
     Raises
     ------
@@ -67,6 +77,8 @@ def play(policy: AgentSpec, scenario: Scenario, seeds: tuple[int, ...]) -> Itera
                 begin = time.perf_counter()
                 agent = entered(stack, policy)
                 made = time.perf_counter() - begin
+                if channel is not None:
+                    agent = teleoperated(agent, channel, scenario, seed)
                 episode = run_episode(lift, agent, seed)
                 taken = made + episode.policy_time
                 yield dataclasses.replace(episode, policy_time=taken)
@@ -98,20 +110,29 @@ def entered(stack: contextlib.ExitStack, policy: AgentSpec) -> Agent:
         return _Unmade(error)
 
 
-def batches(policy: AgentSpec, suite: Suite, done: Container[int] = ()) -> list[Batch]:
+def batches(
+    policy: AgentSpec,
+    suite: Suite,
+    done: Container[int] = (),
+    channel: Channel | None = None,
+) -> list[Batch]:
     """Return the rest of a suite: all episodes but those with a place in ``done``."""
     found = []
     size = len(suite.seeds)
     for row in range(len(suite.scenarios)):
         for first in range(0, size, SEEDS_PER_BATCH):
             columns = range(first, min(first + SEEDS_PER_BATCH, size))
-            batch = _batch(policy, suite, row, columns)
+            batch = _batch(policy, suite, row, columns, channel)
             found.append(batch.without(done))
     return [batch for batch in found if batch.places]
 
 
 def shuffled_batches(
-    policy: AgentSpec, suite: Suite, secret: bytes, done: Container[int] = ()
+    policy: AgentSpec,
+    suite: Suite,
+    secret: bytes,
+    done: Container[int] = (),
+    channel: Channel | None = None,
 ) -> list[Batch]:
     """Return the rest of a suite, one episode per batch, in an order that follows from a secret.
 
@@ -125,16 +146,23 @@ def shuffled_batches(
 
     size = len(suite.seeds)
     places = sorted((place for place in range(suite.size) if place not in done), key=lot)
-    return [_batch(policy, suite, place // size, (place % size,)) for place in places]
+    return [_batch(policy, suite, place // size, (place % size,), channel) for place in places]
 
 
-def _batch(policy: AgentSpec, suite: Suite, row: int, columns: Sequence[int]) -> Batch:
+def _batch(
+    policy: AgentSpec,
+    suite: Suite,
+    row: int,
+    columns: Sequence[int],
+    channel: Channel | None = None,
+) -> Batch:
     """Return some episodes of a scenario as a batch."""
     return Batch(
         policy=policy,
         scenario=suite.scenarios[row],
         seeds=tuple(suite.seeds[column] for column in columns),
         places=tuple(row * len(suite.seeds) + column for column in columns),
+        channel=channel,
     )
 
 

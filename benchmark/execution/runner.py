@@ -5,6 +5,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 
 from ...agents.spec import AgentSpec
+from ..channels import Channel
 from ..episode.episode import Episode
 from ..suites.suite import Suite
 from .batches import Faults, batches, run_batches, shuffled_batches
@@ -25,6 +26,8 @@ class Run:
     """The policy's isolation level."""
     faults: int = 0
     """Number of episodes that were played again because the machine had failed."""
+    channel: Channel | None = None
+    """The channel between the robot and the policy; None if there is none."""
 
     @property
     def complete(self) -> bool:
@@ -60,6 +63,7 @@ def run_suite(
     done: Mapping[int, Episode] | None = None,
     keep: Callable[[int, Episode], None] = lambda place, episode: None,
     secret: bytes | None = None,
+    channel: Channel | None = None,
 ) -> Run:
     """Evaluate a policy on a suite.
 
@@ -83,6 +87,8 @@ def run_suite(
     secret
         Determines the order of the episodes; see :func:`.shuffled_batches`. None plays them in
         the suite's order.
+    channel
+        The channel between the robot and the policy; None is no channel.
 
     Returns
     -------
@@ -92,7 +98,7 @@ def run_suite(
     Raises
     ------
     InputError
-        If the policy cannot be loaded.
+        If the policy cannot be loaded, or a channel would lead to a second person.
     EvaluatorFault
         If the machine fails repeatedly; the finished episodes went to ``keep``.
     InterruptedRunError
@@ -105,9 +111,9 @@ def run_suite(
         progress(len(found))
     faults = Faults()
     if secret is None:
-        wanted = batches(policy, suite, found)
+        wanted = batches(policy, suite, found, channel)
     else:
-        wanted = shuffled_batches(policy, suite, secret, found)
+        wanted = shuffled_batches(policy, suite, secret, found, channel)
     interrupted = False
     try:
         for place, episode in run_batches(wanted, executor, faults):
@@ -123,6 +129,7 @@ def run_suite(
         episodes=tuple(found[place] for place in sorted(found)),
         isolation=policy.isolation,
         faults=faults.count,
+        channel=channel,
     )
     if interrupted:
         raise InterruptedRunError(run)
