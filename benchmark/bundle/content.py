@@ -7,6 +7,7 @@ from importlib.metadata import version
 from typing import Any
 
 from ...agents.hardware.decisions import POLICY_SHARE
+from ..channels import Channel
 from ..episode.metric import SCORING
 from ..execution.runner import Run
 from ..results.baselines import HUMAN_HUMAN, Baseline
@@ -42,10 +43,13 @@ class Results:
     summary: Summary
     strata: tuple[StratumScores, ...]
     baselines: Mapping[str, Baseline]
+    """Other agents on the same episodes, without a channel."""
+    channel: Channel | None = None
+    """The channel between the robot and the policy; None if there is none."""
 
     def plain(self) -> dict[str, Any]:
         """Return the content of ``results.json``."""
-        return {
+        content = {
             "colift": self.colift,
             "suite": self.suite,
             "suite_digest": self.suite_digest,
@@ -58,6 +62,7 @@ class Results:
             "groups": [each.plain() for each in self.strata],
             "baselines": {name: _plain_baseline(each) for name, each in self.baselines.items()},
         }
+        return content if self.channel is None else {**content, "channel": self.channel.plain()}
 
 
 def _plain_baseline(baseline: Baseline) -> dict[str, Any]:
@@ -94,6 +99,7 @@ def results(run: Run, baselines: Mapping[str, Baseline]) -> Results:
         summary=dataclasses.replace(summary, real_time=real_time(summary.step_ms.p99, run.suite)),
         strata=by_stratum(run.episodes, run.suite.metrics, human.by_stratum() if human else None),
         baselines=baselines,
+        channel=run.channel,
     )
 
 

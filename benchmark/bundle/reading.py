@@ -58,6 +58,7 @@ class Bundle:
             episodes=self.episodes,
             isolation=self.results["isolation"],
             faults=self.results["evaluator_faults"],
+            channel=self.recipe.channel,
         )
 
 

@@ -11,6 +11,8 @@ from typing import Any, Final, Self
 from ...agents.errors import InputError
 from ...agents.humans import Behaviour, Recorded, load_recordings
 from ...agents.humans.recordings import COLUMNS
+from ..channels import Channel
+from ..channels.reading import parse_channel
 from ..episode.level import LEVEL
 from ..episode.metric import Metrics
 from ..episode.scenario import Scenario
@@ -34,7 +36,7 @@ FILES: Final = {RECORDED: RECORDINGS, PLAYED: INPUTS}
 
 @dataclass(frozen=True, kw_only=True)
 class Recipe:
-    """Names and numbers that make a suite."""
+    """Names and numbers that make a suite, and those of the channel to the policy."""
 
     name: str
     """The suite's name."""
@@ -49,10 +51,12 @@ class Recipe:
     """The recordings as a CSV file, if recorded lifts are played."""
     inputs: bytes | None = None
     """The hands of live lifts, if those are played; see :mod:`.inputs`."""
+    channel: Channel | None = None
+    """The channel between the robot and the policy; None if there is none."""
 
     @classmethod
-    def of(cls, suite: Suite) -> Self | None:
-        """Return the recipe of a suite; None if it cannot be made from names.
+    def of(cls, suite: Suite, channel: Channel | None = None) -> Self | None:
+        """Return the recipe of a suite and a channel; None if it cannot be made from names.
 
         That holds for behaviours and subjects that are not registered, or whose parameters were
         changed, and for scenarios that differ in partner, control period, latency or task.
@@ -68,6 +72,7 @@ class Recipe:
             task=first.task.name,
             recordings=_recordings(suite.scenarios),
             inputs=dump_inputs(suite.scenarios),
+            channel=channel,
         )
         try:
             made = cls.parse(recipe.plain(), recipe.recordings, recipe.inputs).suite()
@@ -139,7 +144,7 @@ class Recipe:
 
     def plain(self) -> dict[str, Any]:
         """Return the recipe for JSON: everything except recordings and hands."""
-        return {
+        content = {
             "suite": self.name,
             "partner": self.partner,
             "control_period": self.control_period,
@@ -148,6 +153,7 @@ class Recipe:
             "seeds": list(self.seeds),
             "scenarios": ["/".join(filter(None, names)) for names in self.scenarios],
         }
+        return content if self.channel is None else {**content, "channel": self.channel.plain()}
 
     @classmethod
     def parse(
@@ -190,10 +196,18 @@ class Recipe:
             task=pick(content, "task", str, MANIFEST),
             recordings=recordings,
             inputs=inputs,
+            channel=_channel(content),
         )
         if recipe.plain() != content:
             raise InputError(f"{MANIFEST}: the recipe is not as colift writes it")
         return recipe
+
+
+def _channel(content: dict[str, Any]) -> Channel | None:
+    if "channel" not in content:
+        return None
+    channel = pick(content, "channel", dict, MANIFEST)
+    return parse_channel(channel, f"{MANIFEST}: channel", whole=True)
 
 
 def _names(name: str) -> tuple[str, str, str]:

@@ -1,8 +1,10 @@
 """The JSON Schema of ``results.json``."""
 
 from collections.abc import Mapping
+from dataclasses import fields
 from typing import Any, Final
 
+from ..channels import Link
 from ..episode.level import LEVEL
 from ..episode.metric import LEADING, Metric, Metrics, on_boards
 
@@ -26,7 +28,7 @@ INTERVAL: Final[Schema] = {
 def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
     """Return the JSON Schema of ``results.json``, the content of :meth:`.Results.plain`.
 
-    Every key is required, and no other key is allowed.
+    Every key is required but ``channel``, and no other key is allowed.
 
     Parameters
     ----------
@@ -105,7 +107,18 @@ def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
             "description": "The baselines on the same lifts, by name.",
         },
     }
-    return {"$schema": DIALECT, "title": "results.json of a colift bundle", **_object(content)}
+    schema = _object(content)
+    schema["properties"]["channel"] = _object(
+        {"down": _link(), "up": _link()}, "The channel to the policy; only if there was one."
+    )
+    return {"$schema": DIALECT, "title": "results.json of a colift bundle", **schema}
+
+
+def _link() -> Schema:
+    """Return the schema of a direction of a channel; see :class:`.channel.Link`."""
+    return _object(
+        {each.name: TEXT if isinstance(each.default, str) else NUMBER for each in fields(Link)}
+    )
 
 
 def _label(metric: Metric) -> str:

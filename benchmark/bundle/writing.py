@@ -53,7 +53,7 @@ def write_bundle(
     InputError
         As :func:`.check_bundle_folder`.
     """
-    recipe = Recipe.of(run.suite)
+    recipe = Recipe.of(run.suite, run.channel)
     traces = [episode.trace for episode in run.episodes]
     files = {
         RESULTS: dump_json(content),

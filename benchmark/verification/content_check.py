@@ -10,6 +10,7 @@ from ...agents.registry import SUITES, entries
 from ..bundle import Bundle, Difference, Results, differences, one_line, results
 from ..bundle.content import with_circumstances
 from ..bundle.files import EPISODES, MANIFEST, RESULTS, TRACES
+from ..channels import Channel, channel_name
 from ..episode.episode import Episode
 from ..episode.metric import SCORING
 from ..episode.scenario import CONTROL_PERIOD
@@ -20,6 +21,12 @@ from .deviation import REFERENCES, SCORES
 from .verdict import Finding
 
 _FROM_BASELINES: Final = ("baselines", "summary.vs_human", "human_human_rmse_mm")
+
+
+def played_label(suite: Suite, channel: Channel | None) -> str:
+    """Return a verified label of a suite and the channel that it was played over."""
+    label = suite_label(suite)
+    return label if channel is None else f"{label}, over the channel {channel_name(channel)}"
 
 
 def suite_label(suite: Suite) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from ...agents.errors import EvaluatorFault, InputError, error_text
 from ..bundle import Bundle, one_line
 from ..bundle.files import EPISODES, MANIFEST, TRACES
+from ..channels import Channel
 from ..episode.episode import Episode
 from ..episode.lift import Lift
 from ..episode.metric import Scores
@@ -18,6 +19,7 @@ from ..episode.scenario import Scenario
 from ..episode.trace import Trace
 from ..execution.batches import SEEDS_PER_BATCH
 from ..suites.suite import Suite
+from .channel_check import channel_fault
 from .deviation import Place, beyond_tolerance, first_difference
 from .far_hand import far_actions
 from .verdict import Finding
@@ -51,6 +53,8 @@ class EpisodeCheck:
     """The claimed episodes."""
     same_platform: bool
     """Whether equal bits are demanded."""
+    channel: Channel | None = None
+    """The claimed channel to the policy."""
 
     def __call__(self) -> list[Checked]:
         """Return the result of each replay; worker processes run this."""
@@ -60,18 +64,27 @@ class EpisodeCheck:
         """Yield the result of each replay."""
         with contextlib.closing(Lift(self.scenario)) as lift:
             for claim in zip(self.places, self.seeds, self.episodes, strict=True):
-                yield _check(lift, *claim, same_platform=self.same_platform)
+                yield _check(lift, *claim, self.channel, same_platform=self.same_platform)
 
 
-def _check(lift: Lift, place: int, seed: int, claim: Episode, *, same_platform: bool) -> Checked:
+def _check(
+    lift: Lift,
+    place: int,
+    seed: int,
+    claim: Episode,
+    channel: Channel | None,
+    *,
+    same_platform: bool,
+) -> Checked:
     name, logged = f"{lift.scenario.name} seed {seed}", claim.trace
 
     def finding(message: str, file: str = TRACES, step: int | None = None) -> Finding:
         return Finding(file=file, episode=one_line(name), step=step, message=message)
 
-    other = _other_hand(lift.scenario, logged)
-    if other is not None:
-        step, message = other
+    fault = _other_hand(lift.scenario, logged)
+    fault = fault or channel_fault(channel, lift.scenario, seed, logged)
+    if fault is not None:
+        step, message = fault
         return Checked(place=place, finding=finding(message, step=step))
     try:
         found = replay(lift, seed, logged.human_action, logged.action, claim.failure)
@@ -155,6 +168,7 @@ def episode_checks(bundle: Bundle, suite: Suite, same_platform: bool) -> list[Ep
             places=tuple(bundle.places[i] for i in some),
             episodes=tuple(bundle.episodes[i] for i in some),
             same_platform=same_platform,
+            channel=bundle.recipe.channel,
         )
         for (row, _), some in members.items()
     ]

@@ -52,7 +52,8 @@ class Verdict:
     findings: tuple[Finding, ...]
     """The faults; empty if the bundle is verified."""
     suite: str = ""
-    """The played suite: its registered name, found by its digest, or a description."""
+    """The played suite: its registered name, found by its digest, or a description; with the
+    channel, if the policy was behind one."""
     run: Run | None = None
     """The episodes with the scores of the present code; None if a replay failed."""
     results: Results | None = None

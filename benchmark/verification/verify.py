@@ -14,7 +14,13 @@ from ..bundle.reading import wrong_hashes
 from ..episode.metric import SCORING
 from ..execution.provenance import POLICIES_ONLY, fingerprint
 from ..execution.runner import Run
-from .content_check import episode_findings, rebuilt, score_findings, suite_findings, suite_label
+from .content_check import (
+    episode_findings,
+    played_label,
+    rebuilt,
+    score_findings,
+    suite_findings,
+)
 from .deviation import HEIGHT
 from .episode_check import Checked, simulate
 from .verdict import Finding, Verdict
@@ -91,7 +97,7 @@ def verify(
     return Verdict(
         findings=tuple(findings[:MOST_FINDINGS]),
         run=scored,
-        suite=suite_label(run.suite),
+        suite=played_label(run.suite, run.channel),
         results=content,
         bit_equal=bit_equal,
         tolerance_mm=None if same_platform or bit_equal else 1000 * HEIGHT,
