@@ -13,13 +13,14 @@ from ..agents.errors import InputError
 from ..agents.registry import POLICIES, entries
 from ..agents.spec import AgentSpec
 from ..benchmark.bounds.causal import BOUNDS
+from ..benchmark.channels import Channel
 from ..benchmark.comparison.captions import failures, unit_warnings, verdict
 from ..benchmark.comparison.comparison import Comparison
 from ..benchmark.comparison.comparison import compare as compared
 from ..benchmark.comparison.files import comparison_json
 from ..benchmark.comparison.paired_results import PolicyResults
 from ..benchmark.comparison.playing import Bound, episodes_to_play, play_policies
-from ..benchmark.comparison.stored import Stored, check_same_suite, is_bundle, read_stored
+from ..benchmark.comparison.stored import Stored, check_same_lifts, is_bundle, read_stored
 from ..benchmark.suites.suite import Suite
 from .completion import policies as named
 from .completion import suites
@@ -27,10 +28,12 @@ from .options import (
     STANDARD,
     AsJson,
     Behaviours,
+    ChannelName,
     Jobs,
     Recordings,
     Seeds,
     check_folder,
+    chosen_channel,
     chosen_suite,
 )
 from .policies import choose_policy
@@ -63,6 +66,7 @@ def compare_policies(
     behaviour: Behaviours = None,
     seeds: Seeds = None,
     recordings: Recordings = None,
+    channel: ChannelName = None,
     bounds: Annotated[
         bool,
         typer.Option(
@@ -83,7 +87,10 @@ def compare_policies(
         episodes = stored[0].suite
     else:
         episodes = chosen_suite(suite or STANDARD, seeds, recordings, behaviour)
-    check_same_suite(stored, episodes)
+    network = chosen_channel(channel)
+    if network is None and stored:
+        network = stored[0].channel
+    check_same_lifts(stored, episodes, network)
     for spec in specs.values():
         spec.check()
     if out is not None:
@@ -92,7 +99,8 @@ def compare_policies(
 
         check_folder("--out", out)
     limits = BOUNDS if bounds else {}
-    comparison = _compare(specs, [each.policy for each in stored], episodes, limits, jobs)
+    results = [each.policy for each in stored]
+    comparison = _compare(specs, results, episodes, limits, network, jobs)
     if out is not None:
         write_comparison(out, comparison)
     if as_json:
@@ -148,6 +156,7 @@ def _compare(
     stored: Sequence[PolicyResults],
     suite: Suite,
     bounds: Mapping[str, Bound],
+    channel: Channel | None,
     jobs: int | None,
 ) -> Comparison:
     """Play the episodes and compare."""
@@ -157,7 +166,13 @@ def _compare(
         workers("compare", total, jobs) as (pool, progress),
     ):
         results = play_policies(
-            specs, suite, stored=stored, bounds=bounds, executor=pool, progress=progress
+            specs,
+            suite,
+            stored=stored,
+            bounds=bounds,
+            executor=pool,
+            progress=progress,
+            channel=channel,
         )
         return compared(results)
 

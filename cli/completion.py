@@ -6,6 +6,7 @@ from pathlib import Path
 from ..agents.humans import SUBJECTS
 from ..agents.registry import HUMANS, POLICIES, SUITES, entries
 from ..agents.submissions.manifest import MANIFEST
+from ..benchmark.channels.named import CHANNELS
 
 
 def policies(incomplete: str) -> Iterator[str]:
@@ -35,6 +36,11 @@ def suites(incomplete: str) -> Iterator[str]:
 def behaviours(incomplete: str) -> Iterator[str]:
     """Yield the human behaviours that begin with a text."""
     yield from (name for name in entries(HUMANS) if name.startswith(incomplete))
+
+
+def channels(incomplete: str) -> Iterator[str]:
+    """Yield the named channels that begin with a text."""
+    yield from (name for name in CHANNELS if name.startswith(incomplete))
 
 
 def people(incomplete: str) -> Iterator[str]:

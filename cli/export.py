@@ -93,6 +93,11 @@ def _bundle(folder: Path, to: str, out: Path, view: str, force: bool, jobs: int)
     if is_session(folder):
         raise InputError(f"{folder} is a session: name the bundle of one of its lifts")
     bundle = read_bundle(folder)
+    if bundle.recipe.channel is not None:
+        raise InputError(
+            f"{folder} was played over a channel: its actions answer older observations than those "
+            "of their steps; export a run without --channel"
+        )
     suite = bundle.run().suite
     provenance = _of_bundle(bundle, suite, folder, to, view)
     real = bundle.recipe.recordings is not None or bundle.recipe.inputs is not None

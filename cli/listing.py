@@ -1,4 +1,4 @@
-"""``colift list``: policies, behaviours, subjects, tasks and suites."""
+"""``colift list``: policies, behaviours, subjects, tasks, suites and channels."""
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -17,6 +17,7 @@ from ..agents.registry import HUMANS, POLICIES, SUITES, TASKS, entries, lookup, 
 from ..agents.sandbox.host.policy import SandboxedPolicy
 from ..agents.submissions.manifest import MANIFEST, Manifest
 from ..agents.submissions.submission import read_submission
+from ..benchmark.channels import CHANNELS
 from .completion import policies
 from .policies import choose_policy
 from .printing import show
@@ -33,7 +34,7 @@ def list_all(
         ),
     ] = None,
 ) -> None:
-    """List policies, human behaviours, subjects, suites and tasks, one line each."""
+    """List policies, human behaviours, subjects, suites, tasks and channels, one line each."""
     if policy is not None:
         show(*policy_parameters(policy))
         return
@@ -48,6 +49,9 @@ def list_all(
     table.add_row("  draw-N", "a new person of the same population, drawn with seed N")
     _registered(table, "Suites", SUITES)
     _registered(table, "Tasks", TASKS)
+    table.add_row("[underline]Channels[/]")
+    for name, channel in CHANNELS.items():
+        table.add_row(f"  {name}", str(channel))
     show(table)
 
 

@@ -10,12 +10,13 @@ from typing import Annotated, Final
 import typer
 
 from ..agents.errors import InputError
+from ..benchmark.channels import CHANNELS, Channel, make_channel
 from ..benchmark.execution.connecting import dask_pool
 from ..benchmark.execution.pool import JOBS, local_pool
 from ..benchmark.live.scenarios import real_lifts
 from ..benchmark.suites.suite import Suite, make_suite
-from .completion import behaviours, policies, suites
-from .remedies import opened
+from .completion import behaviours, channels, policies, suites
+from .remedies import naming, opened
 
 STANDARD: Final = "standard-v1"
 """The default suite."""
@@ -59,6 +60,16 @@ Behaviours = Annotated[
         metavar="NAME",
         help="Human behaviour instead of the suite's, from 'colift list'; repeatable.",
         autocompletion=behaviours,
+    ),
+]
+ChannelName = Annotated[
+    str | None,
+    typer.Option(
+        "--channel",
+        metavar="NAME|FILE",
+        help="Network between the robot and the policy, which delays, loses and reorders messages: "
+        f"{', '.join(CHANNELS)}, or a file .toml. Default: none.",
+        autocompletion=channels,
     ),
 ]
 PolicyIsolation = Annotated[
@@ -119,6 +130,20 @@ def chosen_suite(
     if seeds is not None:
         raise InputError("--seeds and --recordings exclude each other: a recording has no seed")
     return real_lifts(recordings)
+
+
+def chosen_channel(text: str | None) -> Channel | None:
+    """Return the channel of an option; None if it is not given.
+
+    Raises
+    ------
+    InputError
+        As :func:`.make_channel`.
+    """
+    if text is None:
+        return None
+    with naming("--channel"):
+        return make_channel(text)
 
 
 def check_exclusive(**options: object) -> None:

@@ -1,5 +1,6 @@
 """``colift run``: the evaluation of a policy on a suite."""
 
+import json
 import sys
 from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor
@@ -13,6 +14,7 @@ import typer
 from ..agents.errors import EvaluatorFault, InputError
 from ..agents.spec import AgentSpec
 from ..benchmark.bundle import Results, check_bundle_folder, check_unfinished, results, write_bundle
+from ..benchmark.channels import Channel
 from ..benchmark.episode.metric import Metrics
 from ..benchmark.execution.cluster import Cluster
 from ..benchmark.execution.journal import Journal, open_journal
@@ -26,6 +28,7 @@ from .options import (
     STANDARD,
     AsJson,
     Behaviours,
+    ChannelName,
     Dask,
     Jobs,
     PolicyIsolation,
@@ -33,6 +36,7 @@ from .options import (
     Recordings,
     Seeds,
     SuiteName,
+    chosen_channel,
     chosen_suite,
     executor,
 )
@@ -53,6 +57,7 @@ def run(
     recordings: Recordings = None,
     latency: Annotated[float | None, LATENCY_OPTION] = None,
     control_period: Annotated[float | None, PERIOD_OPTION] = None,
+    channel: ChannelName = None,
     isolation: PolicyIsolation = AUTO,
     jobs: Jobs = None,
     dask: Dask = None,
@@ -75,6 +80,7 @@ def run(
     episodes = chosen_suite(suite, seeds, recordings, behaviour).with_timing(
         latency, control_period
     )
+    network = chosen_channel(channel)
     if resume and out is None:
         raise InputError("--resume needs the --out of the run that was interrupted")
     if out is not None:
@@ -90,8 +96,8 @@ def run(
         if isinstance(workers, Cluster):
             there = workers.origin
             _mention_idle(workers)
-        with _journal(out, resume, _identity(spec, episodes, there)) as journal:
-            done, baselines = _evaluate(spec, episodes, workers, journal)
+        with _journal(out, resume, _identity(spec, episodes, network, there)) as journal:
+            done, baselines = _evaluate(spec, episodes, network, workers, journal)
             finished = done.complete and baselines.keys() == SPECS.keys()
             content = results(done, baselines) if done.episodes else None
             if content is not None and out is not None:
@@ -104,7 +110,9 @@ def run(
         raise typer.Exit(1)
 
 
-def _identity(spec: AgentSpec, suite: Suite, there: Mapping[str, str]) -> dict[str, str]:
+def _identity(
+    spec: AgentSpec, suite: Suite, channel: Channel | None, there: Mapping[str, str]
+) -> dict[str, str]:
     """Return everything that an episode depends on, by name."""
     return {
         "policy": spec.name,
@@ -112,6 +120,7 @@ def _identity(spec: AgentSpec, suite: Suite, there: Mapping[str, str]) -> dict[s
         "suite": suite.name,
         "suite digest": suite.digest,
         "isolation": spec.isolation,
+        **({} if channel is None else {"channel": json.dumps(channel.plain())}),
         **there,
     }
 
@@ -127,14 +136,18 @@ def _journal(
 
 
 def _evaluate(
-    spec: AgentSpec, suite: Suite, workers: Executor | None, journal: Journal | None
+    spec: AgentSpec,
+    suite: Suite,
+    channel: Channel | None,
+    workers: Executor | None,
+    journal: Journal | None,
 ) -> tuple[Run, Mapping[str, Baseline]]:
     """Run the policy, then the baselines on the same episodes, unless they are shipped."""
     done: Run | None = None
     ready = shipped_baselines(suite)
     total = suite.size * (1 if ready else 1 + len(SPECS))
     with progress_bar(spec.name, total) as progress:
-        play = partial(run_suite, spec, suite, executor=workers, progress=progress)
+        play = partial(run_suite, spec, suite, executor=workers, progress=progress, channel=channel)
         try:
             done = play() if journal is None else play(done=journal.done, keep=journal.keep)
             if ready is None:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from ...agents.actions import HAND_SPEED
+from ..channels import channel_name
 from ..episode.level_metrics import MOSTLY_CLIPPED
 from ..results.baselines import HUMAN_HUMAN_LABEL
 from .comparison import Comparison
@@ -47,8 +48,10 @@ AGAINST_CAPTION: Final = (
 
 
 def title(comparison: Comparison) -> str:
-    """Return the number of policies and the suite, in one line."""
-    return f"{len(comparison.results.policies)} policies on {comparison.results.suite.name}"
+    """Return the number of policies, the suite and the channel, in one line."""
+    results = comparison.results
+    over = "" if results.channel is None else f", over the channel {channel_name(results.channel)}"
+    return f"{len(results.policies)} policies on {results.suite.name}{over}"
 
 
 def picture_title(comparison: Comparison) -> str:
@@ -110,9 +113,11 @@ def unit_warnings(comparison: Comparison) -> list[str]:
 
 
 def provenance(comparison: Comparison, version: str) -> str:
-    """Return version, suite, digest and number of lifts."""
+    """Return version, suite, digest, number of lifts and channel."""
     suite, lifts = comparison.results.suite, comparison.overall.episodes
-    return f"colift {version}, suite {suite.name}, digest {suite.digest}, {lifts} lifts"
+    channel = comparison.results.channel
+    over = "" if channel is None else f", channel {channel_name(channel)}"
+    return f"colift {version}, suite {suite.name}, digest {suite.digest}, {lifts} lifts{over}"
 
 
 def parts_caption(kind: str, rankings: Sequence[Ranking]) -> str:

@@ -39,8 +39,10 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
                 "step_ms": {"p50": p50, "p99": p99},
             }
         )
+    channel = comparison.results.channel
     return {
         "colift": version("colift"),
+        **({} if channel is None else {"channel": channel.plain()}),
         "suite": suite.name,
         "suite_digest": suite.digest,
         "episodes": comparison.overall.episodes,

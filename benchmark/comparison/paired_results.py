@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..channels import Channel
 from ..episode.metric import Metric, Scores, on_boards
 from ..execution.runner import Run
 from ..results.baselines import HUMAN_HUMAN_LABEL, Baseline
@@ -52,6 +53,8 @@ class PairedResults:
     """The human-human baseline."""
     bounds: Mapping[str, Baseline] = field(default_factory=dict)
     """The bounds, by name."""
+    channel: Channel | None = None
+    """The channel between the robot and every policy; baseline and bounds have none."""
 
     @property
     def metrics(self) -> tuple[Metric, ...]:

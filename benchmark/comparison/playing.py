@@ -2,9 +2,11 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
+from functools import partial
 from typing import Protocol
 
 from ...agents.spec import AgentSpec
+from ..channels import Channel
 from ..execution.runner import Run, run_suite
 from ..results.baselines import (
     HUMAN_HUMAN,
@@ -40,6 +42,7 @@ def play_policies(
     bounds: Mapping[str, Bound] | None = None,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
+    channel: Channel | None = None,
 ) -> PairedResults:
     """Play the suite with each policy, and with baseline and bounds where none are shipped.
 
@@ -54,6 +57,8 @@ def play_policies(
     bounds
         Bounds to play, by name, if none are shipped for the suite; shipped ones are included
         always.
+    channel
+        The channel of every policy, also of the stored ones; None is no channel.
 
     Raises
     ------
@@ -62,10 +67,8 @@ def play_policies(
     KeyboardInterrupt
         After Ctrl-C: without all episodes there are no pairs.
     """
-    played = [
-        PolicyResults.of(name, run_suite(spec, suite, executor=executor, progress=progress))
-        for name, spec in policies.items()
-    ]
+    play = partial(run_suite, executor=executor, progress=progress, channel=channel)
+    played = [PolicyResults.of(name, play(spec, suite)) for name, spec in policies.items()]
     bounding = shipped_bounds(suite)
     if bounding is None:
         bounding = play_bounds(bounds or {}, suite, executor=executor, progress=progress)
@@ -75,7 +78,11 @@ def play_policies(
     else:
         human_human = shipped[HUMAN_HUMAN]
     return PairedResults(
-        suite=suite, policies=(*played, *stored), human_human=human_human, bounds=bounding
+        suite=suite,
+        policies=(*played, *stored),
+        human_human=human_human,
+        bounds=bounding,
+        channel=channel,
     )
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ...agents.errors import InputError, Remedy
 from ..bundle import FILES, read_bundle
+from ..channels import Channel, channel_name
 from ..episode.metric import SCORING
 from ..suites.suite import Suite
 from .paired_results import PolicyResults
@@ -19,6 +20,8 @@ class Stored:
     folder: Path
     policy: PolicyResults
     suite: Suite
+    channel: Channel | None
+    """The channel between the robot and the policy; None if there was none."""
 
 
 def is_bundle(folder: Path) -> bool:
@@ -60,14 +63,23 @@ def read_stored(folder: Path) -> Stored:
     policy = PolicyResults.of(run.policy, run)
     if step["p50"] is not None and step["p99"] is not None:
         policy = dataclasses.replace(policy, step_ms=(step["p50"], step["p99"]))
-    return Stored(folder=folder, policy=policy, suite=run.suite)
+    return Stored(folder=folder, policy=policy, suite=run.suite, channel=run.channel)
 
 
-def check_same_suite(stored: Sequence[Stored], suite: Suite) -> None:
-    """Raise an InputError if a bundle is of other lifts than those of a suite."""
+def check_same_lifts(stored: Sequence[Stored], suite: Suite, channel: Channel | None) -> None:
+    """Raise an InputError if a bundle is of other lifts than a suite's, or over another channel."""
     for each in stored:
+        if each.channel != channel:
+            raise InputError(
+                f"{each.folder} was played over {_shown(each.channel)}, not over "
+                f"{_shown(channel)}: policies are compared over the same"
+            )
         if each.suite.digest != suite.digest:
             raise InputError(
                 f"{each.folder} has the lifts of {each.suite.name} (digest {each.suite.digest}), "
                 f"not of {suite.name} (digest {suite.digest}): policies are compared on the same"
             )
+
+
+def _shown(channel: Channel | None) -> str:
+    return "no channel" if channel is None else f"the channel {channel_name(channel)}"

@@ -70,7 +70,7 @@ def _policy_row(comparison: Comparison, ranked: RankedPolicy) -> list[Cell]:
     overall, metrics = comparison.overall, comparison.results.metrics
     return [
         str(ranked.rank) if overall.decisive else "",
-        _name(ranked.name),
+        policy_cell(ranked.name),
         f"{ranked.rmse_mm.mean:.2f}",
         _interval(ranked.rmse_mm),
         f"{ranked.vs_human.mean:.2f}",
@@ -92,7 +92,7 @@ def differences_table(comparison: Comparison) -> Table:
         assert behind is not None
         rows.append(
             (
-                _name(ranked.name),
+                policy_cell(ranked.name),
                 f"{behind.mean:+.2f}",
                 between(behind.ci95, "+.2f"),
                 p_value(behind.p),
@@ -116,7 +116,7 @@ def behaviours_table(comparison: Comparison) -> Table:
     rankings = comparison.behaviours
     columns = [{ranked.name: ranked for ranked in ranking.policies} for ranking in rankings]
     rows: list[list[Cell]] = [
-        [_name(name), *map(_mark, rankings, (column[name] for column in columns))]
+        [policy_cell(name), *map(_mark, rankings, (column[name] for column in columns))]
         for name in (ranked.name for ranked in comparison.overall.policies)
     ]
     for name in comparison.results.references:
@@ -136,7 +136,7 @@ def _mark(ranking: Ranking, ranked: RankedPolicy) -> Text:
     return Text(f"{mean} *", "bold") if ranking.best(ranked) else Text(f"{mean}  ")
 
 
-def _name(name: str) -> str:
+def policy_cell(name: str) -> str:
     """Return a policy's name, its parameters on lines of their own if it is long."""
     return name if len(name) <= NAME else name.replace(",", ",\n ")
 

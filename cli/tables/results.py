@@ -9,6 +9,7 @@ from ...agents.actions import HAND_SPEED
 from ...agents.hardware.setup import LOWEST_RATE
 from ...agents.sandbox.host.levels import LEVELS, VERIFIABLE
 from ...benchmark.bundle import Results
+from ...benchmark.channels import channel_name
 from ...benchmark.episode.metric import LEADING, Metric, Metrics
 from ...benchmark.results.baselines import HUMAN_HUMAN, HUMAN_HUMAN_LABEL
 from ...benchmark.results.headline import error, versus_human
@@ -48,7 +49,7 @@ def results_table(content: Results, metrics: Metrics) -> Table:
     behaviours = dict.fromkeys(each.behaviour for each in strata)
     people = "two people" if len(shown) <= ON_ONE_LINE else "two\npeople"
     return table(
-        f"{content.policy} on {content.suite}",
+        f"{content.policy} on {content.suite}{_over(content)}",
         ("human", "RMSE mm", people, *(metric.heading for metric in shown)),
         [
             *(
@@ -67,6 +68,8 @@ def results_text(content: Results) -> str:
     """Return the lines that compare the policy with the baselines."""
     summary, step = content.summary, content.summary.step_ms
     lines = [error(summary)]
+    if content.channel is not None:
+        lines.append(f"Channel to the policy: {content.channel}. The others below have none.")
     if summary.vs_human is not None:
         lines.append(f"{versus_human(summary)}: 1 is as good as a human partner, less is better")
     for name, baseline in content.baselines.items():
@@ -88,6 +91,11 @@ def results_text(content: Results) -> str:
         note = "" if content.isolation in VERIFIABLE else "; no board would call this verified"
         lines.append(f"Isolation: {content.isolation}{note}")
     return "\n".join(lines)
+
+
+def _over(content: Results) -> str:
+    """Return the name of the channel for a title; empty without one."""
+    return "" if content.channel is None else f", over the channel {channel_name(content.channel)}"
 
 
 def _row(strata: Sequence[StratumScores], shown: Sequence[Metric]) -> list[str]:

@@ -13,6 +13,7 @@ from .agents.identity import source_hash
 from .agents.loading.loading import source_digest
 from .agents.spec import AgentSpec, InProcess
 from .benchmark.bundle import results
+from .benchmark.channels import Channel, make_channel
 from .benchmark.execution.pool import local_pool
 from .benchmark.execution.runner import run_suite
 from .benchmark.results.baselines import SPECS, play_baselines, shipped_baselines
@@ -84,6 +85,7 @@ def evaluate(
     policy: Agent | type[Agent] | str | Path,
     suite: str | Suite = "quick-v1",
     *,
+    channel: str | Path | Channel | None = None,
     isolation: str = AUTO,
     jobs: int = 1,
     progress: bool = False,
@@ -100,6 +102,9 @@ def evaluate(
         comma if any, ``module:Class``, ``file.py:Class``, or the folder of a submission.
     suite
         A name of :func:`.list_suites`, or a suite made by :mod:`colift.benchmark.suites.suite`.
+    channel
+        The network between the robot and the policy: a name such as ``"home"``, a TOML file, or a
+        :class:`.Channel`; None for none. The baselines have none.
     isolation
         Isolation level of a policy given as text. By default colift's own policies act in this
         process, and all others in the strongest sandbox that works here.
@@ -117,7 +122,7 @@ def evaluate(
     Raises
     ------
     InputError
-        If there is no such policy, suite or isolation, or the policy cannot be used.
+        If there is no such policy, suite, channel or isolation, or the policy cannot be used.
     EvaluatorFault
         If the machine, not the policy, fails repeatedly.
     KeyboardInterrupt
@@ -125,11 +130,12 @@ def evaluate(
     """
     spec = _spec(policy, isolation, jobs)
     played = make_suite(suite) if isinstance(suite, str) else suite
+    network = make_channel(str(channel)) if isinstance(channel, str | Path) else channel
     baselines = shipped_baselines(played)
     total = played.size * (1 if baselines else 1 + len(SPECS))
     bar = progress_bar(spec.name, total) if progress else nullcontext(lambda done: None)
     with bar as advance, local_pool(jobs) as pool:
-        run = run_suite(spec, played, executor=pool, progress=advance)
+        run = run_suite(spec, played, executor=pool, progress=advance, channel=network)
         if not run.complete:
             raise KeyboardInterrupt
         if baselines is None:

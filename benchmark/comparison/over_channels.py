@@ -1,0 +1,62 @@
+"""The price of a channel: each policy on the same lifts, with and without it."""
+
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Executor
+from dataclasses import dataclass
+
+from ...agents.spec import AgentSpec
+from ..channels import Channel
+from ..execution.runner import run_suite
+from ..results.summary import stratum
+from ..statistics import Estimate, mean_of, paired_difference
+from ..suites.suite import Suite
+
+
+@dataclass(frozen=True, kw_only=True)
+class OverChannel:
+    """A policy's error over one channel."""
+
+    policy: str
+    channel: str | None
+    """Name of the channel; None for no channel."""
+    rmse_mm: Estimate
+    price_mm: Estimate
+    """Paired difference to the policy's error without a channel; 0 for no channel."""
+    failed: int
+    """Failed lifts."""
+
+
+def over_channels(
+    policies: Mapping[str, AgentSpec],
+    channels: Mapping[str, Channel],
+    suite: Suite,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> Iterator[OverChannel]:
+    """Yield the errors of each policy: without a channel, then over each of them.
+
+    The plans, the noise and the losses of channels with the same loss and burst are those of the
+    same lift, so that the differences are paired.
+
+    Parameters
+    ----------
+    policies, channels
+        Both by the names that tables use.
+    suite, executor, progress
+        As for :func:`.run_suite`.
+    """
+    for name, spec in policies.items():
+        alone: list[float] = []
+        for of, channel in {None: None, **channels}.items():
+            run = run_suite(spec, suite, executor=executor, progress=progress, channel=channel)
+            strata = [stratum(episode) for episode in run.episodes]
+            errors = [episode.scores["rmse_mm"] for episode in run.episodes]
+            alone = alone or errors
+            yield OverChannel(
+                policy=name,
+                channel=of,
+                rmse_mm=mean_of(errors, strata),
+                price_mm=paired_difference(errors, alone, strata),
+                failed=sum(episode.failure is not None for episode in run.episodes),
+            )

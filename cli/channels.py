@@ -1,0 +1,130 @@
+"""``colift channels``: the price of a network between the robot and its policy."""
+
+import dataclasses
+import sys
+from collections.abc import Sequence
+from typing import Annotated, Final
+
+import typer
+from rich.table import Column, Table
+
+from ..benchmark.channels import CHANNELS
+from ..benchmark.comparison.over_channels import OverChannel, over_channels
+from .completion import channels as channel_names
+from .completion import policies as named
+from .options import (
+    STANDARD,
+    AsJson,
+    Behaviours,
+    Jobs,
+    Recordings,
+    Seeds,
+    SuiteName,
+    chosen_channel,
+    chosen_suite,
+)
+from .policies import choose_policy
+from .printing import Cell, print_json, show, table
+from .progress import reported_interrupt, workers
+from .tables.comparison import policy_cell
+
+MEASURED: Final = ("copy", "extrapolate", "blend", "minimum_jerk", "anticipate", "learned")
+"""The policies that are measured by default: from none to the best prediction."""
+
+
+def measure_channels(
+    policies: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="POLICY",
+            help=f"Policies as for 'colift run'; default: {', '.join(MEASURED)}.",
+            autocompletion=named,
+        ),
+    ] = None,
+    channels: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--channel",
+            metavar="NAME|FILE",
+            help=f"Channel, or a file .toml; repeatable. Default: {', '.join(CHANNELS)}.",
+            autocompletion=channel_names,
+        ),
+    ] = None,
+    suite: SuiteName = STANDARD,
+    behaviour: Behaviours = None,
+    seeds: Seeds = None,
+    recordings: Recordings = None,
+    jobs: Jobs = None,
+    as_json: AsJson = False,
+) -> None:
+    """Measure policies behind a network that delays and loses messages, and without it."""
+    episodes = chosen_suite(suite, seeds, recordings, behaviour)
+    chosen = {text: chosen_channel(text) for text in channels or CHANNELS}
+    networks = {text: channel for text, channel in chosen.items() if channel is not None}
+    specs = {text: choose_policy(text) for text in policies or MEASURED}
+    for spec in specs.values():
+        spec.check()
+    total = len(specs) * (1 + len(networks)) * episodes.size
+    with (
+        reported_interrupt("policies are measured on all lifts or not at all"),
+        workers("channels", total, jobs) as (pool, progress),
+    ):
+        found = list(over_channels(specs, networks, episodes, executor=pool, progress=progress))
+    if as_json:
+        content = {
+            "suite": episodes.name,
+            "suite_digest": episodes.digest,
+            "channels": {text: channel.plain() for text, channel in networks.items()},
+            "policies": [dataclasses.asdict(each) for each in found],
+        }
+        print_json(content)
+        return
+    show(
+        _errors_table(found, f"RMSE mm on {episodes.name}"),
+        _prices_table(found, [*networks]),
+        "\n".join(f"{text}: {channel}" for text, channel in networks.items()),
+    )
+    failed = [each for each in found if each.failed]
+    for each in failed:
+        where = f"{each.policy} over {each.channel or 'no channel'}"
+        print(f"{where}: {each.failed} of {episodes.size} lifts failed", file=sys.stderr)
+    if failed:
+        raise typer.Exit(1)
+
+
+def _errors_table(found: Sequence[OverChannel], title: str) -> Table:
+    columns = dict.fromkeys(each.channel for each in found)
+    return table(
+        title,
+        ("policy", *(name or "no channel" for name in columns)),
+        (
+            (policy_cell(policy), *(f"{each.rmse_mm.mean:.2f}" for each in row))
+            for policy, row in _rows(found).items()
+        ),
+    )
+
+
+def _prices_table(found: Sequence[OverChannel], columns: Sequence[str]) -> Table:
+    rows: list[list[Cell]] = [
+        [policy_cell(policy), *(_price(each) for each in row if each.channel is not None)]
+        for policy, row in _rows(found).items()
+    ]
+    return table(
+        "More than without a channel, mm",
+        (Column("policy", no_wrap=True), *columns),
+        rows,
+        caption="In brackets the 95 % interval of the paired difference.",
+    )
+
+
+def _price(each: OverChannel) -> str:
+    low, high = each.price_mm.ci95
+    return f"{each.price_mm.mean:+.1f} ({low:.1f} to {high:.1f})"
+
+
+def _rows(found: Sequence[OverChannel]) -> dict[str, list[OverChannel]]:
+    """Return the errors of each policy, in the order of the channels."""
+    rows: dict[str, list[OverChannel]] = {}
+    for each in found:
+        rows.setdefault(each.policy, []).append(each)
+    return rows
