@@ -86,8 +86,10 @@ def _value(name: str, value: object, where: str, whole: bool) -> Any:
         if not isinstance(value, str):
             raise InputError(f"{where} must be a text, got {value!r:.80}")
         return value
-    if isinstance(value, bool) or not isinstance(value, float if whole else int | float):
+    if isinstance(value, bool) or not isinstance(value, int | float):
         raise InputError(f"{where} must be a number, got {value!r:.80}")
+    if whole and isinstance(value, int):
+        raise InputError(f"{where} must be written as colift does, {float(value)}, got {value}")
     return float(value)
 
 

@@ -46,9 +46,10 @@ def over_channels(
     suite, executor, progress
         As for :func:`.run_suite`.
     """
+    played: list[tuple[str | None, Channel | None]] = [(None, None), *channels.items()]
     for name, spec in policies.items():
         alone: list[float] = []
-        for of, channel in {None: None, **channels}.items():
+        for of, channel in played:
             run = run_suite(spec, suite, executor=executor, progress=progress, channel=channel)
             strata = [stratum(episode) for episode in run.episodes]
             errors = [episode.scores["rmse_mm"] for episode in run.episodes]

@@ -104,5 +104,7 @@ def test_a_recipe_has_all_numbers_as_floats():
     assert channel.plain() == whole
     with pytest.raises(InputError, match=r"it: up is missing"):
         parse_channel({"down": dict(WHOLE)}, "it", whole=True)
-    with pytest.raises(InputError, match=r"it: up.delay must be a number, got 1"):
+    with pytest.raises(
+        InputError, match=r"it: up.delay must be written as colift does, 1.0, got 1"
+    ):
         parse_channel({**whole, "up": {**WHOLE, "delay": 1}}, "it", whole=True)

@@ -3,6 +3,7 @@
 import dataclasses
 import math
 
+import colift
 import numpy as np
 import pytest
 from colift.agents.agent import RobotObservation
@@ -120,6 +121,16 @@ def test_processes_agree_to_the_bit():
     pairs = zip(here.episodes, there.episodes, strict=True)
     assert all(one.trace.digest() == other.trace.digest() for one, other in pairs)
     assert here.channel == LOSSY
+
+
+def test_evaluate_takes_a_channel_by_name_file_or_object(tmp_path):
+    path = tmp_path / "late.toml"
+    path.write_text("[up]\ndelay = 0.1\n")
+    late = Channel(up=LATE)
+    [wanted] = run("copy", ONE, channel=late).episodes
+    found = [colift.evaluate("copy", ONE, channel=each) for each in (path, str(path), late)]
+    assert {each.rmse_mm for each in found} == {wanted.scores["rmse_mm"]}
+    assert "over the channel to the policy 0 ms; to the robot 100 ms" in str(found[0])
 
 
 def test_each_lift_has_its_own_losses():

@@ -5,10 +5,12 @@ import json
 import math
 import shutil
 
+import jsonschema
 import numpy as np
 import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import read_bundle, results, write_bundle
+from colift.benchmark.bundle.schema import results_schema
 from colift.benchmark.channels import CHANNELS, Channel, Link
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.verification import verify
@@ -47,7 +49,12 @@ def test_a_bundle_with_a_channel_is_verified_and_names_it(home):
     assert verdict.bit_equal
     assert verdict.suite.endswith(", over the channel home")
     assert read_bundle(home).recipe.channel == HOME
-    assert json.loads((home / "results.json").read_text())["channel"] == HOME.plain()
+    content = json.loads((home / "results.json").read_text())
+    assert content["channel"] == HOME.plain()
+    jsonschema.validate(content, results_schema())
+    content["channel"]["up"].pop("loss")
+    with pytest.raises(jsonschema.ValidationError, match="'loss' is a required property"):
+        jsonschema.validate(content, results_schema())
 
 
 def test_a_channel_of_its_own_is_described(forged, tmp_path):
@@ -112,7 +119,10 @@ def test_the_answers_cannot_be_left_out(forged):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda channel: channel["up"].update(delay=1), "up.delay must be a number, got 1"),
+        (
+            lambda channel: channel["up"].update(delay=1),
+            "up.delay must be written as colift does, 1.0, got 1",
+        ),
         (lambda channel: channel["up"].update(delay=-1.0), "up.delay must be from 0 to 10 s"),
         (lambda channel: channel["up"].update(speed=1.0), "up: unknown key 'speed'"),
         (lambda channel: channel.pop("up"), "up is missing"),
