@@ -37,7 +37,7 @@ CHANNELS: Final[Mapping[str, Channel]] = {
         )
     ),
     # 260 ms between earth stations over a geostationary satellite, and 5 ms for 1,000 km of optical
-    # fibre on the ground: ITU-T G.114, table A.1. The distance and the burst are chosen.
+    # fibre on the ground: ITU-T G.114, annex A. The distance and the burst are chosen.
     "satellite": _both(
         Link(
             delay=0.265,
