@@ -130,7 +130,8 @@ def test_evaluate_takes_a_channel_by_name_file_or_object(tmp_path):
     [wanted] = run("copy", ONE, channel=late).episodes
     found = [colift.evaluate("copy", ONE, channel=each) for each in (path, str(path), late)]
     assert {each.rmse_mm for each in found} == {wanted.scores["rmse_mm"]}
-    assert "over the channel to the policy 0 ms; to the robot 100 ms" in str(found[0])
+    told = " ".join(str(found[0]).split())
+    assert "over the channel to the policy 0 ms; to the robot 100 ms" in told
 
 
 def test_each_lift_has_its_own_losses():
