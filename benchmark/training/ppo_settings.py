@@ -75,7 +75,7 @@ class SelfPlaySettings(PpoSettings):
         If one is out of range.
     """
 
-    haste: float = 0.05
+    haste: float = 0.2
     """Cost of a step for the person at 1 cm from the goal; 1 is the cost of a step 1 cm apart."""
 
     def __post_init__(self) -> None:

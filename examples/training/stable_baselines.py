@@ -8,7 +8,8 @@ enough, and smaller than the default build::
     pip install torch --index-url https://download.pytorch.org/whl/cpu
     pip install stable-baselines3
 
-It takes some minutes, and is not run by the tests or with the documentation.
+It takes five minutes of one processor core, and is not run by the tests or with the documentation.
+With PyTorch 2.13.0, Stable-Baselines3 2.9.2 and Gymnasium 1.4.0 it printed an RMSE of 6.26 mm.
 """
 
 import colift

@@ -7,8 +7,9 @@ from colift.agents.errors import InputError
 from colift.benchmark.training.ppo_settings import CoPlaySettings, SelfPlaySettings
 
 
-def test_self_play_and_co_play(in_own_process):
-    in_own_process(Path(__file__).with_name("jax_self_play.py"))
+@pytest.mark.parametrize("module", ["jax_self_play.py", "jax_co_play.py"])
+def test_learned_people(in_own_process, module):
+    in_own_process(Path(__file__).with_name(module))
 
 
 @pytest.mark.parametrize(
