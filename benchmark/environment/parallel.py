@@ -10,7 +10,7 @@ from pettingzoo import AECEnv, ParallelEnv
 from pettingzoo.utils import OrderEnforcingWrapper, parallel_to_aec
 
 from ...agents.agent import Action, Agent, Observation
-from ..episode.lift import Lift
+from ..episode.lift import Lift, make_lift
 from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..rendering.scene import Scene, check_render_mode
 from ..suites.catalogue import make_scenario
@@ -105,7 +105,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         self.render_mode = render_mode
         self.metadata = {**type(self).metadata, "render_fps": 1 / scenario.control_period}
         self._reward, self._drawing = reward, drawing
-        self.lift = Lift(scenario, world=None if drawing is None else SharedWorld)
+        self.lift = make_lift(scenario) if drawing is None else Lift(scenario, world=SharedWorld)
         self.possible_agents = [HUMAN, ROBOT]
         self.agents: list[str] = []
         agents = self.possible_agents

@@ -1,7 +1,7 @@
 """The lift: sensors, actions and time on top of a world, independent of PettingZoo."""
 
 from collections.abc import Callable, Sequence
-from typing import Final
+from typing import Final, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -220,3 +220,17 @@ class Lift:
 def _delays(person: Subject) -> tuple[int, int]:
     """Return a person's visual and haptic delay in frames."""
     return round(person.visual_delay / FRAME), round(person.haptic_delay / FRAME)
+
+
+@runtime_checkable
+class Staging(Protocol):
+    """A task that is played in lifts of a class of its own."""
+
+    def lift(self, scenario: Scenario) -> Lift:
+        """Return the lift of a scenario of the task."""
+
+
+def make_lift(scenario: Scenario) -> Lift:
+    """Return the lift of a scenario, of the class that its task asks for."""
+    task = scenario.task
+    return task.lift(scenario) if isinstance(task, Staging) else Lift(scenario)

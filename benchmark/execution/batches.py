@@ -13,7 +13,7 @@ from ...agents.errors import EvaluatorFault, InputError, error_text
 from ...agents.spec import AgentSpec, Paced
 from ..channels import Channel, teleoperated
 from ..episode.episode import Episode, run_episode
-from ..episode.lift import Lift
+from ..episode.lift import make_lift
 from ..episode.scenario import Scenario
 from ..suites.hidden import keyed
 from ..suites.suite import Suite
@@ -71,7 +71,7 @@ def play(
     """
     if isinstance(policy, Paced):
         policy = policy.paced(scenario.control_period)
-    with contextlib.closing(Lift(scenario)) as lift:
+    with contextlib.closing(make_lift(scenario)) as lift:
         for seed in seeds:
             with contextlib.ExitStack() as stack:
                 begin = time.perf_counter()

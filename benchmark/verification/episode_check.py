@@ -12,7 +12,7 @@ from ..bundle import Bundle, one_line
 from ..bundle.files import EPISODES, MANIFEST, TRACES
 from ..channels import Channel
 from ..episode.episode import Episode
-from ..episode.lift import Lift
+from ..episode.lift import Lift, make_lift
 from ..episode.metric import Scores
 from ..episode.replay import ReplayError, replay
 from ..episode.scenario import Scenario
@@ -62,7 +62,7 @@ class EpisodeCheck:
 
     def results(self) -> Iterator[Checked]:
         """Yield the result of each replay."""
-        with contextlib.closing(Lift(self.scenario)) as lift:
+        with contextlib.closing(make_lift(self.scenario)) as lift:
             for claim in zip(self.places, self.seeds, self.episodes, strict=True):
                 yield _check(lift, *claim, self.channel, same_platform=self.same_platform)
 

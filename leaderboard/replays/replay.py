@@ -41,7 +41,7 @@ from ...agents.agent import FRAME
 from ...agents.humans import Plan
 from ...benchmark.bundle import one_line
 from ...benchmark.episode.episode import Episode, run_episode
-from ...benchmark.episode.lift import Lift
+from ...benchmark.episode.lift import make_lift
 from ...benchmark.episode.scenario import Scenario
 from ...benchmark.episode.seat import limited_command
 from ...benchmark.results.baselines import PARTNER_SPEC
@@ -60,7 +60,7 @@ class Ghost:
 
 def play_ghost(scenario: Scenario, seed: int) -> Ghost:
     """Play an episode with a second human at the robot's end; about 0.1 s."""
-    with contextlib.closing(Lift(dataclasses.replace(scenario, partner="human"))) as lift:
+    with contextlib.closing(make_lift(dataclasses.replace(scenario, partner="human"))) as lift:
         episode = run_episode(lift, PARTNER_SPEC.make(), seed)
         return Ghost(episode=episode, plan=lift.plan, horizon=lift.horizon)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from ...agents.humans import Subject
-from ...benchmark.episode.lift import Lift
+from ...benchmark.episode.lift import make_lift
 from ...benchmark.episode.scenario import Scenario
 from ...benchmark.statistics import Estimate
 from ..board.board import Board
@@ -209,7 +209,7 @@ def _described(scenario: Scenario) -> str:
 @functools.lru_cache(maxsize=256)
 def _curves(scenario: Scenario, seeds: tuple[int, ...]) -> tuple[Curve, ...]:
     curves = []
-    with contextlib.closing(Lift(scenario)) as lift:
+    with contextlib.closing(make_lift(scenario)) as lift:
         for seed in seeds:
             lift.reset(seed)
             heights = tuple(round(1000 * float(height), 1) for height in lift.target[::5])

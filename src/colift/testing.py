@@ -17,7 +17,7 @@ from .agents.humans import GOAL_RANGE, SUBJECTS, Behaviour, Plan, Subject
 from .agents.policies.copy import Copy
 from .benchmark.bundle.recipe import Recipe
 from .benchmark.episode.episode import Episode, run_episode
-from .benchmark.episode.lift import Lift
+from .benchmark.episode.lift import Lift, make_lift
 from .benchmark.episode.metric import LEADING
 from .benchmark.episode.replay import replay
 from .benchmark.episode.task import Task
@@ -144,7 +144,7 @@ def check_task(task: Task, behaviour: str = "smooth") -> None:
     _require(first == LEADING, f"the first metric must be {LEADING}, got {first}")
     for partner in ("nao", "human"):
         scenario = dataclasses.replace(make_scenario(behaviour, "S1", partner), task=task)
-        with contextlib.closing(Lift(scenario)) as lift:
+        with contextlib.closing(make_lift(scenario)) as lift:
             _check_played(task, lift)
 
 

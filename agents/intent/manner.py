@@ -1,0 +1,53 @@
+"""The manner in which a person leads another to a pose of the table."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..humans import SUBJECTS, Subject
+
+
+@dataclass(frozen=True, kw_only=True)
+class LeadingManner:
+    """How much of an intention a person's wrists show, how early, and how long the person waits."""
+
+    wrist: float
+    """Share of the intended pitch that the wrists turn to. A person with little of it leads by
+    waiting rather than by torque."""
+    lead: float
+    """How far the wrists are ahead of the hands [s]; negative if they follow."""
+    patience: float
+    """Distance of the far end from its intended height [m] beyond which the person slows down; at
+    twice this distance the person waits."""
+
+
+SHARES: Final = (0.2, 1.2)
+LEADS: Final = (-0.1, 0.2)
+PATIENCES: Final = (0.02, 0.08)
+"""Ranges of the population, uniform and independent: chosen, wide enough that people differ in what
+tells their intention."""
+
+MANNERS: Final[Mapping[str, LeadingManner]] = {
+    "S1": LeadingManner(wrist=1.0, lead=0.1, patience=0.05),
+    "S2": LeadingManner(wrist=0.5, lead=0.0, patience=0.03),
+    "S3": LeadingManner(wrist=0.8, lead=0.2, patience=0.08),
+    "S4": LeadingManner(wrist=0.2, lead=0.0, patience=0.02),
+    "S5": LeadingManner(wrist=1.2, lead=-0.1, patience=0.06),
+}
+"""The manners of the five subjects, spread over the ranges."""
+
+
+def leading_manner(subject: Subject) -> LeadingManner:
+    """Return a person's manner: of the five as stated, of anybody else drawn by the name."""
+    if subject.name in SUBJECTS:
+        return MANNERS[subject.name]
+    kind, _, number = subject.name.partition("-")
+    seed = int(number) if kind == "draw" and number.isdecimal() else 0
+    shares = np.random.default_rng((seed, 0x1EAD)).random(3).tolist()
+    ranges = (SHARES, LEADS, PATIENCES)
+    wrist, lead, patience = (
+        low + (high - low) * share for (low, high), share in zip(ranges, shares, strict=True)
+    )
+    return LeadingManner(wrist=wrist, lead=lead, patience=patience)

@@ -1,0 +1,1 @@
+"""Tasks in which a level table is not enough."""

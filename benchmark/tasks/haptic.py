@@ -1,0 +1,73 @@
+"""What the tasks with touch share: their world, their sensors, their observation."""
+
+from typing import Final
+
+import numpy as np
+
+from ...agents.agent import Observation
+from ...agents.observations import HapticObservation
+from ..episode.level import FORCE_BOUND, Level
+from ..episode.lift import Lift
+from ..episode.scenario import Scenario
+from ..episode.task import Bounds, Playing
+from ..world import BodyParameters, FarEnd, HapticWorld
+from ..world.table import WEIGHT_SHARE
+
+SENSED_FRAMES: Final = 5
+"""Frames over which the force and torque sensors average."""
+
+FORCE_NOISE: Final = 0.05
+"""Standard deviation of a sensed force [N], see :class:`.HapticObservation`: an assumption, some
+ten times the resolution of small six-axis sensors, for what a wrist's own motion adds."""
+
+TORQUE_NOISE: Final = 0.002
+"""The same of a torque [Nm]."""
+
+
+class HapticLift(Lift):
+    """A lift in a :class:`.HapticWorld`, with sensors of force and torque at the robot's hands."""
+
+    world: HapticWorld
+
+    def reset(self, seed: int) -> None:
+        """Begin the episode ``seed``: draw plan and noise, as :meth:`.Lift.reset`."""
+        super().reset(seed)
+        rng = np.random.default_rng(self.role_seed("force sensor"))
+        steps = self.horizon // self.frames_per_step + 1
+        noise = rng.normal(0.0, 1.0, (2, steps))
+        self._force_noise = (FORCE_NOISE * noise[0]).tolist()
+        self._torque_noise = (TORQUE_NOISE * noise[1]).tolist()
+
+    def touch(self) -> tuple[float, float]:
+        """Return the sensed force beyond half of the weight [N], and the sensed torque [Nm]."""
+        world, step = self.world, self.frame // self.frames_per_step
+        force = sum(world.robot_force[-SENSED_FRAMES:]) / SENSED_FRAMES - WEIGHT_SHARE
+        torque = sum(world.robot_torque[-SENSED_FRAMES:]) / SENSED_FRAMES
+        return force + self._force_noise[step], torque + self._torque_noise[step]
+
+    def haptic_view(self) -> Observation:
+        """Return the robot's senses now, laid out as :class:`.HapticObservation`."""
+        return np.concatenate((self.robot_view(), self.touch()))
+
+
+class Haptic(Level):
+    """The base of tasks with touch: subclasses state purpose, end and scores."""
+
+    def world(self, human: BodyParameters, far_end: FarEnd) -> HapticWorld:
+        """Return a world with torques at both grips."""
+        return HapticWorld(human, far_end)
+
+    def lift(self, scenario: Scenario) -> HapticLift:
+        """Return a lift with the sensors of touch."""
+        return HapticLift(scenario)
+
+    def robot_observation(self, lift: Playing) -> Observation:
+        """Return the robot's senses, laid out as :class:`.HapticObservation`."""
+        assert isinstance(lift, HapticLift)
+        return lift.haptic_view()
+
+    def robot_bounds(self) -> Bounds:
+        """Return the bounds of :class:`.HapticObservation`."""
+        low, high = super().robot_bounds()
+        touch = np.full(len(HapticObservation) - len(low), FORCE_BOUND)
+        return np.concatenate((low, -touch)), np.concatenate((high, touch))

@@ -1,0 +1,1 @@
+"""The task to bring the table to the pose that the human intends."""

@@ -1,0 +1,85 @@
+"""The metrics of the task to bring the table to an intended pose."""
+
+from typing import Final
+
+from ...episode.metric import Metric, metric_table
+
+INTENT_METRICS: Final = metric_table(
+    (
+        Metric(
+            name="rmse_mm",
+            symbol="RMSE",
+            label="RMSE of the pose",
+            unit="mm",
+            missing="never",
+            shown="board",
+            meaning="root mean square distance of both ends from their intended heights over the "
+            "whole trial, by which policies are ranked",
+        ),
+        Metric(
+            name="settling_ms",
+            symbol="settling",
+            label="Time to the right pose",
+            unit="ms",
+            digits=0,
+            missing="worst",
+            shown="board",
+            meaning="time from the beginning of a movement until the robot's end stays within "
+            "10 mm of its intended height, mean over the movements",
+        ),
+        Metric(
+            name="peak_mm",
+            symbol="wrong",
+            label="Cost of wrong guesses",
+            unit="mm",
+            digits=1,
+            missing="worst",
+            shown="run",
+            meaning="largest distance of the robot's end from its intended height in a movement, "
+            "mean over the movements",
+        ),
+        Metric(
+            name="near_rmse_mm",
+            symbol="own end",
+            label="RMSE of the human's end",
+            unit="mm",
+            digits=1,
+            meaning="root mean square distance of the human's end from its intended height",
+        ),
+        Metric(
+            name="max_tilt_deg",
+            symbol="tilt",
+            label="Tilt",
+            unit="°",
+            digits=1,
+            better="near zero",
+            meaning="largest incline of the table; poses are inclined by up to 12°",
+        ),
+        Metric(
+            name="human_force_n",
+            symbol="force",
+            label="Human force",
+            unit="N",
+            shown="board",
+            meaning="root mean square of the vertical force at the human's hands, beyond their "
+            "half of the table's weight",
+        ),
+        Metric(
+            name="opposing_work_j",
+            symbol="work",
+            label="Work against the robot",
+            unit="J",
+            shown="run",
+            meaning="work that the human's hands do with that force in the direction in which "
+            "they move",
+        ),
+        Metric(
+            name="clipped",
+            symbol="clipped",
+            label="Clipped actions",
+            meaning="share of the robot's actions that exceeded the speed of its hands (0.04 m in "
+            "100 ms) and were clipped",
+        ),
+    )
+)
+"""One entry for each score of :meth:`.Intent.score`, in the same order."""

@@ -1,0 +1,118 @@
+"""The task to bring the table to the pose that the human intends, and its suite."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....agents.agent import Observation
+from ....agents.humans import SUBJECTS
+from ....agents.intent import with_far_target
+from ...episode import metrics
+from ...episode.level import HEIGHT_BOUND
+from ...episode.metric import Metrics, Scores
+from ...episode.scenario import Scenario
+from ...episode.task import Bounds, Playing
+from ...episode.trace import Trace
+from ...suites.catalogue import make_scenario
+from ...suites.suite import Suite
+from ...world.table import TABLE_LENGTH, WEIGHT_SHARE
+from ..haptic import Haptic
+from .lift import IntentLift
+from .scores import opposing_work_j, peak_mm, pose_rmse_mm, settling_ms
+from .table import INTENT_METRICS
+
+BEHAVIOURS = ("together", "pivot", "counter", "switching")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Intent(Haptic):
+    """Bring the table to the pose that the human intends: level, pivoted, or turned.
+
+    The robot has :class:`.HapticObservation`: it sees where the human's end goes, and feels what
+    the human's wrists do. The human has the intended heights of the far end in the coming step, and
+    :class:`.HumanObservation`.
+    """
+
+    name: ClassVar[str] = "intent"
+    metrics: ClassVar[Metrics] = INTENT_METRICS
+
+    def lift(self, scenario: Scenario) -> IntentLift:
+        """Return a lift whose human intends poses."""
+        return IntentLift(scenario)
+
+    def human_observation(self, lift: Playing) -> Observation:
+        """Return the far end's intended heights in the coming step, and the human's senses."""
+        assert isinstance(lift, IntentLift)
+        far = lift.far_target[lift.frame : lift.frame + lift.frames_per_step]
+        if not len(far):
+            far = np.full(lift.frames_per_step, lift.far_target[-1])
+        return with_far_target(super().human_observation(lift), far)
+
+    def partner_observation(self, lift: Playing) -> Observation:
+        """Return a second human's senses; both targets are the height of the end that it sees."""
+        view = super().partner_observation(lift)
+        return with_far_target(view, np.full(lift.frames_per_step, lift.seen_by_partner()))
+
+    def human_bounds(self, frames: int) -> Bounds:
+        """Return the bounds of the humans' observations."""
+        low, high = super().human_bounds(frames)
+        far = np.full(frames, HEIGHT_BOUND)
+        return np.concatenate((-far, low)), np.concatenate((far, high))
+
+    def rewards(self, lift: Playing) -> tuple[float, float]:
+        """Return minus the distances of both ends, and of the far end alone, from the pose [m]."""
+        near, far = (abs(float(each[-1])) for each in _missed(lift))
+        return -near - far, -far
+
+    def series(self, lift: Playing) -> Mapping[str, NDArray[np.float64]]:
+        """Return the intended height of the far end, and the torque of the robot's hands."""
+        assert isinstance(lift, IntentLift)
+        return {
+            "far_target": lift.far_target[: lift.frame],
+            "robot_torque": np.array(lift.world.robot_torque[-lift.frame :][: lift.frame]),
+        }
+
+    def score(self, lift: Playing, trace: Trace, *, failed: bool) -> Scores:
+        """Return the scores of :data:`.INTENT_METRICS`."""
+        near = trace.human_end - trace.target
+        far = trace.robot_end - trace.added["far_target"]
+        felt = trace.human_force - WEIGHT_SHARE
+        nan, empty = math.nan, len(near) == 0
+        strokes = lift.plan.strokes
+        tilt = nan if empty else metrics.max_tilt_deg(
+            trace.human_end, trace.robot_end, TABLE_LENGTH
+        )
+        return {
+            "rmse_mm": pose_rmse_mm((near, far), lift.horizon),
+            "settling_ms": nan if failed else settling_ms(far, strokes),
+            "peak_mm": nan if failed else peak_mm(far, strokes),
+            "near_rmse_mm": nan if empty else pose_rmse_mm((near,), len(near)),
+            "max_tilt_deg": tilt,
+            "human_force_n": nan if empty else metrics.human_force_n(felt),
+            "opposing_work_j": opposing_work_j(felt, trace.human_velocity),
+            "clipped": lift.clipped(trace.action),
+        }
+
+
+def _missed(lift: Playing) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return how far the ends are above their intended heights in the last frame [m]."""
+    assert isinstance(lift, IntentLift)
+    last = lift.frame - 1
+    return (
+        np.array([lift.world.human_end[-1] - lift.target[last]]),
+        np.array([lift.world.robot_end[-1] - lift.far_target[last]]),
+    )
+
+
+def intent_suite() -> Suite:
+    """5 subjects x 4 intents x 5 lifts: which pose does the human mean?"""
+    scenarios = tuple(
+        make_scenario(behaviour, subject, task=Intent.name)
+        for behaviour in BEHAVIOURS
+        for subject in SUBJECTS
+    )
+    return Suite(name="intent-v1", scenarios=scenarios, seeds=tuple(range(5)))
