@@ -8,7 +8,13 @@ import typer
 from ..agents.registry import SUITES, own_entries
 from ..benchmark.bounds.causal import BOUNDS
 from ..benchmark.comparison.playing import play_bounds
-from ..benchmark.results.baselines import SPECS, Baseline, ToShip, baselines_json, play_baselines
+from ..benchmark.results.baselines import (
+    BASELINES,
+    Baseline,
+    ToShip,
+    baselines_json,
+    play_baselines,
+)
 from ..benchmark.statistics import stratified_bootstrap
 from ..benchmark.suites.suite import make_suite
 from .options import Jobs, check_output, write_output
@@ -26,7 +32,7 @@ def baselines(
     """Play the baselines and the bounds on all suites, and print their RMSE per behaviour."""
     check_output(out)
     suites = [make_suite(name) for name in own_entries(SUITES)]
-    total = (len(SPECS) + len(BOUNDS)) * sum(suite.size for suite in suites)
+    total = (len(BASELINES) + len(BOUNDS)) * sum(suite.size for suite in suites)
     played: list[ToShip] = []
     with workers("baselines", total, jobs) as (pool, progress):
         for suite in suites:

@@ -20,7 +20,7 @@ from ..benchmark.execution.cluster import Cluster
 from ..benchmark.execution.journal import Journal, open_journal
 from ..benchmark.execution.provenance import origin, platform_of
 from ..benchmark.execution.runner import InterruptedRunError, Run, run_suite
-from ..benchmark.results.baselines import SPECS, Baseline, play_baselines, shipped_baselines
+from ..benchmark.results.baselines import BASELINES, Baseline, play_baselines, shipped_baselines
 from ..benchmark.suites.suite import Suite
 from .options import (
     LATENCY_OPTION,
@@ -98,7 +98,7 @@ def run(
             _mention_idle(workers)
         with _journal(out, resume, _identity(spec, episodes, network, there)) as journal:
             done, baselines = _evaluate(spec, episodes, network, workers, journal)
-            finished = done.complete and baselines.keys() == SPECS.keys()
+            finished = done.complete and baselines.keys() == set(BASELINES)
             content = results(done, baselines) if done.episodes else None
             if content is not None and out is not None:
                 write_bundle(out, done, content.plain(), platform=platform_of(there))
@@ -145,7 +145,7 @@ def _evaluate(
     """Run the policy, then the baselines on the same episodes, unless they are shipped."""
     done: Run | None = None
     ready = shipped_baselines(suite)
-    total = suite.size * (1 if ready else 1 + len(SPECS))
+    total = suite.size * (1 if ready else 1 + len(BASELINES))
     with progress_bar(spec.name, total) as progress:
         play = partial(run_suite, spec, suite, executor=workers, progress=progress, channel=channel)
         try:

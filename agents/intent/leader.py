@@ -13,7 +13,7 @@ FASTEST: Final = 0.35
 
 
 class Leader:
-    """Carries out a :class:`.PosePlan`, no faster than the far end follows.
+    """Carries out a plan for both ends, no faster than the far end follows.
 
     Its observation is the intended height of the far end in each of the next n frames, then
     :class:`.HumanObservation`. With the far end seen to be e from its intended height, the hand

@@ -7,11 +7,9 @@ from typing import ClassVar, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..agent import Agent
 from ..humans import Plan, Subject
 from ..humans.movement import MovementDraw, natural_stroke
 from ..humans.plan import LENGTH_STEP, Segment, assemble, move, still
-from .leader import Leader
 
 BASE: Final = (0.12, 0.16)
 """Range of the height to which the table is lifted level at first [m]."""
@@ -109,10 +107,6 @@ class Posing:
             inside = min(near.min(), far.min()) >= LOWEST and max(near.max(), far.max()) <= HIGHEST
             if inside and np.abs(near - far).max() <= STEEPEST and _differ(way):
                 return way
-
-    def person(self, subject: Subject) -> Agent:
-        """Return the agent that carries the plans out."""
-        return Leader(subject=subject)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,14 +10,16 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from importlib.resources import files
-from typing import Any, Final, Self
+from typing import Any, Final, Protocol, Self, runtime_checkable
 
 import numpy as np
 
+from ...agents.agent import Agent
 from ...agents.humans import Partner
 from ...agents.loading.loading import InMemorySpec, PolicySpec
 from ...agents.spec import AgentSpec
 from ..episode.metric import on_boards
+from ..episode.task import Task
 from ..execution.runner import Run, run_suite
 from ..statistics import Estimate, mean_of, mean_with_missing
 from ..suites.suite import Suite
@@ -31,6 +33,23 @@ HUMAN_HUMAN_LABEL: Final = "human-human baseline"
 
 PARTNER_SPEC: Final = InMemorySpec(name=HUMAN_HUMAN, factory=Partner, source=Partner)
 """The partner: the second human of the human-human baseline."""
+
+
+@runtime_checkable
+class Accompanied(Protocol):
+    """A task whose second human is an agent of its own."""
+
+    @property
+    def second_human(self) -> type[Agent]:
+        """Class of the agent, made without arguments."""
+
+
+def partner_spec(task: Task) -> AgentSpec:
+    """Return the second human of a task's human-human baseline."""
+    if not isinstance(task, Accompanied):
+        return PARTNER_SPEC
+    made = task.second_human
+    return InMemorySpec(name=HUMAN_HUMAN, factory=made, source=made)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,12 +112,14 @@ class Baseline:
         return {key: float(np.mean(values)) for key, values in members.items()}
 
 
-SPECS: Final[Mapping[str, AgentSpec]] = {
-    HUMAN_HUMAN: PARTNER_SPEC,
-    "hold": PolicySpec(text="hold"),
-    "copy": PolicySpec(text="copy"),
-}
-"""Where each baseline comes from."""
+BASELINES: Final = (HUMAN_HUMAN, "hold", "copy")
+"""The names of the baselines."""
+
+
+def baseline_specs(suite: Suite) -> dict[str, AgentSpec]:
+    """Return the agents that play a suite's baselines, by the baselines' names."""
+    human = partner_spec(suite.scenarios[0].task)
+    return {name: human if name == HUMAN_HUMAN else PolicySpec(text=name) for name in BASELINES}
 
 
 def human_human_run(
@@ -108,9 +129,8 @@ def human_human_run(
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> Run:
     """Play a suite's episodes with a second human at the robot's end; see :func:`.run_suite`."""
-    return run_suite(
-        PARTNER_SPEC, suite.with_partner("human"), executor=executor, progress=progress
-    )
+    spec = partner_spec(suite.scenarios[0].task)
+    return run_suite(spec, suite.with_partner("human"), executor=executor, progress=progress)
 
 
 def play_baselines(
@@ -121,7 +141,7 @@ def play_baselines(
 ) -> dict[str, Baseline]:
     """Play the baselines on a suite's episodes; arguments as of :func:`.run_suite`."""
     found = {}
-    for name, spec in SPECS.items():
+    for name, spec in baseline_specs(suite).items():
         played = suite.with_partner("human") if name == HUMAN_HUMAN else suite
         found[name] = Baseline.of(run_suite(spec, played, executor=executor, progress=progress))
     return found

@@ -15,7 +15,7 @@ from ..episode.scenario import CONTROL_PERIOD
 from ..episode.turns import START
 from ..execution.batches import play
 from ..execution.runner import Run
-from ..results.baselines import HUMAN_HUMAN, SPECS, Baseline, shipped_baselines
+from ..results.baselines import HUMAN_HUMAN, Baseline, baseline_specs, shipped_baselines
 from ..results.headline import headline
 from ..results.summary import Summary
 from ..suites.catalogue import make_scenario
@@ -111,7 +111,7 @@ def _baselines(suite: Suite, evaluate: Callable[[AgentSpec, Suite], Run]) -> dic
         name: Baseline.of(
             evaluate(spec, suite.with_partner("human") if name == HUMAN_HUMAN else suite)
         )
-        for name, spec in SPECS.items()
+        for name, spec in baseline_specs(suite).items()
     }
 
 

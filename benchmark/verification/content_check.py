@@ -15,7 +15,7 @@ from ..episode.episode import Episode
 from ..episode.metric import SCORING
 from ..episode.scenario import CONTROL_PERIOD
 from ..execution.runner import Run
-from ..results.baselines import SPECS, Baseline, play_baselines, shipped_baselines
+from ..results.baselines import BASELINES, Baseline, play_baselines, shipped_baselines
 from ..suites.suite import Suite, make_suite
 from .deviation import REFERENCES, SCORES
 from .verdict import Finding
@@ -116,7 +116,7 @@ def _baselines(bundle: Bundle, run: Run, executor: Executor | None) -> dict[str,
     if not wanted:
         return {}
     for name in wanted:
-        if name not in SPECS:
+        if name not in BASELINES:
             raise InputError(f"{RESULTS}: there is no baseline {name!r:.80}")
     known = shipped_baselines(run.suite) or play_baselines(run.suite, executor=executor)
     return {name: known[name] for name in wanted}

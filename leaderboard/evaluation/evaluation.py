@@ -16,7 +16,7 @@ from ...benchmark.episode.episode import Episode
 from ...benchmark.episode.metric import SCORING
 from ...benchmark.execution.runner import Run, run_suite
 from ...benchmark.results.baselines import (
-    SPECS,
+    BASELINES,
     Baseline,
     human_human_run,
     play_baselines,
@@ -161,7 +161,7 @@ def _check(entrant: Entrant, playing: PlayingOptions) -> None:
 def episode_count(season: Season) -> int:
     """Return how many episodes :func:`evaluate` counts, if nothing is refused."""
     size = season.suite.size
-    played = 0 if shipped_baselines(season.suite) else len(SPECS) * size
+    played = 0 if shipped_baselines(season.suite) else len(BASELINES) * size
     return make_suite(SUITE).size + 2 * (size + audited(size)) + played + size
 
 

@@ -44,7 +44,7 @@ from ...benchmark.episode.episode import Episode, run_episode
 from ...benchmark.episode.lift import make_lift
 from ...benchmark.episode.scenario import Scenario
 from ...benchmark.episode.seat import limited_command
-from ...benchmark.results.baselines import PARTNER_SPEC
+from ...benchmark.results.baselines import partner_spec
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -61,7 +61,8 @@ class Ghost:
 def play_ghost(scenario: Scenario, seed: int) -> Ghost:
     """Play an episode with a second human at the robot's end; about 0.1 s."""
     with contextlib.closing(make_lift(dataclasses.replace(scenario, partner="human"))) as lift:
-        episode = run_episode(lift, PARTNER_SPEC.make(), seed)
+        with partner_spec(scenario.task).agent() as partner:
+            episode = run_episode(lift, partner, seed)
         return Ghost(episode=episode, plan=lift.plan, horizon=lift.horizon)
 
 

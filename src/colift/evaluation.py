@@ -16,7 +16,7 @@ from .benchmark.bundle import results
 from .benchmark.channels import Channel, make_channel
 from .benchmark.execution.pool import local_pool
 from .benchmark.execution.runner import run_suite
-from .benchmark.results.baselines import SPECS, play_baselines, shipped_baselines
+from .benchmark.results.baselines import BASELINES, play_baselines, shipped_baselines
 from .benchmark.suites.suite import Suite, make_suite
 from .cli.policies import AUTO, NONE, choose_policy
 from .cli.progress import progress_bar
@@ -132,7 +132,7 @@ def evaluate(
     played = make_suite(suite) if isinstance(suite, str) else suite
     network = make_channel(str(channel)) if isinstance(channel, str | Path) else channel
     baselines = shipped_baselines(played)
-    total = played.size * (1 if baselines else 1 + len(SPECS))
+    total = played.size * (1 if baselines else 1 + len(BASELINES))
     bar = progress_bar(spec.name, total) if progress else nullcontext(lambda done: None)
     with bar as advance, local_pool(jobs) as pool:
         run = run_suite(spec, played, executor=pool, progress=advance, channel=network)
@@ -140,7 +140,7 @@ def evaluate(
             raise KeyboardInterrupt
         if baselines is None:
             baselines = play_baselines(played, executor=pool, progress=advance)
-            if baselines.keys() != SPECS.keys():
+            if baselines.keys() != set(BASELINES):
                 raise KeyboardInterrupt
     return Evaluation(run=run, results=results(run, baselines))
 

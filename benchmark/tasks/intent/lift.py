@@ -7,8 +7,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ....agents.agent import FRAME
-from ....agents.intent import PosePlan, leading_manner
+from ....agents.agent import FRAME, Agent
+from ....agents.intent import Leader, PosePlan, leading_manner
 from ....robots.arithmetic import each
 from ...world.table import TABLE_LENGTH
 from ..haptic import HapticLift
@@ -38,6 +38,12 @@ class IntentLift(HapticLift):
         self._differences: list[float] = difference.tolist()
         self._pitches: list[float] = _earlier(pitch, round(manner.lead / FRAME)).tolist()
         self._moved = 0
+
+    def scripted_human(self) -> Agent:
+        """Return the person who leads the table through the plan, reset for the episode."""
+        human = Leader(subject=self.scenario.subject)
+        human.reset(self.role_seed("human"))
+        return human
 
     def move(self, human: Sequence[float], commands: Sequence[float]) -> None:
         """Advance by a frame for each hand reference and command; see :meth:`.Lift.move`."""

@@ -83,8 +83,8 @@ class Intent(Haptic):
         felt = trace.human_force - WEIGHT_SHARE
         nan, empty = math.nan, len(near) == 0
         strokes = lift.plan.strokes
-        tilt = nan if empty else metrics.max_tilt_deg(
-            trace.human_end, trace.robot_end, TABLE_LENGTH
+        tilt = (
+            nan if empty else metrics.max_tilt_deg(trace.human_end, trace.robot_end, TABLE_LENGTH)
         )
         return {
             "rmse_mm": pose_rmse_mm((near, far), lift.horizon),
@@ -109,7 +109,7 @@ def _missed(lift: Playing) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def intent_suite() -> Suite:
-    """5 subjects x 4 intents x 5 lifts: which pose does the human mean?"""
+    """5 subjects x 4 intents x 5 lifts: the poses that a human intends."""
     scenarios = tuple(
         make_scenario(behaviour, subject, task=Intent.name)
         for behaviour in BEHAVIOURS
