@@ -2,7 +2,8 @@
 
 All of them, colift's own and those of other packages, are entry points:
 ``name = "module:Class"`` in the group ``colift.policies``, ``colift.humans`` or ``colift.tasks``,
-or ``name = "module:function"`` in ``colift.suites``. Colift's own are in pyproject.toml.
+or ``name = "module:function"`` in ``colift.suites``. A policy for one task alone is in the group
+``colift.policies.TASK``. Colift's own are in pyproject.toml.
 """
 
 import functools
@@ -24,19 +25,47 @@ _KIND: Final = {POLICIES: "policy", HUMANS: "human behaviour", SUITES: "suite", 
 def entries(group: str) -> dict[str, EntryPoint]:
     """Return the entry points of a group by name, in the order of their names.
 
+    Policies for one task alone are among the policies.
+
     Raises
     ------
     InputError
         If two packages register the same name.
     """
     found: dict[str, EntryPoint] = {}
-    for entry in sorted(entry_points(group=group), key=lambda entry: entry.name):
-        known = found.setdefault(entry.name, entry)
-        if known.value != entry.value:
+    known = entry_points()
+    groups = [each for each in known.groups if each == group or each.startswith(f"{group}.")]
+    every = [entry for each in groups for entry in known.select(group=each)]
+    for entry in sorted(every, key=lambda entry: entry.name):
+        first = found.setdefault(entry.name, entry)
+        if first.value != entry.value:
             raise InputError(
-                f"{_KIND[group]} {entry.name!r} is registered twice: {known.value}, {entry.value}"
+                f"{_KIND[group]} {entry.name!r} is registered twice: {first.value}, {entry.value}"
             )
     return found
+
+
+def playing(task: str) -> dict[str, EntryPoint]:
+    """Return the entry points of the policies that play a task: those for any, and its own."""
+    groups = (POLICIES, f"{POLICIES}.{task}")
+    return {name: each for name, each in entries(POLICIES).items() if each.group in groups}
+
+
+def own_policies(task: str) -> tuple[str, ...]:
+    """Return the names of colift's own policies that play a task."""
+    own = own_entries(POLICIES)
+    return tuple(name for name in playing(task) if name in own)
+
+
+def check_plays(policy: str, task: str) -> None:
+    """Raise an InputError if a registered policy is for another task; others pass."""
+    entry = entries(POLICIES).get(policy)
+    if entry is not None and policy not in playing(task):
+        own = entry.group.removeprefix(f"{POLICIES}.")
+        raise InputError(
+            f"policy {policy!r} is for the task {own!r}, and the suite's is {task!r}: choose a "
+            f"suite of the task {own!r} with --suite"
+        )
 
 
 def own_entries(group: str) -> dict[str, EntryPoint]:

@@ -10,7 +10,8 @@ from rich.table import Table
 
 from ..agents.errors import InputError
 from ..agents.loading.loading import PolicySpec
-from ..agents.registry import POLICIES, entries
+from ..agents.registry import playing
+from ..benchmark.episode.level import LEVEL
 from ..benchmark.execution.pool import process_pool
 from ..benchmark.profiling.cluster import scale as measure_scale
 from ..benchmark.profiling.convergence import solver_error, study
@@ -205,7 +206,7 @@ def _endurance(episodes: int) -> dict[str, float]:
 
 def _policies() -> Report:
     """Return the time of a step of each policy, and which exceed the limit."""
-    scenarios, names = default_scenarios(), list(entries(POLICIES))
+    scenarios, names = default_scenarios(), list(playing(LEVEL.name))
     found: dict[str, StepTime | None] = {}
     with progress_bar("bench", len(names)) as progress:
         for name in names:

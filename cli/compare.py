@@ -3,14 +3,14 @@
 import dataclasses
 import sys
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ..agents.errors import InputError
-from ..agents.registry import POLICIES, entries
+from ..agents.registry import POLICIES, check_plays, entries, playing
 from ..agents.spec import AgentSpec
 from ..benchmark.bounds.causal import BOUNDS
 from ..benchmark.channels import Channel
@@ -82,11 +82,14 @@ def compare_policies(
     as_json: AsJson = False,
 ) -> None:
     """Compare policies on the same lifts: ranks, paired differences, and RMSE per behaviour."""
-    specs, stored = _named(policies or [], everything)
-    if stored and not (suite or seeds or recordings or behaviour):
-        episodes = stored[0].suite
+    named = policies or []
+    bundles = _stored(named)
+    if bundles and not (suite or seeds or recordings or behaviour):
+        episodes = next(iter(bundles.values())).suite
     else:
         episodes = chosen_suite(suite or STANDARD, seeds, recordings, behaviour)
+    task = episodes.scenarios[0].task.name
+    specs, stored = _policies(named, playing(task) if everything else (), bundles, task)
     network = chosen_channel(channel)
     if network is None and stored:
         network = stored[0].channel
@@ -117,27 +120,35 @@ def compare_policies(
         raise typer.Exit(1)
 
 
-def _named(named: Sequence[str], everything: bool) -> tuple[dict[str, AgentSpec], list[Stored]]:
+def _stored(named: Sequence[str]) -> dict[str, Stored]:
+    """Return the stored results among the named policies, by their folders."""
+    return {
+        text: read_stored(Path(text))
+        for text in named
+        if text not in entries(POLICIES) and is_bundle(Path(text))
+    }
+
+
+def _policies(
+    named: Sequence[str], others: Iterable[str], stored: Mapping[str, Stored], task: str
+) -> tuple[dict[str, AgentSpec], list[Stored]]:
     """Return the policies to play, by the names that tables use, and the stored results.
 
     Raises
     ------
     InputError
-        If there are fewer than two, or one is named twice.
+        If there are fewer than two with the stored ones, one is named twice, or one is for another
+        task.
     """
     twice = [text for text, count in Counter(named).items() if count > 1]
     if twice:
         raise InputError(f"policy {twice[0]} is named twice; name each policy once")
-    texts = list(dict.fromkeys([*named, *(entries(POLICIES) if everything else ())]))
+    texts = list(dict.fromkeys([*named, *others]))
     if len(texts) < 2:
         given = f"only {texts[0]}" if texts else "none"
         raise InputError(f"name at least two policies, or --all: {given} was named")
-    registered = entries(POLICIES)
-    stored = {
-        text: read_stored(Path(text))
-        for text in texts
-        if text not in registered and is_bundle(Path(text))
-    }
+    for text in texts:
+        check_plays(text, task)
     specs = {text: choose_policy(text) for text in texts if text not in stored}
     names = Counter(spec.name for spec in specs.values())
     names.update(each.policy.name for each in stored.values())

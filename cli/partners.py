@@ -5,8 +5,9 @@ from collections.abc import Mapping
 
 from ..agents.errors import EvaluatorFault, InputError
 from ..agents.loading.loading import PolicySpec
-from ..agents.registry import POLICIES, entries, summary
+from ..agents.registry import playing, summary
 from ..agents.spec import AgentSpec
+from ..benchmark.episode.level import LEVEL
 from .policies import AUTO, choose_policy
 
 FIRST = "anticipate"
@@ -36,7 +37,7 @@ def partners(first: str = FIRST, isolation: str = AUTO) -> Partners:
     chosen = choose_policy(first, isolation)
     chosen.check()
     found: dict[str, AgentSpec] = {chosen.name: chosen}
-    for name in entries(POLICIES):
+    for name in playing(LEVEL.name):
         if name in found:
             continue
         try:

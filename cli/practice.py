@@ -11,7 +11,7 @@ import typer
 from rich.table import Table
 
 from ..agents.errors import EvaluatorFault, InputError
-from ..leaderboard.evaluation.entrant import builtin_names
+from ..agents.registry import own_policies
 from ..leaderboard.evaluation.evaluation import episode_count, play_human_human
 from ..leaderboard.evaluation.progress import Callbacks
 from ..leaderboard.practice.practice import SUITES, is_current, play_policy, practice_season
@@ -44,14 +44,12 @@ def practice(
     """
     if not out.is_dir():
         raise InputError(f"cannot write to {out}: there is no such folder")
-    names = policy or list(builtin_names())
-    unknown = [name for name in names if name not in builtin_names()]
-    if unknown:
-        known = ", ".join(builtin_names())
-        raise InputError(f"colift has no policy {unknown[0]!r} of its own; it has {known}")
+    seasons = [practice_season(name) for name in suite or SUITES]
+    chosen = {season.name: _chosen(policy, season) for season in seasons}
     refused = False
     with executor(jobs, dask) as pool:
-        for season in [practice_season(name) for name in suite or SUITES]:
+        for season in seasons:
+            names = chosen[season.name]
             with reported_interrupt("the same command continues"):
                 shipped, faults = _season(season, names, out, pool, fresh)
             refused |= bool(faults)
@@ -60,6 +58,18 @@ def practice(
                 print(f"error: {fault}", file=sys.stderr)
     if refused:
         raise typer.Exit(1)
+
+
+def _chosen(names: list[str] | None, season: Season) -> list[str]:
+    """Return the policies to evaluate in a season: the named ones, or all that play its task."""
+    own = own_policies(season.suite.scenarios[0].task.name)
+    unknown = [name for name in names or () if name not in own]
+    if unknown:
+        raise InputError(
+            f"colift has no policy {unknown[0]!r} of its own for {season.suite.name}; it has "
+            f"{', '.join(own)}"
+        )
+    return names or list(own)
 
 
 def _season(

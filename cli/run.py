@@ -12,6 +12,7 @@ from typing import Annotated, Final
 import typer
 
 from ..agents.errors import EvaluatorFault, InputError
+from ..agents.registry import check_plays
 from ..agents.spec import AgentSpec
 from ..benchmark.bundle import Results, check_bundle_folder, check_unfinished, results, write_bundle
 from ..benchmark.channels import Channel
@@ -89,6 +90,7 @@ def run(
         if not (force or resume):
             with naming("--out", hint="--force replaces it"):
                 check_unfinished(out)
+    check_plays(policy, episodes.scenarios[0].task.name)
     spec = choose_policy(policy, isolation)
     spec.check()
     with executor(jobs, dask) as workers:

@@ -4,8 +4,9 @@ from typing import Annotated
 
 import typer
 
+from ..agents.registry import own_policies
 from ..leaderboard.board.board import LOCAL
-from ..leaderboard.evaluation.entrant import builtin_entrant, builtin_names
+from ..leaderboard.evaluation.entrant import builtin_entrant
 from ..leaderboard.queue import Queue
 from .board_options import BOARD, BoardFolder, Why, opened_board
 
@@ -29,7 +30,8 @@ def begin(
         print(f"season {name} on {season.suite.name} takes submissions from now on")
         print(f"commitment to its secret: {season.commitment}")
         if own:
-            jobs = [Queue(place).enqueue_builtin(builtin_entrant(each)) for each in builtin_names()]
+            names = own_policies(season.suite.scenarios[0].task.name)
+            jobs = [Queue(place).enqueue_builtin(builtin_entrant(each)) for each in names]
             print(f"{len(jobs)} policies of the project are queued")
             print(f"Next: colift worker --board {board} --once")
 

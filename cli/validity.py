@@ -10,8 +10,9 @@ import typer
 
 from ..agents.errors import InputError
 from ..agents.loading.loading import PolicySpec
-from ..agents.registry import POLICIES, entries
+from ..agents.registry import playing
 from ..agents.spec import AgentSpec
+from ..benchmark.episode.level import LEVEL
 from ..benchmark.suites.suite import Suite, make_suite
 from ..benchmark.validity.playing import (
     Known,
@@ -108,7 +109,7 @@ def _chosen(text: str | None) -> dict[str, AgentSpec]:
         If there are too few, one cannot be loaded, or two have the same name.
     """
     if text is None:
-        texts = [name for name in entries(POLICIES) if name not in FLOORS]
+        texts = [name for name in playing(LEVEL.name) if name not in FLOORS]
     else:
         texts = separated(text)
     twice = [each for each, count in Counter(texts).items() if count > 1]

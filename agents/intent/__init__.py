@@ -1,19 +1,21 @@
 """People who intend a pose of the whole table."""
 
-from .leader import Leader, with_far_target
+from .companion import Companion
 from .manner import MANNERS, LeadingManner, leading_manner
+from .pace import Pace, at
 from .poses import Counter, Pivot, PosePlan, Posing, Switching, Together
 
 __all__ = [
     "MANNERS",
+    "Companion",
     "Counter",
-    "Leader",
     "LeadingManner",
+    "Pace",
     "Pivot",
     "PosePlan",
     "Posing",
     "Switching",
     "Together",
+    "at",
     "leading_manner",
-    "with_far_target",
 ]

@@ -1,86 +1,41 @@
 """The oracle: knows what the human will do, and has the same arm. It is no policy: it cheats."""
 
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Final
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ...agents.agent import FRAME, Action, Observation, RobotObservation
-from ...agents.control.anticipation import ARM_LAG
-from ...agents.control.preview import preview_gains
+from ...agents.errors import InputError
 from ...agents.loading.loading import source_digest
-from ..episode.episode import Episode, run_episode
-from ..episode.lift import Lift
+from ..episode.episode import Episode
+from ..episode.level import Level
+from ..episode.lift import Lift, make_lift
 from ..episode.scenario import Scenario
 from ..execution.runner import Run
 from ..suites.suite import Suite
+from ..tasks.intent.oracle import foreknow_pose
+from ..tasks.intent.task import Intent
+from ..tasks.rehearsal import Foreknowing, rehearse
 
 ORACLE: Final = "oracle"
 
-REHEARSALS: Final = 5
-"""How often an episode is played; the best time counts. It changes little after the third."""
-
-FORESIGHT: Final = 0.6
-"""How far ahead commands are planned [s]: farther ones do not change the next."""
-
-
-class Foreknowing:
-    """Commands that best follow a path known for the whole episode.
-
-    Parameters
-    ----------
-    path
-        (n,) height for the command in each frame [m]; its last stays.
-    frames
-        Frames in a control period.
-    """
-
-    def __init__(self, path: NDArray[np.float64], frames: int) -> None:
-        self._frames = frames
-        steps = max(round(FORESIGHT / FRAME / frames), 1)
-        self._law = preview_gains(frames, steps, 0.0)
-        self._path = np.concatenate((path, np.full(steps * frames, path[-1])))
-
-    def reset(self, seed: int) -> None:
-        """Begin the episode."""
-        self._frame = 0
-
-    def act(self, observation: Observation) -> Action:
-        """Return the change of the command [m]."""
-        coming = self._path[self._frame : self._frame + len(self._law.path)]
-        self._frame += self._frames
-        command = float(observation[RobotObservation.HAND_COMMAND])
-        return np.array([self._law(coming, command, command) - command])
-
 
 def foreknow(lift: Lift, seed: int) -> Episode:
-    """Return the episode of a seed, played by the oracle.
+    """Return the episode of a seed with a level table, played by the oracle; see :func:`.rehearse`.
 
-    It is rehearsed, as in iterative learning control: the first time the oracle follows the
-    human's private plan, and each further time its own last command plus the height difference
-    that was left, an arm's lag earlier. So it comes to know how this human moves with this robot,
-    and how the arm sags. What remains is what a hand cannot do that ramps from period to period.
+    It knows the human's private plan, and after each rehearsal how the human moved.
     """
-    lift.reset(seed)
-    lag = round(ARM_LAG / FRAME)
-    path = np.concatenate((lift.target[lag:], np.full(lag, lift.target[-1])))
-    best: Episode | None = None
-    for _ in range(REHEARSALS):
-        episode = run_episode(lift, Foreknowing(path, lift.frames_per_step), seed)
-        if best is None or episode.scores["rmse_mm"] < best.scores["rmse_mm"]:
-            best = episode
-        trace = episode.trace
-        left = trace.human_end - trace.robot_end
-        ends = np.concatenate(([0.0], np.cumsum(trace.action[:, 0])))
-        frames = np.arange(1, len(left) + 1) / lift.frames_per_step
-        command = np.interp(frames, np.arange(len(ends)), ends)
-        path = command + np.concatenate((left[lag:], np.full(lag, left[-1])))
-    assert best is not None
-    return best
+    return rehearse(
+        lift, seed, lambda lift: lift.target, lambda trace: trace.human_end - trace.robot_end
+    )
+
+
+ORACLES: Final[Mapping[str, Callable[[Lift, int], Episode]]] = {
+    Level.name: foreknow,
+    Intent.name: foreknow_pose,
+}
+"""What an oracle does by task: it returns the episode of a lift with a seed."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,8 +47,9 @@ class Rehearsed:
 
     def __call__(self) -> list[Episode]:
         """Return the episodes of the oracle."""
-        with contextlib.closing(Lift(self.scenario)) as lift:
-            return [foreknow(lift, seed) for seed in self.seeds]
+        play = ORACLES[self.scenario.task.name]
+        with contextlib.closing(make_lift(self.scenario)) as lift:
+            return [play(lift, seed) for seed in self.seeds]
 
 
 def oracle_run(
@@ -102,7 +58,16 @@ def oracle_run(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> Run:
-    """Return the oracle's episodes on a suite; ``executor`` and ``progress`` as of run_suite."""
+    """Return the oracle's episodes on a suite; ``executor`` and ``progress`` as of run_suite.
+
+    Raises
+    ------
+    InputError
+        If the suite's task has no oracle.
+    """
+    task = suite.scenarios[0].task.name
+    if task not in ORACLES:
+        raise InputError(f"the task {task!r} has no oracle; known: {', '.join(ORACLES)}")
     tasks = [
         Rehearsed(scenario=scenario, seeds=(seed,))
         for scenario in suite.scenarios

@@ -11,7 +11,8 @@ from typing import Any, Final
 from ...agents.errors import InputError
 from ...agents.identity import code_hash
 from ...agents.loading.loading import PolicySpec
-from ...agents.registry import POLICIES, own_entries
+from ...agents.registry import own_policies
+from ..episode.level import LEVEL
 from ..suites.suite import make_suite
 from .registry import ALL, RecordedFigure
 
@@ -36,7 +37,7 @@ def origin_of(figure: RecordedFigure, root: Path) -> Origin:
     InputError
         If a suite, a policy, a definition or a script does not exist.
     """
-    policies = own_entries(POLICIES) if ALL in figure.policies else figure.policies
+    policies = own_policies(LEVEL.name) if ALL in figure.policies else figure.policies
     return {
         "command": figure.command,
         **{f"suite {name}": _suite(name) for name in figure.suites},

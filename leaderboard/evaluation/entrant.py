@@ -67,11 +67,6 @@ class Entrant:
         )
 
 
-def builtin_names() -> tuple[str, ...]:
-    """Return the names of the built-in policies."""
-    return tuple(own_entries(POLICIES))
-
-
 def builtin_entrant(name: str, level: str = BUBBLEWRAP) -> Entrant:
     """Return one of the built-in policies as an entrant at an isolation level.
 

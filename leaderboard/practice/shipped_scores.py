@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
+from ...agents.registry import own_policies
 from ...benchmark.bundle.files import EPISODES
 from ...benchmark.episode.metric import LEADING
 from ...benchmark.statistics import FloatArray
 from ...benchmark.suites.suite import Suite
-from ..evaluation.entrant import builtin_entrant, builtin_names
+from ..evaluation.entrant import builtin_entrant
 from .practice import PracticeRun
 from .season_import import DATA, PlayedSeason
 
@@ -32,16 +33,16 @@ def shipped_scores(suite: Suite, folder: Path = DATA) -> dict[str, FloatArray]:
     season = PlayedSeason.read(suite.name, folder)
     if season is None or season.suite_digest != suite.digest:
         return {}
-    return dict(_current(season, suite.size))
+    return dict(_current(season, suite))
 
 
-def _current(season: PlayedSeason, lifts: int) -> Iterator[tuple[str, FloatArray]]:
-    names = builtin_names()
+def _current(season: PlayedSeason, suite: Suite) -> Iterator[tuple[str, FloatArray]]:
+    names = own_policies(suite.scenarios[0].task.name)
     for each in season.played:
         name = each.entry.name
         if name in names and each.entry.submission == builtin_entrant(name).digest:
             errors = _errors(each)
-            if len(errors) == lifts:
+            if len(errors) == suite.size:
                 yield name, errors
 
 

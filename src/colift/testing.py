@@ -17,6 +17,7 @@ from .agents.humans import GOAL_RANGE, SUBJECTS, Behaviour, Plan, Subject
 from .agents.policies.copy import Copy
 from .benchmark.bundle.recipe import Recipe
 from .benchmark.episode.episode import Episode, run_episode
+from .benchmark.episode.level import LEVEL
 from .benchmark.episode.lift import Lift, make_lift
 from .benchmark.episode.metric import LEADING
 from .benchmark.episode.replay import replay
@@ -33,12 +34,15 @@ PLANS: Final = 60
 FASTEST: Final = 0.5
 """Highest speed of a plan [m/s]; people lift at up to 0.3 m/s."""
 
+OBSERVED: Final = 40
+"""Steps of a lift that a policy is checked with."""
+
 STEEPEST: Final = 4.5
 """Highest acceleration of a plan from frame to frame [m/s2]; the limit of ``jerky``."""
 
 
-def check_policy(make: Callable[[], Agent]) -> None:
-    """Check a robot policy on the observations of a made-up lift.
+def check_policy(make: Callable[[], Agent], task: Task = LEVEL) -> None:
+    """Check a robot policy on the observations of a made-up lift, or of a task's own lifts.
 
     It must return one finite number per step in double precision, change no observation, keep
     nothing from one episode to the next, and share no state with another object of its class. If
@@ -48,8 +52,10 @@ def check_policy(make: Callable[[], Agent]) -> None:
     ----------
     make
         Returns a new policy: a class, or a function without arguments.
+    task
+        The task that it plays.
     """
-    seen, others = _observations(0), _observations(1)
+    seen, others = (_observations(seed, task) for seed in (0, 1))
     before = seen.copy()
     alone = _actions(make(), seen)
     _require(np.array_equal(seen, before), "act must leave the observation unchanged")
@@ -210,7 +216,29 @@ def _require(condition: bool, rule: str) -> None:
         raise AssertionError(rule)
 
 
-def _observations(seed: int) -> NDArray[np.float64]:
+def _observations(seed: int, task: Task) -> NDArray[np.float64]:
+    """Return the robot's observations of a lift, (40, 5) or as the task has them."""
+    return _made_up(seed) if task == LEVEL else _followed(seed, task)
+
+
+def _followed(seed: int, task: Task) -> NDArray[np.float64]:
+    """Return the observations of a robot that follows the human's end."""
+    seen: list[NDArray[np.float64]] = []
+
+    class Noting(Copy):
+        """A policy that keeps what it is shown."""
+
+        def act(self, observation: NDArray[np.float64]) -> NDArray[np.float64]:
+            seen.append(observation.copy())
+            return super().act(observation)
+
+    scenario = dataclasses.replace(make_scenario("smooth", "S1"), task=task)
+    with contextlib.closing(make_lift(scenario)) as lift:
+        run_episode(lift, Noting(), seed)
+    return np.array(seen[:OBSERVED])
+
+
+def _made_up(seed: int) -> NDArray[np.float64]:
     """Return the robot's observations of a made-up lift with a hand that lags, shape (40, 5)."""
     rng = np.random.default_rng(seed)
     step = np.arange(40)

@@ -11,16 +11,14 @@ from pathlib import Path
 
 import pytest
 from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import POLICIES, entries
+from colift.agents.registry import own_policies
 from colift.benchmark.execution.provenance import fingerprint
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import HUMAN_HUMAN, human_human_run
 from colift.benchmark.suites.suite import make_suite
 
 FILE = Path(__file__).with_name("golden.json")
-NAMES = [HUMAN_HUMAN] + [
-    name for name, entry in entries(POLICIES).items() if entry.dist.name == "colift"
-]
+NAMES = [HUMAN_HUMAN, *own_policies("level")]
 
 
 def played(name):

@@ -2,26 +2,21 @@
 
 import math
 from collections.abc import Sequence
-from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ....agents.agent import FRAME, Agent
-from ....agents.intent import Leader, PosePlan, leading_manner
-from ....robots.arithmetic import each
+from ....agents.agent import FRAME, Observation
+from ....agents.intent import Pace, PosePlan, at, leading_manner
 from ...world.table import TABLE_LENGTH
 from ..haptic import HapticLift
-
-_STEEPEST: Final = 0.5
-"""Largest intended pitch's sine; plans stay far inside it."""
 
 
 class IntentLift(HapticLift):
     """A lift whose human has an intended height for the far end, too.
 
-    The human's reflexes even out what differs from the intended height difference, and the wrists
-    turn with the intended pitch, as the person's manner has it (:class:`.LeadingManner`).
+    The human goes through the plan at a pace of its own (:class:`.Pace`). The human's reflexes even
+    out what differs from the intended height difference, and the wrists turn with the intended
+    pitch, as the person's manner has it (:class:`.LeadingManner`).
     """
 
     def reset(self, seed: int) -> None:
@@ -30,30 +25,38 @@ class IntentLift(HapticLift):
         plan = self.plan
         far = plan.far if isinstance(plan, PosePlan) else plan.target
         self.far_target = np.concatenate((far, np.full(self.horizon - len(far), far[-1])))
-        """(horizon,) the intended height of the far end at the end of each frame [m]."""
-        manner = leading_manner(self.scenario.subject)
-        difference = self.far_target - self.target
-        sine = np.clip(difference / TABLE_LENGTH, -_STEEPEST, _STEEPEST)
-        pitch = manner.wrist * each(math.asin, sine)
-        self._differences: list[float] = difference.tolist()
-        self._pitches: list[float] = _earlier(pitch, round(manner.lead / FRAME)).tolist()
-        self._moved = 0
+        """(horizon,) the planned height of the far end at the end of each frame [m]."""
+        self._manner = leading_manner(self.scenario.subject)
+        self._pace = Pace(self.scenario.subject, self.far_target)
+        self._plan_ahead()
 
-    def scripted_human(self) -> Agent:
-        """Return the person who leads the table through the plan, reset for the episode."""
-        human = Leader(subject=self.scenario.subject)
-        human.reset(self.role_seed("human"))
-        return human
+    def end(self, command: float) -> None:
+        """End the control period; see :meth:`.Lift.end`."""
+        super().end(command)
+        self._plan_ahead()
+
+    def intended(self) -> Observation:
+        """Return the human's intended height at the end of each frame of the coming step [m]."""
+        return np.array([at(self.target, time) for time in self._times])
+
+    def _plan_ahead(self) -> None:
+        """Settle the pace of the coming step."""
+        self._times = self._pace.coming(self.frames_per_step, self.world.robot_end)
+        self._moved = 0
 
     def move(self, human: Sequence[float], commands: Sequence[float]) -> None:
         """Advance by a frame for each hand reference and command; see :meth:`.Lift.move`."""
-        frames = slice(self._moved, self._moved + len(commands))
-        self.world.intend(self._differences[frames], self._pitches[frames])
+        times = self._times[self._moved : self._moved + len(commands)]
+        lead = self._manner.lead / FRAME
+        differences = [self._difference(time) for time in times]
+        pitches = [
+            self._manner.wrist * math.asin(self._difference(time + lead) / TABLE_LENGTH)
+            for time in times
+        ]
+        self.world.intend(differences, pitches)
         self._moved += len(commands)
         super().move(human, commands)
 
-
-def _earlier(series: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
-    """Return a series so many frames earlier, or later if negative; its ends stay."""
-    places = np.clip(np.arange(len(series)) + frames, 0, len(series) - 1)
-    return np.asarray(series[places])
+    def _difference(self, time: float) -> float:
+        """Return the planned height difference [m] at a time within the plan."""
+        return at(self.far_target, time) - at(self.target, time)

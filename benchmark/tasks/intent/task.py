@@ -8,14 +8,13 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ....agents.agent import Observation
+from ....agents.agent import Agent, Observation
 from ....agents.humans import SUBJECTS
-from ....agents.intent import with_far_target
+from ....agents.intent import Companion
 from ...episode import metrics
-from ...episode.level import HEIGHT_BOUND
 from ...episode.metric import Metrics, Scores
 from ...episode.scenario import Scenario
-from ...episode.task import Bounds, Playing
+from ...episode.task import Playing
 from ...episode.trace import Trace
 from ...suites.catalogue import make_scenario
 from ...suites.suite import Suite
@@ -33,35 +32,22 @@ class Intent(Haptic):
     """Bring the table to the pose that the human intends: level, pivoted, or turned.
 
     The robot has :class:`.HapticObservation`: it sees where the human's end goes, and feels what
-    the human's wrists do. The human has the intended heights of the far end in the coming step, and
-    :class:`.HumanObservation`.
+    the human's wrists do. The human has :class:`.HumanObservation`, and goes through the plan no
+    faster than the far end follows.
     """
 
     name: ClassVar[str] = "intent"
     metrics: ClassVar[Metrics] = INTENT_METRICS
+    second_human: ClassVar[type[Agent]] = Companion
 
     def lift(self, scenario: Scenario) -> IntentLift:
         """Return a lift whose human intends poses."""
         return IntentLift(scenario)
 
     def human_observation(self, lift: Playing) -> Observation:
-        """Return the far end's intended heights in the coming step, and the human's senses."""
+        """Return the human's senses and the own end's intended heights in the coming step."""
         assert isinstance(lift, IntentLift)
-        far = lift.far_target[lift.frame : lift.frame + lift.frames_per_step]
-        if not len(far):
-            far = np.full(lift.frames_per_step, lift.far_target[-1])
-        return with_far_target(super().human_observation(lift), far)
-
-    def partner_observation(self, lift: Playing) -> Observation:
-        """Return a second human's senses; both targets are the height of the end that it sees."""
-        view = super().partner_observation(lift)
-        return with_far_target(view, np.full(lift.frames_per_step, lift.seen_by_partner()))
-
-    def human_bounds(self, frames: int) -> Bounds:
-        """Return the bounds of the humans' observations."""
-        low, high = super().human_bounds(frames)
-        far = np.full(frames, HEIGHT_BOUND)
-        return np.concatenate((-far, low)), np.concatenate((far, high))
+        return lift.human_view(lift.intended())
 
     def rewards(self, lift: Playing) -> tuple[float, float]:
         """Return minus the distances of both ends, and of the far end alone, from the pose [m]."""

@@ -3,7 +3,7 @@ import dataclasses
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import POLICIES, own_entries
+from colift.agents.registry import own_policies
 from colift.benchmark.figures.origins import origin_of
 from colift.benchmark.figures.records import (
     FigureRecord,
@@ -31,7 +31,7 @@ def test_an_origin_has_the_digests_of_suites_policies_and_code(tmp_path):
     assert origin["policy copy"] == PolicySpec(text="copy").digest()
     assert len(origin["code benchmark.bounds.oracle:foreknow"]) == 16
     everything = origin_of(dataclasses.replace(FIGURE, policies=("*",)), tmp_path)
-    assert sum(name.startswith("policy ") for name in everything) == len(own_entries(POLICIES))
+    assert sum(name.startswith("policy ") for name in everything) == len(own_policies("level"))
 
 
 @pytest.mark.parametrize(

@@ -4,9 +4,10 @@ import dataclasses
 
 import pytest
 from colift.agents.errors import InputError
+from colift.agents.registry import own_policies
 from colift.leaderboard.board.board import BUILTIN
 from colift.leaderboard.board.tokens import Tokens
-from colift.leaderboard.evaluation.entrant import LEARNED, builtin_entrant, builtin_names
+from colift.leaderboard.evaluation.entrant import LEARNED, builtin_entrant
 from colift.leaderboard.queue import Queue, WorkerQueue
 from colift.leaderboard.queue.worker import Worker
 
@@ -41,17 +42,17 @@ def test_a_policy_that_has_changed_since_it_was_queued_is_not_evaluated(board):
 
 def test_all_of_them_fit_into_the_queue_whatever_the_quota_of_others(board):
     queue = Queue(board)
-    for name in builtin_names():
+    for name in own_policies("level"):
         queue.enqueue_builtin(builtin_entrant(name))
-    assert {job.name for job in queue.jobs("queued")} == set(builtin_names())
+    assert {job.name for job in queue.jobs("queued")} == set(own_policies("level"))
 
 
 def test_what_was_learned_says_by_which_command_and_the_rest_from_nothing():
-    told = {name: builtin_entrant(name).trained_on for name in builtin_names()}
+    told = {name: builtin_entrant(name).trained_on for name in own_policies("level")}
     assert "colift learn anticipate --lifts 1500" in told["anticipate"]
     assert told["blend"] == told["reactive"] != told["task_model"]
     assert {name for name, text in told.items() if text != "nothing"} == set(LEARNED)
-    assert {builtin_entrant(name).licence for name in builtin_names()} == {"MIT"}
+    assert {builtin_entrant(name).licence for name in own_policies("level")} == {"MIT"}
 
 
 def test_nobody_else_can_submit_under_their_name(board):

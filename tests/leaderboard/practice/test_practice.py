@@ -8,9 +8,10 @@ from datetime import UTC, datetime
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.loading.loading import PolicySpec
+from colift.agents.registry import own_policies
 from colift.benchmark.execution.runner import run_suite
 from colift.leaderboard.board.board import Board
-from colift.leaderboard.evaluation.entrant import builtin_entrant, builtin_names
+from colift.leaderboard.evaluation.entrant import builtin_entrant
 from colift.leaderboard.evaluation.evaluation import play_human_human
 from colift.leaderboard.practice.practice import is_current, play_policy, practice_season
 from colift.leaderboard.practice.season_import import DATA, PlayedSeason, practice_import
@@ -59,8 +60,8 @@ def test_an_own_policy_is_isolated_and_verified_as_anybodys(played, season):
 
 
 def test_own_policies_have_digests_of_their_own():
-    digests = {builtin_entrant(name).digest for name in builtin_names()}
-    assert len(digests) == len(builtin_names())
+    digests = {builtin_entrant(name).digest for name in own_policies("level")}
+    assert len(digests) == len(own_policies("level"))
     with pytest.raises(InputError, match=r"no built-in policy 'nonesuch'.*blend"):
         builtin_entrant("nonesuch")
 
@@ -139,7 +140,7 @@ def test_what_the_project_ships_is_of_its_suites(suite):
         pytest.skip("nothing is shipped yet")
     season = practice_season(suite)
     assert found.suite_digest == season.suite.digest
-    assert {each.entry.name for each in found.played} == set(builtin_names())
+    assert {each.entry.name for each in found.played} == set(own_policies("level"))
     assert all(each.entry.row.commitment == season.commitment for each in found.played)
 
 

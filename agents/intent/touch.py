@@ -1,0 +1,30 @@
+"""What a robot's touch tells of the table: its pitch, and the other end's height without delay."""
+
+import math
+from typing import NamedTuple
+
+from ..agent import Observation
+from ..observations import HapticObservation
+from .pose_filter import FAR_STIFFNESS, TABLE_LENGTH
+
+
+class Touched(NamedTuple):
+    """The table as the robot's hands feel it."""
+
+    pitch: float
+    """Pitch of the table [rad], positive if the robot's end is higher."""
+    near: float
+    """Height of the human's end [m]."""
+    force: float
+    """Force of the robot's hands on the table beyond half of its weight [N]."""
+
+
+def touched(observation: Observation) -> Touched:
+    """Return what the hands feel: the grip's torque is its stiffness times the pitch.
+
+    It is fresh, where motion capture is one latency old.
+    """
+    pitch = -float(observation[HapticObservation.TORQUE]) / FAR_STIFFNESS
+    hand = float(observation[HapticObservation.HAND_HEIGHT])
+    near = hand - TABLE_LENGTH * math.sin(pitch)
+    return Touched(pitch, near, float(observation[HapticObservation.FORCE]))

@@ -1,0 +1,64 @@
+"""Pose by Bayes: what the human does and waits for tells which pose of the table is meant."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..agent import Action, Observation
+from ..control.predictor import DEFAULT_PERIOD
+from ..intent.pose_filter import PoseFilter, PoseFilterParameters
+from ..intent.touch import touched
+from ..observations import HapticObservation
+
+
+@dataclass(frozen=True, kw_only=True)
+class PoseByBayesParameters:
+    """Parameters of :class:`PoseByBayes`, tuned on seeds from 100000 on and on no suite."""
+
+    ahead: float = 0.12
+    """How far ahead the command is planned [s], for the lag of the arm."""
+    switch: float = 0.03
+    """See :class:`.PoseFilterParameters`."""
+    pitch_noise: float = 0.012
+    """See :class:`.PoseFilterParameters` [rad]."""
+    path_noise: float = 0.1
+    """See :class:`.PoseFilterParameters`."""
+
+
+class PoseByBayes:
+    """Goes where the human probably means the robot's end to be (ours).
+
+    A :class:`.PoseFilter` takes the pitch and the human's end, which the torque tells without
+    delay, and the force, in which the human's wrists show. With the expected height f, the expected
+    ratio r of the ends' movements and the velocity v of the human's end, the command becomes
+
+        u = f + r v ahead.
+    """
+
+    def __init__(self, *, parameters: PoseByBayesParameters | None = None) -> None:
+        p = parameters or PoseByBayesParameters()
+        self._ahead = p.ahead / DEFAULT_PERIOD
+        self._filter = PoseFilter(
+            PoseFilterParameters(
+                switch=p.switch, pitch_noise=p.pitch_noise, path_noise=p.path_noise
+            )
+        )
+
+    def reset(self, seed: int) -> None:
+        """Begin an episode with a level table at rest."""
+        self._filter.reset()
+        self._near = 0.0
+
+    def act(self, observation: Observation) -> Action:
+        """Return the change [m] that brings the command to the expected height."""
+        table = touched(observation)
+        self._filter.update(table.near, table.pitch, table.force)
+        change, self._near = table.near - self._near, table.near
+        command = self._filter.height + self._filter.share * change * self._ahead
+        return np.array([command - observation[HapticObservation.HAND_COMMAND]])
+
+    def internals(self) -> dict[str, float]:
+        """Return the expected height of the own end [m], and the probability of each intent."""
+        together, pivot, counter = self._filter.intents.tolist()
+        height = self._filter.height
+        return {"height": height, "together": together, "pivot": pivot, "counter": counter}

@@ -1,0 +1,23 @@
+"""The oracle of intended poses: it knows the human's plan for both ends."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...episode.episode import Episode
+from ...episode.lift import Lift
+from ...episode.trace import Trace
+from ..rehearsal import rehearse
+from .lift import IntentLift
+
+
+def foreknow_pose(lift: Lift, seed: int) -> Episode:
+    """Return the episode of a seed, played by the oracle; see :func:`.rehearse`."""
+
+    def planned(lift: Lift) -> NDArray[np.float64]:
+        assert isinstance(lift, IntentLift)
+        return lift.far_target
+
+    def missed(trace: Trace) -> NDArray[np.float64]:
+        return np.asarray(trace.added["far_target"] - trace.robot_end)
+
+    return rehearse(lift, seed, planned, missed)

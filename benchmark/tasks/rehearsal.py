@@ -1,0 +1,95 @@
+"""Rehearsed lifts: a robot that knows where its end should be, and learns how to get it there."""
+
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.agent import FRAME, Action, Observation, RobotObservation
+from ...agents.control.anticipation import ARM_LAG
+from ...agents.control.preview import preview_gains
+from ..episode.episode import Episode, run_episode
+from ..episode.lift import Lift
+from ..episode.trace import Trace
+
+REHEARSALS: Final = 5
+"""How often an episode is played; the best time counts. It changes little after the third."""
+
+FORESIGHT: Final = 0.6
+"""How far ahead commands are planned [s]: farther ones do not change the next."""
+
+
+class Foreknowing:
+    """Commands that best follow a path known for the whole episode.
+
+    Parameters
+    ----------
+    path
+        (n,) height for the command in each frame [m]; its last stays.
+    frames
+        Frames in a control period.
+    """
+
+    def __init__(self, path: NDArray[np.float64], frames: int) -> None:
+        self._frames = frames
+        steps = max(round(FORESIGHT / FRAME / frames), 1)
+        self._law = preview_gains(frames, steps, 0.0)
+        self._path = np.concatenate((path, np.full(steps * frames, path[-1])))
+
+    def reset(self, seed: int) -> None:
+        """Begin the episode."""
+        self._frame = 0
+
+    def act(self, observation: Observation) -> Action:
+        """Return the change of the command [m]."""
+        coming = self._path[self._frame : self._frame + len(self._law.path)]
+        self._frame += self._frames
+        command = float(observation[RobotObservation.HAND_COMMAND])
+        return np.array([self._law(coming, command, command) - command])
+
+
+def rehearse(
+    lift: Lift,
+    seed: int,
+    first: Callable[[Lift], NDArray[np.float64]],
+    missed: Callable[[Trace], NDArray[np.float64]],
+) -> Episode:
+    """Return the best of some rehearsals of an episode, as in iterative learning control.
+
+    The first time the robot follows a path, and each further time its own last command plus what
+    its end missed then, an arm's lag earlier. So it comes to know how this human moves with this
+    robot, and how the arm sags. What remains is what a hand cannot do that ramps from period to
+    period.
+
+    Parameters
+    ----------
+    lift
+        The lift; it is reset here.
+    seed
+        The episode's seed.
+    first
+        Returns the first path of the robot's end [m], (horizon,), for a lift that has been reset.
+    missed
+        Returns how far the robot's end was too low in each frame of a trace [m].
+    """
+    lift.reset(seed)
+    lag = round(ARM_LAG / FRAME)
+    path = _earlier(first(lift), lag)
+    best: Episode | None = None
+    for _ in range(REHEARSALS):
+        episode = run_episode(lift, Foreknowing(path, lift.frames_per_step), seed)
+        if best is None or episode.scores["rmse_mm"] < best.scores["rmse_mm"]:
+            best = episode
+        trace = episode.trace
+        left = missed(trace)
+        ends = np.concatenate(([0.0], np.cumsum(trace.action[:, 0])))
+        frames = np.arange(1, len(left) + 1) / lift.frames_per_step
+        command = np.interp(frames, np.arange(len(ends)), ends)
+        path = command + _earlier(left, lag)
+    assert best is not None
+    return best
+
+
+def _earlier(series: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
+    return np.concatenate((series[frames:], np.full(frames, series[-1])))
