@@ -41,6 +41,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "learn": "learn:app",
         "calibrate": "calibrate:calibrate",
         "baselines": "baselines:baselines",
+        "admit": "admit:admit_suite",
         "practice": "practice:practice",
         "bounds": "bounds:bounds",
         "ablate": "bounds:ablate_policies",

@@ -111,7 +111,8 @@ class PoseFilter:
         gain = slope * self._variance / spread
         self._mean = self._mean + gain * surprise
         self._variance = (1.0 - gain * slope) * self._variance
-        likelihood = each(math.exp, -0.5 * surprise**2 / spread) / np.sqrt(spread)
+        unlikely = 0.5 * surprise**2 / spread
+        likelihood = each(math.exp, unlikely.min() - unlikely) / np.sqrt(spread)
         weight = self._weight * likelihood * self._waiting(abs(rise))
         self._far = near + TABLE_LENGTH * math.sin(pitch)
         weight = np.maximum(weight / weight.sum(), LEAST_WEIGHT)

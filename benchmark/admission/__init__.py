@@ -1,0 +1,1 @@
+"""The admission of a suite: whether its lifts need coordination, by figures."""

@@ -1,0 +1,104 @@
+"""The admission test of a suite: all policies, two people and the oracle, by each criterion."""
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import Final
+
+from ...agents.loading.loading import PolicySpec
+from ...agents.registry import POLICIES, entries, own_policies
+from ..bounds.oracle import oracle_run
+from ..execution.runner import Run, run_suite
+from ..results.baselines import human_human_run
+from ..suites.suite import Suite
+from .criteria import (
+    Criterion,
+    conventions,
+    interaction,
+    like_people,
+    mean_mm,
+    no_free_ride,
+    rank_changes,
+    room,
+)
+from .published import PUBLISHED
+
+KEEPERS: Final = ("copy", "extrapolate", "anticipate")
+"""Policies that keep the table level, from the simplest to the best."""
+
+HOLD: Final = "hold"
+"""The policy that stands still."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Admission:
+    """The result of the test."""
+
+    suite: str
+    digest: str
+    means: Mapping[str, float]
+    """Mean RMSE of everybody who played [mm]."""
+    criteria: tuple[Criterion, ...]
+
+    @property
+    def passed(self) -> bool:
+        """Whether no criterion failed."""
+        return all(each.passed is not False for each in self.criteria)
+
+
+def task_policies(task: str) -> tuple[str, ...]:
+    """Return the names of colift's policies for a task alone."""
+    return tuple(name for name in own_policies(task) if entries(POLICIES)[name].group != POLICIES)
+
+
+def players(task: str) -> tuple[str, ...]:
+    """Return the names of all policies that the test plays."""
+    return (*KEEPERS, *task_policies(task))
+
+
+def admit(
+    suite: Suite,
+    names: Sequence[str],
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> Admission:
+    """Test a suite.
+
+    Parameters
+    ----------
+    suite
+        The suite.
+    names
+        The policies, :data:`KEEPERS` among them; see :func:`players`.
+    executor, progress
+        As of :func:`.run_suite`.
+
+    Raises
+    ------
+    InputError
+        If the suite's task has no oracle.
+    """
+
+    def played(name: str) -> Run:
+        return run_suite(PolicySpec(text=name), suite, executor=executor, progress=progress)
+
+    oracle = oracle_run(suite, executor=executor, progress=progress)
+    human_human = human_human_run(suite, executor=executor, progress=progress)
+    hold = played(HOLD)
+    runs = {name: played(name) for name in names}
+    published = PUBLISHED.get(suite.scenarios[0].task.name)
+    everybody = {"oracle": oracle, "human-human": human_human, HOLD: hold, **runs}
+    return Admission(
+        suite=suite.name,
+        digest=suite.digest,
+        means={name: mean_mm(run) for name, run in everybody.items()},
+        criteria=(
+            room(oracle, {name: run for name, run in runs.items() if name in KEEPERS}),
+            interaction(runs),
+            rank_changes(runs),
+            conventions(),
+            *([] if published is None else [like_people(human_human, published)]),
+            no_free_ride(hold, human_human),
+        ),
+    )

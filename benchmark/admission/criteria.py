@@ -1,0 +1,167 @@
+"""The criteria of admission, each a figure, a bar and what it means."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Final
+
+import numpy as np
+
+from ..episode.metrics import FAILED_FRAME_MM
+from ..execution.runner import Run
+from ..results.summary import stratum
+from ..statistics.estimate import paired_difference
+from .published import Published
+from .variance import variance_shares
+
+ROOM: Final = 3.0
+"""How many times the error of the oracle the best level-keeper must have."""
+
+INTERACTION: Final = 0.2
+"""Least share of the variance that is interaction of policy and human."""
+
+IDLE: Final = 2.0
+"""How many times the error of the human-human baseline a robot that does nothing must have."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Criterion:
+    """One criterion, as measured."""
+
+    letter: str
+    what: str
+    """What must hold, in words."""
+    figure: float | None
+    """What was measured; None if there was nothing to measure."""
+    bar: str
+    """What it must be."""
+    passed: bool | None
+    """Whether it is; None if there was nothing to measure."""
+    detail: str
+    """The figures behind it, in words."""
+
+
+def room(oracle: Run, keepers: Mapping[str, Run]) -> Criterion:
+    """Return whether an oracle that knows the secrets is far better than a level table."""
+    best = min(keepers, key=lambda name: mean_mm(keepers[name]))
+    ratio = mean_mm(keepers[best]) / mean_mm(oracle)
+    return Criterion(
+        letter="a",
+        what="an oracle is far better than the best level-keeper",
+        figure=ratio,
+        bar=f"at least {ROOM:g}",
+        passed=ratio >= ROOM,
+        detail=f"{best} {mean_mm(keepers[best]):.2f} mm, oracle {mean_mm(oracle):.2f} mm",
+    )
+
+
+def interaction(runs: Mapping[str, Run]) -> Criterion:
+    """Return whether it depends on the person which policy is good."""
+    people = list(dict.fromkeys(each.subject for each in next(iter(runs.values())).episodes))
+    table = [[_log_mean(run, person) for person in people] for run in runs.values()]
+    shares = variance_shares(table)
+    cells = list(dict.fromkeys(stratum(each) for each in next(iter(runs.values())).episodes))
+    fine = variance_shares(
+        [[_log_mean(run, person, way) for way, person in cells] for run in runs.values()]
+    )
+    return Criterion(
+        letter="b",
+        what="which policy is good depends on the human",
+        figure=shares.interaction,
+        bar=f"at least {INTERACTION:g} of the variance",
+        passed=shares.interaction >= INTERACTION,
+        detail=f"policy {shares.policy:.2f}, person {shares.human:.2f}, interaction "
+        f"{shares.interaction:.2f}; with persons and behaviours {fine.interaction:.2f}",
+    )
+
+
+def rank_changes(runs: Mapping[str, Run]) -> Criterion:
+    """Return whether two policies are better than each other, each with some person."""
+    changes = []
+    for one, other in combinations(runs, 2):
+        better = _better_with(runs[one], runs[other])
+        if better[0] and better[1]:
+            changes.append(f"{one} with {better[0][0]}, {other} with {better[1][0]}")
+    return Criterion(
+        letter="c",
+        what="policies change rank between people, beyond chance",
+        figure=float(len(changes)),
+        bar="at least 1 pair",
+        passed=bool(changes),
+        detail=changes[0] if changes else "no pair",
+    )
+
+
+def conventions() -> Criterion:
+    """Return that no pairs were trained for the suite; see :class:`Criterion`."""
+    return Criterion(
+        letter="d",
+        what="independently trained pairs are best with themselves",
+        figure=None,
+        bar="stated",
+        passed=None,
+        detail="no pair was trained for this suite: nothing is known",
+    )
+
+
+def like_people(human_human: Run, published: Published) -> Criterion:
+    """Return whether the simulated pair lies in a published interval."""
+    found = published.measure(human_human)
+    return Criterion(
+        letter="e",
+        what=f"two simulated people are like real ones: {published.what}",
+        figure=found,
+        bar=f"{published.low:g} to {published.high:g} {published.unit}",
+        passed=published.low <= found <= published.high,
+        detail=published.source,
+    )
+
+
+def no_free_ride(hold: Run, human_human: Run) -> Criterion:
+    """Return whether doing nothing, or dropping the table, costs more than two people do."""
+    ratio = mean_mm(hold) / mean_mm(human_human)
+    worst = max(each.scores["rmse_mm"] for each in human_human.episodes)
+    return Criterion(
+        letter="f",
+        what="nobody earns by standing still or by dropping the table",
+        figure=ratio,
+        bar=f"at least {IDLE:g}",
+        passed=ratio >= IDLE and worst < FAILED_FRAME_MM,
+        detail=f"hold {mean_mm(hold):.1f} mm, two people {mean_mm(human_human):.1f} mm (at most "
+        f"{worst:.0f}), a frame after a drop {FAILED_FRAME_MM:.0f} mm",
+    )
+
+
+def mean_mm(run: Run) -> float:
+    """Return the mean RMSE of a run [mm]."""
+    return float(np.mean([each.scores["rmse_mm"] for each in run.episodes]))
+
+
+def _log_mean(run: Run, person: str, behaviour: str | None = None) -> float:
+    return float(
+        np.mean(
+            [
+                np.log(each.scores["rmse_mm"])
+                for each in run.episodes
+                if each.subject == person and behaviour in (None, each.behaviour)
+            ]
+        )
+    )
+
+
+def _better_with(one: Run, other: Run) -> tuple[Sequence[str], Sequence[str]]:
+    """Return the people with whom each of two policies is better, beyond a 95 % interval."""
+    found: tuple[list[str], list[str]] = ([], [])
+    pairs = list(zip(one.episodes, other.episodes, strict=True))
+    for person in dict.fromkeys(each.subject for each in one.episodes):
+        own = [pair for pair in pairs if pair[0].subject == person]
+        difference = paired_difference(
+            [a.scores["rmse_mm"] for a, _ in own],
+            [b.scores["rmse_mm"] for _, b in own],
+            [a.behaviour for a, _ in own],
+        )
+        if difference.ci95[1] < 0.0:
+            found[0].append(person)
+        elif difference.ci95[0] > 0.0:
+            found[1].append(person)
+    return found

@@ -1,0 +1,49 @@
+"""How much of the variation of errors is policy, human, and the match of both."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...agents.errors import InputError
+
+
+@dataclass(frozen=True, kw_only=True)
+class VarianceShares:
+    """Shares of the variance of a table of policies (rows) and humans (columns); their sum is 1."""
+
+    policy: float
+    """Of the row means: some policies are better with everybody."""
+    human: float
+    """Of the column means: some humans are harder for every policy."""
+    interaction: float
+    """Of what is left: some policies suit some humans."""
+
+
+def variance_shares(table: ArrayLike) -> VarianceShares:
+    r"""Return the shares of a two-way analysis of variance without replication.
+
+    .. math:: x_{ph} = \mu + \alpha_p + \beta_h + \gamma_{ph}
+
+    Parameters
+    ----------
+    table
+        (policies, humans) mean of the logarithm of the error.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two policies or humans, or all values are the same.
+    """
+    values = np.asarray(table, dtype=np.float64)
+    if values.ndim != 2 or min(values.shape) < 2:
+        raise InputError(f"shares need two policies and two humans or more, got {values.shape}")
+    centred = values - values.mean()
+    rows, columns = centred.mean(axis=1), centred.mean(axis=0)
+    left = centred - rows[:, np.newaxis] - columns
+    parts = [float((rows**2).mean()), float((columns**2).mean()), float((left**2).mean())]
+    total = sum(parts)
+    if total == 0.0:
+        raise InputError("all policies have the same error with all humans")
+    policy, human, interaction = (part / total for part in parts)
+    return VarianceShares(policy=policy, human=human, interaction=interaction)
