@@ -1,0 +1,66 @@
+"""The filter of intended poses, on signals made by its own model."""
+
+import math
+
+import numpy as np
+import pytest
+from colift.agents.intent.pose_filter import (
+    FAR_STIFFNESS,
+    SHARES,
+    TABLE_LENGTH,
+    WRIST_STIFFNESS,
+    PoseFilter,
+)
+
+
+def fed(share, wrist, steps=12, follows=True):
+    """Return a filter that has felt a person raise the near end by 0.1 m, with a silent sensor."""
+    made = PoseFilter()
+    path = 0.1 * (1 - np.cos(np.linspace(0, math.pi, steps))) / 2
+    for near in [0.0] * 5 + path.tolist():
+        meant = share * near
+        far = meant if follows else near
+        pitch = math.asin((far - near) / TABLE_LENGTH)
+        turned = wrist * math.asin((meant - near) / TABLE_LENGTH)
+        torque = WRIST_STIFFNESS * (turned - pitch) - FAR_STIFFNESS * pitch
+        made.update(near, pitch, -torque / TABLE_LENGTH)
+    return made
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_wrists_that_show_all_tell_the_intent(share):
+    made = fed(share, 1.0, follows=False)
+    assert made.intents[SHARES.index(share)] > 0.5
+    assert made.height == pytest.approx(share * 0.1, abs=0.03)
+
+
+def test_wrists_that_show_little_leave_it_open():
+    """A quarter shown of a turn is the same as half shown of a pivot."""
+    made = fed(-1.0, 0.25, follows=False)
+    assert made.intents.max() < 0.9
+
+
+def test_at_first_every_intent_is_as_likely():
+    made = PoseFilter()
+    assert made.intents == pytest.approx([1 / 3] * 3)
+    assert made.height == 0.0
+
+
+def test_a_person_who_waits_makes_the_present_pose_less_likely():
+    """With the same torque, standing still for long shifts the expected height away from here."""
+    made = fed(-1.0, 0.5, follows=False)
+    near = 0.1
+    pitch = 0.0
+    torque = WRIST_STIFFNESS * 0.5 * math.asin(-0.2 / TABLE_LENGTH)
+    before = made.height
+    for _ in range(15):
+        made.update(near, pitch, -torque / TABLE_LENGTH)
+    assert made.height < before
+
+
+def test_no_signal_makes_it_lose_its_numbers():
+    made = PoseFilter()
+    for near, pitch, force in [(0.3, 0.5, 40.0), (-0.3, -0.5, -40.0), (0.0, 0.0, 0.0)] * 5:
+        made.update(near, pitch, force)
+        assert math.isfinite(made.height)
+        assert made.intents.sum() == pytest.approx(1.0)
