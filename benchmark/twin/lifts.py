@@ -113,13 +113,13 @@ def carried_out(scenario: Scenario, seed: int) -> DrawnLift:
     human.reset(derive_seed(seed, f"human/{name}"))
     return DrawnLift(
         scenario,
-        _references(human, target, size),
+        hand_references(human, target, size),
         target.reshape(steps, size),
         noise[:, sampled].T,
     )
 
 
-def _references(human: ScriptedHuman, target: Array, size: int) -> Array:
+def hand_references(human: ScriptedHuman, target: Array, size: int) -> Array:
     """Return the references (s, f) of a person who sees the hand where it was meant to be."""
     meant = np.concatenate((np.zeros(HISTORY), target))
     view = np.zeros(HumanObservation.size(size))

@@ -120,7 +120,8 @@ def advance_plant(
     ) -> tuple[Moving, tuple[jax.Array, jax.Array, jax.Array]]:
         wanted, shift, command = due
         reflex = activated(now.reflex, shift)
-        after, force = _frame(now, wanted + reflex, body, command, variation)
+        grip = _PITCH_GAIN * now.pitch + _RATE_GAIN * now.pitch_rate
+        after, force = moved(now, wanted + reflex, body, command, grip, variation)
         after = after._replace(reflex=reflex)
         return after, (after.height, after.far_height - after.height, force)
 
@@ -135,14 +136,26 @@ def advance_plant(
     )
 
 
-def _frame(
+def moved(
     now: Moving,
     reference: jax.Array,
     body: Body,
     command: jax.Array,
+    grip: jax.Array,
     variation: ArmVariation | None,
 ) -> tuple[Moving, jax.Array]:
-    """Return the lifts a frame later, and the force of the person's hands beyond the weight [N]."""
+    """Return the lifts a frame later, and the force of the person's hands beyond the weight [N].
+
+    Parameters
+    ----------
+    now, body, variation
+        As of :func:`advance_plant`.
+    reference, command
+        (n,) what the person's arms pull towards, with the reflex, and the commanded height of the
+        far hands at the end of the frame [m].
+    grip
+        (n,) torque with which the grips resist the pitch [Nm].
+    """
     mass = body.mass
     arms = body.stiffness * (now.reference - now.height)
     arms = arms + body.damping * ((reference - now.reference) / FRAME - now.velocity)
@@ -150,7 +163,6 @@ def _frame(
     far_velocity = (arm.hand - now.far_height) / FRAME
 
     square = ((now.far_height - now.height) / TABLE_LENGTH) ** 2
-    grip = _PITCH_GAIN * now.pitch + _RATE_GAIN * now.pitch_rate
     tilted = TABLE_MASS / 12 * (1 + square) + (2 * mass + TABLE_MASS / 4) * square
     carried = (TABLE_MASS / 4 - tilted) * (far_velocity - now.far_velocity) / FRAME
     driving = arms + grip / TABLE_LENGTH * (1 + square / 2) - carried

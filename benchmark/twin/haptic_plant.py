@@ -1,0 +1,109 @@
+"""The plant of tasks with touch: wrists that mean a pitch, a far grip, and what sensors feel."""
+
+from typing import Final, NamedTuple
+
+import jax
+import jax.numpy as jnp
+
+from ...agents.agent import FRAME
+from ..tasks.haptic import SENSED_FRAMES
+from ..world.haptic_world import FAR_GRIP_DAMPING, FAR_GRIP_STIFFNESS
+from ..world.table import GRIP_DAMPING, GRIP_STIFFNESS, TABLE_INERTIA, WEIGHT_SHARE
+from .arm import ArmVariation
+from .body import DEPTH, Body, activated, delayed, pushed, wanted_shift
+from .plant import Moving, Plant, moved, plant_at_rest
+
+_IMPLICIT: Final = 1 + FRAME * (GRIP_DAMPING + FAR_GRIP_DAMPING) / TABLE_INERTIA / 2
+
+
+class HapticPlant(NamedTuple):
+    """The state of n lifts; histories are (DEPTH, n), newest first."""
+
+    plant: Plant
+    uneven: jax.Array
+    """History of the far end's height above the person's, less the intended difference [m]."""
+    wrist: jax.Array
+    """(n,) pitch that the wrists turn towards at the end of the last frame [rad]."""
+    touch: jax.Array
+    """(SENSED_FRAMES, 2, n) force beyond half of the weight [N] and torque [Nm] of the far hands in
+    the last frames."""
+
+
+def haptic_plant_at_rest(count: int) -> HapticPlant:
+    """Return lifts at rest."""
+    return HapticPlant(
+        plant=plant_at_rest(count),
+        uneven=jnp.zeros((DEPTH, count)),
+        wrist=jnp.zeros(count),
+        touch=jnp.zeros((SENSED_FRAMES, 2, count)),
+    )
+
+
+class Meant(NamedTuple):
+    """A person's intention in some frames, each (frames, n)."""
+
+    reference: jax.Array
+    """What the arms pull towards at the end of each, without the reflex [m]."""
+    difference: jax.Array
+    """The intended height of the far end above the near one [m]."""
+    wrist: jax.Array
+    """The pitch that the wrists turn towards [rad]."""
+
+
+def advance_haptic_plant(
+    state: HapticPlant,
+    body: Body,
+    meant: Meant,
+    commands: jax.Array,
+    variation: ArmVariation | None = None,
+) -> HapticPlant:
+    """Return the lifts some frames later, at most :data:`.CHUNK`; see :class:`.HapticWorld`.
+
+    Parameters
+    ----------
+    state
+        The lifts.
+    body
+        The people.
+    meant
+        Their intention.
+    commands
+        (frames, n) commanded height of the far hands at the end of each frame [m].
+    variation
+        Arms that differ from the benchmark's; none: its own.
+    """
+    plant, count = state.plant, len(commands)
+    shifts = wanted_shift(
+        body, delayed(state.uneven, body.seen, count), delayed(plant.forces, body.felt, count)
+    )
+
+    def frame(
+        held: tuple[Moving, jax.Array], due: tuple[Meant, jax.Array, jax.Array]
+    ) -> tuple[tuple[Moving, jax.Array], tuple[jax.Array, ...]]:
+        (now, wrist), (wanted, shift, command) = held, due
+        reflex = activated(now.reflex, shift)
+        turn = (wanted.wrist - wrist) / FRAME
+        own = GRIP_STIFFNESS * (now.pitch - wrist) + GRIP_DAMPING * (now.pitch_rate - turn)
+        far = FAR_GRIP_STIFFNESS * now.pitch + FAR_GRIP_DAMPING * now.pitch_rate
+        grip = (own + far) / _IMPLICIT
+        after, force = moved(now, wanted.reference + reflex, body, command, grip, variation)
+        after = after._replace(reflex=reflex)
+        difference = after.far_height - after.height
+        felt = jnp.stack((after.far_force - WEIGHT_SHARE, -far / _IMPLICIT))
+        seen = (after.height, difference, force, difference - wanted.difference, felt)
+        return (after, wanted.wrist), seen
+
+    (moving, wrist), (heights, differences, forces, uneven, felt) = jax.lax.scan(
+        frame, (plant.moving, state.wrist), (meant, shifts, commands)
+    )
+    return HapticPlant(
+        plant=Plant(
+            moving=moving,
+            heights=pushed(plant.heights, heights),
+            differences=pushed(plant.differences, differences),
+            forces=pushed(plant.forces, forces),
+        ),
+        uneven=pushed(state.uneven, uneven),
+        wrist=wrist,
+        touch=jnp.concatenate((state.touch, felt))[-SENSED_FRAMES:],
+    )

@@ -1,0 +1,84 @@
+"""The twin of intended poses: the lifts of the engine, with policies that touch and that do not."""
+
+import contextlib
+
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from colift.agents.errors import InputError
+from colift.agents.observations import HapticObservation as Seen
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import make_lift
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.twin import haptic_plant
+from colift.benchmark.twin.intent_lifts import draw_intent, stack_intent
+from colift.benchmark.twin.intent_playing import intent_rmse_mm
+from colift.benchmark.world.table import TABLE_LENGTH
+
+PEOPLE = (210_000, 210_001)
+"""Seeds of people and lifts outside all suites."""
+LIFTS = [
+    (make_scenario(behaviour, f"draw-{seed}", task="intent"), seed)
+    for behaviour in ("together", "pivot", "counter", "switching")
+    for seed in PEOPLE
+]
+
+
+def yielding(memory, seen):
+    return memory, -0.06 * seen[Seen.FORCE]
+
+
+def level(memory, seen):
+    torque = seen[Seen.TORQUE]
+    near = seen[Seen.HAND_HEIGHT] + TABLE_LENGTH * torque * (1 - torque**2 / 6)
+    return near, 2 * near - memory - seen[Seen.HAND_COMMAND]
+
+
+class Played:
+    """A policy of the twin as an agent of the engine."""
+
+    def __init__(self, policy):
+        self.policy = policy
+
+    def reset(self, seed):
+        self.memory = 0.0
+
+    def act(self, observation):
+        self.memory, action = self.policy(self.memory, observation)
+        return np.array([action])
+
+
+def in_engine(policy):
+    errors = []
+    for scenario, seed in LIFTS:
+        with contextlib.closing(make_lift(scenario)) as lift:
+            errors.append(run_episode(lift, Played(policy), seed).scores["rmse_mm"])
+    return np.array(errors)
+
+
+@pytest.fixture(scope="module")
+def drawn():
+    return stack_intent([draw_intent(scenario, seed) for scenario, seed in LIFTS])
+
+
+def in_twin(policy, lifts):
+    return np.asarray(intent_rmse_mm(policy, jnp.zeros(lifts.size), lifts))
+
+
+@pytest.mark.parametrize("policy", [yielding, level])
+def test_each_lift_is_that_of_the_engine(drawn, policy):
+    engine, twin = in_engine(policy), in_twin(policy, drawn)
+    assert abs(twin.mean() / engine.mean() - 1) < 0.003
+    assert np.abs(twin / engine - 1).max() < 0.015
+
+
+def test_a_wrong_grip_is_found(drawn, monkeypatch):
+    engine = in_engine(yielding)
+    monkeypatch.setattr(haptic_plant, "FAR_GRIP_STIFFNESS", 1.5)
+    assert np.abs(in_twin(yielding, drawn) / engine - 1).max() > 0.015
+
+
+@pytest.mark.parametrize("settings", [{"task": "level"}, {"task": "intent", "partner": "human"}])
+def test_what_it_does_not_model_is_refused_by_name(settings):
+    with pytest.raises(InputError, match="this twin has the task intent with a NAO"):
+        draw_intent(make_scenario("smooth", **settings), 0)
