@@ -1,6 +1,5 @@
 """The oracle: knows what the human will do, and has the same arm. It is no policy: it cheats."""
 
-import contextlib
 from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ from ...agents.loading.loading import source_digest
 from ..episode.episode import Episode, run_episode
 from ..episode.lift import Lift
 from ..episode.scenario import Scenario
+from ..execution.kept_world import drop_kept_world, lift_in_kept_world
 from ..execution.runner import Run
 from ..suites.suite import Suite
 
@@ -92,7 +92,7 @@ class Rehearsed:
 
     def __call__(self) -> list[Episode]:
         """Return the episodes of the oracle."""
-        with contextlib.closing(Lift(self.scenario)) as lift:
+        with lift_in_kept_world(self.scenario) as lift:
             return [foreknow(lift, seed) for seed in self.seeds]
 
 
@@ -110,9 +110,13 @@ def oracle_run(
     ]
     episodes: list[Episode] = []
     play = Rehearsed.__call__
-    for some in map(play, tasks) if executor is None else executor.map(play, tasks, chunksize=5):
-        episodes += some
-        progress(len(some))
+    played = map(play, tasks) if executor is None else executor.map(play, tasks, chunksize=5)
+    try:
+        for some in played:
+            episodes += some
+            progress(len(some))
+    finally:
+        drop_kept_world()
     return Run(
         policy=ORACLE,
         policy_digest=source_digest(Foreknowing),

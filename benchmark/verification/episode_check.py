@@ -1,6 +1,5 @@
 """The replay of a bundle's episodes, in this process or on any executor, and their checks."""
 
-import contextlib
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ from ..episode.replay import ReplayError, replay
 from ..episode.scenario import Scenario
 from ..episode.trace import Trace
 from ..execution.batches import SEEDS_PER_BATCH
+from ..execution.kept_world import drop_kept_world, lift_in_kept_world
 from ..suites.suite import Suite
 from .channel_check import channel_fault
 from .deviation import Place, beyond_tolerance, first_difference
@@ -62,7 +62,7 @@ class EpisodeCheck:
 
     def results(self) -> Iterator[Checked]:
         """Yield the result of each replay."""
-        with contextlib.closing(Lift(self.scenario)) as lift:
+        with lift_in_kept_world(self.scenario) as lift:
             for claim in zip(self.places, self.seeds, self.episodes, strict=True):
                 yield _check(lift, *claim, self.channel, same_platform=self.same_platform)
 
@@ -178,9 +178,12 @@ def _parts(
     checks: Sequence[EpisodeCheck], executor: Executor | None
 ) -> Iterator[Sequence[Checked]]:
     if executor is None:
-        for check in checks:
-            for checked in check.results():
-                yield [checked]
+        try:
+            for check in checks:
+                for checked in check.results():
+                    yield [checked]
+        finally:
+            drop_kept_world()
         return
     futures = [executor.submit(check) for check in checks]
     try:
