@@ -28,7 +28,7 @@ _Visit: Final = ctypes.CFUNCTYPE(
 )
 
 
-@_Visit
+@_Visit  # type: ignore[untyped-decorator]
 def _first(info: "ctypes._Pointer[_Loaded]", size: int, found: list[_Count]) -> int:
     if size >= ctypes.sizeof(_Loaded):
         found.append((info.contents.loaded, info.contents.unloaded))
