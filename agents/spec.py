@@ -5,9 +5,8 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Protocol, Self, runtime_checkable
 
-from threadpoolctl import threadpool_limits
-
 from .agent import Agent
+from .threads import one_thread
 
 
 class AgentSpec(Protocol):
@@ -59,16 +58,6 @@ class Paced(Protocol):
 
     def paced(self, period: float) -> Self:
         """Return the same agent with the time budgets of a control period [s]."""
-
-
-@contextmanager
-def one_thread() -> Iterator[None]:
-    """Limit linear algebra to one thread, as in a sandbox: their number changes the last bits.
-
-    Only libraries that are already loaded are limited.
-    """
-    with threadpool_limits(limits=1):
-        yield
 
 
 class InProcess:

@@ -100,7 +100,8 @@ def in_own_process(once):
     if importlib.util.find_spec("jax") is None:
         pytest.skip("JAX is not installed")
     compiling = {
-        "XLA_FLAGS": "--xla_cpu_multi_thread_eigen=false --xla_backend_optimization_level=0",
+        "XLA_FLAGS": "--xla_cpu_multi_thread_eigen=false --xla_backend_optimization_level=0 "
+        "--xla_cpu_use_fusion_emitters=false",
         "JAX_COMPILATION_CACHE_DIR": str(once("compiled", lambda folder: None)),
         "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0",
         "JAX_PERSISTENT_CACHE_MIN_ENTRY_SIZE_BYTES": "-1",

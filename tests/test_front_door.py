@@ -58,7 +58,7 @@ def test_each_public_name_is_there():
 
 def test_the_import_loads_no_library():
     loaded = python("import sys, colift; print(*sys.modules)").split()
-    assert not {"numpy", "gymnasium", "pybullet", "matplotlib", "typer"} & set(loaded)
+    assert not {"numpy", "gymnasium", "pybullet", "matplotlib", "typer", "asyncio"} & set(loaded)
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,8 @@ from ..agent import Agent
 from ..errors import InputError
 from ..identity import code_hash, source_hash
 from ..registry import POLICIES, lookup
-from ..spec import InProcess, one_thread
+from ..spec import InProcess
+from ..threads import one_thread
 from .parameters import make_with, read_values
 
 

@@ -1,6 +1,5 @@
 """The oracle: knows what the human will do, and has the same arm. It is no policy: it cheats."""
 
-import contextlib
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
@@ -10,8 +9,9 @@ from ...agents.errors import InputError
 from ...agents.loading.loading import source_digest
 from ..episode.episode import Episode
 from ..episode.level import Level
-from ..episode.lift import Lift, make_lift
+from ..episode.lift import Lift
 from ..episode.scenario import Scenario
+from ..execution.kept_world import drop_kept_world, lift_in_kept_world
 from ..execution.runner import Run
 from ..suites.suite import Suite
 from ..tasks.intent.oracle import foreknow_pose
@@ -48,7 +48,7 @@ class Rehearsed:
     def __call__(self) -> list[Episode]:
         """Return the episodes of the oracle."""
         play = ORACLES[self.scenario.task.name]
-        with contextlib.closing(make_lift(self.scenario)) as lift:
+        with lift_in_kept_world(self.scenario) as lift:
             return [play(lift, seed) for seed in self.seeds]
 
 
@@ -75,9 +75,13 @@ def oracle_run(
     ]
     episodes: list[Episode] = []
     play = Rehearsed.__call__
-    for some in map(play, tasks) if executor is None else executor.map(play, tasks, chunksize=5):
-        episodes += some
-        progress(len(some))
+    played = map(play, tasks) if executor is None else executor.map(play, tasks, chunksize=5)
+    try:
+        for some in played:
+            episodes += some
+            progress(len(some))
+    finally:
+        drop_kept_world()
     return Run(
         policy=ORACLE,
         policy_digest=source_digest(Foreknowing),

@@ -14,6 +14,7 @@ from ..episode.lift import Lift, make_lift
 from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..rendering.scene import Scene, check_render_mode
 from ..suites.catalogue import make_scenario
+from ..world.shared_world import SharedWorld
 from .drawing import Drawing, make_drawing
 from .rewards import LEVEL, SCORE, check_reward, score_rewards
 from .settings import (
@@ -25,7 +26,6 @@ from .settings import (
     check_times,
     observation_space,
 )
-from .shared_world import SharedWorld
 
 
 class ParallelLift(ParallelEnv[str, Observation, Action]):

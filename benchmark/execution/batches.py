@@ -13,14 +13,13 @@ from ...agents.errors import EvaluatorFault, InputError, error_text
 from ...agents.spec import AgentSpec, Paced
 from ..channels import Channel, teleoperated
 from ..episode.episode import Episode, run_episode
-from ..episode.lift import make_lift
 from ..episode.scenario import Scenario
 from ..suites.hidden import keyed
 from ..suites.suite import Suite
+from .kept_world import drop_kept_world, lift_in_kept_world
 
 SEEDS_PER_BATCH: Final = 5
-"""Seeds of one scenario that a worker plays at a time: few enough for visible progress, many enough
-that the time to build the world (some milliseconds) does not count."""
+"""Seeds of one scenario that a worker plays at a time: few enough for visible progress."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +70,7 @@ def play(
     """
     if isinstance(policy, Paced):
         policy = policy.paced(scenario.control_period)
-    with contextlib.closing(make_lift(scenario)) as lift:
+    with lift_in_kept_world(scenario) as lift:
         for seed in seeds:
             with contextlib.ExitStack() as stack:
                 begin = time.perf_counter()
@@ -215,17 +214,20 @@ def run_batches(
 
 
 def _alone(batches: Sequence[Batch], faults: Faults) -> Iterator[tuple[int, Episode]]:
-    for batch in batches:
-        done: set[int] = set()
-        attempt = 1
-        while len(done) < len(batch.places):
-            try:
-                for place, episode in batch.without(done).play():
-                    done.add(place)
-                    yield place, episode
-            except EvaluatorFault as error:
-                faults.add(attempt, error)
-                attempt += 1
+    try:
+        for batch in batches:
+            done: set[int] = set()
+            attempt = 1
+            while len(done) < len(batch.places):
+                try:
+                    for place, episode in batch.without(done).play():
+                        done.add(place)
+                        yield place, episode
+                except EvaluatorFault as error:
+                    faults.add(attempt, error)
+                    attempt += 1
+    finally:
+        drop_kept_world()
 
 
 def _pooled(

@@ -11,7 +11,7 @@ from typing import Final
 
 from ...agents.errors import InputError
 from ...agents.humans import Recorded, Recording, load_recordings
-from ...agents.spec import one_thread
+from ...agents.threads import one_thread
 from ..episode.episode import run_episode
 from ..episode.identity import numbers, plain, scores_hash
 from ..episode.scenario import Scenario

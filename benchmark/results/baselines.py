@@ -122,6 +122,13 @@ def baseline_specs(suite: Suite) -> dict[str, AgentSpec]:
     return {name: human if name == HUMAN_HUMAN else PolicySpec(text=name) for name in BASELINES}
 
 
+_MOST_PLAYED: Final = 16
+"""Suites whose baselines a process remembers."""
+
+_played: Final[dict[str, dict[str, Baseline]]] = {}
+"""Baselines that this process has played, by the digest of the suite."""
+
+
 def human_human_run(
     suite: Suite,
     *,
@@ -139,11 +146,21 @@ def play_baselines(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> dict[str, Baseline]:
-    """Play the baselines on a suite's episodes; arguments as of :func:`.run_suite`."""
+    """Play the baselines on a suite's episodes; arguments as of :func:`.run_suite`.
+
+    This process plays those of a suite once: its digest is that of all that could change them.
+    """
+    known = _played.get(suite.digest)
+    if known is not None:
+        progress(suite.size * len(known))
+        return dict(known)
     found = {}
     for name, spec in baseline_specs(suite).items():
         played = suite.with_partner("human") if name == HUMAN_HUMAN else suite
         found[name] = Baseline.of(run_suite(spec, played, executor=executor, progress=progress))
+    while len(_played) >= _MOST_PLAYED:
+        del _played[next(iter(_played))]
+    _played[suite.digest] = dict(found)
     return found
 
 
@@ -158,13 +175,18 @@ def shipped_bounds(suite: Suite) -> dict[str, Baseline] | None:
 
 
 def _shipped(suite: Suite, kind: str) -> dict[str, Baseline] | None:
-    path = files(__package__).joinpath("data", "baselines.json")
-    if not path.is_file():
-        return None
-    content = json.loads(path.read_text()).get(suite.digest)
+    content = _shipped_content().get(suite.digest)
     if content is None:
         return None
     return {name: Baseline.read(value) for name, value in content[kind].items()}
+
+
+@functools.cache
+def _shipped_content() -> dict[str, Any]:
+    """Return the content of the shipped file."""
+    path = files(__package__).joinpath("data", "baselines.json")
+    content: dict[str, Any] = json.loads(path.read_text()) if path.is_file() else {}
+    return content
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,6 +1,5 @@
 """The replay of a bundle's episodes, in this process or on any executor, and their checks."""
 
-import contextlib
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass
@@ -12,12 +11,13 @@ from ..bundle import Bundle, one_line
 from ..bundle.files import EPISODES, MANIFEST, TRACES
 from ..channels import Channel
 from ..episode.episode import Episode
-from ..episode.lift import Lift, make_lift
+from ..episode.lift import Lift
 from ..episode.metric import Scores
 from ..episode.replay import ReplayError, replay
 from ..episode.scenario import Scenario
 from ..episode.trace import Trace
 from ..execution.batches import SEEDS_PER_BATCH
+from ..execution.kept_world import drop_kept_world, lift_in_kept_world
 from ..suites.suite import Suite
 from .channel_check import channel_fault
 from .deviation import Place, beyond_tolerance, first_difference
@@ -62,7 +62,7 @@ class EpisodeCheck:
 
     def results(self) -> Iterator[Checked]:
         """Yield the result of each replay."""
-        with contextlib.closing(make_lift(self.scenario)) as lift:
+        with lift_in_kept_world(self.scenario) as lift:
             for claim in zip(self.places, self.seeds, self.episodes, strict=True):
                 yield _check(lift, *claim, self.channel, same_platform=self.same_platform)
 
@@ -178,9 +178,12 @@ def _parts(
     checks: Sequence[EpisodeCheck], executor: Executor | None
 ) -> Iterator[Sequence[Checked]]:
     if executor is None:
-        for check in checks:
-            for checked in check.results():
-                yield [checked]
+        try:
+            for check in checks:
+                for checked in check.results():
+                    yield [checked]
+        finally:
+            drop_kept_world()
         return
     futures = [executor.submit(check) for check in checks]
     try:

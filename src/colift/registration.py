@@ -1,9 +1,12 @@
 """Registration of the environments with Gymnasium, and the environment by one call."""
 
+import importlib.util
+import sys
+from collections.abc import Sequence
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Final
-
-import wrapt
 
 if TYPE_CHECKING:
     from gymnasium import Env
@@ -19,7 +22,38 @@ def register_with_gymnasium() -> None:
 
     Gymnasium reads no entry points since 1.0, and takes some tenths of a second to import.
     """
-    wrapt.register_post_import_hook(_register, GYMNASIUM)
+    loaded = sys.modules.get(GYMNASIUM)
+    if loaded is not None:
+        _register(loaded)
+    else:
+        sys.meta_path.insert(0, _Awaited())
+
+
+class _Awaited(MetaPathFinder):
+    """Finds Gymnasium as the others do, once, and registers with it when it has been executed."""
+
+    def find_spec(
+        self, name: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        if name != GYMNASIUM:
+            return None
+        sys.meta_path.remove(self)
+        spec = importlib.util.find_spec(name)
+        if spec is None or spec.loader is None:
+            sys.meta_path.insert(0, self)
+            return spec
+        execute = spec.loader.exec_module
+
+        def executed(module: ModuleType) -> None:
+            try:
+                execute(module)
+            except BaseException:
+                sys.meta_path.insert(0, self)  # It may be tried again.
+                raise
+            _register(module)
+
+        spec.loader.exec_module = executed  # type: ignore[method-assign]
+        return spec
 
 
 def _register(gymnasium: ModuleType) -> None:

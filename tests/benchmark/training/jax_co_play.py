@@ -1,7 +1,5 @@
 """Co-play on the twin; run by test_self_play.py in a process of its own."""
 
-import os
-
 import colift
 import numpy as np
 import pytest
@@ -10,8 +8,6 @@ from colift.benchmark.training.course import open_course
 from colift.benchmark.training.ppo_settings import CoPlaySettings
 from colift.benchmark.twin.libraries import require_jax
 
-# Compiling takes longer than computing here.
-os.environ["XLA_FLAGS"] = "--xla_backend_optimization_level=0"
 require_jax()
 
 import jax  # noqa: E402

@@ -1,6 +1,5 @@
 """Proximal policy optimisation on the twin; run by test_ppo.py in a process of its own."""
 
-import os
 from functools import partial
 
 import numpy as np
@@ -13,8 +12,6 @@ from colift.benchmark.training.ppo_settings import PpoSettings
 from colift.benchmark.training.validation import lift_together, validation_error
 from colift.benchmark.twin.libraries import require_jax
 
-# Compiling takes longer than computing here.
-os.environ["XLA_FLAGS"] = "--xla_backend_optimization_level=0"
 require_jax()
 
 import jax  # noqa: E402

@@ -1,6 +1,5 @@
 """Self-play on the twin; run by test_self_play.py in a process of its own."""
 
-import os
 from functools import partial
 
 import numpy as np
@@ -10,8 +9,6 @@ from colift.benchmark.training.course import open_course
 from colift.benchmark.training.ppo_settings import SelfPlaySettings
 from colift.benchmark.twin.libraries import require_jax
 
-# Compiling takes longer than computing here.
-os.environ["XLA_FLAGS"] = "--xla_backend_optimization_level=0"
 require_jax()
 
 import jax  # noqa: E402

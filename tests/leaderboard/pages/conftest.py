@@ -15,7 +15,7 @@ from colift.leaderboard.board.seasons import ImportedSeason
 from colift.leaderboard.pages.site import write_site
 from colift.leaderboard.service.app import create_app
 from colift.leaderboard.service.documentation import Documentation
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Browser, Page, ViewportSize
 
 from ..serving import serving
 from .boards import BEGAN, digest, practice, renamed
@@ -75,18 +75,50 @@ def site(kept: Path) -> str:
     return (kept / "site").as_uri()
 
 
-@pytest.fixture
-def page(chromium: Browser) -> Iterator[Page]:
-    """A page that fails the test by an error of its scripts, or a request to another host."""
+DESKTOP = ViewportSize(width=1280, height=900)
+
+
+@contextmanager
+def opened_page(browser: Browser) -> Iterator[tuple[Page, list[str]]]:
+    """Open a page; yield it, and what goes wrong: errors of its scripts, and other hosts."""
     wrong: list[str] = []
-    context = chromium.new_context(viewport={"width": 1280, "height": 900})
+    context = browser.new_context(viewport=DESKTOP)
     opened = context.new_page()
     opened.set_default_timeout(60_000)  # A machine may be busy; no test is about time.
     opened.on("pageerror", lambda error: wrong.append(str(error)))
     opened.on("console", lambda told: wrong.append(told.text) if _bad(told) else None)
     opened.on("request", lambda asked: wrong.append(asked.url) if _abroad(asked.url) else None)
-    yield opened
+    yield opened, wrong
     context.close()
+
+
+@pytest.fixture(scope="module")
+def shared_page(chromium: Browser) -> Iterator[tuple[Page, list[str]]]:
+    with opened_page(chromium) as shared:
+        yield shared
+
+
+@pytest.fixture
+def page(shared_page: tuple[Page, list[str]]) -> Iterator[Page]:
+    """A page that fails the test by an error of its scripts, or a request to another host.
+
+    The tests of a module load what they look at into the same one: a browser takes three times as
+    long to open a page as to load one. What a page stores is not removed.
+    """
+    opened, wrong = shared_page
+    wrong.clear()
+    yield opened
+    opened.goto("about:blank")
+    opened.set_viewport_size(DESKTOP)
+    opened.emulate_media(color_scheme="null", reduced_motion="null")
+    assert wrong == []
+
+
+@pytest.fixture
+def own_page(chromium: Browser) -> Iterator[Page]:
+    """The same, without anything that another test's page has stored."""
+    with opened_page(chromium) as (opened, wrong):
+        yield opened
     assert wrong == []
 
 

@@ -40,6 +40,12 @@ def url(folder):
 
 
 @pytest.fixture
+def page(own_page):
+    """A page of its own: it keeps a token."""
+    return own_page
+
+
+@pytest.fixture
 def queue(folder):
     board = Board.open(folder)
     yield Queue(board)

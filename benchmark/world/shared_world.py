@@ -1,9 +1,10 @@
-"""The world of drawn lifts, in which one person takes over from another."""
+"""A world in which one person takes over from another."""
 
-from ..world import BodyParameters, BulletWorld, FarEnd
-from ..world.bullet import pybullet
-from ..world.human_body import HumanBody
-from ..world.table import HANDS, SLIDE
+from .bullet import pybullet
+from .bullet_world import BulletWorld
+from .human_body import BodyParameters, HumanBody
+from .table import HANDS, SLIDE
+from .world import FarEnd
 
 
 class SharedWorld(BulletWorld):

@@ -1,0 +1,62 @@
+"""One world for the scenarios of a run, one after the other.
+
+A new world takes as long as half a lift. A person takes over from another in it, bit for bit as in
+a new one (:class:`.SharedWorld`).
+"""
+
+import contextlib
+from collections.abc import Iterator
+from typing import Final
+
+from ..episode.level import Level
+from ..episode.lift import Lift, make_lift
+from ..episode.scenario import Scenario
+from ..world import BodyParameters, FarEnd
+from ..world.shared_world import SharedWorld
+
+_kept: Final[list[tuple[FarEnd, SharedWorld]]] = []
+"""The world that the last lift has left, with the holder of its far end."""
+
+
+@contextlib.contextmanager
+def lift_in_kept_world(scenario: Scenario) -> Iterator[Lift]:
+    """Yield a lift, in the world that the last one has left if the same holds the far end there.
+
+    Its world is left for the next one, unless an error ends the context. A task with a world of its
+    own has a new one.
+    """
+    if type(scenario.task).world is not Level.world:
+        with contextlib.closing(make_lift(scenario)) as lift:
+            yield lift
+        return
+    lift = Lift(scenario, world=_taken)
+    try:
+        yield lift
+    except GeneratorExit:  # Nobody asks for more episodes.
+        _keep(lift)
+        raise
+    except BaseException:
+        lift.close()
+        raise
+    _keep(lift)
+
+
+def drop_kept_world() -> None:
+    """Release the world that is kept, if there is one: 30 MB."""
+    while _kept:
+        _kept.pop()[1].close()
+
+
+def _taken(human: BodyParameters, far_end: FarEnd) -> SharedWorld:
+    while _kept:
+        holder, world = _kept.pop()
+        if holder == far_end:
+            return world.with_person(human, far_end)
+        world.close()
+    return SharedWorld(human, far_end)
+
+
+def _keep(lift: Lift) -> None:
+    drop_kept_world()
+    assert isinstance(lift.world, SharedWorld)
+    _kept.append((lift.seat.body, lift.world))

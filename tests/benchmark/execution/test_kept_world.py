@@ -1,0 +1,56 @@
+"""One world for many scenarios: the bits of a new one, and none is left over."""
+
+import pickle
+
+import pytest
+from colift.agents.errors import EvaluatorFault
+from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.execution import kept_world
+from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.kept_world import drop_kept_world, lift_in_kept_world
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import make_suite
+
+COPY = PolicySpec(text="copy")
+
+
+@pytest.fixture(autouse=True)
+def _none_kept():
+    yield
+    drop_kept_world()
+
+
+def bits(episode):
+    """Return all that an episode is, without its times."""
+    trace = {name: value for name, value in vars(episode.trace).items() if "time" not in name}
+    return pickle.dumps((trace, episode.scores, episode.failure))
+
+
+@pytest.mark.parametrize("partner", ["nao", "human"])
+def test_each_lift_has_the_bits_of_a_world_of_its_own(partner):
+    """Also after a lift of another person, and after another holder of the far end."""
+    scenarios = [make_scenario("smooth", name, partner=partner) for name in ("S1", "S4", "S1")]
+    scenarios.insert(1, make_scenario("jerky", "S5"))
+    worlds = []
+    for scenario in scenarios:
+        for seed in (0, 3):
+            found = next(play(COPY, scenario, (seed,)))
+            worlds += [world for _, world in kept_world._kept]
+            with COPY.agent() as agent:
+                assert bits(found) == bits(run_episode(Lift(scenario), agent, seed))
+    assert len(worlds) == 8
+    assert worlds[-1] is worlds[-4]  # One person has taken over from another.
+
+
+def test_an_error_leaves_no_world():
+    with pytest.raises(EvaluatorFault), lift_in_kept_world(make_scenario("smooth", "S1")):
+        raise EvaluatorFault("the disk burns")
+    assert kept_world._kept == []
+
+
+def test_a_run_leaves_no_world():
+    run_suite(COPY, make_suite("quick-v1"))
+    assert kept_world._kept == []
