@@ -98,6 +98,9 @@ def apg(
     updates: Annotated[
         int, typer.Option(metavar="N", help="Steps of the optimiser.")
     ] = ApgSettings.updates,
+    last: Annotated[
+        int, typer.Option(metavar="N", help="Further steps, with fewer people from wide ranges.")
+    ] = ApgSettings.last,
     lifts: Annotated[
         int, typer.Option(metavar="N", help="Lifts drawn in the beginning.")
     ] = ApgSettings.lifts,
@@ -123,6 +126,7 @@ def apg(
     """Train a recurrent network by gradients through whole lifts of the twin (extra: train)."""
     settings = ApgSettings(
         updates=updates,
+        last=last,
         lifts=lifts,
         batch=batch,
         units=units,
@@ -137,7 +141,7 @@ def apg(
     def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
         train_apg(settings, course, progress)
 
-    _train_all(APG, settings, seeds, out, updates, 1, train)
+    _train_all(APG, settings, seeds, out, settings.total, 1, train)
 
 
 @app.command()

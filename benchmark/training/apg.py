@@ -8,6 +8,8 @@ the score [mm], the root mean square of the second differences of the command [m
 force at the human's hands beyond half of the table's weight [N].
 The weight is 1 but for people with wide habits (:mod:`.pool`), whose force does not count: a robot
 that is to be gentle with people whom it cannot foresee follows late.
+In the last updates, which are optional, the rate rises and falls once more (warm restart, I.
+Loshchilov and F. Hutter, "SGDR", ICLR 2017), with fewer people of wide habits.
 Nothing is estimated: the gradient is that of the lifts themselves (compare J. Freeman et al.,
 "Brax", NeurIPS 2021, on short-horizon actor-critic and analytic gradients).
 """
@@ -109,10 +111,14 @@ def updates(
     """
     learner = learner or first_learner(settings, seed)
     lifts = pool or draw_pool(settings.lifts, settings.wide)
-    gradient, descend = _functions(settings)
     network, state = learner.network, learner.optimiser
+    now = settings if learner.update < settings.updates else settings.of_last()
     with ThreadPoolExecutor(PARTS) as threads:
-        for update in range(learner.update, settings.updates):
+        for update in range(learner.update, settings.total):
+            if update == settings.updates:
+                now = settings.of_last()
+                state = optimiser(now).init(network)
+            gradient, descend = _functions(now)
             key = jax.random.fold_in(jax.random.key(seed), update)
             keys = [jax.random.fold_in(key, part) for part in range(PARTS)]
             parts = list(threads.map(partial(_finished, gradient, network, lifts), keys))

@@ -54,13 +54,13 @@ def train_apg(
         progress(learner.update)
     start = time.perf_counter() - course.seconds
     pool = draw_pool(settings.lifts, settings.wide)
-    every = max(EVERY, settings.updates // POINTS)
+    every = max(EVERY, settings.total // POINTS)
     steps_of_update = settings.batch * float(pool.lifts.steps.mean())
     for update in updates(settings, course.seed, learner, pool):
         learner = update.learner
         check_finite(f"the RMSE of update {learner.update}", np.array(update.rmse_mm))
         progress(1)
-        if learner.update % every == 0 or learner.update == settings.updates:
+        if learner.update % every == 0 or learner.update == settings.total:
             network = in_numpy(learner.network)
             error = validation_error(partial(RecurrentController, network))
             steps = round(learner.update * steps_of_update)

@@ -1,7 +1,7 @@
 """The settings of analytic policy gradients, without JAX."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 from ...agents.errors import InputError
@@ -10,6 +10,12 @@ NAME: Final = "apg"
 
 PARTS: Final = 2
 """Parts of a batch, each in a thread of its own: a fixed number, so that sums keep their order."""
+
+LAST_WIDE: Final = 0.1
+"""Largest share of wide lifts in the last updates: enough to keep what was learned of them."""
+
+LAST_RATE: Final = 0.6
+"""Learning rate of the last updates, relative to that of the others."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,6 +30,8 @@ class ApgSettings:
 
     updates: int = 800
     """Steps of the optimiser."""
+    last: int = 0
+    """Further steps, from a new optimiser, with fewer wide lifts."""
     lifts: int = 4000
     """Lifts that batches are drawn from."""
     batch: int = 256
@@ -46,6 +54,8 @@ class ApgSettings:
         for name in ("updates", "units"):
             if getattr(self, name) < 1:
                 raise InputError(f"--{name} must be at least 1, got {getattr(self, name)}")
+        if self.last < 0:
+            raise InputError(f"--last must be at least 0, got {self.last}")
         if self.batch < PARTS or self.batch % PARTS:
             raise InputError(f"--batch must be a multiple of {PARTS}, got {self.batch}")
         if not 0 <= self.wide < 1:
@@ -55,3 +65,18 @@ class ApgSettings:
                 raise InputError(f"--{name} must be at least 0, got {getattr(self, name)}")
         if not 0 < self.rate < 1:
             raise InputError(f"--rate must be between 0 and 1, got {self.rate}")
+
+    @property
+    def total(self) -> int:
+        """Steps of both optimisers."""
+        return self.updates + self.last
+
+    def of_last(self) -> "ApgSettings":
+        """Return the settings of the last updates."""
+        return replace(
+            self,
+            updates=self.last,
+            last=0,
+            rate=LAST_RATE * self.rate,
+            wide=min(self.wide, LAST_WIDE),
+        )
