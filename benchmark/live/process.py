@@ -1,9 +1,7 @@
 """The process of a room: a loop that sleeps to absolute deadlines, with one socket."""
 
-import contextlib
 import gc
 import multiprocessing
-import os
 import select
 import signal
 import socket
@@ -12,6 +10,7 @@ from dataclasses import dataclass
 from multiprocessing.process import BaseProcess
 from typing import Final
 
+from .priority import ORDINARY, TABLE, take_turn
 from .room import Room, RoomConfig
 from .seats import Message
 
@@ -94,28 +93,15 @@ def _turn(room: Room, connection: socket.socket) -> bool:
     due = room.due
     if due is not None:
         gc.disable()
-        _go_first(True)
+        take_turn(TABLE)
         if due <= time.monotonic():
             _send(connection, room.tick(time.monotonic()))
     else:
         gc.enable()
-        _go_first(False)
+        take_turn(ORDINARY)
         if not ready and room.has_work:
             _send(connection, room.work())
     return True
-
-
-def _go_first(whether: bool) -> None:
-    """Go before all other work, if the system permits it: a browser must not stop the table.
-
-    Processes that this one starts, as that of a foreign policy, do not.
-    """
-    if not hasattr(os, "sched_setscheduler"):
-        return
-    kind = os.SCHED_RR | os.SCHED_RESET_ON_FORK if whether else os.SCHED_OTHER
-    if os.sched_getscheduler(0) != kind:
-        with contextlib.suppress(PermissionError):
-            os.sched_setscheduler(0, kind, os.sched_param(int(whether)))
 
 
 def _answer(room: Room, data: bytes) -> list[Message]:

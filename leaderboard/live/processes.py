@@ -16,6 +16,7 @@ from typing import Final, cast
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
 from ...agents.errors import EvaluatorFault
+from ...benchmark.live.priority import RELAY, take_turn
 from ..service.server import make_server
 from .app import create_play
 from .keeper import PlayConfig
@@ -64,6 +65,7 @@ def run_web(config: PlayConfig, listener: socket.socket, root: str) -> None:
     """
     os.setsid()  # Ctrl-C in a terminal is for the parent.
     tether(signal.SIGTERM)
+    take_turn(RELAY)  # Frames and samples wait for nobody who has more time.
     logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(levelname)s %(message)s")
     make_server(create_play(config), root, SmallBuffers).run(sockets=[listener])
 

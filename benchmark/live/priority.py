@@ -1,0 +1,27 @@
+"""Order of what people wait for: the system runs the table first, then the way to it."""
+
+import contextlib
+import os
+from typing import Final
+
+TABLE: Final = 2
+"""Of the frames of a lift: nothing must stop the table."""
+
+RELAY: Final = 1
+"""Of what carries them to the pages."""
+
+ORDINARY: Final = 0
+"""Of all other work, such as that of a browser on the same machine."""
+
+
+def take_turn(priority: int) -> None:
+    """Let this thread run before those of a lower priority, if the system permits it.
+
+    Processes and threads that this one starts, as that of a foreign policy, are ordinary.
+    """
+    if not hasattr(os, "sched_setscheduler"):
+        return
+    kind = os.SCHED_RR | os.SCHED_RESET_ON_FORK if priority else os.SCHED_OTHER
+    if os.sched_getscheduler(0) != kind:
+        with contextlib.suppress(PermissionError):
+            os.sched_setscheduler(0, kind, os.sched_param(priority))
