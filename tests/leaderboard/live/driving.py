@@ -1,9 +1,10 @@
-"""Simulated people at a real browser: their hands are trusted events with times of their own."""
+"""Simulated people at a real browser: their hands are trusted events with times of their own.
+
+Their eyes see the pictures that the page has drawn, when it has drawn them.
+"""
 
 import asyncio
 import gc
-import json
-import struct
 import time
 from collections.abc import Callable
 from typing import Any
@@ -11,7 +12,11 @@ from typing import Any
 import numpy as np
 from colift.agents.agent import FRAME, HISTORY, HumanObservation
 from colift.agents.humans import Partner
-from playwright.async_api import BrowserContext, CDPSession, Page
+from colift.benchmark.episode.turns import policy_seed
+from colift.benchmark.live.priority import ORDINARY, RELAY, take_turn
+from numpy.typing import NDArray
+
+from .devtools import Browser, Tab
 
 EVERY_S = 0.004
 """Time between two events: four to a picture, so that the browser coalesces them."""
@@ -21,6 +26,37 @@ COUNTS_PER_METRE = 5000.0
 
 STEP = 10
 """Frames for which a second person decides at a time."""
+
+SOONER_S = 0.010
+"""How much before its first frame a decision is made [s]: it takes a moment of this machine's time,
+and depends on pictures that are older still (160 ms of the other end, 50 ms of the own)."""
+
+SIZE = (900, 700)
+"""Of the page [px]."""
+
+EYES_AND_EARS = """
+document.addEventListener("DOMContentLoaded", () => {
+  const play = window.coliftPlay;
+  const { take } = play.Connection.prototype;
+  play.Connection.prototype.take = function (data) {
+    if (typeof data === "string") window.heard(data);
+    return take.call(this, data);
+  };
+  const { pose } = play.Stage.prototype;
+  play.Stage.prototype.pose = function (human, robot) {
+    pose.call(this, human, robot);
+    const lifting = play.page && play.page.lifting;
+    if (lifting && lifting.frames.running)
+      window.seen(JSON.stringify([performance.now() + lifting.offset, human, robot]));
+  };
+});
+"""
+"""What a page tells of: control messages, and each picture with the room's time [ms]."""
+
+RECENT = 100
+"""Pictures that a decision may depend on."""
+
+Heights = NDArray[np.float64]
 
 Hand = Callable[[float], float]
 """Time of the lift [s] -> height of the hand above the grip [m]."""
@@ -32,30 +68,32 @@ class Driven:
     The room's clock is that of this machine.
     """
 
-    def __init__(self, page: Page, session: CDPSession, finger: bool = False) -> None:
-        self.page = page
+    def __init__(self, finger: bool = False) -> None:
         self.finger = finger
-        self._cdp = session
         self.told: list[dict[str, Any]] = []
-        self.frames: dict[int, tuple[float, float]] = {}
-        page.on("websocket", self._listen)
+        self.pictures: list[tuple[float, float, float]] = []
+        """Room's time [s], and both ends [m] as they were drawn then."""
 
     @classmethod
-    async def opened(cls, context: BrowserContext, url: str, finger: bool = False) -> "Driven":
-        page = await context.new_page()
-        driven = cls(page, await context.new_cdp_session(page), finger)
-        await page.goto(url)
+    async def opened(cls, browser: Browser, url: str, finger: bool = False) -> "Driven":
+        driven = cls(finger)
+        driven.page = page = await browser.open(driven._take, SIZE)
+        if finger:
+            await page.send("Emulation.setTouchEmulationEnabled", enabled=True)
+        for name in ("heard", "seen"):
+            await page.send("Runtime.addBinding", name=name)
+        await page.send("Page.addScriptToEvaluateOnNewDocument", source=EYES_AND_EARS)
+        await page.send("Page.navigate", url=url)
         return driven
 
-    def _listen(self, socket: Any) -> None:
-        socket.on("framereceived", self._take)
+    page: Tab
 
-    def _take(self, payload: str | bytes) -> None:
-        if isinstance(payload, str):
-            self.told.append(json.loads(payload))
-            return
-        frame, human, robot = struct.unpack_from("<Iff", payload, 4)
-        self.frames[frame] = (human, robot)
+    def _take(self, name: str, content: Any) -> None:
+        if name == "heard":
+            self.told.append(content)
+        else:
+            time, human, robot = content
+            self.pictures.append((time / 1000, human, robot))
 
     async def until(self, kind: str, after: int = 0, seconds: float = 30.0, **wanted: Any) -> Any:
         """Return the first message of a kind that comes after so many messages."""
@@ -67,46 +105,68 @@ class Driven:
             await asyncio.sleep(0.01)
         raise TimeoutError(f"no {kind} {wanted}; last: {self.told[-3:]}")
 
-    async def choose(self, partner: str, kind: str = "mixed") -> None:
-        page = self.page
-        await page.locator(f'input[name="partner"][value="{partner}"]').check()
-        await page.locator('select[name="kind"]').select_option(kind)
-        await page.get_by_role("button", name="To the table").click()
+    async def choose(self, partner: str) -> None:
+        await self.page.wait_for("Boolean(window.coliftPlay && coliftPlay.page)")
+        await self.page.evaluate(
+            f"""document.querySelector('input[name="partner"][value="{partner}"]').click();
+            [...document.querySelectorAll("button")].find(
+              (each) => each.textContent.trim() === "To the table").click()"""
+        )
 
     async def ready(self) -> None:
-        end = time.monotonic() + 30
-        while not await self.page.evaluate("Boolean(coliftPlay.page && coliftPlay.page.may)"):
-            if time.monotonic() > end:
-                raise TimeoutError(await self.page.inner_text("#status"))
-            await asyncio.sleep(0.05)
+        await self.page.wait_for("Boolean(window.coliftPlay && coliftPlay.page?.may)")
 
     async def grip(self) -> None:
         """Take hold of the table: put a finger on it, or click, which locks the mouse."""
-        self.frames = {}
+        self.pictures = []
         if self.finger:
-            box = await self.page.locator("#stage").bounding_box()
-            assert box is not None
-            self.x, self.y = box["x"] + 0.8 * box["width"], box["y"] + 0.75 * box["height"]
-            self.scale = await self.page.evaluate("window.coliftPlay.page.stage.pixelsPerMetre")
+            x, y, width, height = await self._box("#stage")
+            self.x, self.y = x + 0.8 * width, y + 0.75 * height
+            self.scale = await self.page.evaluate("coliftPlay.page.stage.pixelsPerMetre")
             await self._move("touchStart", 0.0)
             return
-        button = self.page.locator("#lift, #again").locator("visible=true").last
-        box = await button.bounding_box()
-        assert box is not None
-        self.x, self.y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        x, y, width, height = await self._box("#lift, #again")
+        self.x, self.y = x + width / 2, y + height / 2
         self.scale = COUNTS_PER_METRE
-        await self.page.mouse.click(self.x, self.y)
+        for kind, button in (
+            ("mouseMoved", "none"),
+            ("mousePressed", "left"),
+            ("mouseReleased", "left"),
+        ):
+            await self.page.send(
+                "Input.dispatchMouseEvent",
+                type=kind,
+                x=self.x,
+                y=self.y,
+                button=button,
+                clickCount=int(button != "none"),
+            )
+
+    async def _box(self, selector: str) -> list[float]:
+        """Return left, top, width and height of the last visible element [px]."""
+        found: list[float] = await self.page.evaluate(
+            f"""(() => {{
+              const all = [...document.querySelectorAll({selector!r})];
+              const found = all.filter((each) => each.checkVisibility()).at(-1);
+              found.scrollIntoView({{ block: "nearest" }});
+              const {{ x, y, width, height }} = found.getBoundingClientRect();
+              return [x, y, width, height];
+            }})()"""
+        )
+        return found
 
     async def move(self, hand: Hand, begin: float) -> dict[str, Any]:
         """Move the hand until the lift ends; ``begin`` is its first frame by the clock [s]."""
-        after = len(self.told)
-        pending = []
+        after, pending, due = len(self.told), [], time.monotonic()
         gc.collect()
-        gc.disable()  # A hand does not stop for a tenth of a second in the middle of its way.
+        # A hand does not stop in the middle of its way, neither for garbage nor for a page's work.
+        gc.disable()
+        take_turn(RELAY)
         while not any(told["type"] in ("end", "void") for told in self.told[after:]):
-            now = time.monotonic()
-            pending.append(asyncio.ensure_future(self._move("touchMove", hand(now - begin))))
-            await asyncio.sleep(max(EVERY_S - (time.monotonic() - now), 0))
+            pending.append(self._move("touchMove", hand(time.monotonic() - begin)))
+            due = max(due + EVERY_S, time.monotonic())
+            await asyncio.sleep(due - time.monotonic())
+        take_turn(ORDINARY)
         gc.enable()
         await asyncio.gather(*pending)
         if self.finger:
@@ -115,48 +175,57 @@ class Driven:
         return end
 
     async def follow(self, partner: Partner, delay: float, start: dict[str, Any]) -> dict[str, Any]:
-        """Move the hand as a simulated second person, who sees the frames that arrive here.
+        """Move the hand as a simulated second person, who sees the pictures of this page.
 
         Parameters
         ----------
         partner
             The second person.
         delay
-            Age of what is seen [s].
+            Age of what is seen of the other end [s].
         start
             The room's message.
         """
         begin, made = start["at"] / 1000, [0.0]
         after = len(self.told)
-        partner.reset(1)
+        partner.reset(policy_seed())  # The same person as in the lift that is compared.
         moving = asyncio.ensure_future(self.move(lambda time: _at(made, time), begin))
         while not moving.done():
-            frame = len(made) - 1
-            await asyncio.sleep(max(begin + frame * FRAME + 0.005 - time.monotonic(), 0))
+            now = begin + (len(made) - 1) * FRAME
+            await asyncio.sleep(max(now - SOONER_S - time.monotonic(), 0))
+            past = now + FRAME * np.arange(1 - HISTORY, 1)
             view = np.zeros(HumanObservation.size(STEP))
-            age = round(delay / FRAME)
-            own = [self._seen(frame - HISTORY + 1 + i)[1] for i in range(HISTORY)]
-            other = [self._seen(frame - age - HISTORY + 1 + i)[0] for i in range(HISTORY)]
-            view[HumanObservation.OWN_HEIGHT] = own
-            view[HumanObservation.OTHER_END] = other
+            view[HumanObservation.OWN_HEIGHT] = self._seen(past)[1]
+            view[HumanObservation.OTHER_END] = other = self._seen(past - delay)[0]
             view[HumanObservation.TARGET] = other[-1]
             made += partner.act(view).tolist()
         assert len(self.told) > after
         return await moving
 
-    def _seen(self, frame: int) -> tuple[float, float]:
-        """Return both ends in a frame; one that has not arrived is as the newest."""
-        if frame <= 0 or not self.frames:
-            return (0.0, 0.0)
-        return self.frames.get(frame) or self.frames[max(self.frames)]
+    def _seen(self, times: Heights) -> Heights:
+        """Return both ends [m] at times of the room's clock [s], as an eye has them of a display.
 
-    async def _move(self, kind: str, height: float | None) -> None:
+        A picture counts from when it was drawn, as in the delay that the page tells; between two of
+        them, too short a time for an eye to see one stand, the movement goes on. There is no
+        display here: one of 60 Hz would add half the time of a picture, 8 ms.
+        """
+        if not self.pictures:
+            return np.zeros((2, len(times)))
+        drawn, human, robot = np.array(self.pictures[-RECENT:]).T
+        return np.array([np.interp(times, drawn, each) for each in (human, robot)])
+
+    def _move(self, kind: str, height: float | None) -> asyncio.Future[Any]:
+        """Let the browser have an event of this moment."""
+        now = time.time()
         place = None if height is None else {"x": self.x, "y": self.y - self.scale * height}
         if self.finger:
             points = [] if place is None else [place]
-            await self._cdp.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
-        elif place is not None:
-            await self._cdp.send("Input.dispatchMouseEvent", {"type": "mouseMoved", **place})
+            return self.page.send(
+                "Input.dispatchTouchEvent", type=kind, touchPoints=points, timestamp=now
+            )
+        return self.page.send(
+            "Input.dispatchMouseEvent", type="mouseMoved", timestamp=now, **(place or {})
+        )
 
 
 def _at(made: list[float], time: float) -> float:
