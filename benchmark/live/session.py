@@ -78,9 +78,7 @@ class SessionFolder:
             writer.writerow(COLUMNS)
         for frame, height in enumerate(episode.trace.human_action.ravel().tolist(), 1):
             writer.writerow((episode.trial, f"{frame * FRAME:.2f}", f"{height:.6f}"))
-        new = path.with_suffix(".new")
-        new.write_text(text.getvalue())
-        new.replace(path)
+        _replace(path, text.getvalue())
 
     def timing(self, lift: Path, late: Sequence[float]) -> None:
         """Write how late each frame of a lift was begun [s], beside its bundle."""
@@ -101,7 +99,7 @@ class SessionFolder:
         if len(parts) >= MOST_PARTS:
             raise InputError(f"a lift has at most {MOST_PARTS} reports of a page")
         parts.append(content)
-        beside.write_text(json.dumps(reports) + "\n")
+        _replace(beside, json.dumps(reports) + "\n")
 
     def event(self, kind: str, **content: Any) -> None:
         """Append an event with the time of day [s since 1970]."""
@@ -113,6 +111,13 @@ class SessionFolder:
 def _beside(lift: Path) -> Path:
     """Return the file of a lift's times."""
     return lift.with_name(f"{lift.name}.times.json")
+
+
+def _replace(path: Path, text: str) -> None:
+    """Write a file anew, all or nothing: it is read while a lift is under way."""
+    new = path.with_suffix(".new")
+    new.write_text(text)
+    new.replace(path)
 
 
 def folder_name(name: str) -> str:
