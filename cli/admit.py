@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 from rich.table import Column
 
-from ..benchmark.admission.admission import admit, players
+from ..benchmark.admission.admission import admission_of, players
 from ..benchmark.admission.criteria import Criterion
 from .completion import suites
 from .options import AsJson, Jobs, chosen_suite
@@ -34,7 +34,7 @@ def admit_suite(
         reported_interrupt("a suite is tested with all policies or not at all"),
         workers("admit", total, jobs) as (pool, progress),
     ):
-        found = admit(episodes, names, executor=pool, progress=progress)
+        found = admission_of(episodes, names, executor=pool, progress=progress)
     if as_json:
         print_json({**dataclasses.asdict(found), "passed": found.passed})
     else:

@@ -2,7 +2,7 @@
 
 from .companion import Companion
 from .manner import MANNERS, LeadingManner, leading_manner
-from .pace import Pace, at
+from .pace import Pace, planned_at
 from .poses import Counter, Pivot, PosePlan, Posing, Switching, Together
 
 __all__ = [
@@ -16,6 +16,6 @@ __all__ = [
     "Posing",
     "Switching",
     "Together",
-    "at",
     "leading_manner",
+    "planned_at",
 ]

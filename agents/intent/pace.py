@@ -61,10 +61,10 @@ class Pace:
 
     def far_at(self, time: float) -> float:
         """Return the planned height of the far end [m] at a time within the plan, in frames."""
-        return at(self._far, time)
+        return planned_at(self._far, time)
 
 
-def at(series: NDArray[np.float64], time: float) -> float:
+def planned_at(series: NDArray[np.float64], time: float) -> float:
     """Return a series of values at the end of each frame, at a time in frames, interpolated.
 
     Before its first frame and after its last it is 0 and its last value.

@@ -38,7 +38,7 @@ class PosePlan(Plan):
     """(n,) intended height [m] of the far end at the end of each frame, read-only."""
 
 
-class Step(NamedTuple):
+class PosePart(NamedTuple):
     """One movement: the displacement of the near end, and the far end's share of it."""
 
     rise: float
@@ -63,11 +63,11 @@ class Posing:
         rng = np.random.default_rng(seed)
         draw = MovementDraw.sample(subject, rng)
         base = float(rng.uniform(*BASE))
-        steps: list[list[Step]] = [[Step(base, 1.0)]]
+        steps: list[list[PosePart]] = [[PosePart(base, 1.0)]]
         for _ in range(EXCURSIONS):
             way = self._excursion(base, rng)
-            steps += [way, [Step(-rise, share) for rise, share in reversed(way)]]
-        steps.append([Step(-base, 1.0)])
+            steps += [way, [PosePart(-rise, share) for rise, share in reversed(way)]]
+        steps.append([PosePart(-base, 1.0)])
 
         segments: list[Segment] = [still("ready", 0.0, draw.before)]
         far = [segments[0].heights]
@@ -92,11 +92,11 @@ class Posing:
             far=_whole(far),
         )
 
-    def _excursion(self, base: float, rng: np.random.Generator) -> list[Step]:
+    def _excursion(self, base: float, rng: np.random.Generator) -> list[PosePart]:
         """Return the parts of a way out that keeps both ends within reach."""
         while True:
             way = [
-                Step(
+                PosePart(
                     float(rng.uniform(*REACH)) / self.parts * float(rng.choice((-1.0, 1.0))),
                     SHARES[self.intents[int(rng.integers(len(self.intents)))]],
                 )
@@ -137,7 +137,7 @@ class Switching(Posing):
     parts: ClassVar[int] = 2
 
 
-def _differ(way: Sequence[Step]) -> bool:
+def _differ(way: Sequence[PosePart]) -> bool:
     return len({step.share for step in way}) == len(way)
 
 

@@ -1,4 +1,4 @@
-"""What a robot's touch tells of the table: its pitch, and the other end's height without delay."""
+"""The table by touch: its pitch, and the other end's height without delay."""
 
 import math
 from typing import NamedTuple

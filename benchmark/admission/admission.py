@@ -56,7 +56,7 @@ def players(task: str) -> tuple[str, ...]:
     return (*KEEPERS, *task_policies(task))
 
 
-def admit(
+def admission_of(
     suite: Suite,
     names: Sequence[str],
     *,

@@ -1,4 +1,4 @@
-"""How much of the variation of errors is policy, human, and the match of both."""
+"""The shares of policy, of human and of the match of both in the variance of errors."""
 
 from dataclasses import dataclass
 

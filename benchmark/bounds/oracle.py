@@ -16,17 +16,17 @@ from ..execution.runner import Run
 from ..suites.suite import Suite
 from ..tasks.intent.oracle import foreknow_pose
 from ..tasks.intent.task import Intent
-from ..tasks.rehearsal import Foreknowing, rehearse
+from ..tasks.rehearsal import Foreknowing, rehearse_lift
 
 ORACLE: Final = "oracle"
 
 
 def foreknow(lift: Lift, seed: int) -> Episode:
-    """Return the episode of a seed with a level table, played by the oracle; see :func:`.rehearse`.
+    """Return the episode of a seed with a level table, played by the oracle.
 
-    It knows the human's private plan, and after each rehearsal how the human moved.
+    See :func:`.rehearse_lift`. It knows the human's private plan, and after each rehearsal how the human moved.
     """
-    return rehearse(
+    return rehearse_lift(
         lift, seed, lambda lift: lift.target, lambda trace: trace.human_end - trace.robot_end
     )
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from ..episode.level import Level
-from ..episode.lift import Lift, make_lift
+from ..episode.lift import Lift, Staging, make_lift
 from ..episode.scenario import Scenario
 from ..world import BodyParameters, FarEnd
 from ..world.shared_world import SharedWorld
@@ -22,10 +22,11 @@ _kept: Final[list[tuple[FarEnd, SharedWorld]]] = []
 def lift_in_kept_world(scenario: Scenario) -> Iterator[Lift]:
     """Yield a lift, in the world that the last one has left if the same holds the far end there.
 
-    Its world is left for the next one, unless an error ends the context. A task with a world of its
-    own has a new one.
+    Its world is left for the next one, unless an error ends the context. A task with a world or
+    a lift of its own has a new one.
     """
-    if type(scenario.task).world is not Level.world:
+    task = scenario.task
+    if isinstance(task, Staging) or type(task).world is not Level.world:
         with contextlib.closing(make_lift(scenario)) as lift:
             yield lift
         return

@@ -1,4 +1,4 @@
-"""What the tasks with touch share: their world, their sensors, their observation."""
+"""The common part of the tasks with touch: world, sensors and observation."""
 
 from typing import Final
 

@@ -49,7 +49,7 @@ class Foreknowing:
         return np.array([self._law(coming, command, command) - command])
 
 
-def rehearse(
+def rehearse_lift(
     lift: Lift,
     seed: int,
     first: Callable[[Lift], NDArray[np.float64]],

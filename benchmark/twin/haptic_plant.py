@@ -11,7 +11,7 @@ from ..world.haptic_world import FAR_GRIP_DAMPING, FAR_GRIP_STIFFNESS
 from ..world.table import GRIP_DAMPING, GRIP_STIFFNESS, TABLE_INERTIA, WEIGHT_SHARE
 from .arm import ArmVariation
 from .body import DEPTH, Body, activated, delayed, pushed, wanted_shift
-from .plant import Moving, Plant, moved, plant_at_rest
+from .plant import Moving, Plant, after_frame, plant_at_rest
 
 _IMPLICIT: Final = 1 + FRAME * (GRIP_DAMPING + FAR_GRIP_DAMPING) / TABLE_INERTIA / 2
 
@@ -86,7 +86,7 @@ def advance_haptic_plant(
         own = GRIP_STIFFNESS * (now.pitch - wrist) + GRIP_DAMPING * (now.pitch_rate - turn)
         far = FAR_GRIP_STIFFNESS * now.pitch + FAR_GRIP_DAMPING * now.pitch_rate
         grip = (own + far) / _IMPLICIT
-        after, force = moved(now, wanted.reference + reflex, body, command, grip, variation)
+        after, force = after_frame(now, wanted.reference + reflex, body, command, grip, variation)
         after = after._replace(reflex=reflex)
         difference = after.far_height - after.height
         felt = jnp.stack((after.far_force - WEIGHT_SHARE, -far / _IMPLICIT))

@@ -52,7 +52,7 @@ def intent_at_rest(count: int) -> IntentState:
 
 
 def planned(series: jax.Array, time: jax.Array) -> jax.Array:
-    """Return a plan's heights (f, n) of (T, n) at times in frames (f, n); see :func:`.at`."""
+    """Return a plan's heights (f, n) of (T, n) at times in frames (f, n), as ``planned_at``."""
     place = jnp.clip(time - 1.0, -1.0, len(series) - 1.0)
     below = jnp.floor(jax.lax.stop_gradient(place)).astype(jnp.int32)
     padded = jnp.concatenate((jnp.zeros((1, series.shape[1])), series, series[-1:]))

@@ -121,7 +121,7 @@ def advance_plant(
         wanted, shift, command = due
         reflex = activated(now.reflex, shift)
         grip = _PITCH_GAIN * now.pitch + _RATE_GAIN * now.pitch_rate
-        after, force = moved(now, wanted + reflex, body, command, grip, variation)
+        after, force = after_frame(now, wanted + reflex, body, command, grip, variation)
         after = after._replace(reflex=reflex)
         return after, (after.height, after.far_height - after.height, force)
 
@@ -136,7 +136,7 @@ def advance_plant(
     )
 
 
-def moved(
+def after_frame(
     now: Moving,
     reference: jax.Array,
     body: Body,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ....agents.agent import FRAME, Observation
-from ....agents.intent import Pace, PosePlan, at, leading_manner
+from ....agents.intent import Pace, PosePlan, leading_manner, planned_at
 from ...world.table import TABLE_LENGTH
 from ..haptic import HapticLift
 
@@ -37,7 +37,7 @@ class IntentLift(HapticLift):
 
     def intended(self) -> Observation:
         """Return the human's intended height at the end of each frame of the coming step [m]."""
-        return np.array([at(self.target, time) for time in self._times])
+        return np.array([planned_at(self.target, time) for time in self._times])
 
     def _plan_ahead(self) -> None:
         """Settle the pace of the coming step."""
@@ -59,4 +59,4 @@ class IntentLift(HapticLift):
 
     def _difference(self, time: float) -> float:
         """Return the planned height difference [m] at a time within the plan."""
-        return at(self.far_target, time) - at(self.target, time)
+        return planned_at(self.far_target, time) - planned_at(self.target, time)

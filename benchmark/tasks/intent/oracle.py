@@ -6,12 +6,12 @@ from numpy.typing import NDArray
 from ...episode.episode import Episode
 from ...episode.lift import Lift
 from ...episode.trace import Trace
-from ..rehearsal import rehearse
+from ..rehearsal import rehearse_lift
 from .lift import IntentLift
 
 
 def foreknow_pose(lift: Lift, seed: int) -> Episode:
-    """Return the episode of a seed, played by the oracle; see :func:`.rehearse`."""
+    """Return the episode of a seed, played by the oracle; see :func:`.rehearse_lift`."""
 
     def planned(lift: Lift) -> NDArray[np.float64]:
         assert isinstance(lift, IntentLift)
@@ -20,4 +20,4 @@ def foreknow_pose(lift: Lift, seed: int) -> Episode:
     def missed(trace: Trace) -> NDArray[np.float64]:
         return np.asarray(trace.added["far_target"] - trace.robot_end)
 
-    return rehearse(lift, seed, planned, missed)
+    return rehearse_lift(lift, seed, planned, missed)

@@ -12,8 +12,8 @@ from colift.agents.intent import (
     Pivot,
     Switching,
     Together,
-    at,
     leading_manner,
+    planned_at,
 )
 from colift.agents.intent.pace import CATCHING_UP
 from colift.agents.intent.poses import HIGHEST, LOWEST, SHARES, STEEPEST
@@ -59,22 +59,22 @@ def test_a_person_waits_for_a_far_end_that_is_off_and_catches_up_later():
     history = [0.0] * 50
     for _ in range(10):  # The far end follows perfectly, then stands still.
         times = pace.coming(10, history)
-        history += [at(far, time) for time in times]
+        history += [planned_at(far, time) for time in times]
     assert times[-1] == 100
     for _ in range(60):
         times = pace.coming(10, history)
         history += [history[-1]] * 10
     assert times[-1] - times[0] < 0.01
-    assert at(far, times[-1]) - history[-1] == pytest.approx(2 * patience, abs=0.01)
+    assert planned_at(far, times[-1]) - history[-1] == pytest.approx(2 * patience, abs=0.01)
     waited = times[-1]
-    history += [at(far, waited)] * (delay + 1)
+    history += [planned_at(far, waited)] * (delay + 1)
     times = pace.coming(10, history)
     assert times[-1] - waited == pytest.approx(10 * CATCHING_UP)
 
 
 def test_a_plan_s_heights_between_frames_are_interpolated():
     series = np.array([1.0, 2.0, 4.0])
-    assert [at(series, time) for time in (0.0, 0.5, 1.0, 2.5, 3.0, 9.0)] == [
+    assert [planned_at(series, time) for time in (0.0, 0.5, 1.0, 2.5, 3.0, 9.0)] == [
         0.0,
         0.5,
         1.0,
