@@ -24,7 +24,8 @@ ORACLE: Final = "oracle"
 def foreknow(lift: Lift, seed: int) -> Episode:
     """Return the episode of a seed with a level table, played by the oracle.
 
-    See :func:`.rehearse_lift`. It knows the human's private plan, and after each rehearsal how the human moved.
+    It knows the human's private plan, and after each rehearsal how the human moved; see
+    :func:`.rehearse_lift`.
     """
     return rehearse_lift(
         lift, seed, lambda lift: lift.target, lambda trace: trace.human_end - trace.robot_end

@@ -119,6 +119,7 @@ def test_a_full_house_is_a_place_in_the_queue(open_page, sessions, monkeypatch):
         )
         first.context.close()
         assert not second.locator("#lift").is_visible()
+        second.context.close()  # Else it may ask for a place of a server that is gone.
 
 
 def test_a_wrong_link_is_said_and_left_behind(page, url):
