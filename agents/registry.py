@@ -51,6 +51,16 @@ def playing(task: str) -> dict[str, EntryPoint]:
     return {name: each for name, each in entries(POLICIES).items() if each.group in groups}
 
 
+def task_policies() -> dict[str, tuple[str, ...]]:
+    """Return the names of the policies that play one task alone, by the task's name."""
+    found: dict[str, tuple[str, ...]] = {}
+    for name, each in sorted(entries(POLICIES).items()):
+        if each.group != POLICIES:
+            task = each.group.removeprefix(f"{POLICIES}.")
+            found[task] = (*found.get(task, ()), name)
+    return dict(sorted(found.items()))
+
+
 def own_policies(task: str) -> tuple[str, ...]:
     """Return the names of colift's own policies that play a task."""
     own = own_entries(POLICIES)
