@@ -73,8 +73,8 @@ def check_plays(policy: str, task: str) -> None:
     if entry is not None and policy not in playing(task):
         own = entry.group.removeprefix(f"{POLICIES}.")
         raise InputError(
-            f"policy {policy!r} is for the task {own!r}, and the suite's is {task!r}: choose a "
-            f"suite of the task {own!r} with --suite"
+            f"policy {policy!r} is for the task {own!r}, not for {task!r}: choose "
+            f"the task {own!r}, or a suite of it"
         )
 
 

@@ -123,9 +123,50 @@ Metrics = Mapping[str, Metric]
 """A table of metrics by name; the first is :data:`LEADING`."""
 
 
-def metric_table(metrics: Iterable[Metric]) -> Metrics:
-    """Return the metrics by name, in their order."""
-    return {metric.name: metric for metric in metrics}
+@dataclass(frozen=True, kw_only=True)
+class DrawnSeries:
+    """A series of :meth:`.Task.series` that pictures and replays of a lift show.
+
+    A height [m] is drawn beside the two ends of the table, in the chart of heights and as a mark in
+    the scene; a place is drawn as a ball on the table, and in a chart of its own.
+    """
+
+    name: str
+    """Key in :attr:`.Trace.added`."""
+    label: str
+    """Its name in legends, such as ``"intended far end"``."""
+    where: Literal["robot", "human", "place"] = "robot"
+    """At whose end its height is marked; or it is a place on the table: how far from the middle
+    towards the human [m]."""
+    goal: bool = False
+    """Whether the robot's end should be there: then the error is the distance to it."""
+
+
+class MetricTable(dict[str, Metric]):
+    """A table of metrics, with the series that pictures of a lift show."""
+
+    drawn: tuple[DrawnSeries, ...] = ()
+
+
+def metric_table(metrics: Iterable[Metric], *, drawn: tuple[DrawnSeries, ...] = ()) -> Metrics:
+    """Return the metrics by name, in their order.
+
+    Parameters
+    ----------
+    metrics
+        The leading one first.
+    drawn
+        Series that the task adds to a trace, and that pictures of a lift show. How results are
+        shown is stated here, not in the task's class, and so changes no digest.
+    """
+    table = MetricTable({metric.name: metric for metric in metrics})
+    table.drawn = drawn
+    return table
+
+
+def drawn_series(metrics: Metrics) -> tuple[DrawnSeries, ...]:
+    """Return the added series that pictures of a task's lifts show."""
+    return metrics.drawn if isinstance(metrics, MetricTable) else ()
 
 
 def on_boards(metrics: Metrics) -> tuple[Metric, ...]:

@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from ...episode.metric import Metric, Words, metric_table
+from ...episode.metric import DrawnSeries, Metric, Words, metric_table
 
 INTENT_METRICS: Final = metric_table(
     (
@@ -99,6 +99,7 @@ INTENT_METRICS: Final = metric_table(
             meaning="share of the robot's actions that exceeded the speed of its hands (0.04 m in "
             "100 ms) and were clipped",
         ),
-    )
+    ),
+    drawn=(DrawnSeries(name="far_target", label="intended far end", goal=True),),
 )
 """One entry for each score of :meth:`.Intent.score`, in the same order."""
