@@ -51,6 +51,16 @@ def playing(task: str) -> dict[str, EntryPoint]:
     return {name: each for name, each in entries(POLICIES).items() if each.group in groups}
 
 
+def task_policies() -> dict[str, tuple[str, ...]]:
+    """Return the names of the policies that play one task alone, by the task's name."""
+    found: dict[str, tuple[str, ...]] = {}
+    for name, each in sorted(entries(POLICIES).items()):
+        if each.group != POLICIES:
+            task = each.group.removeprefix(f"{POLICIES}.")
+            found[task] = (*found.get(task, ()), name)
+    return dict(sorted(found.items()))
+
+
 def own_policies(task: str) -> tuple[str, ...]:
     """Return the names of colift's own policies that play a task."""
     own = own_entries(POLICIES)
@@ -63,8 +73,8 @@ def check_plays(policy: str, task: str) -> None:
     if entry is not None and policy not in playing(task):
         own = entry.group.removeprefix(f"{POLICIES}.")
         raise InputError(
-            f"policy {policy!r} is for the task {own!r}, and the suite's is {task!r}: choose a "
-            f"suite of the task {own!r} with --suite"
+            f"policy {policy!r} is for the task {own!r}, not for {task!r}: choose "
+            f"the task {own!r}, or a suite of it"
         )
 
 

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from ..agents.registry import SUITES, own_entries
-from ..benchmark.bounds.causal import BOUNDS
+from ..benchmark.bounds.causal import suite_bounds
 from ..benchmark.comparison.playing import play_bounds
 from ..benchmark.results.baselines import (
     BASELINES,
@@ -14,9 +14,11 @@ from ..benchmark.results.baselines import (
     ToShip,
     baselines_json,
     play_baselines,
+    shipped_content,
 )
 from ..benchmark.statistics import stratified_bootstrap
 from ..benchmark.suites.suite import make_suite
+from .completion import suites as named
 from .options import Jobs, check_output, write_output
 from .printing import left, show, table
 from .progress import workers
@@ -27,17 +29,27 @@ def baselines(
         Path | None,
         typer.Option(metavar="FILE", help="File for the baselines, as shipped."),
     ] = None,
+    only: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--suite",
+            metavar="NAME",
+            help="Suite to play, may be repeated; of the others the file has what is shipped. "
+            "Default: all.",
+            autocompletion=named,
+        ),
+    ] = None,
     jobs: Jobs = None,
 ) -> None:
     """Play the baselines and the bounds on all suites, and print their RMSE per behaviour."""
     check_output(out)
-    suites = [make_suite(name) for name in own_entries(SUITES)]
-    total = (len(BASELINES) + len(BOUNDS)) * sum(suite.size for suite in suites)
+    suites = [make_suite(name) for name in only or own_entries(SUITES)]
+    total = sum((len(BASELINES) + len(suite_bounds(suite))) * suite.size for suite in suites)
     played: list[ToShip] = []
     with workers("baselines", total, jobs) as (pool, progress):
         for suite in suites:
             baselines = play_baselines(suite, executor=pool, progress=progress)
-            bounds = play_bounds(BOUNDS, suite, executor=pool, progress=progress)
+            bounds = play_bounds(suite_bounds(suite), suite, executor=pool, progress=progress)
             played.append(ToShip(suite=suite, baselines=baselines, bounds=bounds))
     rows = [
         (each.suite.name, name, behaviour, *_error(baseline, behaviour))
@@ -47,7 +59,8 @@ def baselines(
     ]
     titles = ("suite", left("baseline"), left("human"), "RMSE mm", "95 % interval")
     show(table("", titles, rows))
-    write_output(out, baselines_json(played))
+    kept = shipped_content() if only else {}
+    write_output(out, baselines_json(played, kept))
 
 
 def _error(baseline: Baseline, behaviour: str) -> tuple[str, str]:

@@ -12,7 +12,7 @@ import typer
 from ..agents.errors import InputError
 from ..agents.registry import POLICIES, check_plays, entries, playing
 from ..agents.spec import AgentSpec
-from ..benchmark.bounds.causal import BOUNDS
+from ..benchmark.bounds.causal import suite_bounds
 from ..benchmark.channels import Channel
 from ..benchmark.comparison.captions import failures, unit_warnings, verdict
 from ..benchmark.comparison.comparison import Comparison
@@ -71,7 +71,7 @@ def compare_policies(
         bool,
         typer.Option(
             "--bounds",
-            help="Include the oracle and the causal bound; the named suites include them always.",
+            help="Include the bounds, such as the oracle; the named suites include them always.",
         ),
     ] = False,
     jobs: Jobs = None,
@@ -101,7 +101,7 @@ def compare_policies(
         from ..benchmark.comparison.files import write_comparison
 
         check_folder("--out", out)
-    limits = BOUNDS if bounds else {}
+    limits = suite_bounds(episodes) if bounds else {}
     results = [each.policy for each in stored]
     comparison = _compare(specs, results, episodes, limits, network, jobs)
     if out is not None:

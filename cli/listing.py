@@ -1,6 +1,7 @@
 """``colift list``: policies, behaviours, subjects, tasks, suites and channels."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Annotated
 
@@ -13,7 +14,16 @@ from rich.text import Text
 from ..agents.humans import SUBJECTS, Subject
 from ..agents.loading.description import ParameterText, described
 from ..agents.loading.loading import PolicySpec
-from ..agents.registry import HUMANS, POLICIES, SUITES, TASKS, entries, lookup, summary
+from ..agents.registry import (
+    HUMANS,
+    POLICIES,
+    SUITES,
+    TASKS,
+    entries,
+    lookup,
+    summary,
+    task_policies,
+)
 from ..agents.sandbox.host.policy import SandboxedPolicy
 from ..agents.submissions.manifest import MANIFEST, Manifest
 from ..agents.submissions.submission import read_submission
@@ -41,7 +51,10 @@ def list_all(
     table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
     table.add_column(style="bold", no_wrap=True)
     table.add_column()
-    _registered(table, "Robot policies", POLICIES)
+    apart = task_policies()
+    _registered(table, "Robot policies", POLICIES, without={*chain.from_iterable(apart.values())})
+    for task, names in apart.items():
+        _named(table, f"Policies for the task {task}", POLICIES, names)
     _registered(table, "Human behaviours", HUMANS)
     table.add_row("[underline]Subjects[/]")
     for name, subject in SUBJECTS.items():
@@ -55,9 +68,16 @@ def list_all(
     show(table)
 
 
-def _registered(table: Table, title: str, group: str) -> None:
+def _registered(
+    table: Table, title: str, group: str, without: Collection[str] = frozenset()
+) -> None:
+    _named(table, title, group, [name for name in entries(group) if name not in without])
+
+
+def _named(table: Table, title: str, group: str, names: Sequence[str]) -> None:
+    """Add a section to a table: the named entries of a group with their summaries."""
     table.add_row(f"[underline]{title}[/]")
-    for name in entries(group):
+    for name in names:
         table.add_row(f"  {name}", summary(lookup(group, name)))
 
 

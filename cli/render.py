@@ -7,7 +7,9 @@ from typing import Annotated, Final
 import typer
 
 from ..agents.errors import InputError
+from ..agents.registry import check_plays
 from ..benchmark.episode.episode import Episode
+from ..benchmark.episode.level import LEVEL
 from ..benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..benchmark.episode.turns import START, STEP
 from ..benchmark.execution.batches import play
@@ -44,6 +46,9 @@ def render_episode(
         ),
     ] = "S1",
     seed: Annotated[int, typer.Option(metavar="N", help="The lift's seed.")] = 0,
+    task: Annotated[
+        str, typer.Option(metavar="NAME", help="The task of the lift; see 'colift list'.")
+    ] = LEVEL.name,
     latency: Annotated[float, LATENCY_OPTION] = LATENCY,
     control_period: Annotated[float, PERIOD_OPTION] = CONTROL_PERIOD,
 ) -> None:
@@ -54,8 +59,11 @@ def render_episode(
     _check(out)
     if seed < 0:
         raise InputError(f"--seed must not be negative, got {seed}")
+    played = make_scenario(
+        scenario, subject, control_period=control_period, latency=latency, task=task
+    )
+    check_plays(policy, task)
     spec = choose_policy(policy)
-    played = make_scenario(scenario, subject, control_period=control_period, latency=latency)
     spec.check()
     (episode,) = play(spec, played, (seed,))
     if episode.failure is not None and episode.failure.startswith((START, STEP)):

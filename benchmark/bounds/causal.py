@@ -15,10 +15,11 @@ from ...agents.control.recurrent_controller import RecurrentController
 from ...agents.errors import InputError
 from ...agents.spec import InProcess
 from ..comparison.playing import Bound
+from ..episode.level import LEVEL
 from ..episode.scenario import CONTROL_PERIOD, LATENCY
 from ..execution.runner import Run, run_suite
 from ..suites.suite import Suite
-from .oracle import ORACLE, oracle_run
+from .oracle import ORACLE, ORACLES, oracle_run
 
 CAUSAL_BOUND: Final = "causal_bound"
 
@@ -82,4 +83,16 @@ def causal_run(
 
 
 BOUNDS: Final[Mapping[str, Bound]] = {CAUSAL_BOUND: causal_run, ORACLE: oracle_run}
-"""What `compare --bounds` shows. They are in no registry: no board can take them."""
+"""The bounds of the task ``level``."""
+
+
+def suite_bounds(suite: Suite) -> Mapping[str, Bound]:
+    """Return the bounds of a suite's task by name; none if it has none.
+
+    They are in no registry: no board can take them. The causal bound has been learned for the task
+    ``level``; any task with an oracle has that.
+    """
+    task = suite.scenarios[0].task.name
+    if task == LEVEL.name:
+        return BOUNDS
+    return {ORACLE: oracle_run} if task in ORACLES else {}

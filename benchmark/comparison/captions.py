@@ -6,6 +6,7 @@ from typing import Final
 from ...agents.actions import HAND_SPEED
 from ..channels import channel_name
 from ..episode.level_metrics import MOSTLY_CLIPPED
+from ..episode.metric import Metric
 from ..results.baselines import HUMAN_HUMAN_LABEL
 from .comparison import Comparison
 from .ranking import Ranking
@@ -13,27 +14,18 @@ from .ranking import Ranking
 SURE: Final = 0.975
 """Probability above which the 95 % interval of a difference excludes zero."""
 
-HOW_TO_READ: Final = (
-    "RMSE: root mean square of the height difference between the two ends of the table, over the "
-    "whole lift. Smaller is more level. From a failure on, 250 mm are counted.",
+_RANK, _BASELINE, _INTERVALS = (
     "Rank: the difference between policies of the same rank and the first of that rank is not "
     "significant (paired sign-flip test, Holm-corrected, 5 %).",
     "Human-human baseline: two simulated people on the same lifts. vs_human is the RMSE divided by "
-    "that of the baseline: 1 is as level as with a human partner, less is better.",
-    "SPARC: smoothness of the robot's end during the human's strokes. Closer to 0 is smoother. A "
-    "robot that does not move along has no SPARC and counts as least smooth.",
+    "that of the baseline: 1 is as {} as with a human partner, less is better.",
     "Intervals: 95 %, by bootstrap over the seeds within each behaviour and subject. They show how "
     "much the value would vary with other lifts of the same people.",
 )
+"""Sentences on how to read a comparison of any task."""
 
-
-PICTURE_AXIS: Final = "← more level · RMSE of the height difference, mm"
-
-PICTURE_CAPTION: Final = (
-    "Higher and further left is better. Bars are 95 % intervals. The line joins the Pareto front: "
-    "the policies that no other policy beats in both mean RMSE and mean SPARC. The diamond is the "
-    f"{HUMAN_HUMAN_LABEL}; squares are bounds, the limits of what a policy could reach."
-)
+Axes = tuple[Metric, Metric]
+"""The leading metric and the one beside it in pictures."""
 
 RANKS_CAPTION: Final = (
     "Small print: 95 % intervals; for the time per step, the median above its 99th percentile. "
@@ -47,6 +39,30 @@ AGAINST_CAPTION: Final = (
 )
 
 
+def how_to_read(axes: Axes) -> tuple[str, ...]:
+    """Return the sentences on how to read a comparison."""
+    leading, second = axes
+    baseline = _BASELINE.format(leading.words.praise[0])
+    return (leading.reading, _RANK, baseline, second.reading, _INTERVALS)
+
+
+def picture_axis(axes: Axes) -> str:
+    """Return the name of the picture's axis across."""
+    leading, _ = axes
+    return f"← {leading.words.praise[1]} · {leading.axis}"
+
+
+def picture_caption(axes: Axes) -> str:
+    """Return how to read the picture."""
+    leading, second = axes
+    return (
+        "Higher and further left is better. Bars are 95 % intervals. The line joins the Pareto "
+        "front: the policies that no other policy beats in both mean "
+        f"{leading.symbol} and mean {second.symbol}. The diamond is the {HUMAN_HUMAN_LABEL}; "
+        "squares are bounds, the limits of what a policy could reach."
+    )
+
+
 def title(comparison: Comparison) -> str:
     """Return the number of policies, the suite and the channel, in one line."""
     results = comparison.results
@@ -56,20 +72,22 @@ def title(comparison: Comparison) -> str:
 
 def picture_title(comparison: Comparison) -> str:
     """Return the title of the picture, with a line on how to read it."""
+    (level, more_level, _), (smooth, smoother, _) = _praise(comparison)
     return (
-        f"How level and how smooth: {title(comparison)}\n"
+        f"How {level} and how {smooth}: {title(comparison)}\n"
         f"Means over {comparison.overall.episodes} lifts, with 95 % intervals. "
-        "Orange: no other policy is both more level and smoother."
+        f"Orange: no other policy is both {more_level} and {smoother}."
         + (" Squares: bounds." if comparison.results.bounds else "")
     )
 
 
 def verdict(comparison: Comparison) -> str:
-    """Return the most level policy, those of its rank, and where it beats two people."""
+    """Return the best policy, those of its rank, and where it beats two people."""
     overall = comparison.overall
+    (_, more_level, most_level), _ = _praise(comparison)
     best, *others = overall.policies
     text = (
-        f"{best.name} is the most level: {best.rmse_mm.mean:.1f} mm, "
+        f"{best.name} is the {most_level}: {best.rmse_mm.mean:.1f} mm, "
         f"{best.vs_human.mean:.2f} times the {HUMAN_HUMAN_LABEL}'s "
         f"{overall.human_human_rmse_mm.mean:.1f} mm."
     )
@@ -79,14 +97,14 @@ def verdict(comparison: Comparison) -> str:
     elif equals:
         text += f" {_listed(equals)} cannot be distinguished from it."
     if best.better_than_human > SURE:
-        return f"{text} It is more level than two people."
+        return f"{text} It is {more_level} than two people."
     won = [
         ranking.name
         for ranking in comparison.behaviours
         for ranked in ranking.policies
         if ranked.name == best.name and ranked.better_than_human > SURE
     ]
-    return f"{text} On {_listed(won)} it is more level than two people." if won else text
+    return f"{text} On {_listed(won)} it is {more_level} than two people." if won else text
 
 
 def failures(comparison: Comparison) -> list[str]:
@@ -148,6 +166,12 @@ def undecided(overall: Ranking) -> str:
     if overall.decisive:
         return ""
     return f"No ranks: {overall.episodes} lifts are too few for a significant difference at 5 %."
+
+
+def _praise(comparison: Comparison) -> tuple[tuple[str, str, str], tuple[str, str, str]]:
+    """Return the words for good values of the leading metric and of the one beside it."""
+    leading, second = comparison.results.axes
+    return leading.words.praise, second.words.praise
 
 
 def _listed(names: list[str]) -> str:

@@ -18,12 +18,13 @@ class Comparison:
     behaviours: tuple[Ranking, ...]
     subjects: tuple[Ranking, ...]
     points: tuple[FrontPoint, ...]
-    """The policies, the most level first; then the human-human baseline and the bounds."""
+    """The policies, the least error first; then the human-human baseline and the bounds."""
 
     @property
     def front(self) -> tuple[str, ...]:
-        """The policies that no other beats in error and in smoothness, the most level first."""
-        return tuple(point.name for point in pareto_front(self.points))
+        """The policies that no other beats in error and second metric, the least error first."""
+        _, second = self.results.axes
+        return tuple(point.name for point in pareto_front(self.points, second))
 
 
 def compare(results: PairedResults) -> Comparison:
@@ -41,12 +42,13 @@ def compare(results: PairedResults) -> Comparison:
 
 
 def _points(results: PairedResults, overall: Ranking) -> tuple[FrontPoint, ...]:
+    _, second = results.axes
     policies = [
         FrontPoint(
             name=ranked.name,
             rmse_mm=ranked.rmse_mm,
-            sparc=ranked.sparc,
-            missing=ranked.sparc_missing,
+            second=ranked.metrics[second.name].estimate,
+            missing=ranked.metrics[second.name].missing,
         )
         for ranked in overall.policies
     ]
@@ -54,7 +56,7 @@ def _points(results: PairedResults, overall: Ranking) -> tuple[FrontPoint, ...]:
         FrontPoint(
             name=name,
             rmse_mm=overall.references_rmse_mm[name],
-            sparc=exact(baseline.means["sparc"]),
+            second=exact(baseline.means[second.name]),
             kind="baseline" if name == HUMAN_HUMAN_LABEL else "bound",
         )
         for name, baseline in results.references.items()

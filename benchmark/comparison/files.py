@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ..results.baselines import HUMAN_HUMAN_LABEL
-from .captions import PICTURE_AXIS, picture_title
+from .captions import picture_axis, picture_title
 from .comparison import Comparison
 from .html import html_page
 from .ranking import RankedPolicy, Ranking
@@ -133,7 +133,8 @@ def write_comparison(folder: Path, comparison: Comparison) -> None:
     """
     folder.mkdir(parents=True, exist_ok=True)
     title = picture_title(comparison).splitlines()
-    scene = make_scene(comparison.points, axis=PICTURE_AXIS, title=title)
+    axes = comparison.results.axes
+    scene = make_scene(comparison.points, axes, axis=picture_axis(axes), title=title)
     content = json.dumps(comparison_json(comparison), indent=2, allow_nan=False) + "\n"
     (folder / "compare.png").write_bytes(png(scene))
     (folder / "compare.json").write_text(content, encoding="utf-8")

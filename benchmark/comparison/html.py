@@ -21,15 +21,19 @@ AGAINST: Final = ("policy", "behind the best mm", "p", "lifts won", "P(better th
 def html_page(comparison: Comparison) -> str:
     """Return the page: picture, ranks, differences, tables by behaviour and by subject."""
     kinds = (("behaviour", comparison.behaviours), ("subject", comparison.subjects))
+    axes = comparison.results.axes
+    axis = captions.picture_axis(axes)
     return render(
         __package__,
         "compare.html",
         title=f"{captions.title(comparison)}, compared",
         captions=captions,
+        picture_caption=captions.picture_caption(axes),
+        how_to_read=captions.how_to_read(axes),
         verdict=captions.verdict(comparison),
         warnings=(*captions.failures(comparison), *captions.unit_warnings(comparison)),
         pictures=[
-            svg(make_scene(comparison.points, axis=captions.PICTURE_AXIS, size=size), kind)
+            svg(make_scene(comparison.points, axes, axis=axis, size=size), kind)
             for kind, size in (("wide", WIDE), ("narrow", NARROW))
         ],
         ranks_header=(

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..channels import Channel
-from ..episode.metric import Metric, Scores, on_boards
+from ..episode.metric import LEADING, Metric, Scores, on_boards, second_axis
 from ..execution.runner import Run
 from ..results.baselines import HUMAN_HUMAN_LABEL, Baseline
 from ..results.summary import Stratum, stratum
@@ -60,6 +60,12 @@ class PairedResults:
     def metrics(self) -> tuple[Metric, ...]:
         """The metrics that are compared beside RMSE."""
         return on_boards(self.suite.metrics)
+
+    @property
+    def axes(self) -> tuple[Metric, Metric]:
+        """The leading metric and the one beside it in pictures."""
+        metrics = self.suite.metrics
+        return metrics[LEADING], second_axis(metrics)
 
     @property
     def references(self) -> dict[str, Baseline]:

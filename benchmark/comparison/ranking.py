@@ -64,16 +64,6 @@ class RankedPolicy:
     """RMSE minus that of the first in the order [mm], p Holm-corrected for the policies compared;
     None for the first itself."""
 
-    @property
-    def sparc(self) -> Estimate | None:
-        """Smoothness, over the lifts that have one; None if none has."""
-        return self.metrics["sparc"].estimate
-
-    @property
-    def sparc_missing(self) -> int:
-        """Lifts without smoothness: the robot did not move along, or failed."""
-        return self.metrics["sparc"].missing
-
 
 @dataclass(frozen=True, kw_only=True)
 class Ranking:

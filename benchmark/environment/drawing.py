@@ -3,7 +3,9 @@
 from dataclasses import dataclass, replace
 from typing import Final
 
+from ...agents.errors import InputError
 from ...agents.humans import Subject
+from ..episode.level import LEVEL
 from ..episode.scenario import Scenario
 from ..episode.seeding import derive_seed
 from ..suites.catalogue import make_scenario
@@ -41,7 +43,12 @@ def _training_seed(seed: int, role: str) -> int:
 
 
 def make_drawing(
-    scenario: str, subject: str, partner: str, control_period: float, latency: float
+    scenario: str,
+    subject: str,
+    partner: str,
+    control_period: float,
+    latency: float,
+    task: str = LEVEL.name,
 ) -> Drawing | None:
     """Return the source of lifts of an environment's settings; None if nothing is to be drawn.
 
@@ -49,16 +56,22 @@ def make_drawing(
     ----------
     scenario, subject
         As of :func:`.parallel_env`; :data:`ANY` or :data:`DRAW` is drawn.
-    partner, control_period, latency
+    partner, control_period, latency, task
         As of :func:`.make_scenario`.
 
     Raises
     ------
     InputError
-        As :func:`.make_scenario`.
+        If something is to be drawn for another task than ``level``, or as :func:`.make_scenario`.
     """
     if scenario != ANY and subject != DRAW:
         return None
+    if task != LEVEL.name:
+        drawn = f"scenario={ANY!r}" if scenario == ANY else f"subject={DRAW!r}"
+        raise InputError(
+            f"{drawn} draws lifts of the task {LEVEL.name!r} alone, not of {task!r}: name a "
+            "behaviour and a person, such as 'S1' or 'draw-100000'"
+        )
     person = f"draw-{TRAINING_SEEDS[0]}" if subject == DRAW else subject
     return Drawing(
         scenarios=tuple(

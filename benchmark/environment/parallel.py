@@ -10,6 +10,7 @@ from pettingzoo import AECEnv, ParallelEnv
 from pettingzoo.utils import OrderEnforcingWrapper, parallel_to_aec
 
 from ...agents.agent import Action, Agent, Observation
+from ..episode.level import LEVEL as LEVEL_TASK
 from ..episode.lift import Lift, make_lift
 from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..rendering.scene import Scene, check_render_mode
@@ -242,6 +243,7 @@ def parallel_env(
     latency: float = LATENCY,
     render_mode: str | None = None,
     reward: str = LEVEL,
+    task: str = LEVEL_TASK.name,
 ) -> ParallelLift:
     """Return the parallel environment of a scenario.
 
@@ -263,18 +265,21 @@ def parallel_env(
         ``None``, ``"rgb_array"`` or ``"human"``.
     reward
         ``"level"``, the height difference at the end of a step [m], or ``"score"``, the mean square
-        over its frames [cm2].
+        over its frames [cm2]. For another task than ``level`` the first is the task's own reward.
+    task
+        Name of the task, such as ``"level"`` or ``"intent"``; it decides on the observations, their
+        bounds, the rewards and the end. Lifts are drawn for ``level`` alone.
 
     Raises
     ------
     InputError
         If a name is unknown (the message lists the known ones) or a time is out of range.
     """
-    check_names(scenario=scenario, subject=subject, partner=partner)
+    check_names(scenario=scenario, subject=subject, partner=partner, task=task)
     check_times(control_period=control_period, latency=latency)
-    drawing = make_drawing(scenario, subject, partner, control_period, latency)
+    drawing = make_drawing(scenario, subject, partner, control_period, latency, task)
     if drawing is None:
-        made = make_scenario(scenario, subject, partner, control_period, latency)
+        made = make_scenario(scenario, subject, partner, control_period, latency, task)
     else:
         made = drawing.scenarios[0]
     return ParallelLift(made, render_mode, reward=reward, drawing=drawing)

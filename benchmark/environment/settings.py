@@ -21,6 +21,7 @@ SETTINGS: Final = (
     "latency",
     "render_mode",
     "reward",
+    "task",
 )
 """What an environment is made with, and keeps."""
 

@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from .metric import Metric, metric_table
+from .metric import Metric, Words, metric_table
 
 REACHED: Final = 0.02
 """The human has reached the intended height within this distance of it [m]."""
@@ -21,6 +21,18 @@ LEVEL_METRICS: Final = metric_table(
             shown="board",
             meaning="root mean square of Z1 - Z2 over the whole trial, rest included. The paper's "
             "measure, by which policies are ranked",
+            words=Words(
+                question="Who keeps the table level?",
+                praise=("level", "more level", "most level"),
+                axis="RMSE of the height difference, mm",
+                plain="how far apart in height the ends of the table are",
+                method="How far apart in height the two ends of the table are, over the whole "
+                "lift: the root of the mean square difference, a hundred times a second. 0 is a "
+                "level table.",
+                reading="RMSE: root mean square of the height difference between the two ends of "
+                "the table, over the whole lift. Smaller is more level. From a failure on, 250 mm "
+                "are counted.",
+            ),
         ),
         Metric(
             name="abs_error_mm",
@@ -39,6 +51,7 @@ LEVEL_METRICS: Final = metric_table(
             digits=1,
             shown="run",
             meaning="largest incline of the table",
+            words=Words(note=""),
         ),
         Metric(
             name="sparc",
@@ -49,6 +62,17 @@ LEVEL_METRICS: Final = metric_table(
             shown="board",
             meaning="smoothness of the robot's end, mean over the human's strokes: spectral arc "
             "length (20 Hz, threshold 0.05); nearer to zero is smoother",
+            words=Words(
+                praise=("smooth", "smoother", "smoothest"),
+                axis="SPARC",
+                plain="smoothness of the robot's end during the human's strokes",
+                absent="does not move along",
+                present="in which the robot moves along",
+                note="smoothness of the robot's end, closer to 0 is smoother",
+                reading="SPARC: smoothness of the robot's end during the human's strokes. Closer "
+                "to 0 is smoother. A robot that does not move along has no SPARC and counts as "
+                "least smooth.",
+            ),
         ),
         Metric(
             name="ldlj",
@@ -59,6 +83,7 @@ LEVEL_METRICS: Final = metric_table(
             missing="worst",
             shown="run",
             meaning="the same by log dimensionless jerk",
+            words=Words(note="smoothness of the robot's end, closer to 0 is smoother"),
         ),
         Metric(
             name="human_force_n",
@@ -68,6 +93,11 @@ LEVEL_METRICS: Final = metric_table(
             shown="board",
             meaning="root mean square of the vertical force at the human's hands, beyond their "
             "half of the table's weight",
+            words=Words(
+                noun="force",
+                note="at the human's hands",
+                caption="Force at the human's hands in N.",
+            ),
         ),
         Metric(
             name="human_work_j",
@@ -85,6 +115,7 @@ LEVEL_METRICS: Final = metric_table(
             better="near zero",
             shown="run",
             meaning="delay at which the robot's velocity matches the human's best",
+            words=Words(note="of the robot behind the human"),
         ),
         Metric(
             name="short_of_goal_mm",

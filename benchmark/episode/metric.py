@@ -4,6 +4,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final, Literal
 
+from ...agents.errors import InputError
+
 LEADING: Final = "rmse_mm"
 """The metric that ranks policies, first in the table of every task: the root mean square of the
 task's error [mm], with :data:`.FAILED_FRAME_MM` for each frame that a failure cut off."""
@@ -14,6 +16,34 @@ bundles are computed again from their actions."""
 
 Scores = Mapping[str, float]
 """One episode's value of each metric by name; NaN where the episode has none."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Words:
+    """A metric in sentences, titles and pictures."""
+
+    question: str = "Who is best?"
+    """The title of a board that is ranked by it."""
+    praise: tuple[str, str, str] = ("good", "better", "best")
+    """Positive, comparative and superlative of something with good values."""
+    noun: str = ""
+    """The metric in a sentence; its label if empty."""
+    axis: str = ""
+    """Its name on an axis, with the unit; label and unit if empty."""
+    plain: str = ""
+    """The metric without technical terms, as part of a sentence; its meaning if empty."""
+    method: str = ""
+    """Its definition for the page on what numbers mean, in sentences; its meaning if empty."""
+    absent: str = ""
+    """What a robot does in a lift without a value."""
+    present: str = "that have a value"
+    """Which lifts have a value."""
+    note: str | None = None
+    """Below a table, what its column is; its meaning if None, nothing if empty."""
+    caption: str = ""
+    """The same where headings have no units, as a sentence; symbol and unit if empty."""
+    reading: str = ""
+    """How to read it, in sentences; symbol, meaning and direction if empty."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,11 +72,47 @@ class Metric:
     """Value above which the episode has missed its goal, if the metric decides that."""
     meaning: str
     """The definition in one sentence."""
+    words: Words = Words()
+    """How sentences and pictures name it."""
 
     @property
     def heading(self) -> str:
         """Symbol and unit."""
         return f"{self.symbol} {self.unit}".rstrip()
+
+    @property
+    def noun(self) -> str:
+        """The metric in a sentence."""
+        return self.words.noun or self.label[0].lower() + self.label[1:]
+
+    @property
+    def axis(self) -> str:
+        """Name of an axis, with the unit."""
+        return self.words.axis or f"{self.label}, {self.unit}".removesuffix(", ")
+
+    @property
+    def plain(self) -> str:
+        """The metric without technical terms."""
+        return self.words.plain or self.meaning
+
+    @property
+    def caption(self) -> str:
+        """A sentence with the unit; empty for a pure number."""
+        symbol = self.symbol[0].upper() + self.symbol[1:]
+        return self.words.caption or (f"{symbol} in {self.unit}." if self.unit else "")
+
+    @property
+    def reading(self) -> str:
+        """How to read it, in sentences."""
+        if self.words.reading:
+            return self.words.reading
+        which = {"less": "Smaller", "more": "Larger", "near zero": "Closer to 0"}[self.better]
+        worst = " A lift without a value counts as the worst." if self.missing == "worst" else ""
+        return f"{self.symbol}: {self.meaning}. {which} is {self.words.praise[1]}.{worst}"
+
+    def merit(self, value: float) -> float:
+        """Return a number that is the larger, the better a value is."""
+        return {"less": -value, "more": value, "near zero": -abs(value)}[self.better]
 
     def text(self, value: float | None) -> str:
         """Return a value as tables show it."""
@@ -57,9 +123,50 @@ Metrics = Mapping[str, Metric]
 """A table of metrics by name; the first is :data:`LEADING`."""
 
 
-def metric_table(metrics: Iterable[Metric]) -> Metrics:
-    """Return the metrics by name, in their order."""
-    return {metric.name: metric for metric in metrics}
+@dataclass(frozen=True, kw_only=True)
+class DrawnSeries:
+    """A series of :meth:`.Task.series` that pictures and replays of a lift show.
+
+    A height [m] is drawn beside the two ends of the table, in the chart of heights and as a mark in
+    the scene; a place is drawn as a ball on the table, and in a chart of its own.
+    """
+
+    name: str
+    """Key in :attr:`.Trace.added`."""
+    label: str
+    """Its name in legends, such as ``"intended far end"``."""
+    where: Literal["robot", "human", "place"] = "robot"
+    """At whose end its height is marked; or it is a place on the table: how far from the middle
+    towards the human [m]."""
+    goal: bool = False
+    """Whether the robot's end should be there: then the error is the distance to it."""
+
+
+class MetricTable(dict[str, Metric]):
+    """A table of metrics, with the series that pictures of a lift show."""
+
+    drawn: tuple[DrawnSeries, ...] = ()
+
+
+def metric_table(metrics: Iterable[Metric], *, drawn: tuple[DrawnSeries, ...] = ()) -> Metrics:
+    """Return the metrics by name, in their order.
+
+    Parameters
+    ----------
+    metrics
+        The leading one first.
+    drawn
+        Series that the task adds to a trace, and that pictures of a lift show. How results are
+        shown is stated here, not in the task's class, and so changes no digest.
+    """
+    table = MetricTable({metric.name: metric for metric in metrics})
+    table.drawn = drawn
+    return table
+
+
+def drawn_series(metrics: Metrics) -> tuple[DrawnSeries, ...]:
+    """Return the added series that pictures of a task's lifts show."""
+    return metrics.drawn if isinstance(metrics, MetricTable) else ()
 
 
 def on_boards(metrics: Metrics) -> tuple[Metric, ...]:
@@ -67,6 +174,32 @@ def on_boards(metrics: Metrics) -> tuple[Metric, ...]:
     return tuple(
         each for each in metrics.values() if each.shown == "board" and each.name != LEADING
     )
+
+
+def second_axis(metrics: Metrics) -> Metric:
+    """Return the metric that pictures show beside the leading one: the first of boards.
+
+    Raises
+    ------
+    InputError
+        If boards show no other metric than the leading one.
+    """
+    shown = on_boards(metrics)
+    if not shown:
+        raise InputError(
+            f"no metric beside {LEADING} is shown on boards: one of the table "
+            f"({', '.join(metrics)}) must have shown='board'"
+        )
+    return shown[0]
+
+
+def notes(metrics: Iterable[Metric]) -> str:
+    """Return what the columns of some metrics are, as sentences; equal ones in one."""
+    said: dict[str, list[str]] = {}
+    for metric in metrics:
+        note = metric.meaning if metric.words.note is None else metric.words.note
+        said.setdefault(note, []).append(metric.symbol)
+    return " ".join(f"{', '.join(symbols)}: {note}." for note, symbols in said.items() if note)
 
 
 def reached(scores: Scores, metrics: Metrics) -> bool:

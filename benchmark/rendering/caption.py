@@ -1,5 +1,6 @@
 """The words of a picture: what lift it is, and how high the ends are now."""
 
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
@@ -8,7 +9,9 @@ from PIL import Image, ImageDraw, ImageFont
 
 from ...agents.agent import FRAME
 from ..episode.episode import Episode
+from ..episode.metric import DrawnSeries
 from ..episode.seat import SEATS
+from ..episode.trace import Trace
 from .style import FAINT, HUMAN, INK, PAPER, ROBOT
 
 
@@ -50,7 +53,13 @@ def _fitted(text: str, font: ImageFont.FreeTypeFont, room: float) -> str:
     return f"{text}…"
 
 
-def readout(picture: Image.Image, episode: Episode, frame: int, partner: str) -> None:
+def readout(
+    picture: Image.Image,
+    episode: Episode,
+    frame: int,
+    partner: str,
+    drawn: Sequence[DrawnSeries] = (),
+) -> None:
     """Write a frame's time, the heights of both ends and their difference [mm] into a scene.
 
     They stand in the upper left over a NAO, and in the middle between two people. The last frame
@@ -62,10 +71,15 @@ def readout(picture: Image.Image, episode: Episode, frame: int, partner: str) ->
         ("time", f"{(frame + 1) * FRAME:.2f} s", FAINT, False),
         ("human's end", _millimetres(human), HUMAN, False),
         (f"{SEATS[partner].label}'s end", _millimetres(robot), ROBOT, False),
-        ("difference", _millimetres(abs(human - robot)), INK, True),
+        *((each.label, _millimetres(_at(trace, each, frame)), INK, False) for each in drawn),
     ]
+    goal = next((each for each in drawn if each.goal), None)
+    meant = human if goal is None else _at(trace, goal, frame)
+    rows.append(
+        ("difference" if goal is None else "error", _millimetres(abs(meant - robot)), INK, True)
+    )
     pen = ImageDraw.Draw(picture)
-    size, line, wide = 16, 24, 192
+    size, line, wide = 16, 24, 192 if not drawn else 216
     top = 18
     left = top if partner == "nao" else (picture.width - wide) // 2
     for row, (label, value, colour, bold) in enumerate(rows):
@@ -78,6 +92,11 @@ def readout(picture: Image.Image, episode: Episode, frame: int, partner: str) ->
         reason = _fitted(" ".join(episode.failure.split()), font, picture.width - 2 * top)
         place = (picture.width / 2, picture.height - line / 2)
         pen.text(place, reason, fill=PAPER, font=font, anchor="mm")
+
+
+def _at(trace: Trace, drawn: DrawnSeries, frame: int) -> float:
+    """Return an added series at a frame [mm]."""
+    return 1000 * float(trace.added[drawn.name][frame])
 
 
 def _millimetres(height: float) -> str:

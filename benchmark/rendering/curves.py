@@ -1,6 +1,6 @@
 """The heights of both ends over time, with a cursor. Drawn once; the cursor costs little."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 import numpy as np
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from ...agents.agent import FRAME
+from ..episode.metric import DrawnSeries
 from ..episode.trace import Trace
 from .style import FAINT, HUMAN, INK, LINE, PAPER, ROBOT
 
@@ -22,6 +23,12 @@ LETTERS: Final = 8.5
 
 PALE: Final = 0.25
 """Opacity of what is still to come."""
+
+DOTS: Final = (0, (1, 2))
+"""Dots of a place on the table, in millimetres from its middle."""
+
+STYLES: Final[Mapping[str, str]] = {"human": HUMAN, "robot": ROBOT, "place": INK}
+"""Colours of added series by their place."""
 
 GAP: Final = 0.28
 """Opacity of the area between the ends."""
@@ -38,17 +45,27 @@ class Curves:
         Size of the picture [pixels].
     partner
         Name of what holds the far end, for the legend.
+    drawn
+        Series of the trace that are heights, or places on the table, to be drawn too.
     scale
         Size of letters and lines; 1 suits a picture 640 pixels wide.
     """
 
     def __init__(
-        self, trace: Trace, width: int, height: int, *, partner: str, scale: float = 1.0
+        self,
+        trace: Trace,
+        width: int,
+        height: int,
+        *,
+        partner: str,
+        drawn: Sequence[DrawnSeries] = (),
+        scale: float = 1.0,
     ) -> None:
         self._scale = scale
         self._times = np.arange(1, len(trace.human_end) + 1) * FRAME
         self._ends = 1000 * np.stack([trace.human_end, trace.robot_end])
         self._target = 1000 * trace.target
+        self._added = [(each, 1000 * trace.added[each.name]) for each in drawn]
         self._partner = partner
         self._past = self._drawn(width, height, 1.0)
         self._future = self._drawn(width, height, PALE)
@@ -64,30 +81,43 @@ class Curves:
             top=1 - 30 * scale / height,
         )
         axes = figure.add_subplot()
-        axes.fill_between(times, human, robot, color=FAINT, alpha=GAP * opacity, linewidth=0)
+        goal = next((values for each, values in self._added if each.goal), None)
+        meant, gap = (human, "difference") if goal is None else (goal, "error")
+        axes.fill_between(times, meant, robot, color=FAINT, alpha=GAP * opacity, linewidth=0)
         dashes = (0, (4, 3))
         axes.plot(times, self._target, color=INK, alpha=opacity, lw=0.9 * scale, ls=dashes)
+        more = [
+            (each.label, values, STYLES[each.where], DOTS if each.where == "place" else dashes)
+            for each, values in self._added
+        ]
+        for _, values, colour, style in more:
+            axes.plot(times, values, color=colour, alpha=opacity, lw=1.2 * scale, ls=style)
         for end, colour in ((human, HUMAN), (robot, ROBOT)):
             axes.plot(times, end, color=colour, alpha=opacity, lw=2.2 * scale)
         axes.legend(
             handles=[
                 Line2D([], [], color=HUMAN, lw=2.2 * scale, label="human's end"),
                 Line2D([], [], color=ROBOT, lw=2.2 * scale, label=f"{self._partner}'s end"),
-                Patch(color=FAINT, alpha=GAP, lw=0, label="difference"),
+                Patch(color=FAINT, alpha=GAP, lw=0, label=gap),
                 Line2D([], [], color=INK, lw=0.9 * scale, ls=dashes, label="human's intention"),
+                *(
+                    Line2D([], [], color=colour, lw=1.2 * scale, ls=style, label=label)
+                    for label, _, colour, style in more
+                ),
             ],
             loc="lower left",
             bbox_to_anchor=(0, 1.0),
             borderaxespad=0.3,
-            ncols=4,
+            ncols=4 + len(more),
             frameon=False,
             fontsize=LETTERS * scale,
             handlelength=1.8,
-            columnspacing=1.8,
+            columnspacing=1.8 if not more else 1.1,
             labelcolor=INK,
         )
-        low, high = min(self._ends.min(), self._target.min()), self._ends.max()
-        high = max(high, self._target.max(), low + 20)
+        every = [self._ends, self._target, *(values for _, values, _, _ in more)]
+        low, high = min(each.min() for each in every), max(each.max() for each in every)
+        high = max(high, low + 20)
         axes.set_ylim(low - 0.08 * (high - low), high + 0.08 * (high - low))
         axes.set_xlim(0, float(times[-1]))
         axes.set_xlabel("time [s]", fontsize=LETTERS * scale, color=INK, labelpad=2 * scale)

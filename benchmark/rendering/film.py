@@ -1,6 +1,6 @@
 """A finished lift as a film, or as one picture."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 from pathlib import Path
 from typing import Final
@@ -11,6 +11,7 @@ from PIL import Image
 from ...agents.agent import FRAME
 from ...agents.errors import InputError
 from ..episode.episode import Episode
+from ..episode.metric import DrawnSeries, drawn_series
 from ..episode.scenario import Scenario
 from ..episode.seat import SEATS
 from .caption import readout, title_strip
@@ -74,11 +75,13 @@ def frames(
     shown = shown_frames(episode, fps)
     page = Image.new("RGB", (WIDTH, TITLE + SCENE + CURVES), PAPER)
     page.paste(title_strip(episode, policy, WIDTH, TITLE))
-    curves = Curves(episode.trace, WIDTH, CURVES, partner=SEATS[partner].label)
-    with closing(Scene(partner)) as scene:
+    drawn = drawn_series(scenario.task.metrics)
+    label = SEATS[partner].label
+    curves = Curves(episode.trace, WIDTH, CURVES, partner=label, drawn=drawn)
+    with closing(Scene(partner, intended=_goal(drawn) is not None)) as scene:
         for frame in shown:
-            view = _view(scene, episode, frame, WIDTH, SCENE)
-            readout(view, episode, frame, partner)
+            view = _view(scene, episode, frame, WIDTH, SCENE, drawn)
+            readout(view, episode, frame, partner, drawn)
             page.paste(view, (0, TITLE))
             page.paste(curves.at(frame), (0, TITLE + SCENE))
             yield np.asarray(page).copy()
@@ -97,9 +100,12 @@ def still_picture(episode: Episode, scenario: Scenario, policy: str) -> Picture:
     """
     partner = scenario.partner
     shown = shown_frames(episode)
+    drawn = drawn_series(scenario.task.metrics)
     human, robot = episode.trace.human_end, episode.trace.robot_end
     if episode.failure is None:
-        highest, worst = int(np.argmax(human)), int(np.argmax(np.abs(human - robot)))
+        goal = _goal(drawn)
+        meant = human if goal is None else episode.trace.added[goal.name]
+        highest, worst = int(np.argmax(human)), int(np.argmax(np.abs(meant - robot)))
         moments = sorted((shown[0], highest, worst))
     else:
         moments = [shown[0], shown[len(shown) // 2], shown[-1]]
@@ -107,13 +113,18 @@ def still_picture(episode: Episode, scenario: Scenario, policy: str) -> Picture:
     page = Image.new("RGB", size, PAPER)
     page.paste(title_strip(episode, policy, STILL_WIDTH, STILL_TITLE))
     step = (STILL_WIDTH + GUTTER) // len(moments)
-    with closing(Scene(partner)) as scene:
+    with closing(Scene(partner, intended=_goal(drawn) is not None)) as scene:
         for column, frame in enumerate(moments):
-            view = _view(scene, episode, frame, step - GUTTER, STILL_SCENE)
-            readout(view, episode, frame, partner)
+            view = _view(scene, episode, frame, step - GUTTER, STILL_SCENE, drawn)
+            readout(view, episode, frame, partner, drawn)
             page.paste(view, (column * step, STILL_TITLE))
     curves = Curves(
-        episode.trace, STILL_WIDTH, STILL_CURVES, partner=SEATS[partner].label, scale=1.8
+        episode.trace,
+        STILL_WIDTH,
+        STILL_CURVES,
+        partner=SEATS[partner].label,
+        drawn=drawn,
+        scale=1.8 if not drawn else 1.6,
     )
     page.paste(curves.marked(moments), (0, STILL_TITLE + STILL_SCENE))
     return np.asarray(page).copy()
@@ -161,6 +172,21 @@ def _counted(pictures: Iterator[Picture], drawn: Callable[[int], None] | None) -
             drawn(1)
 
 
-def _view(scene: Scene, episode: Episode, frame: int, width: int, height: int) -> Image.Image:
-    scene.pose(float(episode.trace.human_end[frame]), float(episode.trace.robot_end[frame]))
+def _goal(drawn: Sequence[DrawnSeries]) -> DrawnSeries | None:
+    """Return the series at which the robot's end should be, if the task has one."""
+    return next((each for each in drawn if each.goal), None)
+
+
+def _view(
+    scene: Scene,
+    episode: Episode,
+    frame: int,
+    width: int,
+    height: int,
+    drawn: Sequence[DrawnSeries],
+) -> Image.Image:
+    trace, goal = episode.trace, _goal(drawn)
+    scene.pose(float(trace.human_end[frame]), float(trace.robot_end[frame]))
+    if goal is not None:
+        scene.intend(float(trace.target[frame]), float(trace.added[goal.name][frame]))
     return Image.fromarray(scene.picture(width, height))

@@ -3,6 +3,7 @@
 import logging
 import math
 import os
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -28,6 +29,7 @@ FLOOR: Final = -TORSO_HEIGHT - PEDESTAL
 RENDER_MODES: Final = (None, "human", "rgb_array")
 
 WOOD: Final = (0.80, 0.62, 0.42, 1.0)
+MEANT: Final = (0.25, 0.55, 0.30, 1.0)
 STAGE: Final = (0.90, 0.91, 0.93, 1.0)
 SHADE: Final = (0.80, 0.82, 0.85, 1.0)
 STONE: Final = (0.66, 0.70, 0.75, 1.0)
@@ -72,11 +74,13 @@ class Scene:
     ----------
     partner
         Who holds the robot's end.
+    intended
+        Whether :meth:`intend` will show an intended pose of the table.
     window
         Whether to open a window, if there is a display; otherwise all is drawn headless.
     """
 
-    def __init__(self, partner: str, *, window: bool = False) -> None:
+    def __init__(self, partner: str, *, intended: bool = False, window: bool = False) -> None:
         window = window and _display_there()
         self._client: int = pybullet.connect(pybullet.GUI if window else pybullet.DIRECT)
         far_hands = np.array([GRIP_X, 0.0, REST_Z])
@@ -94,6 +98,9 @@ class Scene:
                 (-edge, EDGE, rgba(ROBOT)),
             )
         ]
+        self._intended = (
+            [(0.0, box(client, hands, (edge + EDGE, 0.03, 0.003), MEANT))] if intended else []
+        )
         stands = [hands[0] + 0.37]
         # The middle of the picture [m], and what has to be seen to its left and right.
         self._middle, self._half_width = (middle, 1.08) if partner == "human" else (0.65, 0.92)
@@ -139,9 +146,18 @@ class Scene:
             angles = arm_path().joint_angles(min(max(robot_end, STROKE[0]), STROKE[1]))
             for joint, angle in zip(self._arm_joints, angles, strict=True):
                 pybullet.resetJointState(self._nao, joint, angle, physicsClientId=self._client)
+        self._place(self._table, human_end, tilt)
+
+    def intend(self, human_end: float, robot_end: float) -> None:
+        """Show the pose with the table's ends at these heights [m] as intended."""
+        tilt = math.asin(min(max((robot_end - human_end) / TABLE_LENGTH, -1.0), 1.0))
+        self._place(self._intended, human_end, tilt)
+
+    def _place(self, parts: Sequence[tuple[float, int]], human_end: float, tilt: float) -> None:
+        """Place parts of a table, with their distances from its middle [m]."""
         along = np.array([math.cos(tilt), 0.0, -math.sin(tilt)])
         grip = self._hands + [0.0, 0.0, human_end]
-        for offset, part in self._table:
+        for offset, part in parts:
             centre = grip + (offset - TABLE_LENGTH / 2) * along
             pybullet.resetBasePositionAndOrientation(
                 part,

@@ -174,19 +174,19 @@ def shipped_bounds(suite: Suite) -> dict[str, Baseline] | None:
     return _shipped(suite, "bounds")
 
 
+@functools.cache
+def shipped_content() -> dict[str, Any]:
+    """Return the content of the shipped file, by suite digest; see :func:`baselines_json`."""
+    path = files(__package__).joinpath("data", "baselines.json")
+    found: dict[str, Any] = json.loads(path.read_text()) if path.is_file() else {}
+    return found
+
+
 def _shipped(suite: Suite, kind: str) -> dict[str, Baseline] | None:
-    content = _shipped_content().get(suite.digest)
+    content = shipped_content().get(suite.digest)
     if content is None:
         return None
     return {name: Baseline.read(value) for name, value in content[kind].items()}
-
-
-@functools.cache
-def _shipped_content() -> dict[str, Any]:
-    """Return the content of the shipped file."""
-    path = files(__package__).joinpath("data", "baselines.json")
-    content: dict[str, Any] = json.loads(path.read_text()) if path.is_file() else {}
-    return content
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -198,9 +198,19 @@ class ToShip:
     bounds: Mapping[str, Baseline]
 
 
-def baselines_json(played: Sequence[ToShip]) -> str:
-    """Return the content of the shipped file: baselines and bounds by suite digest."""
-    content = {
+def baselines_json(played: Sequence[ToShip], kept: Mapping[str, Any] | None = None) -> str:
+    """Return the content of the shipped file: baselines and bounds by suite digest.
+
+    Parameters
+    ----------
+    played
+        What has been played.
+    kept
+        Content of a file whose entries are kept, but those of the suites that have been played.
+    """
+    names = {each.suite.name for each in played}
+    others = {key: each for key, each in (kept or {}).items() if each["suite"] not in names}
+    content = others | {
         each.suite.digest: {
             "suite": each.suite.name,
             "baselines": {name: value.plain() for name, value in each.baselines.items()},

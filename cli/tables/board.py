@@ -43,7 +43,8 @@ def board_table(
     columns: list[str | Column] = [Column("rank", justify="right", no_wrap=True), *titles[1:]]
     most = _room(titles, lines, 1, width)
     columns[1] = Column("policy", overflow="ellipsis", no_wrap=True, max_width=most)
-    return table(f"Season {season.name} on {season.suite}", columns, lines, caption=_caption(wide))
+    title = f"Season {season.name} on {season.suite}"
+    return table(title, columns, lines, caption=_caption(metrics, wide))
 
 
 def _room(titles: Sequence[str], lines: Sequence[Sequence[Cell]], place: int, width: int) -> int:
@@ -107,13 +108,17 @@ def _human_human(baseline: HumanHumanScores, metrics: Sequence[Metric], wide: bo
     return [*cells, *(["", ""] if wide else []), ""]
 
 
-def _caption(wide: bool) -> str:
+def _caption(metrics: Sequence[Metric], wide: bool) -> str:
     common = "One rank: no significant difference. RMSE: hidden lifts. vs human: 1 is two people"
     if not wide:
-        return f"{common}. SPARC: public lifts."
+        return f"{common}. {metrics[0].symbol}: public lifts."
+    shown = ", ".join(
+        metric.symbol if metric.noun == metric.symbol else f"{metric.symbol} ({metric.noun})"
+        for metric in metrics
+    )
     return (
-        f"{common}, less is better. SPARC (smoothness), force at the human's hands and "
-        "time per step: public lifts. Gap: hidden minus public RMSE."
+        f"{common}, less is better. {shown} and time per step: public lifts. "
+        "Gap: hidden minus public RMSE."
     )
 
 

@@ -17,10 +17,6 @@ from ..printing import Cell, styled, table
 NAME: Final = 18
 """Longest name that stays on one line."""
 
-FEWER: Final = "†: mean over the lifts in which the robot moves along."
-
-NO_POLICIES: Final = "The oracle and the causal bound are not policies but limits."
-
 BASELINE: Final = "blue"
 """Style of the rows of the human-human baseline and of the bounds."""
 
@@ -46,11 +42,33 @@ def ranks_table(comparison: Comparison) -> Table:
         (cells for _, cells in sorted(rows, key=lambda row: row[0])),
         caption=f"{overall.episodes} lifts each; suite digest {suite.digest}. "
         + (undecided(overall) or "Policies of one rank (#) do not differ significantly.")
-        + f" vs_human: RMSE divided by that of the {HUMAN_HUMAN_LABEL}. "
-        "Force at the human's hands in N."
-        + (f" {NO_POLICIES}" if comparison.results.bounds else "")
-        + (f" {FEWER}" if any(s.sparc and s.sparc_missing for s in overall.policies) else ""),
+        + f" vs_human: RMSE divided by that of the {HUMAN_HUMAN_LABEL}."
+        f"{_columns(comparison)}{_no_policies(comparison)}{_fewer(comparison)}",
     )
+
+
+def _columns(comparison: Comparison) -> str:
+    """Return units and meanings of the columns whose heading does not say them."""
+    return "".join(f" {metric.caption}" for metric in comparison.results.metrics if metric.caption)
+
+
+def _no_policies(comparison: Comparison) -> str:
+    """Return which rows are bounds; empty if there are none."""
+    names = [f"the {name.replace('_', ' ')}" for name in reversed([*comparison.results.bounds])]
+    are = "are not policies but limits" if len(names) > 1 else "is no policy but a limit"
+    listed = " and ".join(names)
+    return f" {listed[0].upper()}{listed[1:]} {are}." if names else ""
+
+
+def _fewer(comparison: Comparison) -> str:
+    """Return what a dagger means; empty if there is none."""
+    policies = comparison.overall.policies
+    lifts = {
+        metric.words.present: None
+        for metric in comparison.results.metrics
+        if any(_partial(metric, ranked.metrics[metric.name]) for ranked in policies)
+    }
+    return f" †: mean over the lifts {' or '.join(lifts)}." if lifts else ""
 
 
 def _baseline_row(comparison: Comparison, name: str) -> list[str]:
@@ -79,8 +97,12 @@ def _policy_row(comparison: Comparison, ranked: RankedPolicy) -> list[Cell]:
 
 
 def _metric(metric: Metric, mean: MetricMean) -> str:
-    partial = metric.missing == "worst" and mean.estimate and mean.missing
-    return metric.text(mean.mean) + (" †" if partial else "")
+    return metric.text(mean.mean) + (" †" if _partial(metric, mean) else "")
+
+
+def _partial(metric: Metric, mean: MetricMean) -> bool:
+    """Whether a mean leaves lifts out that count as the worst."""
+    return metric.missing == "worst" and mean.estimate is not None and mean.missing > 0
 
 
 def differences_table(comparison: Comparison) -> Table:

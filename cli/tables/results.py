@@ -10,7 +10,7 @@ from ...agents.hardware.setup import LOWEST_RATE
 from ...agents.sandbox.host.levels import LEVELS, VERIFIABLE
 from ...benchmark.bundle import Results
 from ...benchmark.channels import channel_name
-from ...benchmark.episode.metric import LEADING, Metric, Metrics
+from ...benchmark.episode.metric import LEADING, Metric, Metrics, notes
 from ...benchmark.results.baselines import HUMAN_HUMAN, HUMAN_HUMAN_LABEL
 from ...benchmark.results.headline import error, versus_human
 from ...benchmark.results.summary import StratumScores
@@ -34,12 +34,8 @@ TIMES: Final = {
 }
 """What of a robot's step is timed."""
 
-MEANINGS: Final = (
-    "two people: RMSE in mm of the human-human baseline on the same lifts. SPARC, LDLJ: smoothness "
-    "of the robot's end, closer to 0 is smoother. force: at the human's hands. lag: of the robot "
-    "behind the human."
-)
-"""What the columns mean."""
+PEOPLE: Final = "two people: RMSE in mm of the human-human baseline on the same lifts."
+"""What the column beside the RMSE means."""
 
 
 def results_table(content: Results, metrics: Metrics) -> Table:
@@ -60,7 +56,7 @@ def results_table(content: Results, metrics: Metrics) -> Table:
             styled(("all", *_row(strata, shown)), "bold"),
         ],
         caption=f"{summary.episodes} lifts, {summary.failed} failed; "
-        f"suite digest {content.suite_digest}. {MEANINGS}",
+        f"suite digest {content.suite_digest}. {PEOPLE} {notes(shown)}",
     )
 
 

@@ -15,7 +15,7 @@ from ...agents.extras import how_to_install
 from ...agents.submissions.new import PLACEHOLDER, write_template
 from ...benchmark.comparison.scatter.svg import svg
 from ...benchmark.rendering.page import templates
-from ..records.metrics import board_metrics
+from ..records.metrics import board_metrics, picture_axes
 from ..replays.html import script_json
 from ..storage.archive import pack_archive
 from .formats import FILTERS
@@ -32,11 +32,18 @@ def render_page(template: str, links: Links, **content: Any) -> str:
     links
         Where the other pages are.
     content
-        What the template shows, by name; it also gets the metrics of the season's suite.
+        What the template shows, by name; it also gets the metrics of the season's suite:
+        ``metrics`` have columns beside the ``leading`` one, ``second`` is their first.
     """
     season = content.get("season") or getattr(content.get("view"), "season", None)
-    metrics = () if season is None else board_metrics(season.suite)
-    return _environment().get_template(template).render(links=links, metrics=metrics, **content)
+    if season is not None:
+        leading, second = picture_axes(season.suite)
+        content |= {
+            "metrics": board_metrics(season.suite),
+            "leading": leading,
+            "second": second,
+        }
+    return _environment().get_template(template).render(links=links, **content)
 
 
 @functools.cache

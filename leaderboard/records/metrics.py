@@ -6,7 +6,7 @@ from typing import Any, Final
 
 from ...agents.registry import SUITES, entries
 from ...benchmark.episode.level import LEVEL
-from ...benchmark.episode.metric import Metric, on_boards
+from ...benchmark.episode.metric import LEADING, Metric, Metrics, on_boards, second_axis
 from ...benchmark.statistics import MeanWithMissing
 from ...benchmark.suites.suite import make_suite
 
@@ -15,13 +15,23 @@ _MISSING: Final = 1000.0
 
 
 @functools.cache
-def board_metrics(suite: str) -> tuple[Metric, ...]:
-    """Return the metrics that have a column on boards of a suite, in their order.
+def suite_metrics(suite: str) -> Metrics:
+    """Return the metrics of a suite's task; of ``level``, if no suite of that name is registered.
 
-    They are those of the suite's task; of ``level``, if no suite of that name is registered.
+    A season is of a registered suite, and the name of its hidden lifts is that of the public ones.
     """
-    metrics = make_suite(suite).metrics if suite in entries(SUITES) else LEVEL.metrics
-    return on_boards(metrics)
+    return make_suite(suite).metrics if suite in entries(SUITES) else LEVEL.metrics
+
+
+def board_metrics(suite: str) -> tuple[Metric, ...]:
+    """Return the metrics that have a column on boards of a suite, in their order."""
+    return on_boards(suite_metrics(suite))
+
+
+def picture_axes(suite: str) -> tuple[Metric, Metric]:
+    """Return the leading metric of a suite, and the one beside it in pictures."""
+    metrics = suite_metrics(suite)
+    return metrics[LEADING], second_axis(metrics)
 
 
 def read_means(content: Mapping[str, Any], suite: str) -> dict[str, MeanWithMissing]:

@@ -20,6 +20,9 @@ command                  where the policy sends the hands by the end of each ste
 prediction               where it predicted the human's end to be, step by step [0.1 mm]; or null
 confidence, role         its other reports, step by step [1/1000]; or null
 events                   what the human meant to do, and from which frame on
+drawn                    only of tasks that add some: the series of :class:`.DrawnSeries`, each
+                         with ``name``, ``label``, ``where``, ``goal`` and ``values``, packed as
+                         heights are
 ghost                    ``human`` and ``robot`` as above, and ``rmse_mm``, of two people instead
 ======================== =========================================================================
 
@@ -42,8 +45,10 @@ from ...agents.humans import Plan
 from ...benchmark.bundle import one_line
 from ...benchmark.episode.episode import Episode, run_episode
 from ...benchmark.episode.lift import make_lift
+from ...benchmark.episode.metric import drawn_series
 from ...benchmark.episode.scenario import Scenario
 from ...benchmark.episode.seat import limited_command
+from ...benchmark.episode.trace import Trace
 from ...benchmark.results.baselines import partner_spec
 
 
@@ -134,12 +139,22 @@ def replay_content(
         "confidence": _said(internals.get("confidence"), 1e-3),
         "role": _said(internals.get("role"), 1e-3),
         "events": [[name, frame] for name, frame in ghost.plan.events],
+        **_drawn(scenario, trace),
         "ghost": {
             "human": changes(human_human.trace.human_end),
             "robot": changes(human_human.trace.robot_end),
             "rmse_mm": _score(human_human.scores["rmse_mm"]),
         },
     }
+
+
+def _drawn(scenario: Scenario, trace: Trace) -> dict[str, Any]:
+    """Return the series that the task adds and pictures show; nothing if there are none."""
+    shown = [
+        {**dataclasses.asdict(each), "values": changes(trace.added[each.name])}
+        for each in drawn_series(scenario.task.metrics)
+    ]
+    return {"drawn": shown} if shown else {}
 
 
 def hand_commands(actions: ArrayLike, control_period: float) -> NDArray[np.float64]:

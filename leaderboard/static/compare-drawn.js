@@ -52,7 +52,7 @@
       make(svg, "circle", { class: "lift k" + i % 5, cx: left + 14, cy: top + 14 + 17 * i, r: 4 });
       make(svg, "text", { x: left + 24, y: top + 18 + 17 * i }, words(behaviour));
     });
-    svg.setAttribute("aria-label", `RMSE of ${data.lifts.length} lifts: ${a.name} is more level than ${b.name} in ${better}.`);
+    svg.setAttribute("aria-label", `RMSE of ${data.lifts.length} lifts: ${a.name} is ${svg.dataset.better} than ${b.name} in ${better}.`);
   }
 
   // The same lift with both.

@@ -9,8 +9,10 @@
     const steps = (values) => values.map((_, i) => i * now.period_s);
     const mm = (values) => values.map((value) => (value === null ? null : 1000 * value));
     const both = (a, b) => a.map((value, i) => 1000 * (value - b[i]));
-    const error = both(now.robot, now.human);
-    const humanHuman = both(now.ghost.robot, now.ghost.human);
+    const [goal, goalWords] = colift.goalOf(now);
+    const error = both(now.robot, goal);
+    const ghostGoal = goal === now.human ? now.ghost.human : goal;
+    const humanHuman = both(now.ghost.robot.slice(0, ghostGoal.length), ghostGoal);
     const series = (kind, style, when, values, dot) => ({ kind, style, times: when(values), values, dot });
     const span = (...lists) => {
       const all = lists.flat().filter((value) => value !== null);
@@ -28,12 +30,17 @@
       ["target", "human's intention"],
       ["human-human", "a second human in the robot's place"],
     ];
+    const added = now.drawn.filter((each) => each.where !== "place");
+    for (const each of added) {
+      lines.push(series(`added-${each.where}`, "line", times, mm(each.values)));
+      keys.push([`added-${each.where}`, each.label]);
+    }
     if (now.prediction) {
       lines.push(series("prediction", "dots", steps, mm(now.prediction)));
       keys.push(["prediction", "prediction of the human, drawn when it was made"]);
     }
     // A wild prediction must not flatten the lift.
-    const [least, most] = span(mm(now.human), mm(now.robot), mm(now.target), mm(now.ghost.robot));
+    const [least, most] = span(mm(now.human), mm(now.robot), mm(now.target), mm(now.ghost.robot), ...added.map((each) => mm(each.values)));
     const room = most - least;
     const within = (value) => value !== null && value > least - 0.15 * room && value < most + 0.15 * room;
     if (now.prediction) {
@@ -56,16 +63,31 @@
       },
       {
         name: "error",
-        title: "Error: robot's end above the human's [mm]",
-        summary: `Height difference, RMSE ${colift.number(now.scores.rmse_mm, 1)} mm`,
+        title: `Error: robot's end above ${goalWords} [mm]`,
+        summary: `${goal === now.human ? "Height difference" : "Error"}, RMSE ${colift.number(now.scores.rmse_mm, 1)} mm`,
         keys: [["robot", "with the robot"], ["human-human", "with a second human"]],
         low: -reach,
         high: reach,
         height: 150,
         series: [series("robot", "area", times, error, true), series("human-human", "line", times, humanHuman)],
-        last: !(now.confidence || now.role),
+        last: !(now.confidence || now.role) && added.length === now.drawn.length,
       },
     ];
+    const places = now.drawn.filter((each) => each.where === "place");
+    if (places.length) {
+      const reach = Math.max(50, ...places.flatMap((each) => mm(each.values).map(Math.abs))) * 1.1;
+      charts.push({
+        name: "place",
+        title: "Place on the table, from its middle towards the human [mm]",
+        summary: `Places on the table: ${places.map((each) => each.label).join(", ")}`,
+        keys: places.map((each) => ["added-place", each.label]),
+        low: -reach,
+        high: reach,
+        height: 130,
+        series: places.map((each) => series("added-place", "line", times, mm(each.values), true)),
+        last: !(now.confidence || now.role),
+      });
+    }
     if (now.confidence || now.role) {
       const same = now.confidence && now.role && now.confidence.every((c, i) => c === now.role[i]);
       const curves = [];

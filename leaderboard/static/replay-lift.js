@@ -22,8 +22,15 @@
       prediction: scaled(replay.prediction, UNIT),
       confidence: scaled(replay.confidence, 1e-3),
       role: scaled(replay.role, 1e-3),
+      drawn: (replay.drawn || []).map((each) => ({ ...each, values: heights(each.values) })),
       ghost: { ...replay.ghost, human: heights(replay.ghost.human), robot: heights(replay.ghost.robot) },
     };
+  };
+
+  // Where the robot's end should be, and what that is called: the human's end, or what the task says.
+  colift.goalOf = function (now) {
+    const goal = now.drawn.find((each) => each.goal);
+    return goal ? [goal.values, `the ${goal.label}`] : [now.human, "the human's"];
   };
 
   // A lift's state at a time; a height between two frames is on the line between them.
@@ -47,6 +54,7 @@
       confidence: reported(now.confidence),
       role: reported(now.role),
       command: reported(now.command),
+      drawn: now.drawn.map((each) => ({ ...each, value: at(each.values) })),
       over: now.human.length < now.horizon && time > now.human.length * now.frame_s,
     };
   };

@@ -100,6 +100,9 @@
       this.arm = new NaoArm(svg, geometry);
       svg.appendChild(this.person.front); // The hands hold the table from both sides.
       this.intention = make("path", { d: "M0 0h.13", class: "intention" }, svg);
+      this.intended = make("line", { class: "intended-pose none" }, svg);
+      this.meant = make("path", { d: "M0 0h-.13", class: "intention none" }, svg);
+      this.ball = make("circle", { r: 0.03, class: "ball none" }, this.table.group);
       this.prediction = make("circle", { r: 0.017, class: "prediction" }, svg);
       this.level = new Level(svg);
       this.rest = grip[1];
@@ -163,6 +166,21 @@
       const put = (node, x, height) =>
         node.setAttribute("transform", `translate(${x} ${-(this.rest + height)})`);
       put(this.intention, this.humanX + 0.035, now.target);
+      const drawn = now.drawn || [];
+      const goal = drawn.find((each) => each.goal);
+      const place = drawn.find((each) => each.where === "place");
+      for (const node of [this.meant, this.intended]) node.classList.toggle("none", !goal);
+      if (goal) {
+        put(this.meant, this.robotX - 0.035, goal.value);
+        const ends = { x1: this.robotX, y1: -(this.rest + goal.value), x2: this.humanX, y2: -(this.rest + now.target) };
+        for (const [name, value] of Object.entries(ends)) this.intended.setAttribute(name, value);
+      }
+      this.level.group.classList.toggle("none", Boolean(goal));
+      this.ball.classList.toggle("none", !place);
+      if (place) {
+        this.ball.setAttribute("cx", place.value - this.table.length / 2);
+        this.ball.setAttribute("cy", -0.041);
+      }
       this.prediction.classList.toggle("none", now.prediction === null);
       if (now.prediction !== null) put(this.prediction, this.humanX - 0.07, now.prediction);
     }

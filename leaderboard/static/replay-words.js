@@ -10,6 +10,10 @@
     pause: "stops on the way, and goes on",
     jerky: "lifts in jerks",
     changing_goal: "changes the goal on the way",
+    together: "moves both ends alike",
+    pivot: "moves the own end alone, as to pour",
+    counter: "turns the table about its middle",
+    switching: "changes the intent half-way",
     recorded: "repeats a recorded lift",
     cued: "follows cues",
     played: "lifted live",
@@ -35,9 +39,9 @@
 
   colift.number = (value, places) => value.toFixed(places).replace(/^-(?=0\.?0*$)/, "").replace("-", "−");
 
-  colift.differenceWords = function (millimetres) {
+  colift.differenceWords = function (millimetres, none = "level") {
     const whole = Math.round(Math.abs(millimetres));
-    if (!whole) return "level";
+    if (!whole) return none;
     return `robot ${whole} mm too ${millimetres < 0 ? "low" : "high"}`;
   };
 

@@ -178,13 +178,16 @@
       this.clock.textContent = `${this.time.toFixed(2)} / ${this.duration.toFixed(1)} s`;
       const event = now.events.filter(([, frame]) => frame * now.frame_s <= this.time + 1e-9).pop();
       const { over } = state;
-      const difference = 1000 * (state.robot - state.human);
+      const goal = state.drawn.find((each) => each.goal);
+      const difference = 1000 * (state.robot - (goal ? goal.value : state.human));
+      const ghostGap = 1000 * (state.ghostRobot - (goal ? goal.value : state.ghostHuman));
       const rows = [
         ["human", "the human", over ? "the lift is over" : event ? eventWords(event[0]) : "waits"],
         ["human", "human's end", `${number(1000 * state.human, 0)} mm`],
         ["robot", "robot's end", `${number(1000 * state.robot, 0)} mm`],
-        ["error", "difference", over ? "counts as 250 mm" : `${number(difference, 1)} mm`],
-        ["human-human", "two people", `${number(1000 * (state.ghostRobot - state.ghostHuman), 1)} mm`],
+        ["error", goal ? "error" : "difference", over ? "counts as 250 mm" : `${number(difference, 1)} mm`],
+        ["human-human", "two people", `${number(ghostGap, 1)} mm`],
+        ...state.drawn.map((each) => ["target", each.label, `${number(1000 * each.value, 0)} mm`]),
         ["target", "human's intention", `${number(1000 * state.target, 0)} mm`],
         ["command", "robot's command", state.command === null ? "none" : `${number(1000 * state.command, 0)} mm`],
       ];
@@ -197,7 +200,7 @@
       }
       this.showRows(rows);
       if (!this.playing) {
-        this.slider.setAttribute("aria-valuetext", `${this.time.toFixed(2)} s, ${colift.differenceWords(difference)}`);
+        this.slider.setAttribute("aria-valuetext", `${this.time.toFixed(2)} s, ${colift.differenceWords(difference, goal ? "right" : "level")}`);
       }
       const shown = this.playing ? "Pause" : "Play";
       if (this.button.dataset.shows !== shown) {

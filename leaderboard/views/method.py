@@ -9,6 +9,7 @@ from ..board.board import Board
 from ..board.standings import HumanHumanScores
 from ..records.season import SeasonInfo
 from .board import find_season, ordered_seasons
+from .bounds import bounds_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,6 +21,8 @@ class MethodView:
     lifts: int | None
     """Public lifts of an evaluation; as many are hidden. None as long as there is no row."""
     human_human: HumanHumanScores | None
+    causal: bool
+    """Whether the causal bound is known on the public lifts, beside the oracle."""
     failed_frame_mm: float
     limits: Limits
     isolation: dict[str, str]
@@ -40,6 +43,7 @@ def method_view(board: Board) -> MethodView:
         seasons=seasons,
         lifts=standings[0].row.public.episodes if standings else None,
         human_human=board.human_human(info.name),
+        causal=any(each.causal for each in bounds_of(info)),
         failed_frame_mm=FAILED_FRAME_MM,
         limits=LIMITS,
         isolation=dict(LEVELS),

@@ -1,15 +1,13 @@
-"""The scatter picture of a board: error on hidden lifts against smoothness on public ones."""
+"""The scatter picture of a board: error on hidden lifts, and on public ones a second metric."""
 
 from collections.abc import Sequence
-from typing import Final
 
 from ...benchmark.comparison.front import FrontPoint, exact
 from ...benchmark.comparison.scatter.scene import ScatterScene, make_scene
 from ..board.standings import HumanHumanScores
+from ..records.metrics import picture_axes
 from ..records.row import BoardRow
 from .bounds import PublicBound
-
-AXIS: Final = "← more level · RMSE on the hidden lifts, mm"
 
 
 def make_picture(
@@ -24,8 +22,8 @@ def make_picture(
     Parameters
     ----------
     rows
-        The policies, best first: RMSE on the hidden lifts, as in the table, and smoothness on the
-        public ones.
+        The policies, best first: RMSE on the hidden lifts, as in the table, and the second
+        metric on the public ones.
     human_human
         The human-human baseline on the hidden lifts.
     bounds
@@ -35,20 +33,24 @@ def make_picture(
     """
     if not rows:
         return None
+    leading, second = axes = picture_axes(rows[0].suite)
     policies = [
         FrontPoint(
             name=row.name,
             rmse_mm=row.hidden.rmse_mm,
-            sparc=exact(row.public.metrics["sparc"].mean),
-            missing=row.public.metrics["sparc"].missing,
+            second=exact(row.public.metrics[second.name].mean),
+            missing=row.public.metrics[second.name].missing,
         )
         for row in rows
     ]
     others = [
-        FrontPoint(name=name, rmse_mm=each.rmse_mm, sparc=exact(each.means["sparc"]), kind=kind)
+        FrontPoint(
+            name=name, rmse_mm=each.rmse_mm, second=exact(each.means[second.name]), kind=kind
+        )
         for name, each, kind in (
             *(() if human_human is None else [("two people", human_human, "baseline")]),
             *((bound.name, bound, "bound") for bound in bounds),
         )
     ]
-    return make_scene([*policies, *others], axis=AXIS, size=size)
+    axis = f"← {leading.words.praise[1]} · {leading.symbol} on the hidden lifts, {leading.unit}"
+    return make_scene([*policies, *others], axes, axis=axis, size=size)

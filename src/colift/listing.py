@@ -1,11 +1,18 @@
 """Lists of the available policies, suites and behaviours."""
 
-from .agents.registry import HUMANS, POLICIES, SUITES, entries
+from .agents.registry import HUMANS, POLICIES, SUITES, entries, playing
 
 
-def list_policies() -> list[str]:
-    """Return the names of the robot policies, colift's and those of other packages."""
-    return list(entries(POLICIES))
+def list_policies(task: str | None = None) -> list[str]:
+    """Return the names of the robot policies, colift's and those of other packages.
+
+    Parameters
+    ----------
+    task
+        Name of a task, such as ``"intent"``: return those that play it, which are the policies for
+        any task and those for this one alone. By default, all.
+    """
+    return list(entries(POLICIES) if task is None else playing(task))
 
 
 def list_humans() -> list[str]:

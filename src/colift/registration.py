@@ -91,8 +91,9 @@ def make(
     render_mode
         ``None``, ``"rgb_array"`` or ``"human"``.
     settings
-        ``control_period`` and ``latency`` [s], ``reward`` (``"level"`` or ``"score"``), and the
-        arguments of ``gymnasium.make`` itself.
+        ``control_period`` and ``latency`` [s], ``reward`` (``"level"`` or ``"score"``), ``task``
+        (``"level"`` or another one of ``colift list``), and the arguments of ``gymnasium.make``
+        itself.
 
     Raises
     ------

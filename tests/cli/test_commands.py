@@ -225,6 +225,17 @@ def test_render_draws_a_picture(colift, tmp_path):
     assert "pause/S1 seed 0" in done.stdout
 
 
+def test_render_draws_the_intended_pose_of_a_task_and_refuses_a_policy_of_another(colift, tmp_path):
+    picture = tmp_path / "pose.png"
+    lift = ("--scenario", "pivot", "--out", picture)
+    code, _, err = colift("render", "pose_wrist", *lift, "--task", "intent")
+    assert (code, err) == (0, "")
+    assert picture.stat().st_size > 10_000
+    code, _, err = colift("render", "pose_wrist", *lift)
+    assert code == 2
+    assert "policy 'pose_wrist' is for the task 'intent', not for 'level'" in err
+
+
 def test_render_writes_a_page_that_plays_the_lift(colift, tmp_path):
     lift = ("render", "copy", "--scenario", "pause", "--seed", "2", "--out", "lift.html")
     done = colift(*lift, cwd=tmp_path)

@@ -3,6 +3,7 @@ from dataclasses import dataclass
 
 import pytest
 from colift.agents.loading.description import field_docstrings
+from colift.listing import list_policies
 
 
 @dataclass
@@ -85,3 +86,20 @@ def test_what_is_wrong_is_one_line_and_exit_code_2(colift, arguments, told):
     assert told in err
     assert err.startswith("error:")
     assert err.count("\n") == 1
+
+
+def test_policies_for_one_task_have_a_section_of_their_own(colift):
+    code, out, _ = colift("list")
+    assert code == 0
+    common, _, rest = out.partition("Policies for the task intent")
+    own, _, _ = rest.partition("Human behaviours")
+    for name in ("pose_bayes", "pose_wrist"):
+        assert name in own
+        assert name not in common
+    assert "anticipate" in common
+
+
+def test_the_policies_of_a_task_are_those_for_any_and_its_own():
+    level, intent, every = (set(list_policies(task)) for task in ("level", "intent", None))
+    assert intent - level >= {"pose_bayes", "touch_level"}
+    assert level < intent <= every

@@ -86,7 +86,7 @@ def _draw_axes(scene: ScatterScene, pen: Pen) -> None:
         pen.text((tick.at, top - 6), tick.text, "human", NOTE_SIZE)
     middle = (left + right) / 2
     pen.text((middle, height - 10), scene.axis, "ink", 12)
-    pen.text((15, (top + bottom) / 2), "SPARC · smoother →", "ink", 12, upward=True)
+    pen.text((15, (top + bottom) / 2), scene.axis_up, "ink", 12, upward=True)
     if scene.baseline is not None:
         text = "RMSE divided by that of two people"
         pen.text((middle, top - 25), text, "human", NOTE_SIZE)

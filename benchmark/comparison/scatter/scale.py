@@ -1,9 +1,10 @@
-"""Map from millimetres and SPARC to pixels, with strips for points off the scale."""
+"""Map from errors and another metric to pixels, with strips for points off the scale."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
+from ...episode.metric import Metric
 from ...rendering.ticks import far_limit
 from ...statistics import Interval
 from ..front import FrontPoint
@@ -15,7 +16,7 @@ MARGIN: Final = 0.09
 """Room around the points, over the breadth of the scale."""
 
 LEAST: Final = 0.8
-"""Least breadth that the room is a part of, where points are alike [mm or SPARC]."""
+"""Least breadth that the room is a part of, where points are alike [mm, or unit of the metric]."""
 
 Place = tuple[float, float]
 """Pixels from the left and from the top."""
@@ -33,11 +34,11 @@ class Scale:
     x: Interval
     """RMSE at the left and at the right end of the scale [mm]."""
     y: Interval
-    """SPARC at the lower and at the upper end of the scale."""
+    """The metric at the lower and at the upper end of the scale: better is up."""
     beyond: bool
     """Whether some error is off the scale: its point is in the strip at the right."""
     still: bool
-    """Whether some point has no smoothness: it is in the strip below."""
+    """Whether some point has no value of the metric: it is in the strip below."""
 
     @property
     def inner(self) -> Box:
@@ -55,27 +56,28 @@ class Scale:
         left, _, right, _ = self.inner
         return left + (right - left) * (rmse_mm - self.x[0]) / (self.x[1] - self.x[0])
 
-    def down(self, sparc: float) -> float:
-        """Return where a smoothness is [px from the top]."""
+    def down(self, value: float) -> float:
+        """Return where a value of the metric is [px from the top]."""
         _, top, _, bottom = self.inner
-        return bottom - (bottom - top) * (sparc - self.y[0]) / (self.y[1] - self.y[0])
+        return bottom - (bottom - top) * (value - self.y[0]) / (self.y[1] - self.y[0])
 
     def off(self, point: FrontPoint) -> bool:
         """Whether the error of a point is off the scale."""
         return point.rmse_mm.mean > self.x[1]
 
     def below(self, point: FrontPoint) -> bool:
-        """Whether a point has a smoothness lower than the scale shows."""
-        return point.sparc is not None and point.sparc.mean < self.y[0]
+        """Whether a point has a value worse than the scale shows."""
+        low, high = self.y
+        return point.second is not None and (point.second.mean - low) * (high - low) < 0
 
     def place(self, point: FrontPoint) -> Place:
         """Return where a point is: in the middle of a strip, or at the edge, if off the scale."""
         _, top, right, bottom = self.inner
         off, margin = self.off(point), MARGIN / 2 * (bottom - top)
         x = (right + self.plot[2]) / 2 if off else self.across(point.rmse_mm.mean)
-        if point.sparc is None:
+        if point.second is None:
             return x, (bottom + self.plot[3]) / 2
-        return x, min(max(self.down(point.sparc.mean), top + margin), bottom - margin)
+        return x, min(max(self.down(point.second.mean), top + margin), bottom - margin)
 
     def bars(self, point: FrontPoint) -> tuple[Box, ...]:
         """Return the 95 % intervals of a point, as lines; none off the scale."""
@@ -85,23 +87,24 @@ class Scale:
         _, top, right, bottom = self.inner
         low, high = point.rmse_mm.ci95
         bars = [(self.across(low), y, min(self.across(high), right), y)]
-        if point.sparc is not None and not self.below(point):
-            low, high = point.sparc.ci95
-            bars.append((x, max(self.down(high), top), x, min(self.down(low), bottom)))
+        if point.second is not None and not self.below(point):
+            upper, lower = sorted(self.down(end) for end in point.second.ci95)
+            bars.append((x, max(upper, top), x, min(lower, bottom)))
         return tuple(bar for bar in bars if bar[:2] != bar[2:])
 
 
-def make_scale(points: Sequence[FrontPoint], plot: Box) -> Scale:
+def make_scale(points: Sequence[FrontPoint], plot: Box, metric: Metric) -> Scale:
     """Return a scale that shows most of the points; those far off do not count."""
     far = far_limit([point.rmse_mm.mean for point in points if point.kind != "bound"])
     near = [point for point in points if point.rmse_mm.mean <= far]
-    heights = [end for each in near if each.sparc for end in (each.sparc.mean, *each.sparc.ci95)]
+    shown = [each.second for each in near if each.second]
+    low, high = _padded([end for each in shown for end in (each.mean, *each.ci95)] or [0.0])
     return Scale(
         plot=plot,
         x=_padded([end for point in near for end in point.rmse_mm.ci95]),
-        y=_padded(heights or [0.0]),
+        y=(low, high) if metric.better == "more" else (high, low),
         beyond=len(near) < len(points),
-        still=any(point.sparc is None for point in points),
+        still=any(point.second is None for point in points),
     )
 
 

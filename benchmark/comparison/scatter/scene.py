@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 
+from ...episode.metric import Metric
 from ...rendering.labels import nearest, place_labels
 from ...rendering.ticks import round_ticks
 from ...statistics import Interval
@@ -25,6 +26,11 @@ MARGINS: Final = (56, 44, 12, 48)
 TITLE_LINE: Final = 20
 TITLE_GAP: Final = 12
 """Room for a line of the title, and below its last [px]."""
+
+TICK_DIGITS: Final = 3
+"""Digits of whole numbers at the left for which there is room."""
+TICK_DIGIT: Final = 8
+"""Width of one more [px]."""
 
 NAME_SIZE: Final = 12.5
 NOTE_SIZE: Final = 11.5
@@ -84,7 +90,7 @@ class Dot:
 
 @dataclass(frozen=True, kw_only=True)
 class ScatterScene:
-    """The picture: error across, smoothness up, both better towards the top left."""
+    """The picture: error across, another metric up, both better towards the top left."""
 
     size: tuple[int, int]
     """Width and height [px]."""
@@ -92,11 +98,13 @@ class ScatterScene:
     """Lines above the plot, the first in bold."""
     axis: str
     """What the error is of."""
+    axis_up: str
+    """What the other metric is."""
     scale: Scale
     across: tuple[Tick, ...]
     """RMSE [mm]."""
     up: tuple[Tick, ...]
-    """SPARC."""
+    """The other metric."""
     ratios: tuple[Tick, ...]
     """RMSE over that of the human-human baseline, above the plot; none without it."""
     baseline: float | None
@@ -112,6 +120,7 @@ class ScatterScene:
 
 def make_scene(
     points: Sequence[FrontPoint],
+    axes: tuple[Metric, Metric],
     *,
     axis: str,
     size: tuple[int, int] = WIDE,
@@ -123,6 +132,8 @@ def make_scene(
     ----------
     points
         At least one policy, the best first; the human-human baseline and the bounds.
+    axes
+        The error, and the other metric of the points.
     axis
         Name of the error's axis.
     size
@@ -132,11 +143,18 @@ def make_scene(
     """
     (width, height), (left, top, right, bottom) = size, MARGINS
     top += TITLE_LINE * len(title) + (TITLE_GAP if title else 0)
-    scale = make_scale(points, (left, top, width - right, height - bottom))
-    wide, front = width >= ROOMY, pareto_front(points)
+    _, second = axes
+    scale = make_scale(points, (left, top, width - right, height - bottom), second)
+    up = _ticks(scale.down, (min(scale.y), max(scale.y)), 7)
+    longest = max((len(tick.text.partition(".")[0]) for tick in up), default=0)
+    if longest > TICK_DIGITS:
+        left += TICK_DIGIT * (longest - TICK_DIGITS)
+        scale = make_scale(points, (left, top, width - right, height - bottom), second)
+        up = _ticks(scale.down, (min(scale.y), max(scale.y)), 7)
+    wide, front = width >= ROOMY, pareto_front(points, second)
     baseline = next((point.rmse_mm.mean for point in points if point.kind == "baseline"), None)
     corners = _stair([scale.place(point) for point in front])
-    notes = _notes(scale, points, wide)
+    notes = _notes(scale, points, second, wide)
     lines = [_span(*ends) for ends in pairwise(corners)]
     if baseline is not None:
         across = scale.across(baseline)
@@ -145,15 +163,16 @@ def make_scene(
         size=size,
         title=tuple(title),
         axis=axis,
+        axis_up=f"{second.axis} · {second.words.praise[1]} →",
         scale=scale,
         across=_ticks(scale.across, scale.x, 10 if wide else 6),
-        up=_ticks(scale.down, scale.y, 7),
+        up=up,
         ratios=() if baseline is None else _ratios(scale, baseline, 8 if wide else 4),
         baseline=None if baseline is None else scale.across(baseline),
         front=corners,
         notes=notes,
-        dots=_dots(points, front, scale, notes, lines),
-        summary=_summary(points, front),
+        dots=_dots(points, front, second, scale, notes, lines),
+        summary=_summary(points, front, axes),
     )
 
 
@@ -185,6 +204,7 @@ def _ratios(scale: Scale, baseline: float, most: int) -> tuple[Tick, ...]:
 def _dots(
     points: Sequence[FrontPoint],
     front: Sequence[FrontPoint],
+    metric: Metric,
     scale: Scale,
     notes: Sequence[Note],
     lines: Sequence[Box],
@@ -200,7 +220,7 @@ def _dots(
             points[i].rmse_mm.mean,
         ),
     )[:NAMED]
-    texts = [_name(points[i], scale) for i in order]
+    texts = [_name(points[i], metric, scale) for i in order]
     bold = [i for i in order if points[i] in front or points[i].kind == "baseline"]
     half = RADIUS + CLEAR
     boxes = place_labels(
@@ -231,7 +251,7 @@ def _dots(
             at=places[i],
             bars=scale.bars(point),
             best=point in front,
-            tip=_tip(point),
+            tip=_tip(point, metric),
             label=labels.get(i),
         )
         for i, point in enumerate(points)
@@ -244,18 +264,25 @@ def _label(at: Place, lines: tuple[str, ...], box: Box) -> Label:
     return Label(box=box, lines=lines, leader=(*at, x, y) if away else None)
 
 
-def _name(point: FrontPoint, scale: Scale) -> tuple[str, ...]:
+def _name(point: FrontPoint, metric: Metric, scale: Scale) -> tuple[str, ...]:
     """Return the name of a point, with a line of the values that its place does not show."""
     values = [f"{point.rmse_mm.mean:.0f} mm"] if scale.off(point) else []
-    if point.sparc is not None and scale.below(point):
-        values.append(f"SPARC {minus(f'{point.sparc.mean:.1f}')}")
-    name = f"{point.name} *" if point.sparc and point.missing else point.name
+    if point.second is not None and scale.below(point):
+        values.append(_value(metric, point.second.mean, max(metric.digits - 1, 0)))
+    name = f"{point.name} *" if point.second and point.missing else point.name
     return (name, ", ".join(values)) if values else (name,)
 
 
-def _tip(point: FrontPoint) -> str:
-    sparc = f"SPARC {minus(f'{point.sparc.mean:.2f}')}" if point.sparc else "no smoothness"
-    return f"{point.name}: RMSE {point.rmse_mm.mean:.1f} mm, {sparc}"
+def _tip(point: FrontPoint, metric: Metric) -> str:
+    second = f"no {metric.noun}"
+    if point.second:
+        second = _value(metric, point.second.mean, metric.digits)
+    return f"{point.name}: RMSE {point.rmse_mm.mean:.1f} mm, {second}"
+
+
+def _value(metric: Metric, value: float, places: int) -> str:
+    """Return a value of a metric with its symbol and unit."""
+    return f"{metric.symbol} {minus(f'{value:.{places}f}')} {metric.unit}".rstrip()
 
 
 def _stair(places: Sequence[Place]) -> tuple[Place, ...]:
@@ -272,7 +299,9 @@ def _span(one: Place, other: Place) -> Box:
     return left, top, right, bottom
 
 
-def _notes(scale: Scale, points: Sequence[FrontPoint], wide: bool) -> tuple[Note, ...]:
+def _notes(
+    scale: Scale, points: Sequence[FrontPoint], metric: Metric, wide: bool
+) -> tuple[Note, ...]:
     """Return what explains the strips and the asterisk."""
     left, top, right, bottom = scale.plot
     floor, height = scale.inner[3], NOTE_SIZE * LINE_HEIGHT + CLEAR
@@ -281,20 +310,25 @@ def _notes(scale: Scale, points: Sequence[FrontPoint], wide: bool) -> tuple[Note
         text = "off the scale" if wide else "beyond"
         texts.append((text, right - text_width(text, NOTE_SIZE) - CLEAR, top + CLEAR))
     if scale.still:
-        text = "does not move along: no smoothness" if wide else "no smoothness"
+        why = f"{metric.words.absent}: " if wide and metric.words.absent else ""
+        text = f"{why}no {metric.noun}"
         texts.append((text, left + CLEAR, bottom - height))
-    if any(point.sparc and point.missing for point in points):
-        texts.append(("* without smoothness in some lifts", left + CLEAR, floor - height))
+    if any(point.second and point.missing for point in points):
+        texts.append((f"* without {metric.noun} in some lifts", left + CLEAR, floor - height))
     return tuple(
         Note(text=text, box=(x, y, x + text_width(text, NOTE_SIZE), y + height))
         for text, x, y in texts
     )
 
 
-def _summary(points: Sequence[FrontPoint], front: Sequence[FrontPoint]) -> str:
+def _summary(
+    points: Sequence[FrontPoint], front: Sequence[FrontPoint], axes: tuple[Metric, Metric]
+) -> str:
+    leading, second = axes
     policies = sum(point.kind == "policy" for point in points)
     best = ", ".join(point.name for point in front) or "none"
     return (
-        f"{policies} policies by RMSE (across, further left is more level) and smoothness (up, "
-        f"higher is smoother). Not beaten in both by any other: {best}."
+        f"{policies} policies by {leading.symbol} (across, further left is "
+        f"{leading.words.praise[1]}) and {second.noun} (up, higher is {second.words.praise[1]}). "
+        f"Not beaten in both by any other: {best}."
     )

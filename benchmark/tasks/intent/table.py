@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from ...episode.metric import Metric, metric_table
+from ...episode.metric import DrawnSeries, Metric, Words, metric_table
 
 INTENT_METRICS: Final = metric_table(
     (
@@ -15,6 +15,11 @@ INTENT_METRICS: Final = metric_table(
             shown="board",
             meaning="root mean square distance of both ends from their intended heights over the "
             "whole trial, by which policies are ranked",
+            words=Words(
+                question="Who finds the pose that the human intends?",
+                praise=("accurate", "more accurate", "most accurate"),
+                plain="how far both ends of the table are from where the human intends them",
+            ),
         ),
         Metric(
             name="settling_ms",
@@ -26,6 +31,13 @@ INTENT_METRICS: Final = metric_table(
             shown="board",
             meaning="time from the beginning of a movement until the robot's end stays within "
             "10 mm of its intended height, mean over the movements",
+            words=Words(
+                praise=("quick", "quicker", "quickest"),
+                plain="time until the robot's end is where the human intends it",
+                absent="fails",
+                present="that did not fail",
+                note="until the robot's end stays within 10 mm of where it should be",
+            ),
         ),
         Metric(
             name="peak_mm",
@@ -37,6 +49,7 @@ INTENT_METRICS: Final = metric_table(
             shown="run",
             meaning="largest distance of the robot's end from its intended height in a movement, "
             "mean over the movements",
+            words=Words(note="largest distance of the robot's end from there in a movement"),
         ),
         Metric(
             name="near_rmse_mm",
@@ -63,6 +76,11 @@ INTENT_METRICS: Final = metric_table(
             shown="board",
             meaning="root mean square of the vertical force at the human's hands, beyond their "
             "half of the table's weight",
+            words=Words(
+                noun="force",
+                note="at the human's hands",
+                caption="Force at the human's hands in N.",
+            ),
         ),
         Metric(
             name="opposing_work_j",
@@ -72,6 +90,7 @@ INTENT_METRICS: Final = metric_table(
             shown="run",
             meaning="work that the human's hands do with that force in the direction in which "
             "they move",
+            words=Words(note="of the human's hands against the robot"),
         ),
         Metric(
             name="clipped",
@@ -80,6 +99,7 @@ INTENT_METRICS: Final = metric_table(
             meaning="share of the robot's actions that exceeded the speed of its hands (0.04 m in "
             "100 ms) and were clipped",
         ),
-    )
+    ),
+    drawn=(DrawnSeries(name="far_target", label="intended far end", goal=True),),
 )
 """One entry for each score of :meth:`.Intent.score`, in the same order."""

@@ -9,7 +9,7 @@ from colift.benchmark.comparison.comparison import Comparison, compare
 from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.html import html_page
 from colift.benchmark.comparison.paired_results import PolicyResults
-from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
+from colift.benchmark.comparison.ranking import MetricMean, RankedPolicy, Ranking
 from colift.benchmark.statistics import paired_permutation_p
 
 from .conftest import paired, policy_results
@@ -84,12 +84,12 @@ def test_failed_lifts_count_and_are_counted(comparison: Comparison) -> None:
     failing = named(comparison.overall, "failing")
     assert failing.failed == 3
     assert failing.rmse_mm.mean == pytest.approx((3 * 250 + 61 * 30) / 64)
-    assert failing.sparc_missing == 3
+    assert failing.metrics["sparc"].missing == 3
 
 
 def test_holding_still_has_no_smoothness(comparison: Comparison) -> None:
     still = named(comparison.overall, "still")
-    assert (still.sparc, still.sparc_missing) == (None, 64)
+    assert still.metrics["sparc"] == MetricMean(estimate=None, missing=64)
 
 
 def test_the_front_leaves_out_who_is_beaten_in_both(comparison: Comparison) -> None:

@@ -1,16 +1,21 @@
 import numpy as np
 import pytest
 from colift.benchmark.comparison.front import FrontPoint, exact, pareto_front
+from colift.benchmark.episode.level_metrics import LEVEL_METRICS
+from colift.benchmark.episode.metric import second_axis
 from colift.benchmark.statistics import Estimate
+from colift.benchmark.tasks.intent.table import INTENT_METRICS
+
+SPARC = second_axis(LEVEL_METRICS)
 
 
 def point(name: str, rmse_mm: float, sparc: float | None, missing: int = 0) -> FrontPoint:
     rmse = Estimate(mean=rmse_mm, ci95=(rmse_mm, rmse_mm))
-    return FrontPoint(name=name, rmse_mm=rmse, sparc=exact(sparc), missing=missing)
+    return FrontPoint(name=name, rmse_mm=rmse, second=exact(sparc), missing=missing)
 
 
 def front(*points: FrontPoint) -> list[str]:
-    return [each.name for each in pareto_front(points)]
+    return [each.name for each in pareto_front(points, SPARC)]
 
 
 LEVEL = point("level", 10.0, -3.0)
@@ -34,14 +39,14 @@ def test_a_robot_that_does_not_move_is_never_on_it_even_alone_or_the_most_level(
 
 def test_moving_only_when_it_is_easy_does_not_make_a_point_smooth() -> None:
     easy = point("easy", 20.0, -0.5, missing=1)
-    assert not easy.dominates(SMOOTH)
-    assert SMOOTH.dominates(easy)
+    assert not easy.dominates(SMOOTH, SPARC)
+    assert SMOOTH.dominates(easy, SPARC)
 
 
 def test_a_bound_neither_is_on_it_nor_keeps_a_policy_off_it() -> None:
     rmse = Estimate(mean=0.1, ci95=(0.0, 0.2))
     assert front(
-        LEVEL, FrontPoint(name="oracle", rmse_mm=rmse, sparc=exact(-1.0), kind="bound")
+        LEVEL, FrontPoint(name="oracle", rmse_mm=rmse, second=exact(-1.0), kind="bound")
     ) == ["level"]
 
 
@@ -49,9 +54,16 @@ def test_a_bound_neither_is_on_it_nor_keeps_a_policy_off_it() -> None:
 def test_of_many_points_it_is_those_that_none_dominates(seed: int) -> None:
     rng = np.random.default_rng(seed)
     points = [point(str(i), x, y) for i, (x, y) in enumerate(rng.uniform(-2, 0, (30, 2)))]
-    best = pareto_front(points)
+    best = pareto_front(points, SPARC)
     for one in points:
-        assert (one in best) == (not any(other.dominates(one) for other in points))
-    smooth = [each.sparc.mean for each in best if each.sparc]
+        assert (one in best) == (not any(other.dominates(one, SPARC) for other in points))
+    smooth = [each.second.mean for each in best if each.second]
     assert len(smooth) == len(best)
     assert smooth == sorted(smooth)
+
+
+def test_where_less_is_better_the_quicker_of_two_equal_errors_is_on_the_front() -> None:
+    points = point("slow", 20.0, 900.0), point("quick", 20.0, 600.0), point("worst", 30.0, 950.0)
+    metric = second_axis(INTENT_METRICS)
+    assert metric.better == "less"
+    assert [each.name for each in pareto_front(points, metric)] == ["quick"]

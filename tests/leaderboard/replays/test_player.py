@@ -5,8 +5,12 @@ import re
 from pathlib import Path
 
 import pytest
+from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.execution.batches import play
+from colift.benchmark.suites.catalogue import make_scenario
 from colift.leaderboard.replays.chosen import chosen_replays
 from colift.leaderboard.replays.html import replay_page, script_json
+from colift.leaderboard.replays.replay import play_ghost, replay_content
 from playwright.sync_api import expect
 
 
@@ -228,3 +232,25 @@ def test_on_a_telephone_the_numbers_are_below_the_picture(open_page):
 def test_nothing_is_wider_than_the_screen(open_page, width):
     page = open_page(viewport={"width": width, "height": 800})
     assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_the_intended_pose_is_drawn_and_the_error_is_the_distance_to_it(chromium, tmp_path):
+    scenario = make_scenario("counter", "S3", task="intent")
+    episode = next(play(PolicySpec(text="pose_wrist"), scenario, (0,)))
+    content = replay_content(episode, scenario, play_ghost(scenario, 0), policy="pose_wrist")
+    path = tmp_path / "pose.html"
+    path.write_text(replay_page([content]), encoding="utf-8")
+    page = chromium.new_page(reduced_motion="reduce")
+    troubles = []
+    page.on("pageerror", lambda error: troubles.append(str(error)))
+    page.goto(path.as_uri())
+    for _ in range(50):
+        page.keyboard.press("ArrowRight")
+    expect(page.locator(".replay-key", has_text="intended far end")).to_be_visible()
+    expect(page.locator("line.intended-pose")).not_to_have_class("none")
+    expect(page.locator(".replay-level")).to_be_hidden()
+    trace = episode.trace
+    missed = 1000 * (trace.robot_end[499] - trace.added["far_target"][499])
+    assert difference(page) == pytest.approx(missed, abs=0.15)
+    page.close()
+    assert not troubles

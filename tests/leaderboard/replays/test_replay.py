@@ -124,3 +124,14 @@ def test_a_lift_that_failed_before_it_began_has_no_heights(episode, ghost):
 def test_changes_do_not_drift():
     series = np.cumsum(np.full(5000, 0.33e-4))
     assert np.abs(heights(changes(series)) - series).max() <= 0.5e-4 + 1e-9
+
+
+def test_a_replay_has_the_series_that_its_task_draws_and_only_those(made):
+    assert "drawn" not in made
+    scenario = make_scenario("pivot", "S2", task="intent")
+    episode = next(play(PolicySpec(text="pose_bayes"), scenario, (0,)))
+    content = replay_content(episode, scenario, play_ghost(scenario, 0), policy="pose_bayes")
+    (drawn,) = content["drawn"]
+    assert (drawn["name"], drawn["where"], drawn["goal"]) == ("far_target", "robot", True)
+    far = episode.trace.added["far_target"]
+    assert np.abs(heights(drawn["values"]) - far).max() <= 0.5e-4 + 1e-12

@@ -16,7 +16,13 @@ from PIL import Image
 
 @pytest.fixture(scope="module", params=[WIDE, NARROW])
 def scene(comparison: Comparison, request: pytest.FixtureRequest) -> ScatterScene:
-    return make_scene(comparison.points, axis="RMSE, mm", size=request.param, title=("A", "b"))
+    return make_scene(
+        comparison.points,
+        comparison.results.axes,
+        axis="RMSE, mm",
+        size=request.param,
+        title=("A", "b"),
+    )
 
 
 def written(scene: ScatterScene) -> list[str]:
@@ -66,10 +72,12 @@ def test_the_page_gives_all_colours(scene: ScatterScene) -> None:
     assert all(value == "none" or value.startswith("var(--") for value in values)
 
 
-def test_a_name_is_no_markup() -> None:
+def test_a_name_is_no_markup(comparison: Comparison) -> None:
     value = Estimate(mean=10.0, ci95=(9.0, 11.0))
-    one = FrontPoint(name="<b>$x_1$ & y</b>", rmse_mm=value, sparc=Estimate(mean=-2, ci95=(-3, -1)))
-    scene = make_scene([one], axis="RMSE")
+    one = FrontPoint(
+        name="<b>$x_1$ & y</b>", rmse_mm=value, second=Estimate(mean=-2, ci95=(-3, -1))
+    )
+    scene = make_scene([one], comparison.results.axes, axis="RMSE")
     texts = [each.text for each in ET.fromstring(svg(scene, "wide")).iter("text")]
     drawn = [each.get_text() for each in scatter_figure(scene).axes[0].texts]
     assert one.name in texts

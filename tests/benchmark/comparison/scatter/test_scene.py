@@ -14,7 +14,10 @@ from colift.benchmark.comparison.scatter.scene import (
     ScatterScene,
     make_scene,
 )
+from colift.benchmark.episode.level_metrics import LEVEL_METRICS
+from colift.benchmark.episode.metric import LEADING, Metric, second_axis
 from colift.benchmark.statistics import Estimate
+from colift.benchmark.tasks.intent.table import INTENT_METRICS
 
 Box = tuple[float, float, float, float]
 
@@ -23,8 +26,11 @@ def around(mean: float, half: float = 0.5) -> Estimate:
     return Estimate(mean=mean, ci95=(mean - half, mean + half))
 
 
+AXES = LEVEL_METRICS[LEADING], second_axis(LEVEL_METRICS)
+
+
 def point(name: str, rmse_mm: float, sparc: float | None = -2.0, **rest: object) -> FrontPoint:
-    return FrontPoint(name=name, rmse_mm=around(rmse_mm), sparc=exact(sparc), **rest)  # type: ignore[arg-type]
+    return FrontPoint(name=name, rmse_mm=around(rmse_mm), second=exact(sparc), **rest)  # type: ignore[arg-type]
 
 
 BASELINE = point("human-human baseline", 9.5, -2.8, kind="baseline")
@@ -39,8 +45,12 @@ def crowd(size: int) -> list[FrontPoint]:
     return [*map(point, names, means, smooth), BASELINE]
 
 
-def scene(points: list[FrontPoint], size: tuple[int, int] = WIDE) -> ScatterScene:
-    return make_scene(points, axis="RMSE", size=size)
+def scene(
+    points: list[FrontPoint],
+    size: tuple[int, int] = WIDE,
+    axes: tuple[Metric, Metric] = AXES,
+) -> ScatterScene:
+    return make_scene(points, axes, axis="RMSE", size=size)
 
 
 def dots(drawn: ScatterScene) -> dict[str, Dot]:
@@ -120,7 +130,7 @@ def test_a_robot_without_smoothness_is_below_all_others(comparison: Comparison) 
     drawn = scene(list(comparison.points))
     still = dots(drawn).pop("still").at[1]
     assert still > drawn.scale.inner[3]
-    assert all(dot.at[1] < drawn.scale.inner[3] for dot in drawn.dots if dot.point.sparc)
+    assert all(dot.at[1] < drawn.scale.inner[3] for dot in drawn.dots if dot.point.second)
 
 
 def test_some_lifts_without_smoothness_are_marked_and_explained(comparison: Comparison) -> None:
@@ -189,3 +199,16 @@ def test_two_policies_that_hold_still_can_be_drawn() -> None:
     drawn = scene([point("a", 120.0, None), point("b", 120.0, None)])
     assert drawn.front == ()
     assert all(dot.label for dot in drawn.dots)
+
+
+def test_a_metric_of_which_less_is_better_has_the_lower_value_higher_up() -> None:
+    axes = INTENT_METRICS[LEADING], second_axis(INTENT_METRICS)
+    points = [point("quick", 20.0, 600.0), point("slow", 22.0, 900.0), point("failing", 60.0, None)]
+    drawn = scene(points, axes=axes)
+    quick, slow, failing = (dot.at[1] for dot in drawn.dots)
+    assert quick < slow < failing
+    assert drawn.axis_up == "Time to the right pose, ms · quicker →"
+    assert drawn.dots[0].tip == "quick: RMSE 20.0 mm, settling 600 ms"
+    assert any(note.text == "fails: no time to the right pose" for note in drawn.notes)
+    heights = [tick.at for tick in sorted(drawn.up, key=lambda tick: float(tick.text))]
+    assert heights == sorted(heights)
