@@ -11,7 +11,7 @@ from ..agents.errors import InputError
 from ..benchmark.bundle import Bundle, one_line, read_bundle
 from ..benchmark.execution.pool import checked_jobs
 from ..benchmark.export.contents import Contents
-from ..benchmark.export.exporting import FORMATS, Words, check_format, export
+from ..benchmark.export.exporting import FORMATS, CardWords, check_format, export
 from ..benchmark.export.fixed_sets import SetLift, play_set, set_digest, set_plan
 from ..benchmark.export.folder import check_new
 from ..benchmark.export.observing import spaces
@@ -101,7 +101,7 @@ def _bundle(folder: Path, to: str, out: Path, view: str, force: bool, jobs: int)
     suite = bundle.run().suite
     provenance = _of_bundle(bundle, suite, folder, to, view)
     real = bundle.recipe.recordings is not None or bundle.recipe.inputs is not None
-    words = Words(
+    words = CardWords(
         about=f"Lifts of {provenance.policy} on {provenance.suite}, from a result bundle.",
         people="recorded or live people" if real else "simulated people of the suite",
         shows=(
@@ -154,7 +154,7 @@ def _set(
 ) -> None:
     chosen = rule(name)
     plan = set_plan(name, lifts, both=view == "both", recordings=recordings)
-    words = Words(
+    words = CardWords(
         about=chosen.about,
         people=_people(plan, recordings),
         shows=(CONVERTED, *chosen.shows) if plan[0].converted else chosen.shows,

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from ...agents.loading.loading import PolicySpec
-from ...agents.registry import POLICIES, entries, own_policies
+from ...agents.registry import own_policies, task_policies
 from ..bounds.oracle import oracle_run
 from ..execution.runner import Run, run_suite
 from ..results.baselines import human_human_run
@@ -46,14 +46,10 @@ class Admission:
         return all(each.passed is not False for each in self.criteria)
 
 
-def task_policies(task: str) -> tuple[str, ...]:
-    """Return the names of colift's policies for a task alone."""
-    return tuple(name for name in own_policies(task) if entries(POLICIES)[name].group != POLICIES)
-
-
 def players(task: str) -> tuple[str, ...]:
-    """Return the names of all policies that the test plays."""
-    return (*KEEPERS, *task_policies(task))
+    """Return the names of all policies that the test plays: level-keepers, and the task's own."""
+    own = own_policies(task)
+    return (*KEEPERS, *(name for name in task_policies().get(task, ()) if name in own))
 
 
 def admission_of(

@@ -19,7 +19,7 @@ FORMATS: Final = ("minari", "lerobot")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Words:
+class CardWords:
     """The sentences of a data card; see :func:`.card`."""
 
     about: str
@@ -51,7 +51,7 @@ def export(
     lifts: Iterable[ExportedLift],
     spaces: Spaces,
     provenance: Provenance,
-    words: Words,
+    words: CardWords,
     *,
     form: str,
     replace: bool = False,

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.benchmark.export import lerobot_writer
-from colift.benchmark.export.exporting import Words, export
+from colift.benchmark.export.exporting import CardWords, export
 from colift.benchmark.export.lerobot_writer import frame_rate
 from colift.benchmark.export.proving import proved_lifts
 
 from .conftest import LIFTS, SUITE
 
 parquet = pytest.importorskip("pyarrow.parquet")
-WORDS = Words(about="Four lifts.", people="simulated", shows=("Little.",), licence="MIT")
+WORDS = CardWords(about="Four lifts.", people="simulated", shows=("Little.",), licence="MIT")
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import pytest
 from colift.agents.agent import RobotObservation
 from colift.agents.errors import InputError
 from colift.benchmark.environment.parallel import ParallelLift, parallel_env
-from colift.benchmark.export.exporting import Words, export
+from colift.benchmark.export.exporting import CardWords, export
 from colift.benchmark.export.fixed_sets import play_set, set_plan
 from colift.benchmark.export.observing import spaces
 from colift.benchmark.export.proving import proved_lifts
@@ -17,7 +17,7 @@ from colift.benchmark.export.proving import proved_lifts
 from .conftest import LIFTS, SUITE
 
 minari = pytest.importorskip("minari")
-WORDS = Words(about="Four lifts.", people="simulated", shows=("Little.",), licence="MIT")
+WORDS = CardWords(about="Four lifts.", people="simulated", shows=("Little.",), licence="MIT")
 
 
 @pytest.fixture

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.submissions.offline.policy import Window
-from colift.benchmark.export.exporting import Words, export
+from colift.benchmark.export.exporting import CardWords, export
 from colift.benchmark.export.fixed_sets import play_set, set_digest, set_plan
 from colift.benchmark.export.observing import spaces
 from colift.benchmark.export.provenance import Provenance, of_scenario
 from colift.benchmark.training.offline_data import read_data
 
 pytest.importorskip("minari")
-WORDS = Words(about="Lifts.", people="simulated", shows=("Little.",), licence="MIT")
+WORDS = CardWords(about="Lifts.", people="simulated", shows=("Little.",), licence="MIT")
 PLAN = set_plan("follow", 2)
 
 
