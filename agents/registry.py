@@ -51,7 +51,7 @@ def playing(task: str) -> dict[str, EntryPoint]:
     return {name: each for name, each in entries(POLICIES).items() if each.group in groups}
 
 
-def task_policies() -> dict[str, tuple[str, ...]]:
+def policies_by_task() -> dict[str, tuple[str, ...]]:
     """Return the names of the policies that play one task alone, by the task's name."""
     found: dict[str, tuple[str, ...]] = {}
     for name, each in sorted(entries(POLICIES).items()):

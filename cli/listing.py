@@ -21,8 +21,8 @@ from ..agents.registry import (
     TASKS,
     entries,
     lookup,
+    policies_by_task,
     summary,
-    task_policies,
 )
 from ..agents.sandbox.host.policy import SandboxedPolicy
 from ..agents.submissions.manifest import MANIFEST, Manifest
@@ -51,7 +51,7 @@ def list_all(
     table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
     table.add_column(style="bold", no_wrap=True)
     table.add_column()
-    apart = task_policies()
+    apart = policies_by_task()
     _registered(table, "Robot policies", POLICIES, without={*chain.from_iterable(apart.values())})
     for task, names in apart.items():
         _named(table, f"Policies for the task {task}", POLICIES, names)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from ...agents.loading.loading import PolicySpec
-from ...agents.registry import own_policies, task_policies
+from ...agents.registry import own_policies, policies_by_task
 from ..bounds.oracle import oracle_run
 from ..execution.runner import Run, run_suite
 from ..results.baselines import human_human_run
@@ -49,7 +49,7 @@ class Admission:
 def players(task: str) -> tuple[str, ...]:
     """Return the names of all policies that the test plays: level-keepers, and the task's own."""
     own = own_policies(task)
-    return (*KEEPERS, *(name for name in task_policies().get(task, ()) if name in own))
+    return (*KEEPERS, *(name for name in policies_by_task().get(task, ()) if name in own))
 
 
 def admission_of(

@@ -167,9 +167,16 @@ def _ranked(
             metric.name: _metric_mean(_values(policy, metric.name)[chosen], strata)
             for metric in metrics
         },
-        clipped=mean_with_missing(_values(policy, "clipped")[chosen]).mean,
+        clipped=_clipped(policy, chosen),
         to_best=to_best,
     )
+
+
+def _clipped(policy: PolicyResults, chosen: FloatArray) -> float | None:
+    """Return the mean share of clipped actions; None if the task has no such metric."""
+    if not all("clipped" in scores for scores in policy.scores):
+        return None
+    return mean_with_missing(_values(policy, "clipped")[chosen]).mean
 
 
 def _metric_mean(values: FloatArray, strata: Sequence[Stratum]) -> MetricMean:

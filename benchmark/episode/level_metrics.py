@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from .metric import Metric, Words, metric_table
+from .metric import Metric, MetricWords, metric_table
 
 REACHED: Final = 0.02
 """The human has reached the intended height within this distance of it [m]."""
@@ -21,7 +21,7 @@ LEVEL_METRICS: Final = metric_table(
             shown="board",
             meaning="root mean square of Z1 - Z2 over the whole trial, rest included. The paper's "
             "measure, by which policies are ranked",
-            words=Words(
+            words=MetricWords(
                 question="Who keeps the table level?",
                 praise=("level", "more level", "most level"),
                 axis="RMSE of the height difference, mm",
@@ -51,7 +51,7 @@ LEVEL_METRICS: Final = metric_table(
             digits=1,
             shown="run",
             meaning="largest incline of the table",
-            words=Words(note=""),
+            words=MetricWords(note=""),
         ),
         Metric(
             name="sparc",
@@ -62,7 +62,7 @@ LEVEL_METRICS: Final = metric_table(
             shown="board",
             meaning="smoothness of the robot's end, mean over the human's strokes: spectral arc "
             "length (20 Hz, threshold 0.05); nearer to zero is smoother",
-            words=Words(
+            words=MetricWords(
                 praise=("smooth", "smoother", "smoothest"),
                 axis="SPARC",
                 plain="smoothness of the robot's end during the human's strokes",
@@ -83,7 +83,7 @@ LEVEL_METRICS: Final = metric_table(
             missing="worst",
             shown="run",
             meaning="the same by log dimensionless jerk",
-            words=Words(note="smoothness of the robot's end, closer to 0 is smoother"),
+            words=MetricWords(note="smoothness of the robot's end, closer to 0 is smoother"),
         ),
         Metric(
             name="human_force_n",
@@ -93,7 +93,7 @@ LEVEL_METRICS: Final = metric_table(
             shown="board",
             meaning="root mean square of the vertical force at the human's hands, beyond their "
             "half of the table's weight",
-            words=Words(
+            words=MetricWords(
                 noun="force",
                 note="at the human's hands",
                 caption="Force at the human's hands in N.",
@@ -115,7 +115,7 @@ LEVEL_METRICS: Final = metric_table(
             better="near zero",
             shown="run",
             meaning="delay at which the robot's velocity matches the human's best",
-            words=Words(note="of the robot behind the human"),
+            words=MetricWords(note="of the robot behind the human"),
         ),
         Metric(
             name="short_of_goal_mm",

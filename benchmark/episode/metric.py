@@ -19,7 +19,7 @@ Scores = Mapping[str, float]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Words:
+class MetricWords:
     """A metric in sentences, titles and pictures."""
 
     question: str = "Who is best?"
@@ -72,7 +72,7 @@ class Metric:
     """Value above which the episode has missed its goal, if the metric decides that."""
     meaning: str
     """The definition in one sentence."""
-    words: Words = Words()
+    words: MetricWords = MetricWords()
     """How sentences and pictures name it."""
 
     @property

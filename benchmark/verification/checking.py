@@ -1,5 +1,6 @@
 """Pre-submission checks: interface, determinism, score, timing."""
 
+import dataclasses
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
@@ -11,7 +12,7 @@ from ...agents.spec import AgentSpec
 from ..bundle import Results, results
 from ..episode.episode import Episode
 from ..episode.level_metrics import MOSTLY_CLIPPED
-from ..episode.scenario import CONTROL_PERIOD
+from ..episode.scenario import CONTROL_PERIOD, Scenario
 from ..episode.turns import START
 from ..execution.batches import play
 from ..execution.runner import Run
@@ -23,7 +24,10 @@ from ..suites.suite import Suite, make_suite
 from .audit import first_differing_step
 
 SUITE: Final = "quick-v1"
-"""The suite of the score."""
+"""The suite of the score, if no other is asked for."""
+
+FEW: Final = 20
+"""Lifts of a suite up to which the score is of the whole suite."""
 
 LIFTS: Final = (("smooth", "S1"), ("changing_goal", "S4"))
 """Behaviour and subject of the lifts that are played twice."""
@@ -58,7 +62,10 @@ class Check:
 
 
 def presubmission_checks(
-    policy: AgentSpec, fresh: AgentSpec, evaluate: Callable[[AgentSpec, Suite], Run]
+    policy: AgentSpec,
+    fresh: AgentSpec,
+    evaluate: Callable[[AgentSpec, Suite], Run],
+    suite: Suite | None = None,
 ) -> Iterator[Check]:
     """Check a policy; the iterator ends early where the rest would add nothing.
 
@@ -70,6 +77,9 @@ def presubmission_checks(
         The same policy, with a fresh process for each episode: nothing is preloaded.
     evaluate
         Plays a suite; see :func:`.run_suite`.
+    suite
+        The suite whose task the policy is to play; :data:`SUITE` by default. Of a large one the
+        score is of :func:`check_part`.
 
     Yields
     ------
@@ -77,15 +87,21 @@ def presubmission_checks(
         interface, lifts, determinism, score, actions, time; a failure of the machine ends them.
     """
     try:
-        yield from _checks(policy, fresh, evaluate)
+        yield from _checks(policy, fresh, evaluate, suite or make_suite(SUITE))
     except EvaluatorFault as fault:
         yield Check(name=MACHINE, ok=False, message=f"{fault}; this is no fault of the policy")
 
 
 def _checks(
-    policy: AgentSpec, fresh: AgentSpec, evaluate: Callable[[AgentSpec, Suite], Run]
+    policy: AgentSpec,
+    fresh: AgentSpec,
+    evaluate: Callable[[AgentSpec, Suite], Run],
+    whole: Suite,
 ) -> Iterator[Check]:
-    first = _played(policy, LIFTS)
+    twice = [make_scenario(*names) for names in LIFTS]
+    if whole.name != SUITE:
+        twice = [whole.scenarios[0], whole.scenarios[-1]]
+    first = _played(policy, twice)
     interface, lifts = _interface(policy, first), _lifts(first)
     yield interface
     if not interface.ok:
@@ -93,16 +109,34 @@ def _checks(
     yield lifts
     if not lifts.ok:
         return
-    determinism = _determinism(first, _played(fresh, LIFTS[::-1])[::-1])
+    determinism = _determinism(first, _played(fresh, twice[::-1])[::-1])
     yield determinism
     if not determinism.ok:
         return
-    suite = make_suite(SUITE)
+    suite = check_part(whole)
     run = evaluate(policy, suite)
     content = results(run, shipped_baselines(suite) or _baselines(suite, evaluate))
     yield _score(run, content)
     yield _actions(content.summary)
     yield _time(content.summary, run.episodes)
+
+
+def check_part(suite: Suite) -> Suite:
+    """Return a suite of at most :data:`FEW` lifts, else two lifts of each of its behaviours.
+
+    Each behaviour has another person, as far as there are enough of them.
+    """
+    if suite.size <= FEW:
+        return suite
+    behaviours: dict[str, list[Scenario]] = {}
+    for scenario in suite.scenarios:
+        behaviours.setdefault(scenario.behaviour, []).append(scenario)
+    return dataclasses.replace(
+        suite,
+        name=f"{suite.name}, a part",
+        scenarios=tuple(some[i % len(some)] for i, some in enumerate(behaviours.values())),
+        seeds=suite.seeds[:2],
+    )
 
 
 def _baselines(suite: Suite, evaluate: Callable[[AgentSpec, Suite], Run]) -> dict[str, Baseline]:
@@ -115,12 +149,8 @@ def _baselines(suite: Suite, evaluate: Callable[[AgentSpec, Suite], Run]) -> dic
     }
 
 
-def _played(policy: AgentSpec, lifts: Sequence[tuple[str, str]]) -> list[Episode]:
-    return [
-        episode
-        for behaviour, subject in lifts
-        for episode in play(policy, make_scenario(behaviour, subject), (SEED,))
-    ]
+def _played(policy: AgentSpec, scenarios: Sequence[Scenario]) -> list[Episode]:
+    return [episode for scenario in scenarios for episode in play(policy, scenario, (SEED,))]
 
 
 def _interface(policy: AgentSpec, episodes: Sequence[Episode]) -> Check:

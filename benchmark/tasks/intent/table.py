@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from ...episode.metric import DrawnSeries, Metric, Words, metric_table
+from ...episode.metric import DrawnSeries, Metric, MetricWords, metric_table
 
 INTENT_METRICS: Final = metric_table(
     (
@@ -15,7 +15,7 @@ INTENT_METRICS: Final = metric_table(
             shown="board",
             meaning="root mean square distance of both ends from their intended heights over the "
             "whole trial, by which policies are ranked",
-            words=Words(
+            words=MetricWords(
                 question="Who finds the pose that the human intends?",
                 praise=("accurate", "more accurate", "most accurate"),
                 plain="how far both ends of the table are from where the human intends them",
@@ -31,7 +31,7 @@ INTENT_METRICS: Final = metric_table(
             shown="board",
             meaning="time from the beginning of a movement until the robot's end stays within "
             "10 mm of its intended height, mean over the movements",
-            words=Words(
+            words=MetricWords(
                 praise=("quick", "quicker", "quickest"),
                 plain="time until the robot's end is where the human intends it",
                 absent="fails",
@@ -49,7 +49,7 @@ INTENT_METRICS: Final = metric_table(
             shown="run",
             meaning="largest distance of the robot's end from its intended height in a movement, "
             "mean over the movements",
-            words=Words(note="largest distance of the robot's end from there in a movement"),
+            words=MetricWords(note="largest distance of the robot's end from there in a movement"),
         ),
         Metric(
             name="near_rmse_mm",
@@ -76,7 +76,7 @@ INTENT_METRICS: Final = metric_table(
             shown="board",
             meaning="root mean square of the vertical force at the human's hands, beyond their "
             "half of the table's weight",
-            words=Words(
+            words=MetricWords(
                 noun="force",
                 note="at the human's hands",
                 caption="Force at the human's hands in N.",
@@ -90,7 +90,7 @@ INTENT_METRICS: Final = metric_table(
             shown="run",
             meaning="work that the human's hands do with that force in the direction in which "
             "they move",
-            words=Words(note="of the human's hands against the robot"),
+            words=MetricWords(note="of the human's hands against the robot"),
         ),
         Metric(
             name="clipped",
