@@ -1,8 +1,9 @@
-"""The directive ``metrics``: the metrics of the task that the suites play, a row each."""
+"""The directive ``metrics``: the metrics of a task, by default ``level``, a row each."""
 
 from typing import Any
 
-from colift.benchmark.episode.level_metrics import LEVEL_METRICS
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.suites.catalogue import make_task
 from docutils import nodes
 from markdown_text import table
 from sphinx.application import Sphinx
@@ -12,8 +13,11 @@ from sphinx.util.docutils import SphinxDirective
 class MetricsTable(SphinxDirective):
     """Name, unit, better direction, treatment of a missing value, and meaning of each metric."""
 
+    optional_arguments = 1
+
     def run(self) -> list[nodes.Node]:
         """Return the table."""
+        (name,) = self.arguments or (LEVEL.name,)
         head = ("name", "unit", "better", "without a value", "meaning")
         rows = [
             (
@@ -23,7 +27,7 @@ class MetricsTable(SphinxDirective):
                 "" if each.missing == "never" else each.missing,
                 each.meaning,
             )
-            for each in LEVEL_METRICS.values()
+            for each in make_task(name).metrics.values()
         ]
         return self.parse_text_to_nodes(table(head, rows))
 

@@ -14,8 +14,9 @@ from ...agents.errors import InputError
 from ...agents.extras import how_to_install
 from ...agents.submissions.new import PLACEHOLDER, write_template
 from ...benchmark.comparison.scatter.svg import svg
+from ...benchmark.episode.metric import drawn_series
 from ...benchmark.rendering.page import templates
-from ..records.metrics import board_metrics, picture_axes
+from ..records.metrics import board_metrics, picture_axes, suite_metrics
 from ..replays.html import script_json
 from ..storage.archive import pack_archive
 from .formats import FILTERS
@@ -33,15 +34,18 @@ def render_page(template: str, links: Links, **content: Any) -> str:
         Where the other pages are.
     content
         What the template shows, by name; it also gets the metrics of the season's suite:
-        ``metrics`` have columns beside the ``leading`` one, ``second`` is their first.
+        ``metrics`` have columns beside the ``leading`` one, ``second`` is their first; ``goal`` is
+        the drawn series at which the robot's end should be, or none.
     """
     season = content.get("season") or getattr(content.get("view"), "season", None)
     if season is not None:
         leading, second = picture_axes(season.suite)
+        metrics = suite_metrics(season.suite)
         content |= {
             "metrics": board_metrics(season.suite),
             "leading": leading,
             "second": second,
+            "goal": next((each for each in drawn_series(metrics) if each.goal), None),
         }
     return _environment().get_template(template).render(links=links, **content)
 

@@ -168,10 +168,17 @@ def _errors(bundle: Path) -> dict[str, list[int]]:
     """Return the errors over time of a bundle's replays, as far as they have been made."""
     return {
         f"{each['behaviour']} {each['subject']} {each['seed']}": list(
-            itertools.accumulate(map(operator.sub, each["robot"], each["human"]))
+            itertools.accumulate(map(operator.sub, each["robot"], _goal(each)))
         )[::EVERY]
         for each in made_replays(bundle)
     }
+
+
+def _goal(replay: Mapping[str, Any]) -> Sequence[int]:
+    """Return where the robot's end should be: what the task says, else the human's end."""
+    goals = [each["values"] for each in replay.get("drawn", ()) if each["goal"]]
+    found: Sequence[int] = goals[0] if goals else replay["human"]
+    return found
 
 
 def _parts(strata: Sequence[StratumScore]) -> tuple[Part, ...]:
