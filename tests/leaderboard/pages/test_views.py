@@ -229,3 +229,17 @@ def test_a_page_shows_what_is_not_real_time_apart_and_says_what_has_no_rank(tmp_
         ("not real-time", 1),
         ("unverified", 0),
     ]
+
+
+def test_the_picture_of_another_task_has_that_tasks_second_metric_and_words():
+    row = make_row("a", 20.0)
+    metrics = {
+        "settling_ms": MeanWithMissing(mean=1352.0, missing=0),
+        "human_force_n": MeanWithMissing(mean=0.3, missing=0),
+    }
+    public = dataclasses.replace(row.public, metrics=metrics)
+    row = dataclasses.replace(row, suite="intent-v1", public=public)
+    picture = make_picture([row], None, size=WIDE)
+    assert picture.dots[0].tip == "a: RMSE 20.0 mm, settling 1352 ms"
+    assert picture.axis == "← more accurate · RMSE on the hidden lifts, mm"
+    assert picture.axis_up == "Time to the right pose, ms · quicker →"
