@@ -1,0 +1,32 @@
+"""A lift whose holders have a private hurdle each."""
+
+from ....agents.agent import FRAME, Agent
+from ....agents.agree import Hurdle, HurdlePlan, Negotiator, OwnVia
+from ..haptic import HapticLift
+
+
+class AgreeLift(HapticLift):
+    """A lift on whose way both ends may have a hurdle; with other plans there is none."""
+
+    def reset(self, seed: int) -> None:
+        """Begin the episode ``seed``, as :meth:`.HapticLift.reset`."""
+        super().reset(seed)
+        plan = self.plan
+        given = isinstance(plan, HurdlePlan)
+        self.human_hurdle: Hurdle | None = plan.own if given else None
+        """The human's, or None."""
+        self.robot_hurdle: Hurdle | None = plan.other if given else None
+        """The one of the robot's end, or None."""
+
+    def scripted_human(self) -> Agent:
+        """Return the person who has a hurdle to pass, reset for the episode."""
+        human = Negotiator(subject=self.scenario.subject)
+        human.reset(self.role_seed("human"))
+        return human
+
+    def own_via(self, hurdle: Hurdle | None) -> OwnVia:
+        """Return a hurdle as its holder has it now; all 0 if there is none."""
+        if hurdle is None:
+            return OwnVia(0.0, 0.0, 0.0, 0.0)
+        start, stop = ((frame - self.frame) * FRAME for frame in hurdle[1:])
+        return OwnVia(hurdle.height, start, stop, 1.0)

@@ -1,0 +1,127 @@
+"""The task to agree on two private hurdles, and its suite."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....agents.agent import FRAME, Agent, Observation
+from ....agents.agree import Companion, with_via
+from ....agents.humans import SUBJECTS
+from ...episode import metrics
+from ...episode.level import HEIGHT_BOUND, LONGEST_EPISODE
+from ...episode.metric import Metrics, Scores
+from ...episode.scenario import Scenario
+from ...episode.task import Bounds, Playing
+from ...episode.trace import Trace
+from ...suites.catalogue import make_scenario
+from ...suites.suite import Suite
+from ...world.table import WEIGHT_SHARE
+from ..haptic import Haptic
+from .lift import AgreeLift
+from .scores import agreement_ms, agreement_rmse_mm, leading_mw, missed_mm
+from .table import AGREE_METRICS
+
+BEHAVIOURS = ("abreast", "ahead", "behind", "own_hurdle", "other_hurdle", "no_hurdle")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Agree(Haptic):
+    """Lift together, and pass a private hurdle of each on the way, with the whole table.
+
+    The robot has :class:`.AgreeObservation`, with its own hurdle and not the human's. The human and
+    the second human have their own hurdle, and :class:`.HumanObservation`.
+    """
+
+    name: ClassVar[str] = "agree"
+    metrics: ClassVar[Metrics] = AGREE_METRICS
+    second_human: ClassVar[type[Agent]] = Companion
+
+    def lift(self, scenario: Scenario) -> AgreeLift:
+        """Return a lift with hurdles."""
+        return AgreeLift(scenario)
+
+    def robot_observation(self, lift: Playing) -> Observation:
+        """Return the robot's senses and its own hurdle."""
+        assert isinstance(lift, AgreeLift)
+        return np.concatenate((lift.haptic_view(), lift.own_via(lift.robot_hurdle)))
+
+    def human_observation(self, lift: Playing) -> Observation:
+        """Return the human's hurdle, the senses and the common way of the coming step."""
+        assert isinstance(lift, AgreeLift)
+        return with_via(super().human_observation(lift), lift.own_via(lift.human_hurdle))
+
+    def partner_observation(self, lift: Playing) -> Observation:
+        """Return the second human's hurdle, which is the robot's, and the senses."""
+        assert isinstance(lift, AgreeLift)
+        return with_via(super().partner_observation(lift), lift.own_via(lift.robot_hurdle))
+
+    def robot_bounds(self) -> Bounds:
+        """Return the bounds of :class:`.AgreeObservation`."""
+        low, high = super().robot_bounds()
+        return np.concatenate((low, -_VIA_BOUND)), np.concatenate((high, _VIA_BOUND))
+
+    def human_bounds(self, frames: int) -> Bounds:
+        """Return the bounds of the humans' observations."""
+        low, high = super().human_bounds(frames)
+        return np.concatenate((-_VIA_BOUND, low)), np.concatenate((_VIA_BOUND, high))
+
+    def rewards(self, lift: Playing) -> tuple[float, float]:
+        """Return minus the height difference and the distances from the open hurdles [m].
+
+        The human's reward counts the own hurdle alone, the robot's both.
+        """
+        assert isinstance(lift, AgreeLift)
+        near, far = lift.world.human_end[-1], lift.world.robot_end[-1]
+        level = abs(near - far)
+        missed = [
+            (abs(near - hurdle.height) + abs(far - hurdle.height)) / 2
+            if hurdle is not None and hurdle.start <= lift.frame < hurdle.stop
+            else 0.0
+            for hurdle in (lift.human_hurdle, lift.robot_hurdle)
+        ]
+        return -level - missed[0], -level - sum(missed)
+
+    def series(self, lift: Playing) -> Mapping[str, NDArray[np.float64]]:
+        """Return the torque of the robot's hands."""
+        assert isinstance(lift, AgreeLift)
+        return {"robot_torque": np.array(lift.world.robot_torque[-lift.frame :][: lift.frame])}
+
+    def score(self, lift: Playing, trace: Trace, *, failed: bool) -> Scores:
+        """Return the scores of :data:`.AGREE_METRICS`."""
+        assert isinstance(lift, AgreeLift)
+        near, far = trace.human_end, trace.robot_end
+        human, robot = lift.human_hurdle, lift.robot_hurdle
+        felt, borne = trace.human_force - WEIGHT_SHARE, trace.robot_force - WEIGHT_SHARE
+        nan, empty = math.nan, len(near) == 0
+        missed = missed_mm(human, near, far), missed_mm(robot, near, far)
+        tilt = nan if empty else metrics.rmse_mm(near, far)
+        power = felt * trace.human_velocity
+        other = power if empty else borne * np.gradient(far, FRAME)
+        return {
+            "rmse_mm": agreement_rmse_mm((*missed, tilt), len(near), lift.horizon),
+            "human_via_mm": missed[0],
+            "robot_via_mm": missed[1],
+            "tilt_mm": tilt,
+            "human_force_n": nan if empty else metrics.human_force_n(felt),
+            "agreement_ms": nan if failed else agreement_ms((human, robot), near, far),
+            "human_leads_mw": nan if failed else leading_mw(human, near, power, other),
+            "robot_leads_mw": nan if failed else leading_mw(robot, far, other, power),
+            "clipped": lift.clipped(trace.action),
+        }
+
+
+_VIA_BOUND = np.array((HEIGHT_BOUND, LONGEST_EPISODE, LONGEST_EPISODE, 1.0))
+
+
+def agree_suite() -> Suite:
+    """5 subjects x 6 kinds of hurdles x 4 lifts: half with two secrets, a third with one."""
+    scenarios = tuple(
+        make_scenario(behaviour, subject, task=Agree.name)
+        for behaviour in BEHAVIOURS
+        for subject in SUBJECTS
+    )
+    return Suite(name="agree-v1", scenarios=scenarios, seeds=tuple(range(4)))
