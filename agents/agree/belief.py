@@ -4,9 +4,8 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
-STEPS: Final = 6
-SPACING: Final = 0.01
-"""The goals: so many heights above and below the common one, so far apart [m]."""
+GOALS: Final = (-0.06, -0.05, -0.04, -0.03, -0.02, 0.0, 0.02, 0.03, 0.04, 0.05, 0.06)
+"""The goals, above the common height [m]: the common height itself, and where hurdles may be."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -15,7 +14,7 @@ class BeliefParameters:
 
     pace: float = 5.0
     """Rate at which a partner approaches its goal [1/s]."""
-    noise: float = 0.03
+    noise: float = 0.04
     """Standard deviation of a partner's speed about that [m/s]."""
     change: float = 0.08
     """Probability that a partner changes its mind in 0.1 s."""
@@ -37,13 +36,12 @@ class GoalBelief:
 
     def __init__(self, parameters: BeliefParameters | None = None) -> None:
         self._parameters = parameters or BeliefParameters()
-        self.offsets = [SPACING * k for k in range(-STEPS, STEPS + 1)]
         self.forget()
 
     def forget(self) -> None:
         """Return to the prior."""
         along = self._parameters.along
-        self._prior = [along] + [(1 - along) / len(self.offsets)] * len(self.offsets)
+        self._prior = [along] + [(1 - along) / len(GOALS)] * len(GOALS)
         self._chances = list(self._prior)
 
     def update(
@@ -67,7 +65,7 @@ class GoalBelief:
         parameters = self._parameters
         moved = -math.expm1(-parameters.pace * time)
         spread = math.hypot(parameters.noise, noise) * time
-        goals = [mine, *(common + offset for offset in self.offsets)]
+        goals = [mine, *(common + offset for offset in GOALS)]
         change = 1 - (1 - parameters.change) ** (time / 0.1)
         weighed = []
         for chance, prior, goal in zip(self._chances, self._prior, goals, strict=True):
@@ -80,11 +78,10 @@ class GoalBelief:
     @property
     def own_goal(self) -> float:
         """Probability that the partner goes to a height of its own, away from the common one."""
-        middle = 1 + STEPS
-        return 1.0 - self._chances[0] - self._chances[middle]
+        return 1.0 - self._chances[0] - self._chances[1 + GOALS.index(0.0)]
 
     @property
     def offset(self) -> float:
         """Expected offset of the partner's goal from the common height [m]; 0 if it has none."""
-        pairs = zip(self._chances[1:], self.offsets, strict=True)
+        pairs = zip(self._chances[1:], GOALS, strict=True)
         return math.fsum(chance * offset for chance, offset in pairs)

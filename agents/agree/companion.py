@@ -7,10 +7,13 @@ from ..agent import FRAME, HumanObservation, Observation
 from ..humans import PARTNER_SUBJECT, Subject
 from ..humans.partner import PartnerParameters
 from .manner import AgreeingManner
-from .negotiator import LIFTED, RESTING, Negotiator
+from .negotiator import LIFTED, Negotiator
 
 LOWERED: Final = 0.06
 """Height below which the other end is being lowered to the ground [m]."""
+
+STEADY: Final = 0.05
+"""Speed below which it is at rest [m/s]."""
 
 STILL: Final = 0.3
 """How long the other end rests until its height is taken for the common one [s]."""
@@ -34,7 +37,7 @@ class Companion(Negotiator):
         """Begin an episode; the noise comes from ``seed``."""
         super().reset(seed)
         self._height = self._velocity = self._still = 0.0
-        self._rested = False
+        self._rested = self._alone = False
 
     def _way(self, view: Observation) -> list[float]:
         frames = len(view[HumanObservation.TARGET])
@@ -45,11 +48,22 @@ class Companion(Negotiator):
             self._velocity += smoothing * ((height - self._height) / elapsed - self._velocity)
             self._height = height
             elapsed = FRAME
-        still = abs(self._velocity) < RESTING and self._height > LIFTED
+        still = abs(self._velocity) < STEADY and self._height > LIFTED
         self._still = self._still + frames * FRAME if still else 0.0
         self._rested = self._height > LOWERED and (self._rested or self._still >= STILL)
         ahead = self._ahead
         return [self._height + self._velocity * (ahead + FRAME * i) for i in range(1, frames + 1)]
+
+    def _base(self, way: list[float]) -> list[float]:
+        """Return the way, or in the own turn the common height, without a jump from one to other."""
+        assert self._mine is False or self._common is not None
+        fixed = way[0] if self._common is None else self._common
+        if self._mine != self._alone:
+            sign = 1.0 if self._mine else -1.0
+            self._offset += sign * (way[0] - fixed)
+            self._rate += sign * (way[-1] - way[0]) / ((len(way) - 1) * FRAME)
+            self._alone = self._mine
+        return [fixed] * len(way) if self._mine else way
 
     def _along(self, common: float, way: list[float], far: float) -> float:
         return way[-1]

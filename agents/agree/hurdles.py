@@ -13,7 +13,7 @@ from ..humans.plan import assemble, move, still
 COMMON: Final = (0.13, 0.17)
 """Range of the common height, which both ends are lifted to [m]."""
 
-AWAY: Final = (0.025, 0.05)
+AWAY: Final = (0.03, 0.05)
 """Range of the distance of a hurdle from the common height, above or below [m]."""
 
 APART: Final = (0.02, 0.1)
@@ -22,7 +22,7 @@ APART: Final = (0.02, 0.1)
 FIRST: Final = (0.4, 0.7)
 """Range of the time from the end of the rise until the first window opens [s]."""
 
-LENGTH: Final = (1.3, 1.6)
+LENGTH: Final = (1.5, 1.9)
 """Range of the length of a window [s]: room for two passages."""
 
 LEFT: Final = (0.3, 0.5)
@@ -59,7 +59,7 @@ class Abreast:
 
     has: ClassVar[tuple[bool, bool]] = (True, True)
     """Whether the human and the far end's holder have a hurdle."""
-    ahead: ClassVar[tuple[float, float]] = (-0.15, 0.15)
+    ahead: ClassVar[tuple[float, float]] = (-0.1, 0.1)
     """Range of the time by which the human's window opens before the other [s]."""
 
     def plan(self, subject: Subject, seed: int) -> HurdlePlan:
@@ -110,14 +110,14 @@ class Abreast:
 class Ahead(Abreast):
     """As :class:`Abreast`, but the human's window opens 0.4 to 0.7 s before the other."""
 
-    ahead: ClassVar[tuple[float, float]] = (0.4, 0.7)
+    ahead: ClassVar[tuple[float, float]] = (0.2, 0.4)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Behind(Abreast):
     """As :class:`Abreast`, but the human's window opens 0.4 to 0.7 s after the other."""
 
-    ahead: ClassVar[tuple[float, float]] = (-0.7, -0.4)
+    ahead: ClassVar[tuple[float, float]] = (-0.4, -0.2)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -20,6 +20,8 @@ class AgreeingManner:
     """Share of the way to the partner's inferred goal that the person goes."""
     stiffness: float
     """Weight of the own goal against a level table; the rest of 1 gives way to the far end."""
+    insistence: float
+    """How long the person insists when both go to their own goals [s]; then gives way."""
     uncertainty: float = 0.01
     """Standard deviation of the perceived speed of the far end [m/s]: the less a person knows of
     the partner, the larger it is."""
@@ -28,16 +30,19 @@ class AgreeingManner:
 PATIENCES: Final = (0.0, 1.0)
 TRUSTS: Final = (0.75, 1.0)
 STIFFNESSES: Final = (0.6, 1.0)
+INSISTENCES: Final = (0.2, 2.0)
 """Ranges of the population, uniform and independent: chosen, wide enough that the eager and the
 timid need different partners."""
 
 MANNERS: Final[Mapping[str, AgreeingManner]] = {
-    "S1": AgreeingManner(patience=0.0, trust=0.9, stiffness=0.9),
-    "S2": AgreeingManner(patience=1.0, trust=1.0, stiffness=0.7),
-    "S3": AgreeingManner(patience=0.1, trust=0.8, stiffness=1.0),
-    "S4": AgreeingManner(patience=0.8, trust=0.95, stiffness=0.6),
-    "S5": AgreeingManner(patience=0.5, trust=0.85, stiffness=0.8),
-    PARTNER_SUBJECT.name: AgreeingManner(patience=0.5, trust=1.0, stiffness=0.8),
+    "S1": AgreeingManner(patience=0.0, trust=0.7, stiffness=1.0, insistence=2.0),
+    "S2": AgreeingManner(patience=1.0, trust=1.0, stiffness=0.6, insistence=0.2),
+    "S3": AgreeingManner(patience=0.0, trust=0.9, stiffness=0.8, insistence=0.3),
+    "S4": AgreeingManner(patience=0.8, trust=0.8, stiffness=0.7, insistence=1.0),
+    "S5": AgreeingManner(patience=0.4, trust=1.0, stiffness=0.9, insistence=0.6),
+    PARTNER_SUBJECT.name: AgreeingManner(
+        patience=0.2, trust=1.0, stiffness=0.9, insistence=0.2
+    ),
 }
 """The manners of the five subjects, spread over the ranges, and of the second human."""
 
@@ -48,9 +53,11 @@ def agreeing_manner(subject: Subject) -> AgreeingManner:
         return MANNERS[subject.name]
     kind, _, number = subject.name.partition("-")
     seed = int(number) if kind == "draw" and number.isdecimal() else 0
-    shares = np.random.default_rng((seed, 0xA62EE)).random(3).tolist()
-    ranges = (PATIENCES, TRUSTS, STIFFNESSES)
-    patience, trust, stiffness = (
+    shares = np.random.default_rng((seed, 0xA62EE)).random(4).tolist()
+    ranges = (PATIENCES, TRUSTS, STIFFNESSES, INSISTENCES)
+    patience, trust, stiffness, insistence = (
         low + (high - low) * share for (low, high), share in zip(ranges, shares, strict=True)
     )
-    return AgreeingManner(patience=patience, trust=trust, stiffness=stiffness)
+    return AgreeingManner(
+        patience=patience, trust=trust, stiffness=stiffness, insistence=insistence
+    )

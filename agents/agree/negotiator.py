@@ -21,6 +21,9 @@ RESTING: Final = 0.02
 LIFTED: Final = 0.08
 """Height above which a rest is the common height [m]."""
 
+APART: Final = 0.5
+"""Probability from which on the partner is taken to go to a goal of its own."""
+
 PRIVATE: Final = 4
 """Numbers of a person's own hurdle, before the senses: height [m], opening and closing of its
 window from now [s], and 1 if there is one."""
@@ -67,19 +70,22 @@ class Negotiator:
         self._hand.reset(seed)
         self._rng = np.random.default_rng((seed, 1))
         self._belief = GoalBelief()
-        self._turn = Turn(self._manner.patience)
+        self._turn = Turn(self._manner.patience, self._manner.insistence)
         self._offset = self._rate = 0.0
         self._own = [0.0] * (self._delay + HISTORY)
         self._far = 0.0
+        self._mine = False
         self._common: float | None = None
 
     def act(self, observation: Observation) -> Action:
         """Return the hand's reference height [m] in each of the next n frames."""
         own, view = OwnVia(*observation[:PRIVATE].tolist()), observation[PRIVATE:].copy()
         way = self._way(view)
-        goal = self._goal(own, view, way) - way[-1]
+        target = self._goal(own, view, way)
+        base = self._base(way)
+        goal = target - base[-1]
         heights, damping = [], math.sqrt(2.0) * PACE
-        for height in way:
+        for height in base:
             pull = PACE * PACE * (goal - self._offset) - damping * self._rate
             self._rate += pull * FRAME
             self._offset += self._rate * FRAME
@@ -113,15 +119,23 @@ class Negotiator:
         else:
             belief.forget()
             self._common = common = None
-        self._far = far
+        before, self._far = self._far, far
+        self._mine = False
         if common is None:
             return way[-1]
         if own.given:
-            turn.see(own.start, own.height, near[-1], far)
-        yielding = manner.trust * belief.own_goal > 0.4
-        if own.given and turn.mine(own.start, own.stop, yielding=yielding):
-            return manner.stiffness * own.height + (1 - manner.stiffness) * far
+            apart = belief.own_goal > APART
+            turn.see(own.height, own.start, near[-1], far)
+            speed = abs(far - before) / period
+            turn.serve(abs(far - common), abs(far - near[-1]), speed, period)
+            self._mine = turn.mine(own.start, own.stop, apart=apart, period=period)
+            if self._mine:
+                return manner.stiffness * own.height + (1 - manner.stiffness) * far
         return self._along(common, way, far)
+
+    def _base(self, way: list[float]) -> list[float]:
+        """Return what the offset is from, in each of the next n frames [m]."""
+        return way
 
     def _along(self, common: float, way: list[float], far: float) -> float:
         """Return the height to go to while it is not the own turn [m]."""
