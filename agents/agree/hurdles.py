@@ -22,7 +22,7 @@ APART: Final = (0.02, 0.1)
 FIRST: Final = (0.4, 0.7)
 """Range of the time from the end of the rise until the first window opens [s]."""
 
-LENGTH: Final = (1.5, 1.9)
+LENGTH: Final = (1.4, 1.7)
 """Range of the length of a window [s]: room for two passages."""
 
 LEFT: Final = (0.3, 0.5)

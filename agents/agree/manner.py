@@ -35,11 +35,11 @@ INSISTENCES: Final = (0.2, 2.0)
 timid need different partners."""
 
 MANNERS: Final[Mapping[str, AgreeingManner]] = {
-    "S1": AgreeingManner(patience=0.0, trust=0.7, stiffness=1.0, insistence=2.0),
+    "S1": AgreeingManner(patience=0.0, trust=0.75, stiffness=1.0, insistence=2.0),
     "S2": AgreeingManner(patience=1.0, trust=1.0, stiffness=0.6, insistence=0.2),
-    "S3": AgreeingManner(patience=0.0, trust=0.9, stiffness=0.8, insistence=0.3),
-    "S4": AgreeingManner(patience=0.8, trust=0.8, stiffness=0.7, insistence=1.0),
-    "S5": AgreeingManner(patience=0.4, trust=1.0, stiffness=0.9, insistence=0.6),
+    "S3": AgreeingManner(patience=0.0, trust=0.9, stiffness=0.8, insistence=1.2),
+    "S4": AgreeingManner(patience=0.9, trust=0.8, stiffness=0.7, insistence=1.0),
+    "S5": AgreeingManner(patience=0.2, trust=1.0, stiffness=0.9, insistence=0.6),
     PARTNER_SUBJECT.name: AgreeingManner(
         patience=0.2, trust=1.0, stiffness=0.9, insistence=0.2
     ),

@@ -13,9 +13,9 @@ from .agree_leader import EARLY
 
 @dataclass(frozen=True, kw_only=True)
 class AgreeAdmittanceParameters:
-    compliance: float = 0.35
+    compliance: float = 0.7
     """Speed for a force [m/s/N]."""
-    spring: float = 3.0
+    spring: float = 14.0
     """[1/s]"""
     mass: float = 0.1
     """Time constant [s]"""

@@ -4,7 +4,7 @@ from ..agent import Observation
 from ..observations import AgreeObservation
 from .agree_leader import AgreeLeader
 
-NEEDED = 0.9
+NEEDED = 0.75
 
 
 class AgreeFollower(AgreeLeader):

@@ -17,21 +17,21 @@ from .anticipate import Anticipate
 class AgreeGameParameters:
     """Parameters of :class:`AgreeGame`."""
 
-    early: float = 0.25
+    early: float = 0.35
     """How long before its window opens it may set out [s]."""
     lead: float = 0.1
     """How far ahead the human's end is extrapolated when followed [s]."""
-    apart: float = 0.6
+    apart: float = 0.65
     """Probability of a human's own goal from which on it is taken for one."""
-    conflict: float = 0.1
+    conflict: float = 0.0
     """How long the human goes elsewhere until the robot gives way [s]."""
-    served: float = 0.15
+    served: float = 0.25
     """How long the table rests at the human's goal until it is taken for passed [s]."""
     needed: float = 0.65
     """Time that a passage needs [s]."""
-    pace: float = 7.0
+    pace: float = 8.0
     """Natural frequency of the approach [rad/s]."""
-    belief: BeliefParameters = BeliefParameters(noise=0.05)
+    belief: BeliefParameters = BeliefParameters(noise=0.04)
 
 
 class AgreeGame:
