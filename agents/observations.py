@@ -45,11 +45,11 @@ class AgreeObservation(IntEnum):
     TIME = 4
     FORCE = 5
     TORQUE = 6
-    VIA_HEIGHT = 7
+    HURDLE_HEIGHT = 7
     """Height that the table has to pass [m]."""
-    VIA_START = 8
+    HURDLE_START = 8
     """When the window of time for it opens, from now [s]; negative once it is open."""
-    VIA_STOP = 9
+    HURDLE_STOP = 9
     """When it closes, from now [s]; negative once it is closed."""
-    VIA_GIVEN = 10
+    HURDLE_GIVEN = 10
     """1 if the robot has a hurdle in this lift, 0 if not."""

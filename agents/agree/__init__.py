@@ -3,7 +3,7 @@
 from .companion import Companion
 from .hurdles import Abreast, Ahead, Behind, Hurdle, HurdlePlan, NoHurdle, OtherHurdle, OwnHurdle
 from .manner import MANNERS, AgreeingManner, agreeing_manner
-from .negotiator import Negotiator, OwnVia, with_via
+from .negotiator import Negotiator, Secret, with_secret
 
 __all__ = [
     "MANNERS",
@@ -18,7 +18,7 @@ __all__ = [
     "NoHurdle",
     "OtherHurdle",
     "OwnHurdle",
-    "OwnVia",
+    "Secret",
     "agreeing_manner",
-    "with_via",
+    "with_secret",
 ]

@@ -40,9 +40,7 @@ MANNERS: Final[Mapping[str, AgreeingManner]] = {
     "S3": AgreeingManner(patience=0.0, trust=0.9, stiffness=0.8, insistence=1.2),
     "S4": AgreeingManner(patience=0.9, trust=0.8, stiffness=0.7, insistence=1.0),
     "S5": AgreeingManner(patience=0.2, trust=1.0, stiffness=0.9, insistence=0.6),
-    PARTNER_SUBJECT.name: AgreeingManner(
-        patience=0.2, trust=1.0, stiffness=0.9, insistence=0.2
-    ),
+    PARTNER_SUBJECT.name: AgreeingManner(patience=0.2, trust=1.0, stiffness=0.9, insistence=0.2),
 }
 """The manners of the five subjects, spread over the ranges, and of the second human."""
 

@@ -12,8 +12,8 @@ from .manner import AgreeingManner, agreeing_manner
 from .turn import Turn
 
 PACE: Final = 8.0
-"""omega, the natural frequency of the optimal approach [rad/s]: a hurdle 50 mm away is passed
-after some 0.4 s."""
+"""omega, the natural frequency of a person's approach [rad/s]: a hurdle 50 mm away is passed after
+some 0.4 s."""
 
 RESTING: Final = 0.02
 """Speed of the common way below which it rests [m/s]."""
@@ -24,40 +24,51 @@ LIFTED: Final = 0.08
 APART: Final = 0.5
 """Probability from which on the partner is taken to go to a goal of its own."""
 
-PRIVATE: Final = 4
-"""Numbers of a person's own hurdle, before the senses: height [m], opening and closing of its
-window from now [s], and 1 if there is one."""
 
-
-class OwnVia(NamedTuple):
-    """The private numbers of an observation."""
+class Secret(NamedTuple):
+    """A hurdle as its holder has it: the first numbers of a person's observation."""
 
     height: float
+    """Height to pass [m]."""
     start: float
+    """When its window opens, from now [s]."""
     stop: float
+    """When it closes, from now [s]."""
     given: float
+    """1 if there is a hurdle; otherwise all four are 0."""
 
 
-def with_via(view: Observation, own: OwnVia) -> Observation:
+def with_secret(view: Observation, secret: Secret) -> Observation:
     """Return the observation of a :class:`Negotiator`: the own hurdle, then the senses."""
-    return np.concatenate((own, view))
+    return np.concatenate((secret, view))
 
 
 class Negotiator:
-    r"""Carries the common way out, with a detour to the own hurdle and to the partner's goal.
+    r"""Carries the common way out, with detours to the own hurdle and to the partner's goal.
 
-    The observation is the own hurdle, then :class:`.HumanObservation`.
-
-    Whom the far end belongs to is inferred from what is seen of it (:class:`.GoalBelief`), as late
-    as the visual delay and with the person's uncertainty. The goal is the own height in the own
-    turn (:class:`.Turn`), otherwise ``trust`` times the partner's expected goal. With the stiffness
-    s, the best response to a far end at z is
+    The observation is the own :class:`Secret`, then :class:`.HumanObservation`, whose target is the
+    common way. The person infers where the partner goes from what is seen of the far end
+    (:class:`.GoalBelief`), a visual delay late and with the manner's uncertainty. In the own turn
+    (:class:`.Turn`) the goal is the own height; otherwise the common height plus ``trust`` times
+    the partner's expected offset from it. With the stiffness s, the best response to a far end at z
+    is
 
         s goal + (1 - s) z,
 
-    the minimum of s (x - goal)^2 + (1 - s) (x - z)^2. The offset d from the common way approaches it
-    by the linear-quadratic regulator of a double integrator, d'' = w^2 (goal - d) - sqrt(2) w d'.
-    The hand is a person's own, with noise, tremor and correction (:class:`.ScriptedHuman`).
+    the minimum of s (x - goal)^2 + (1 - s) (x - z)^2. The hand's offset d from the common way
+    approaches it by the linear-quadratic regulator of a double integrator,
+
+        d'' = omega^2 (response - way - d) - sqrt(2) omega d'.
+
+    The hand is a person's own, with noise, tremor and correction (:class:`.ScriptedHuman`); the
+    answer to the felt force is the reflex of the body in the world.
+
+    Parameters
+    ----------
+    subject
+        The person.
+    manner
+        The person's manner; by default that of :func:`.agreeing_manner`.
     """
 
     def __init__(self, *, subject: Subject, manner: AgreeingManner | None = None) -> None:
@@ -71,23 +82,22 @@ class Negotiator:
         self._rng = np.random.default_rng((seed, 1))
         self._belief = GoalBelief()
         self._turn = Turn(self._manner.patience, self._manner.insistence)
-        self._offset = self._rate = 0.0
+        self._offset = self._rate = self._far = 0.0
         self._own = [0.0] * (self._delay + HISTORY)
-        self._far = 0.0
-        self._mine = False
         self._common: float | None = None
+        self._mine = False
 
     def act(self, observation: Observation) -> Action:
         """Return the hand's reference height [m] in each of the next n frames."""
-        own, view = OwnVia(*observation[:PRIVATE].tolist()), observation[PRIVATE:].copy()
+        size = len(Secret._fields)
+        secret, view = Secret(*observation[:size].tolist()), observation[size:].copy()
         way = self._way(view)
-        target = self._goal(own, view, way)
+        response = self._respond(secret, view, way)
         base = self._base(way)
-        goal = target - base[-1]
-        heights, damping = [], math.sqrt(2.0) * PACE
+        goal, damping = response - base[-1], math.sqrt(2.0) * PACE
+        heights = []
         for height in base:
-            pull = PACE * PACE * (goal - self._offset) - damping * self._rate
-            self._rate += pull * FRAME
+            self._rate += (PACE * PACE * (goal - self._offset) - damping * self._rate) * FRAME
             self._offset += self._rate * FRAME
             heights.append(height + self._offset)
         view[HumanObservation.TARGET] = heights
@@ -98,50 +108,53 @@ class Negotiator:
         way: list[float] = view[HumanObservation.TARGET].tolist()
         return way
 
-    def _goal(self, own: OwnVia, view: Observation, way: list[float]) -> float:
-        """Return the height to go to [m]: the best response to the far end."""
-        manner, belief, turn = self._manner, self._belief, self._turn
-        near = view[HumanObservation.OWN_HEIGHT].tolist()
-        far = float(view[HumanObservation.OTHER_END][-1])
-        period = len(way) * FRAME
-        self._own = (self._own + near[-len(way) :])[-(self._delay + 2 * HISTORY) :]
-        noise = manner.uncertainty * float(self._rng.standard_normal())
-        if self._at_rest(way):
-            self._common = common = way[-1] if self._common is None else self._common
-            belief.update(
-                self._far,
-                far + noise * period,
-                self._own[-1 - self._delay],
-                common,
-                period,
-                manner.uncertainty,
-            )
-        else:
-            belief.forget()
-            self._common = common = None
-        before, self._far = self._far, far
-        self._mine = False
-        if common is None:
-            return way[-1]
-        if own.given:
-            apart = belief.own_goal > APART
-            turn.see(own.height, own.start, near[-1], far)
-            speed = abs(far - before) / period
-            turn.serve(abs(far - common), abs(far - near[-1]), speed, period)
-            self._mine = turn.mine(own.start, own.stop, apart=apart, period=period)
-            if self._mine:
-                return manner.stiffness * own.height + (1 - manner.stiffness) * far
-        return self._along(common, way, far)
-
     def _base(self, way: list[float]) -> list[float]:
         """Return what the offset is from, in each of the next n frames [m]."""
         return way
 
+    def _respond(self, secret: Secret, view: Observation, way: list[float]) -> float:
+        """Return the height to go to [m], the best response to the far end."""
+        stiffness, turn = self._manner.stiffness, self._turn
+        own, far = self._see(view, way)
+        self._mine = False
+        if self._common is None:
+            return way[-1]
+        if secret.given:
+            apart = self._belief.own_goal > APART
+            turn.see(secret.height, secret.start, own, far)
+            period = len(way) * FRAME
+            self._mine = turn.mine(secret.start, secret.stop, apart=apart, period=period)
+        if self._mine:
+            return stiffness * secret.height + (1 - stiffness) * far
+        return self._along(self._common, way, far)
+
+    def _see(self, view: Observation, way: list[float]) -> tuple[float, float]:
+        """Take what is seen of both ends; return their heights [m]."""
+        frames = len(way)
+        period = frames * FRAME
+        own = view[HumanObservation.OWN_HEIGHT].tolist()
+        new = [own[0]] * (frames - len(own)) + own[-frames:]
+        self._own = (self._own + new)[-(self._delay + HISTORY) :]
+        far = float(view[HumanObservation.OTHER_END][-1])
+        before, self._far = self._far, far
+        uncertainty = self._manner.uncertainty
+        noise = uncertainty * float(self._rng.standard_normal())
+        if not self._at_rest(way):
+            self._common = None
+            self._belief.forget()
+            return own[-1], far
+        common = self._common = way[-1] if self._common is None else self._common
+        seen, then = far + noise * period, self._own[-1 - self._delay]
+        self._belief.update(before, seen, then, common, period, uncertainty)
+        speed = abs(far - before) / period
+        self._turn.serve(abs(far - common), abs(far - own[-1]), speed, period)
+        return own[-1], far
+
     def _along(self, common: float, way: list[float], far: float) -> float:
         """Return the height to go to while it is not the own turn [m]."""
-        manner = self._manner
-        goal = common + manner.trust * self._belief.offset
-        return manner.stiffness * goal + (1 - manner.stiffness) * far
+        stiffness = self._manner.stiffness
+        goal = common + self._manner.trust * self._belief.offset
+        return stiffness * goal + (1 - stiffness) * far
 
     def _at_rest(self, way: list[float]) -> bool:
         """Return whether the common way rests above the ground."""

@@ -10,8 +10,8 @@ EARLY: Final = 0.25
 
 NEAR: Final = 0.006
 FAR_NEAR: Final = 0.015
-"""The table has passed when the own end is seen so near to the height, and the far end [m]."""
-
+"""Distances of the own end and of the far end from the hurdle within which the table is taken to
+have passed [m]."""
 
 AWAY: Final = 0.02
 """Distance from the common height beyond which a partner has a goal of its own [m]."""
@@ -36,10 +36,8 @@ class Turn:
 
     Parameters
     ----------
-    patience
-        Of :class:`.AgreeingManner`.
-    insistence
-        The same.
+    patience, insistence
+        Of the person's :class:`.AgreeingManner`.
     """
 
     def __init__(self, patience: float, insistence: float) -> None:

@@ -1,46 +1,83 @@
 """The rigid leader: takes the table to its own hurdle at once, whatever the human does."""
 
+import math
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
 from ..agent import Action, Observation
-from ..agree.approach import Approach, OwnHurdleState
+from ..agree.approach import Approach, HurdleWatch
+from ..errors import InputError
 from ..observations import AgreeObservation
 from .anticipate import Anticipate
 
-EARLY = 0.3
+
+@dataclass(frozen=True, kw_only=True)
+class AgreeLeaderParameters:
+    """Parameters of :class:`AgreeLeader`."""
+
+    early: float = 0.3
+    """How long before its window opens it sets out [s]: so it is there when the window opens."""
+    pace: float = 7.0
+    """Natural frequency of the approach [rad/s]."""
+
+    def __post_init__(self) -> None:
+        """Check the ranges.
+
+        Raises
+        ------
+        InputError
+            If a number is not positive.
+        """
+        check_positive(self)
 
 
 class AgreeLeader:
-    """Goes to its own hurdle as soon as the window opens; otherwise keeps level (`anticipate`)."""
+    """Goes to its own hurdle as soon as the window opens, and stays until the table has passed.
+
+    It asks nobody: neither the human's motion nor the force changes its way (:class:`.Approach`).
+    Before and afterwards it keeps level by :class:`.Anticipate`.
+    """
 
     task: ClassVar[str] = "agree"
 
-    def __init__(self) -> None:
+    def __init__(self, *, parameters: AgreeLeaderParameters | None = None) -> None:
+        self._parameters = parameters or AgreeLeaderParameters()
         self._keeper = Anticipate()
 
     def reset(self, seed: int) -> None:
         """Begin an episode."""
         self._keeper.reset(seed)
-        self._approach = Approach()
-        self._hurdle = OwnHurdleState()
-
-    def _mine(self, observation: Observation) -> bool:
-        return bool(
-            observation[AgreeObservation.VIA_GIVEN] > 0.5
-            and observation[AgreeObservation.VIA_START] < EARLY
-            and observation[AgreeObservation.VIA_STOP] > 0
-            and not self._hurdle.passed
-        )
+        self._approach = Approach(self._parameters.pace)
+        self._hurdle = HurdleWatch()
 
     def act(self, observation: Observation) -> Action:
         """Return the change of the hand command [m]."""
-        change = self._keeper.act(observation)
+        kept = self._keeper.act(observation)
         self._hurdle.see(observation)
-        command, time = (
-            float(observation[i]) for i in (AgreeObservation.HAND_COMMAND, AgreeObservation.TIME)
-        )
-        goal = float(observation[AgreeObservation.VIA_HEIGHT])
-        own = self._approach.change(command, goal, time)
-        return np.array([own]) if self._mine(observation) else change
+        command = float(observation[AgreeObservation.HAND_COMMAND])
+        time = float(observation[AgreeObservation.TIME])
+        led = self._approach.change(command, self._hurdle.height, time)
+        self._leads = self._hurdle.is_open(self._parameters.early) and self._in_turn()
+        return np.array([led]) if self._leads else kept
+
+    def internals(self) -> dict[str, float]:
+        """Return the role: 1 on the way to the own hurdle, 0 where it keeps level."""
+        return {"role": float(self._leads)}
+
+    def _in_turn(self) -> bool:
+        return True
+
+
+def check_positive(parameters: object) -> None:
+    """Check that all numbers of some parameters are positive and finite.
+
+    Raises
+    ------
+    InputError
+        If one is not; the message names it.
+    """
+    for name, value in vars(parameters).items():
+        if isinstance(value, float) and not 0 < value < math.inf:
+            raise InputError(f"{name} must be a positive number, got {value}")

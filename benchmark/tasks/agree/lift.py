@@ -1,7 +1,7 @@
 """A lift whose holders have a private hurdle each."""
 
 from ....agents.agent import FRAME, Agent
-from ....agents.agree import Hurdle, HurdlePlan, Negotiator, OwnVia
+from ....agents.agree import Hurdle, HurdlePlan, Negotiator, Secret
 from ..haptic import HapticLift
 
 
@@ -12,10 +12,10 @@ class AgreeLift(HapticLift):
         """Begin the episode ``seed``, as :meth:`.HapticLift.reset`."""
         super().reset(seed)
         plan = self.plan
-        given = isinstance(plan, HurdlePlan)
-        self.human_hurdle: Hurdle | None = plan.own if given else None
-        """The human's, or None."""
-        self.robot_hurdle: Hurdle | None = plan.other if given else None
+        own, other = (plan.own, plan.other) if isinstance(plan, HurdlePlan) else (None, None)
+        self.human_hurdle: Hurdle | None = own
+        """The human's hurdle, or None."""
+        self.robot_hurdle: Hurdle | None = other
         """The one of the robot's end, or None."""
 
     def scripted_human(self) -> Agent:
@@ -24,9 +24,9 @@ class AgreeLift(HapticLift):
         human.reset(self.role_seed("human"))
         return human
 
-    def own_via(self, hurdle: Hurdle | None) -> OwnVia:
+    def secret(self, hurdle: Hurdle | None) -> Secret:
         """Return a hurdle as its holder has it now; all 0 if there is none."""
         if hurdle is None:
-            return OwnVia(0.0, 0.0, 0.0, 0.0)
+            return Secret(0.0, 0.0, 0.0, 0.0)
         start, stop = ((frame - self.frame) * FRAME for frame in hurdle[1:])
-        return OwnVia(hurdle.height, start, stop, 1.0)
+        return Secret(hurdle.height, start, stop, 1.0)

@@ -75,7 +75,7 @@ class Knowing:
         hurdle = lift.robot_hurdle
         if detour is not None and hurdle is not None:
             after = frame + frames - detour.start
-            if 0 < after:
+            if after > 0:
                 if self._path is None:
                     state = (command, self._change / (frames * FRAME), 0.0)
                     self._path = replan(state, hurdle.height + self._sag, detour.way * FRAME)[0]

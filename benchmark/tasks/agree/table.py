@@ -18,7 +18,7 @@ AGREE_METRICS: Final = metric_table(
             "does not have are left out",
         ),
         Metric(
-            name="human_via_mm",
+            name="human_hurdle_mm",
             symbol="human's",
             label="Human's hurdle missed",
             unit="mm",
@@ -28,7 +28,7 @@ AGREE_METRICS: Final = metric_table(
             "square of both ends",
         ),
         Metric(
-            name="robot_via_mm",
+            name="robot_hurdle_mm",
             symbol="robot's",
             label="Robot's hurdle missed",
             unit="mm",

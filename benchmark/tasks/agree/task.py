@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....agents.agent import FRAME, Agent, Observation
-from ....agents.agree import Companion, with_via
+from ....agents.agree import Companion, with_secret
 from ....agents.humans import SUBJECTS
 from ...episode import metrics
 from ...episode.level import HEIGHT_BOUND, LONGEST_EPISODE
@@ -47,27 +47,27 @@ class Agree(Haptic):
     def robot_observation(self, lift: Playing) -> Observation:
         """Return the robot's senses and its own hurdle."""
         assert isinstance(lift, AgreeLift)
-        return np.concatenate((lift.haptic_view(), lift.own_via(lift.robot_hurdle)))
+        return np.concatenate((lift.haptic_view(), lift.secret(lift.robot_hurdle)))
 
     def human_observation(self, lift: Playing) -> Observation:
         """Return the human's hurdle, the senses and the common way of the coming step."""
         assert isinstance(lift, AgreeLift)
-        return with_via(super().human_observation(lift), lift.own_via(lift.human_hurdle))
+        return with_secret(super().human_observation(lift), lift.secret(lift.human_hurdle))
 
     def partner_observation(self, lift: Playing) -> Observation:
         """Return the second human's hurdle, which is the robot's, and the senses."""
         assert isinstance(lift, AgreeLift)
-        return with_via(super().partner_observation(lift), lift.own_via(lift.robot_hurdle))
+        return with_secret(super().partner_observation(lift), lift.secret(lift.robot_hurdle))
 
     def robot_bounds(self) -> Bounds:
         """Return the bounds of :class:`.AgreeObservation`."""
         low, high = super().robot_bounds()
-        return np.concatenate((low, -_VIA_BOUND)), np.concatenate((high, _VIA_BOUND))
+        return np.concatenate((low, -_SECRET_BOUND)), np.concatenate((high, _SECRET_BOUND))
 
     def human_bounds(self, frames: int) -> Bounds:
         """Return the bounds of the humans' observations."""
         low, high = super().human_bounds(frames)
-        return np.concatenate((-_VIA_BOUND, low)), np.concatenate((_VIA_BOUND, high))
+        return np.concatenate((-_SECRET_BOUND, low)), np.concatenate((_SECRET_BOUND, high))
 
     def rewards(self, lift: Playing) -> tuple[float, float]:
         """Return minus the height difference and the distances from the open hurdles [m].
@@ -103,8 +103,8 @@ class Agree(Haptic):
         other = power if empty else borne * np.gradient(far, FRAME)
         return {
             "rmse_mm": agreement_rmse_mm((*missed, tilt), len(near), lift.horizon),
-            "human_via_mm": missed[0],
-            "robot_via_mm": missed[1],
+            "human_hurdle_mm": missed[0],
+            "robot_hurdle_mm": missed[1],
             "tilt_mm": tilt,
             "human_force_n": nan if empty else metrics.human_force_n(felt),
             "agreement_ms": nan if failed else agreement_ms((human, robot), near, far),
@@ -114,7 +114,7 @@ class Agree(Haptic):
         }
 
 
-_VIA_BOUND = np.array((HEIGHT_BOUND, LONGEST_EPISODE, LONGEST_EPISODE, 1.0))
+_SECRET_BOUND = np.array((HEIGHT_BOUND, LONGEST_EPISODE, LONGEST_EPISODE, 1.0))
 
 
 def agree_suite() -> Suite:
