@@ -22,9 +22,6 @@ class AgreeingManner:
     """Weight of the own goal against a level table; the rest of 1 gives way to the far end."""
     insistence: float
     """How long the person insists when both go to their own goals [s]; then gives way."""
-    uncertainty: float = 0.01
-    """Standard deviation of the perceived speed of the far end [m/s]: the less a person knows of
-    the partner, the larger it is."""
 
 
 PATIENCES: Final = (0.0, 1.0)

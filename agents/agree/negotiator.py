@@ -26,7 +26,7 @@ APART: Final = 0.5
 
 
 class Secret(NamedTuple):
-    """A hurdle as its holder has it: the first numbers of a person's observation."""
+    """A hurdle as its holder has it."""
 
     height: float
     """Height to pass [m]."""
@@ -38,20 +38,34 @@ class Secret(NamedTuple):
     """1 if there is a hurdle; otherwise all four are 0."""
 
 
-def with_secret(view: Observation, secret: Secret) -> Observation:
-    """Return the observation of a :class:`Negotiator`: the own hurdle, then the senses."""
-    return np.concatenate((secret, view))
+PRIVATE: Final = len(Secret._fields) + 1
+"""Numbers of a :class:`Negotiator`'s observation before :class:`.HumanObservation`."""
+
+
+def with_secret(view: Observation, secret: Secret, uncertainty: float) -> Observation:
+    """Return the observation of a :class:`Negotiator`.
+
+    Parameters
+    ----------
+    view
+        The senses, :class:`.HumanObservation`.
+    secret
+        The own hurdle.
+    uncertainty
+        Standard deviation of the perceived speed of the far end [m/s]: the less a person knows of
+        the partner, the larger it is.
+    """
+    return np.concatenate((secret, (uncertainty,), view))
 
 
 class Negotiator:
     r"""Carries the common way out, with detours to the own hurdle and to the partner's goal.
 
-    The observation is the own :class:`Secret`, then :class:`.HumanObservation`, whose target is the
-    common way. The person infers where the partner goes from what is seen of the far end
-    (:class:`.GoalBelief`), a visual delay late and with the manner's uncertainty. In the own turn
-    (:class:`.Turn`) the goal is the own height; otherwise the common height plus ``trust`` times
-    the partner's expected offset from it. With the stiffness s, the best response to a far end at z
-    is
+    The observation is that of :func:`with_secret`; its target is the common way. The person infers
+    where the partner goes from what is seen of the far end (:class:`.GoalBelief`), a visual delay
+    late and with the given uncertainty. In the own turn (:class:`.Turn`) the goal is the own
+    height; otherwise the common height plus ``trust`` times the partner's expected offset from it.
+    With the stiffness s, the best response to a far end at z is
 
         s goal + (1 - s) z,
 
@@ -89,8 +103,8 @@ class Negotiator:
 
     def act(self, observation: Observation) -> Action:
         """Return the hand's reference height [m] in each of the next n frames."""
-        size = len(Secret._fields)
-        secret, view = Secret(*observation[:size].tolist()), observation[size:].copy()
+        *own, self._uncertainty = observation[:PRIVATE].tolist()
+        secret, view = Secret(*own), observation[PRIVATE:].copy()
         way = self._way(view)
         response = self._respond(secret, view, way)
         base = self._base(way)
@@ -137,7 +151,7 @@ class Negotiator:
         self._own = (self._own + new)[-(self._delay + HISTORY) :]
         far = float(view[HumanObservation.OTHER_END][-1])
         before, self._far = self._far, far
-        uncertainty = self._manner.uncertainty
+        uncertainty = self._uncertainty
         noise = uncertainty * float(self._rng.standard_normal())
         if not self._at_rest(way):
             self._common = None

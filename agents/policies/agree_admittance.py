@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -49,8 +48,6 @@ class AgreeAdmittance:
     force stays small and the hand arrives at b; if the human resists, both meet in between. It has
     no model of the human, and does not look.
     """
-
-    task: ClassVar[str] = "agree"
 
     def __init__(self, *, parameters: AgreeAdmittanceParameters | None = None) -> None:
         self._parameters = parameters or AgreeAdmittanceParameters()

@@ -1,7 +1,7 @@
 """The negotiator: infers where the human goes, and goes first, gives way or comes along."""
 
 from dataclasses import dataclass, field
-from typing import ClassVar, Final
+from typing import Final
 
 import numpy as np
 
@@ -83,8 +83,6 @@ class AgreeGame:
     **Level.** Away from the hurdles it keeps level by :class:`.Anticipate`; at the common height by
     touch, with the human's velocity extrapolated.
     """
-
-    task: ClassVar[str] = "agree"
 
     def __init__(self, *, parameters: AgreeGameParameters | None = None) -> None:
         self._parameters = parameters or AgreeGameParameters()

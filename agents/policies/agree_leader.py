@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -39,8 +38,6 @@ class AgreeLeader:
     It asks nobody: neither the human's motion nor the force changes its way (:class:`.Approach`).
     Before and afterwards it keeps level by :class:`.Anticipate`.
     """
-
-    task: ClassVar[str] = "agree"
 
     def __init__(self, *, parameters: AgreeLeaderParameters | None = None) -> None:
         self._parameters = parameters or AgreeLeaderParameters()

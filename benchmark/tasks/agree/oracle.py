@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....agents.agent import FRAME, Action, Observation, RobotObservation
-from ....agents.control.anticipation import ARM_LAG
 from ....agents.humans.stroke import replan
-from ...bounds.oracle import Foreknowing
 from ...episode.episode import Episode, run_episode
+from ...episode.lift import Lift
+from ..rehearsal import Foreknowing, raised
 from .lift import AgreeLift
 
 STARTS: Final = 5
@@ -87,13 +87,14 @@ class Knowing:
         return np.array([self._change])
 
 
-def foreknow_agreement(lift: AgreeLift, seed: int) -> Episode:
+def foreknow_agreement(lift: Lift, seed: int) -> Episode:
     """Return the episode of a seed, played by the oracle.
 
     It tries detours to its own hurdle at all times of the window, with the true present motion of
-    the human in sight, and rehearses the best ones as :func:`.foreknow` does: outside of the detour
+    the human in sight, and rehearses the best ones as :func:`.rehearse` does: outside of the detour
     each command is the last one plus the height difference that was left, an arm's lag earlier.
     """
+    assert isinstance(lift, AgreeLift)
     lift.reset(seed)
     tried = sorted(
         ((run_episode(lift, Knowing(lift, detour), seed), detour) for detour in detours(lift)),
@@ -124,12 +125,7 @@ def detours(lift: AgreeLift) -> list[Detour | None]:
 
 def _more_level(episode: Episode, detour: Detour | None, frames: int) -> NDArray[np.float64]:
     """Return the path to command next: more level, but for the detour."""
-    lag = round(ARM_LAG / FRAME)
-    trace = episode.trace
-    left = trace.human_end - trace.robot_end
+    left = episode.trace.human_end - episode.trace.robot_end
     if detour is not None:
         left[detour.start : detour.start + detour.way + detour.stay] = 0.0
-    ends = np.concatenate(([0.0], np.cumsum(trace.action[:, 0])))
-    steps = np.arange(1, len(left) + 1) / frames
-    command = np.interp(steps, np.arange(len(ends)), ends)
-    return np.asarray(command + np.concatenate((left[lag:], np.full(lag, left[-1]))))
+    return raised(episode.trace, left, frames)

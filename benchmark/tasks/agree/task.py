@@ -3,13 +3,14 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ....agents.agent import FRAME, Agent, Observation
 from ....agents.agree import Companion, with_secret
+from ....agents.errors import InputError
 from ....agents.humans import SUBJECTS
 from ...episode import metrics
 from ...episode.level import HEIGHT_BOUND, LONGEST_EPISODE
@@ -27,18 +28,38 @@ from .table import AGREE_METRICS
 
 BEHAVIOURS = ("abreast", "ahead", "behind", "own_hurdle", "other_hurdle", "no_hurdle")
 
+MOST_UNCERTAIN: Final = 1.0
+"""Largest uncertainty of the far end's speed [m/s]: nothing of it is known."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Agree(Haptic):
     """Lift together, and pass a private hurdle of each on the way, with the whole table.
 
     The robot has :class:`.AgreeObservation`, with its own hurdle and not the human's. The human and
-    the second human have their own hurdle, and :class:`.HumanObservation`.
+    the second human have their own hurdle, and :class:`.HumanObservation`; see
+    :func:`.with_secret`.
+
+    Raises
+    ------
+    InputError
+        If the uncertainty is negative or above :data:`MOST_UNCERTAIN`.
     """
+
+    uncertainty: float = 0.01
+    """Standard deviation of the speed of the far end that people perceive [m/s]: how little they
+    know of each other."""
 
     name: ClassVar[str] = "agree"
     metrics: ClassVar[Metrics] = AGREE_METRICS
     second_human: ClassVar[type[Agent]] = Companion
+
+    def __post_init__(self) -> None:
+        """Check the range."""
+        if not 0.0 <= self.uncertainty <= MOST_UNCERTAIN:
+            raise InputError(
+                f"uncertainty must be between 0 and {MOST_UNCERTAIN} m/s, got {self.uncertainty}"
+            )
 
     def lift(self, scenario: Scenario) -> AgreeLift:
         """Return a lift with hurdles."""
@@ -52,12 +73,14 @@ class Agree(Haptic):
     def human_observation(self, lift: Playing) -> Observation:
         """Return the human's hurdle, the senses and the common way of the coming step."""
         assert isinstance(lift, AgreeLift)
-        return with_secret(super().human_observation(lift), lift.secret(lift.human_hurdle))
+        view, secret = super().human_observation(lift), lift.secret(lift.human_hurdle)
+        return with_secret(view, secret, self.uncertainty)
 
     def partner_observation(self, lift: Playing) -> Observation:
         """Return the second human's hurdle, which is the robot's, and the senses."""
         assert isinstance(lift, AgreeLift)
-        return with_secret(super().partner_observation(lift), lift.secret(lift.robot_hurdle))
+        view, secret = super().partner_observation(lift), lift.secret(lift.robot_hurdle)
+        return with_secret(view, secret, self.uncertainty)
 
     def robot_bounds(self) -> Bounds:
         """Return the bounds of :class:`.AgreeObservation`."""
@@ -67,7 +90,8 @@ class Agree(Haptic):
     def human_bounds(self, frames: int) -> Bounds:
         """Return the bounds of the humans' observations."""
         low, high = super().human_bounds(frames)
-        return np.concatenate((-_SECRET_BOUND, low)), np.concatenate((_SECRET_BOUND, high))
+        bound = np.append(_SECRET_BOUND, MOST_UNCERTAIN)
+        return np.concatenate((-bound, low)), np.concatenate((bound, high))
 
     def rewards(self, lift: Playing) -> tuple[float, float]:
         """Return minus the height difference and the distances from the open hurdles [m].
