@@ -48,6 +48,9 @@ class HurdlePlan(Plan):
     """The human's, which the human alone knows."""
     other: Hurdle | None
     """The one of the far end's holder, which that one alone knows."""
+    agreeing: tuple[int, int]
+    """First frame and frame past the last at the common height, where there is something to agree
+    on."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +85,7 @@ class Abreast:
             move("lower", common + down),
             still("rest", 0.0, draw.after),
         )
-        top = plan.events[2][1]
+        top, end = plan.events[2][1], plan.events[3][1]
         own, other = (
             Hurdle(height, top + round(start / FRAME), top + round(stop / FRAME)) if given else None
             for height, start, stop, given in zip(heights, starts, stops, self.has, strict=True)
@@ -94,6 +97,7 @@ class Abreast:
             events=plan.events,
             own=own,
             other=other,
+            agreeing=(top, end),
         )
 
     def _heights(self, common: float, rng: np.random.Generator) -> list[float]:

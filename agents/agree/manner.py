@@ -15,7 +15,7 @@ class AgreeingManner:
 
     patience: float
     """How long the person lets the other go first: 0 goes as soon as the own window opens, 1 at the
-    last moment that leaves time enough."""
+    last moment that leaves time enough, more of it too late."""
     trust: float
     """Share of the way to the partner's inferred goal that the person goes."""
     stiffness: float
@@ -24,7 +24,7 @@ class AgreeingManner:
     """How long the person insists when both go to their own goals [s]; then gives way."""
 
 
-PATIENCES: Final = (0.0, 1.0)
+PATIENCES: Final = (0.0, 1.15)
 TRUSTS: Final = (0.75, 1.0)
 STIFFNESSES: Final = (0.6, 1.0)
 INSISTENCES: Final = (0.2, 2.0)
@@ -33,10 +33,10 @@ timid need different partners."""
 
 MANNERS: Final[Mapping[str, AgreeingManner]] = {
     "S1": AgreeingManner(patience=0.0, trust=0.75, stiffness=1.0, insistence=2.0),
-    "S2": AgreeingManner(patience=1.0, trust=1.0, stiffness=0.6, insistence=0.2),
-    "S3": AgreeingManner(patience=0.0, trust=0.9, stiffness=0.8, insistence=1.2),
-    "S4": AgreeingManner(patience=0.9, trust=0.8, stiffness=0.7, insistence=1.0),
-    "S5": AgreeingManner(patience=0.2, trust=1.0, stiffness=0.9, insistence=0.6),
+    "S2": AgreeingManner(patience=1.15, trust=1.0, stiffness=0.6, insistence=0.2),
+    "S3": AgreeingManner(patience=0.0, trust=0.9, stiffness=0.9, insistence=1.5),
+    "S4": AgreeingManner(patience=1.1, trust=0.8, stiffness=0.8, insistence=1.5),
+    "S5": AgreeingManner(patience=0.1, trust=1.0, stiffness=1.0, insistence=1.0),
     PARTNER_SUBJECT.name: AgreeingManner(patience=0.2, trust=1.0, stiffness=0.9, insistence=0.2),
 }
 """The manners of the five subjects, spread over the ranges, and of the second human."""

@@ -17,6 +17,9 @@ class AgreeLift(HapticLift):
         """The human's hurdle, or None."""
         self.robot_hurdle: Hurdle | None = other
         """The one of the robot's end, or None."""
+        whole = 0, self.horizon
+        self.agreeing = slice(*(plan.agreeing if isinstance(plan, HurdlePlan) else whole))
+        """The frames in which there is something to agree on."""
 
     def scripted_human(self) -> Agent:
         """Return the person who has a hurdle to pass, reset for the episode."""

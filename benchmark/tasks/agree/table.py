@@ -14,8 +14,8 @@ AGREE_METRICS: Final = metric_table(
             missing="never",
             shown="board",
             meaning="root mean square of three errors: how far the whole table misses the human's "
-            "hurdle and the robot's, and the height difference of its ends; hurdles that a lift "
-            "does not have are left out",
+            "hurdle and the robot's, and how far its ends are from its middle at the common height; "
+            "hurdles that a lift does not have are left out",
         ),
         Metric(
             name="human_hurdle_mm",
@@ -37,11 +37,19 @@ AGREE_METRICS: Final = metric_table(
             meaning="the same for the robot's hurdle",
         ),
         Metric(
-            name="tilt_mm",
+            name="level_mm",
             symbol="level",
-            label="Height difference",
+            label="Distance from level",
             unit="mm",
             shown="run",
+            meaning="root mean square distance of the ends from the height of the table's middle, "
+            "from the end of the rise to the beginning of the lowering: half of their difference",
+        ),
+        Metric(
+            name="tilt_mm",
+            symbol="tilt",
+            label="Height difference",
+            unit="mm",
             meaning="root mean square height difference of the ends over the whole trial",
         ),
         Metric(

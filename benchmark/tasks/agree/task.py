@@ -122,14 +122,16 @@ class Agree(Haptic):
         felt, borne = trace.human_force - WEIGHT_SHARE, trace.robot_force - WEIGHT_SHARE
         nan, empty = math.nan, len(near) == 0
         missed = missed_mm(human, near, far), missed_mm(robot, near, far)
-        tilt = nan if empty else metrics.rmse_mm(near, far)
+        ends = near[lift.agreeing], far[lift.agreeing]
+        level = metrics.rmse_mm(*ends) / 2 if len(ends[0]) else nan
         power = felt * trace.human_velocity
         other = power if empty else borne * np.gradient(far, FRAME)
         return {
-            "rmse_mm": agreement_rmse_mm((*missed, tilt), len(near), lift.horizon),
+            "rmse_mm": agreement_rmse_mm((*missed, level), len(near), lift.horizon),
             "human_hurdle_mm": missed[0],
             "robot_hurdle_mm": missed[1],
-            "tilt_mm": tilt,
+            "level_mm": level,
+            "tilt_mm": nan if empty else metrics.rmse_mm(near, far),
             "human_force_n": nan if empty else metrics.human_force_n(felt),
             "agreement_ms": nan if failed else agreement_ms((human, robot), near, far),
             "human_leads_mw": nan if failed else leading_mw(human, near, power, other),
