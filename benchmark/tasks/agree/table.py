@@ -14,8 +14,8 @@ AGREE_METRICS: Final = metric_table(
             missing="never",
             shown="board",
             meaning="root mean square of three errors: how far the whole table misses the human's "
-            "hurdle and the robot's, and how far its ends are from its middle at the common height; "
-            "hurdles that a lift does not have are left out",
+            "hurdle and the robot's, and the height difference of its ends while there is something "
+            "to agree on; hurdles that a lift does not have are left out",
         ),
         Metric(
             name="human_hurdle_mm",
@@ -39,16 +39,16 @@ AGREE_METRICS: Final = metric_table(
         Metric(
             name="level_mm",
             symbol="level",
-            label="Distance from level",
+            label="Height difference at the common height",
             unit="mm",
             shown="run",
-            meaning="root mean square distance of the ends from the height of the table's middle, "
-            "from the end of the rise to the beginning of the lowering: half of their difference",
+            meaning="root mean square height difference of the ends from the end of the rise to "
+            "the beginning of the lowering, while there is something to agree on",
         ),
         Metric(
             name="tilt_mm",
             symbol="tilt",
-            label="Height difference",
+            label="Height difference of the whole trial",
             unit="mm",
             meaning="root mean square height difference of the ends over the whole trial",
         ),

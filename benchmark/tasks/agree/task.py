@@ -123,7 +123,7 @@ class Agree(Haptic):
         nan, empty = math.nan, len(near) == 0
         missed = missed_mm(human, near, far), missed_mm(robot, near, far)
         ends = near[lift.agreeing], far[lift.agreeing]
-        level = metrics.rmse_mm(*ends) / 2 if len(ends[0]) else nan
+        level = metrics.rmse_mm(*ends) if len(ends[0]) else nan
         power = felt * trace.human_velocity
         other = power if empty else borne * np.gradient(far, FRAME)
         return {
