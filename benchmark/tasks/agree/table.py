@@ -14,8 +14,8 @@ AGREE_METRICS: Final = metric_table(
             missing="never",
             shown="board",
             meaning="root mean square of three errors: how far the whole table misses the human's "
-            "hurdle and the robot's, and the height difference of its ends while there is something "
-            "to agree on; hurdles that a lift does not have are left out",
+            "hurdle and the robot's, and the height difference of its ends at the common height; "
+            "hurdles that a lift does not have are left out",
         ),
         Metric(
             name="human_hurdle_mm",
