@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..agent import Action, Observation
-from ..agree.approach import HurdleWatch
+from ..control.approach import HurdleWatch
 from ..control.predictor import DEFAULT_PERIOD
 from ..observations import AgreeObservation
 from .agree_leader import check_positive

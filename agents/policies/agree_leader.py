@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..agent import Action, Observation
-from ..agree.approach import Approach, HurdleWatch
+from ..control.approach import Approach, HurdleWatch
 from ..errors import InputError
 from ..observations import AgreeObservation
 from .anticipate import Anticipate

@@ -5,7 +5,9 @@ from typing import Final
 
 from ..agent import FRAME, Observation
 from ..observations import AgreeObservation
-from .turn import FAR_NEAR
+
+THERE: Final = 0.015
+"""Distance within which an end is seen at the hurdle [m]."""
 
 SEEN_AGE: Final = 0.1
 """Age of the seen heights [s], as the paper's."""
@@ -28,7 +30,7 @@ class HurdleWatch:
         self.stop = float(observation[layout.HURDLE_STOP])
         self.given = bool(observation[layout.HURDLE_GIVEN] > 0.5)
         ends = (float(observation[layout.HUMAN_END]), float(observation[layout.ROBOT_END]))
-        there = max(abs(end - self.height) for end in ends) < FAR_NEAR
+        there = max(abs(end - self.height) for end in ends) < THERE
         if self.given and there and self.start <= -SEEN_AGE:
             self.passed = True
 
