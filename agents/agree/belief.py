@@ -1,4 +1,4 @@
-"""What a partner is about to do: a Bayes filter over goals on a grid."""
+"""The goal of a partner: a Bayes filter over heights on a grid."""
 
 import math
 from dataclasses import dataclass

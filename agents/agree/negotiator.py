@@ -9,7 +9,7 @@ from ..agent import FRAME, HISTORY, Action, HumanObservation, Observation
 from ..humans import ScriptedHuman, Subject
 from .belief import GoalBelief
 from .manner import AgreeingManner, agreeing_manner
-from .turn import Turn
+from .precedence import Precedence
 
 PACE: Final = 8.0
 """omega, the natural frequency of a person's approach [rad/s]: a hurdle 50 mm away is passed after
@@ -63,7 +63,7 @@ class Negotiator:
 
     The observation is that of :func:`with_secret`; its target is the common way. The person infers
     where the partner goes from what is seen of the far end (:class:`.GoalBelief`), a visual delay
-    late and with the given uncertainty. In the own turn (:class:`.Turn`) the goal is the own
+    late and with the given uncertainty. In the own turn (:class:`.Precedence`) the goal is the own
     height; otherwise the common height plus ``trust`` times the partner's expected offset from it.
     With the stiffness s, the best response to a far end at z is
 
@@ -95,7 +95,7 @@ class Negotiator:
         self._hand.reset(seed)
         self._rng = np.random.default_rng((seed, 1))
         self._belief = GoalBelief()
-        self._turn = Turn(self._manner.patience, self._manner.insistence)
+        self._turn = Precedence(self._manner.patience, self._manner.insistence)
         self._offset = self._rate = self._far = 0.0
         self._own = [0.0] * (self._delay + HISTORY)
         self._common: float | None = None

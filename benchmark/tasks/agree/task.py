@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....agents.agent import FRAME, Agent, Observation
-from ....agents.agree import Companion, with_secret
+from ....agents.agree import SecondNegotiator, with_secret
 from ....agents.errors import InputError
 from ....agents.humans import SUBJECTS
 from ...episode import metrics
@@ -52,7 +52,7 @@ class Agree(Haptic):
 
     name: ClassVar[str] = "agree"
     metrics: ClassVar[Metrics] = AGREE_METRICS
-    second_human: ClassVar[type[Agent]] = Companion
+    second_human: ClassVar[type[Agent]] = SecondNegotiator
 
     def __post_init__(self) -> None:
         """Check the range."""

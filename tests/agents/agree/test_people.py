@@ -8,18 +8,18 @@ from colift.agents.agree import (
     Abreast,
     Ahead,
     Behind,
-    Companion,
     Negotiator,
     NoHurdle,
     OtherHurdle,
     OwnHurdle,
+    SecondNegotiator,
     Secret,
     agreeing_manner,
     with_secret,
 )
 from colift.agents.agree.belief import GoalBelief
 from colift.agents.agree.hurdles import APART, AWAY, LENGTH
-from colift.agents.agree.turn import EARLY, NEEDED, SERVED, Turn
+from colift.agents.agree.precedence import EARLY, NEEDED, SERVED, Precedence
 from colift.agents.humans import SUBJECTS, Subject
 from colift.testing import check_behaviour
 
@@ -101,16 +101,16 @@ def first_turn(turn, *, apart=False, length=1.5):
 
 
 def test_the_eager_begin_as_the_window_opens_and_the_patient_at_the_last_moment():
-    assert first_turn(Turn(0.0, 1.0)) == pytest.approx(-EARLY, abs=0.1)
-    assert first_turn(Turn(1.0, 1.0)) == pytest.approx(1.5 - NEEDED, abs=0.1)
+    assert first_turn(Precedence(0.0, 1.0)) == pytest.approx(-EARLY, abs=0.1)
+    assert first_turn(Precedence(1.0, 1.0)) == pytest.approx(1.5 - NEEDED, abs=0.1)
 
 
 def test_a_partner_on_the_way_is_let_go_first_until_it_is_too_late():
-    assert first_turn(Turn(0.0, 1.0), apart=True) == pytest.approx(1.5 - NEEDED, abs=0.1)
+    assert first_turn(Precedence(0.0, 1.0), apart=True) == pytest.approx(1.5 - NEEDED, abs=0.1)
 
 
 def test_in_a_conflict_a_person_gives_way_after_a_while_and_resumes_when_the_partner_is_done():
-    turn = Turn(0.0, 0.35)
+    turn = Precedence(0.0, 0.35)
     assert turn.mine(0.0, 1.5, apart=False, period=0.1)
     insisted = [turn.mine(0.0, 1.4, apart=True, period=0.1) for _ in range(6)]
     assert insisted == [True, True, True, False, False, False]
@@ -120,7 +120,7 @@ def test_in_a_conflict_a_person_gives_way_after_a_while_and_resumes_when_the_par
 
 
 def test_a_hurdle_is_passed_by_both_ends_in_its_window_alone():
-    turn = Turn(0.0, 1.0)
+    turn = Precedence(0.0, 1.0)
     turn.see(0.2, 0.1, 0.2, 0.2)
     turn.see(0.2, -0.1, 0.2, 0.17)
     assert not turn.passed
@@ -171,14 +171,16 @@ def test_a_trusting_person_without_a_hurdle_goes_where_the_far_end_goes():
 
 
 def test_a_second_human_goes_to_its_hurdle_from_the_common_height():
-    path = played(Companion(), Secret(0.11, 0.6, 2.1, 1.0), rests, 22)
+    path = played(SecondNegotiator(), Secret(0.11, 0.6, 2.1, 1.0), rests, 22)
     assert path[:30] == pytest.approx(0.15, abs=0.01)
     assert path[100:200].min() == pytest.approx(0.11, abs=0.012)
 
 
 @pytest.mark.parametrize("frames", [1, 4, 25])
 def test_any_length_of_a_step_can_be_played(frames):
-    path = played(Companion(), Secret(0.11, 0.6, 2.1, 1.0), rests, 200 // frames, frames=frames)
+    path = played(
+        SecondNegotiator(), Secret(0.11, 0.6, 2.1, 1.0), rests, 200 // frames, frames=frames
+    )
     assert path[100:].min() == pytest.approx(0.11, abs=0.015)
 
 

@@ -1,4 +1,4 @@
-"""When it is one's own turn to go to one's own hurdle."""
+"""Precedence at two hurdles: the turn to go to the own one."""
 
 from typing import Final
 
@@ -26,7 +26,7 @@ SERVED: Final = 0.2
 """How long the table rests at the partner's goal until the person thinks it is passed [s]."""
 
 
-class Turn:
+class Precedence:
     """Decides when to go to the own hurdle, when to give way, and when it is passed.
 
     The turn comes at the share ``patience`` of the time between the earliest and the latest moment

@@ -19,7 +19,7 @@ STILL: Final = 0.3
 """How long it rests until its height is taken for the common one [s]."""
 
 
-class Companion(Negotiator):
+class SecondNegotiator(Negotiator):
     """The :class:`Negotiator` at the far end of a human-human pair.
 
     It does not know the common way, but follows the end that it sees as the :class:`.Partner` does;
