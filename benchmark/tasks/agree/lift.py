@@ -1,5 +1,8 @@
 """A lift whose holders have a private hurdle each."""
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ....agents.agent import FRAME, Agent
 from ....agents.agree import Hurdle, HurdlePlan, Negotiator, Secret
 from ..haptic import HapticLift
@@ -33,3 +36,10 @@ class AgreeLift(HapticLift):
             return Secret(0.0, 0.0, 0.0, 0.0)
         start, stop = ((frame - self.frame) * FRAME for frame in hurdle[1:])
         return Secret(hurdle.height, start, stop, 1.0)
+
+    def way_over(self, hurdle: Hurdle | None) -> NDArray[np.float64]:
+        """Return the common way with a hurdle's height in its window [m], (horizon,)."""
+        way = self.target.copy()
+        if hurdle is not None:
+            way[hurdle.start : hurdle.stop] = hurdle.height
+        return way

@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from ...episode.metric import Metric, metric_table
+from ...episode.metric import DrawnSeries, Metric, Words, metric_table
 
 AGREE_METRICS: Final = metric_table(
     (
@@ -16,6 +16,11 @@ AGREE_METRICS: Final = metric_table(
             meaning="root mean square of three errors: how far the whole table misses the human's "
             "hurdle and the robot's, and the height difference of its ends at the common height; "
             "hurdles that a lift does not have are left out",
+            words=Words(
+                question="Who agrees best with a human on two secrets?",
+                praise=("accurate", "more accurate", "most accurate"),
+                plain="how far the table misses the heights that both want it to pass, and level",
+            ),
         ),
         Metric(
             name="human_hurdle_mm",
@@ -97,6 +102,10 @@ AGREE_METRICS: Final = metric_table(
             meaning="share of the robot's actions that exceeded the speed of its hands (0.04 m in "
             "100 ms) and were clipped",
         ),
-    )
+    ),
+    drawn=(
+        DrawnSeries(name="human_hurdle", label="human's hurdle", where="human"),
+        DrawnSeries(name="robot_hurdle", label="robot's hurdle"),
+    ),
 )
 """One entry for each score of :meth:`.Agree.score`, in the same order."""

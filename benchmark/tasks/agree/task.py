@@ -110,9 +110,14 @@ class Agree(Haptic):
         return -level - missed[0], -level - sum(missed)
 
     def series(self, lift: Playing) -> Mapping[str, NDArray[np.float64]]:
-        """Return the torque of the robot's hands."""
+        """Return the hurdles in their windows, the common way elsewhere; the robot's torque."""
         assert isinstance(lift, AgreeLift)
-        return {"robot_torque": np.array(lift.world.robot_torque[-lift.frame :][: lift.frame])}
+        frames = lift.frame
+        return {
+            "human_hurdle": lift.way_over(lift.human_hurdle)[:frames],
+            "robot_hurdle": lift.way_over(lift.robot_hurdle)[:frames],
+            "robot_torque": np.array(lift.world.robot_torque[-frames:][:frames]),
+        }
 
     def score(self, lift: Playing, trace: Trace, *, failed: bool) -> Scores:
         """Return the scores of :data:`.AGREE_METRICS`."""

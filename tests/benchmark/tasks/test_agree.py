@@ -29,7 +29,7 @@ from colift.benchmark.tasks.agree.scores import (
 from colift.benchmark.tasks.agree.task import Agree
 from colift.testing import check_suite, check_task
 
-DIGEST = "e28b28482c8d615e"
+DIGEST = "24c8607177174979"
 SEED = 100_000
 BOTH = ("abreast", "ahead", "behind")
 
