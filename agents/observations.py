@@ -29,3 +29,27 @@ class HapticObservation(IntEnum):
     table's weight."""
     TORQUE = 6
     """Torque of the robot's hands on the table [Nm], positive if it would raise the robot's end."""
+
+
+class AgreeObservation(IntEnum):
+    """Index table of the robot's observation in the task of two secrets: touch, and the own hurdle.
+
+    The four numbers of the hurdle are 0 where the robot has none.
+    """
+
+    HUMAN_END = 0
+    """As in :class:`HapticObservation`, and so on."""
+    ROBOT_END = 1
+    HAND_HEIGHT = 2
+    HAND_COMMAND = 3
+    TIME = 4
+    FORCE = 5
+    TORQUE = 6
+    HURDLE_HEIGHT = 7
+    """Height that the table has to pass [m]."""
+    HURDLE_START = 8
+    """When the window of time for it opens, from now [s]; negative once it is open."""
+    HURDLE_STOP = 9
+    """When it closes, from now [s]; negative once it is closed."""
+    HURDLE_GIVEN = 10
+    """1 if the robot has a hurdle in this lift, 0 if not."""

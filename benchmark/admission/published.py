@@ -1,5 +1,7 @@
 """Published figures of two people, to hold the simulated pair of a task to."""
 
+import dataclasses
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Final
@@ -7,6 +9,8 @@ from typing import Final
 import numpy as np
 
 from ..execution.runner import Run
+from ..results.baselines import human_human_run
+from ..tasks.agree.task import Agree
 from ..tasks.intent.task import Intent
 
 
@@ -43,6 +47,35 @@ def negotiation_s(run: Run) -> float:
     return float(np.mean(times[True]) - np.mean(times[False]))
 
 
+def roles_mw(run: Run) -> float:
+    """Return by how much more people lead to their own hurdles if they know less of each other.
+
+    The pair plays the lifts with two secrets again with an uncertainty of :data:`LITTLE_KNOWN`; the
+    figure is the mean power with which the holder of a hurdle leads [mW], less that of the run.
+    """
+    suite = run.suite
+    both = [each for each in suite.scenarios if each.behaviour in ("abreast", "ahead", "behind")]
+    task = Agree(uncertainty=LITTLE_KNOWN)
+    scenarios = tuple(dataclasses.replace(each, task=task) for each in both)
+    uncertain = human_human_run(dataclasses.replace(suite, scenarios=scenarios))
+    return _leading_mw(uncertain) - _leading_mw(run)
+
+
+def _leading_mw(run: Run) -> float:
+    return float(
+        np.nanmean(
+            [
+                [each.scores["human_leads_mw"], each.scores["robot_leads_mw"]]
+                for each in run.episodes
+                if each.behaviour in ("abreast", "ahead", "behind")
+            ]
+        )
+    )
+
+
+LITTLE_KNOWN: Final = 0.2
+"""Uncertainty of the far end's speed with little information about the partner [m/s]."""
+
 PUBLISHED: Final[Mapping[str, Published]] = {
     Intent.name: Published(
         what="what a negotiation costs",
@@ -52,6 +85,16 @@ PUBLISHED: Final[Mapping[str, Published]] = {
         source="Rysbek et al. 2023 (arXiv 2308.09177), from their annotations: pairs who "
         "negotiate choose a goal after 2.49 to 3.95 s (quartiles), others after 2.30 s (median)",
         measure=negotiation_s,
+    ),
+    Agree.name: Published(
+        what="who knows less of the partner leads more to the own hurdle",
+        unit="mW",
+        low=0.0,
+        high=math.inf,
+        source="Chackochan and Sanguineti 2019, abstract: with unreliable information about the "
+        "partner the roles of leader and follower alternate, with reliable information there are "
+        "none; a direction, without an interval",
+        measure=roles_mw,
     ),
 }
 """The published figure for each task that has one."""

@@ -81,14 +81,27 @@ def rehearse_lift(
         episode = run_episode(lift, Foreknowing(path, lift.frames_per_step), seed)
         if best is None or episode.scores["rmse_mm"] < best.scores["rmse_mm"]:
             best = episode
-        trace = episode.trace
-        left = missed(trace)
-        ends = np.concatenate(([0.0], np.cumsum(trace.action[:, 0])))
-        frames = np.arange(1, len(left) + 1) / lift.frames_per_step
-        command = np.interp(frames, np.arange(len(ends)), ends)
-        path = command + _earlier(left, lag)
+        path = raised(episode.trace, missed(episode.trace), lift.frames_per_step)
     assert best is not None
     return best
+
+
+def raised(trace: Trace, missed: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
+    """Return the commands of a trace, raised by what was missed an arm's lag later [m].
+
+    Parameters
+    ----------
+    trace
+        The trace of a rehearsal.
+    missed
+        How far the robot's end was too low in each frame [m].
+    frames
+        Frames in a control period.
+    """
+    ends = np.concatenate(([0.0], np.cumsum(trace.action[:, 0])))
+    steps = np.arange(1, len(missed) + 1) / frames
+    command = np.interp(steps, np.arange(len(ends)), ends)
+    return np.asarray(command + _earlier(missed, round(ARM_LAG / FRAME)))
 
 
 def _earlier(series: NDArray[np.float64], frames: int) -> NDArray[np.float64]:

@@ -82,7 +82,9 @@ def test_an_unknown_name_is_told_all_names():
     assert str(error.value) == (
         f"unknown policy 'blnd'; did you mean blend? known: {', '.join(NAMES)}"
     )
-    with pytest.raises(InputError, match=r"unknown human behaviour 'hold'; known: changing_goal, "):
+    with pytest.raises(
+        InputError, match=r"unknown human behaviour 'hold'; known: abreast, ahead, "
+    ):
         lookup(HUMANS, "hold")
 
 

@@ -15,6 +15,7 @@ def test_the_suites_have_the_sizes_that_their_descriptions_say():
         "standard-v1": 5 * 4 * 15,
         "paper-v1": 5 * 10,
         "quick-v1": 12,
+        "agree-v1": 5 * 6 * 4,
         "intent-v1": 5 * 4 * 5,
     }
 

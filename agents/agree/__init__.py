@@ -1,0 +1,24 @@
+"""People who have a hurdle to pass, and a partner who may have another."""
+
+from .hurdles import Abreast, Ahead, Behind, Hurdle, HurdlePlan, NoHurdle, OtherHurdle, OwnHurdle
+from .manner import MANNERS, AgreeingManner, agreeing_manner
+from .negotiator import Negotiator, Secret, with_secret
+from .second import SecondNegotiator
+
+__all__ = [
+    "MANNERS",
+    "Abreast",
+    "AgreeingManner",
+    "Ahead",
+    "Behind",
+    "Hurdle",
+    "HurdlePlan",
+    "Negotiator",
+    "NoHurdle",
+    "OtherHurdle",
+    "OwnHurdle",
+    "SecondNegotiator",
+    "Secret",
+    "agreeing_manner",
+    "with_secret",
+]

@@ -1,0 +1,58 @@
+"""The manner in which a person comes to an agreement with a partner."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..humans import PARTNER_SUBJECT, Subject
+
+
+@dataclass(frozen=True, kw_only=True)
+class AgreeingManner:
+    """Who goes first, and how far a person goes along with the other."""
+
+    patience: float
+    """How long the person lets the other go first: 0 goes as soon as the own window opens, 1 at the
+    last moment that leaves time enough, more of it too late."""
+    trust: float
+    """Share of the way to the partner's inferred goal that the person goes."""
+    stiffness: float
+    """Weight of the own goal against a level table; the rest of 1 gives way to the far end."""
+    insistence: float
+    """How long the person insists when both go to their own goals [s]; then gives way."""
+
+
+PATIENCES: Final = (0.0, 1.15)
+TRUSTS: Final = (0.75, 1.0)
+STIFFNESSES: Final = (0.6, 1.0)
+INSISTENCES: Final = (0.2, 2.0)
+"""Ranges of the population, uniform and independent: chosen, wide enough that the eager and the
+timid need different partners."""
+
+MANNERS: Final[Mapping[str, AgreeingManner]] = {
+    "S1": AgreeingManner(patience=0.0, trust=0.75, stiffness=1.0, insistence=2.0),
+    "S2": AgreeingManner(patience=1.15, trust=1.0, stiffness=0.6, insistence=0.2),
+    "S3": AgreeingManner(patience=0.0, trust=0.9, stiffness=0.9, insistence=1.5),
+    "S4": AgreeingManner(patience=1.1, trust=0.8, stiffness=0.8, insistence=1.5),
+    "S5": AgreeingManner(patience=0.1, trust=1.0, stiffness=1.0, insistence=1.0),
+    PARTNER_SUBJECT.name: AgreeingManner(patience=0.2, trust=1.0, stiffness=0.9, insistence=0.2),
+}
+"""The manners of the five subjects, spread over the ranges, and of the second human."""
+
+
+def agreeing_manner(subject: Subject) -> AgreeingManner:
+    """Return a person's manner: of the five as stated, of anybody else drawn by the name."""
+    if subject.name in MANNERS:
+        return MANNERS[subject.name]
+    kind, _, number = subject.name.partition("-")
+    seed = int(number) if kind == "draw" and number.isdecimal() else 0
+    shares = np.random.default_rng((seed, 0xA62EE)).random(4).tolist()
+    ranges = (PATIENCES, TRUSTS, STIFFNESSES, INSISTENCES)
+    patience, trust, stiffness, insistence = (
+        low + (high - low) * share for (low, high), share in zip(ranges, shares, strict=True)
+    )
+    return AgreeingManner(
+        patience=patience, trust=trust, stiffness=stiffness, insistence=insistence
+    )

@@ -1,0 +1,74 @@
+"""The second human: keeps level with the other, and has a hurdle of its own."""
+
+import math
+from typing import Final
+
+from ..agent import FRAME, HumanObservation, Observation
+from ..humans import PARTNER_SUBJECT, Subject
+from ..humans.partner import PartnerParameters
+from .manner import AgreeingManner
+from .negotiator import LIFTED, Negotiator
+
+LOWERED: Final = 0.06
+"""Height below which the other end is being lowered to the ground [m]."""
+
+STEADY: Final = 0.05
+"""Speed below which the other end rests [m/s]."""
+
+STILL: Final = 0.3
+"""How long it rests until its height is taken for the common one [s]."""
+
+
+class SecondNegotiator(Negotiator):
+    """The :class:`Negotiator` at the far end of a human-human pair.
+
+    It does not know the common way, but follows the end that it sees as the :class:`.Partner` does;
+    the height at which that one first comes to rest is the common height. In the own turn its hand
+    moves from there to the own hurdle.
+    """
+
+    def __init__(
+        self, *, subject: Subject = PARTNER_SUBJECT, manner: AgreeingManner | None = None
+    ) -> None:
+        super().__init__(subject=subject, manner=manner)
+        self._parameters = PartnerParameters()
+        self._ahead = subject.visual_delay - self._parameters.lag
+
+    def reset(self, seed: int) -> None:
+        """Begin an episode; the noise comes from ``seed``."""
+        super().reset(seed)
+        self._height = self._velocity = self._still = 0.0
+        self._rested = self._apart = False
+
+    def _way(self, view: Observation) -> list[float]:
+        frames = len(view[HumanObservation.TARGET])
+        new = view[HumanObservation.OTHER_END][-frames:].tolist()
+        # A step longer than the history leaves a gap before the first new frame.
+        elapsed = (frames - len(new) + 1) * FRAME
+        for height in new:
+            smoothing = -math.expm1(-elapsed / self._parameters.velocity_memory)
+            self._velocity += smoothing * ((height - self._height) / elapsed - self._velocity)
+            self._height = height
+            elapsed = FRAME
+        rests = abs(self._velocity) < STEADY and self._height > LIFTED
+        self._still = self._still + frames * FRAME if rests else 0.0
+        self._rested = self._height > LOWERED and (self._rested or self._still >= STILL)
+        return [
+            self._height + self._velocity * (self._ahead + FRAME * i) for i in range(1, frames + 1)
+        ]
+
+    def _base(self, way: list[float]) -> list[float]:
+        """Return the way or, in the own turn, the common height; the hand does not jump."""
+        fixed = way[0] if self._common is None else self._common
+        if self._mine != self._apart:
+            sign = 1.0 if self._mine else -1.0
+            self._offset += sign * (way[0] - fixed)
+            self._rate += sign * self._velocity
+            self._apart = self._mine
+        return [fixed] * len(way) if self._mine else way
+
+    def _along(self, common: float, way: list[float], far: float) -> float:
+        return way[-1]
+
+    def _at_rest(self, way: list[float]) -> bool:
+        return self._rested

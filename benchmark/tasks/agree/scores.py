@@ -1,0 +1,112 @@
+"""Scores of hurdles: how near the whole table came to them, how soon, and who led it there."""
+
+import math
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....agents.agent import FRAME
+from ....agents.agree import Hurdle
+from ....robots.arithmetic import dot
+from ...episode.metrics import FAILED_FRAME_MM
+
+PASSED: Final = 0.01
+"""Root mean square distance of both ends from a hurdle within which the table passes it [m]."""
+
+CROSSING: Final = 0.3
+"""Time before a crossing over which the power of leading is averaged [s]: that of Chackochan and
+Sanguineti (2019)."""
+
+Heights = NDArray[np.float64]
+
+
+def distance(hurdle: Hurdle, near: Heights, far: Heights) -> Heights:
+    r"""Return the table's distance from a hurdle in each frame of its window [m].
+
+    .. math:: d_t = \sqrt{\tfrac12 \left( (Z_{1t} - h)^2 + (Z_{2t} - h)^2 \right)}
+
+    Both ends count: the table as a whole has to be there.
+
+    Parameters
+    ----------
+    hurdle
+        Its height h and window.
+    near, far
+        Heights Z1 and Z2 of the ends [m], shape (T,).
+    """
+    window = slice(hurdle.start, hurdle.stop)
+    ends = np.stack((near[window], far[window])) - hurdle.height
+    return np.asarray(np.sqrt((ends * ends).sum(axis=0) / 2))
+
+
+def missed_mm(hurdle: Hurdle | None, near: Heights, far: Heights) -> float:
+    """Return by how much the table misses a hurdle: the least :func:`distance` [mm].
+
+    NaN without a hurdle; :data:`.FAILED_FRAME_MM` if the lift ended before its window opened.
+    """
+    if hurdle is None:
+        return math.nan
+    ways = distance(hurdle, near, far)
+    return 1000 * float(ways.min()) if len(ways) else FAILED_FRAME_MM
+
+
+def agreement_rmse_mm(errors: Sequence[float], frames: int, horizon: int) -> float:
+    r"""Return the root mean square of a lift's errors [mm], those that are NaN left out.
+
+    Each of the frames that a failure cut off counts :data:`.FAILED_FRAME_MM`, each other one the
+    root mean square of the errors.
+    """
+    known = np.array([error for error in errors if not math.isnan(error)])
+    square = float(dot(known, known)) / len(known) if len(known) else 0.0
+    return math.sqrt((frames * square + (horizon - frames) * FAILED_FRAME_MM**2) / horizon)
+
+
+def agreement_ms(hurdles: Sequence[Hurdle | None], near: Heights, far: Heights) -> float:
+    """Return the time from the opening of the first window until the last hurdle is passed [ms].
+
+    A hurdle counts as passed within :data:`PASSED`, at the end of its window if never. NaN without
+    hurdles.
+    """
+    given = [hurdle for hurdle in hurdles if hurdle is not None]
+    if not given:
+        return math.nan
+    passed = []
+    for hurdle in given:
+        there = np.flatnonzero(distance(hurdle, near, far) <= PASSED)
+        passed.append(hurdle.start + int(there[0]) if there.size else hurdle.stop)
+    return 1000 * FRAME * (max(passed) - min(hurdle.start for hurdle in given))
+
+
+def leading_mw(hurdle: Hurdle | None, own: Heights, power: Heights, other: Heights) -> float:
+    """Return by how much the holder of an end leads the other to its own hurdle.
+
+    The leadership index is a hand's mean power in the 0.3 s before its end crosses its own hurdle
+    (Chackochan and Sanguineti 2019); here less that of the other hands in the same time, so that
+    what accelerates the table drops out.
+
+    Parameters
+    ----------
+    hurdle
+        The hurdle of that end.
+    own
+        Height of that end [m], shape (T,).
+    power, other
+        Power of its hands and of those at the other end [W], shape (T,).
+
+    Returns
+    -------
+    float
+        Power [mW], positive for a leader; NaN if there is no hurdle or it is not crossed in its
+        window.
+    """
+    if hurdle is None:
+        return math.nan
+    side = own[hurdle.start : hurdle.stop] > hurdle.height
+    crossed = np.flatnonzero(side[1:] != side[:-1])
+    if not crossed.size:
+        return math.nan
+    frame = hurdle.start + int(crossed[0]) + 1
+    before = slice(max(frame - round(CROSSING / FRAME), 0), frame)
+    return 1000 * float((power[before] - other[before]).mean())

@@ -1,0 +1,191 @@
+"""Plans with hurdles, what people infer of each other, and whose turn it is."""
+
+import numpy as np
+import pytest
+from colift.agents.agent import FRAME, HumanObservation
+from colift.agents.agree import (
+    MANNERS,
+    Abreast,
+    Ahead,
+    Behind,
+    Negotiator,
+    NoHurdle,
+    OtherHurdle,
+    OwnHurdle,
+    SecondNegotiator,
+    Secret,
+    agreeing_manner,
+    with_secret,
+)
+from colift.agents.agree.belief import GoalBelief
+from colift.agents.agree.hurdles import APART, AWAY, LENGTH
+from colift.agents.agree.precedence import EARLY, NEEDED, SERVED, Precedence
+from colift.agents.humans import SUBJECTS, Subject
+from colift.testing import check_behaviour
+
+S1 = SUBJECTS["S1"]
+ALL = (Abreast, Ahead, Behind, OwnHurdle, OtherHurdle, NoHurdle)
+
+
+@pytest.mark.parametrize("behaviour", ALL)
+def test_plans_conform(behaviour):
+    check_behaviour(behaviour())
+
+
+@pytest.mark.parametrize("behaviour", ALL)
+def test_who_has_a_hurdle_follows_from_the_behaviour(behaviour):
+    for seed in range(10):
+        plan = behaviour().plan(S1, seed)
+        assert (plan.own is not None, plan.other is not None) == behaviour.has
+
+
+def test_hurdles_are_away_from_the_common_height_and_from_each_other():
+    for seed in range(100):
+        plan = Abreast().plan(S1, seed)
+        ways = [abs(hurdle.height - plan.goal) for hurdle in (plan.own, plan.other)]
+        assert AWAY[0] <= min(ways) <= max(ways) <= AWAY[1]
+        assert APART[0] <= abs(plan.own.height - plan.other.height) <= APART[1]
+        first, last = plan.agreeing
+        for hurdle in (plan.own, plan.other):
+            assert first < hurdle.start < hurdle.stop < last
+            length = (hurdle.stop - hurdle.start) * FRAME
+            assert LENGTH[0] - FRAME <= length <= LENGTH[1] + FRAME
+        assert np.ptp(plan.target[first:last]) < 1e-9
+
+
+@pytest.mark.parametrize(("behaviour", "low", "high"), [(Ahead, 20, 40), (Behind, -40, -20)])
+def test_ahead_and_behind_say_whose_window_opens_first(behaviour, low, high):
+    for seed in range(30):
+        plan = behaviour().plan(S1, seed)
+        assert low - 1 <= plan.other.start - plan.own.start <= high + 1
+
+
+def moved(goal, steps=4, start=0.15, mine=0.15, pace=5.0):
+    """Return a belief after a partner has gone to a goal, or along with me."""
+    belief, height = GoalBelief(), start
+    for _ in range(steps):
+        after = height + (1 - np.exp(-0.1 * pace)) * (goal - height)
+        belief.update(height, after, mine, 0.15, 0.1)
+        height = after
+    return belief
+
+
+def test_a_partner_who_goes_away_is_believed_to_have_a_goal_there():
+    for offset in (-0.05, -0.03, 0.03, 0.05):
+        belief = moved(0.15 + offset)
+        assert belief.own_goal > 0.9
+        assert belief.offset == pytest.approx(offset, abs=0.015)
+
+
+def test_a_partner_who_rests_or_comes_along_has_no_goal():
+    assert moved(0.15).own_goal < 0.1
+    assert moved(0.19, mine=0.19).own_goal < 0.5
+    assert abs(moved(0.15).offset) < 0.003
+
+
+def test_a_belief_is_slower_the_less_is_known():
+    beliefs = [GoalBelief(), GoalBelief()]
+    for belief, noise in zip(beliefs, (0.0, 0.2), strict=True):
+        belief.update(0.15, 0.165, 0.15, 0.15, 0.1, noise)
+    assert beliefs[0].own_goal > beliefs[1].own_goal
+    beliefs[0].forget()
+    assert beliefs[0].own_goal < 0.2
+
+
+def first_turn(turn, *, apart=False, length=1.5):
+    """Return when the turn comes [s] after the opening of a window, None if never."""
+    for k in range(-10, round(10 * length)):
+        if turn.mine(-0.1 * k, length - 0.1 * k, apart=apart, period=0.1):
+            return 0.1 * k
+    return None
+
+
+def test_the_eager_begin_as_the_window_opens_and_the_patient_at_the_last_moment():
+    assert first_turn(Precedence(0.0, 1.0)) == pytest.approx(-EARLY, abs=0.1)
+    assert first_turn(Precedence(1.0, 1.0)) == pytest.approx(1.5 - NEEDED, abs=0.1)
+
+
+def test_a_partner_on_the_way_is_let_go_first_until_it_is_too_late():
+    assert first_turn(Precedence(0.0, 1.0), apart=True) == pytest.approx(1.5 - NEEDED, abs=0.1)
+
+
+def test_in_a_conflict_a_person_gives_way_after_a_while_and_resumes_when_the_partner_is_done():
+    turn = Precedence(0.0, 0.35)
+    assert turn.mine(0.0, 1.5, apart=False, period=0.1)
+    insisted = [turn.mine(0.0, 1.4, apart=True, period=0.1) for _ in range(6)]
+    assert insisted == [True, True, True, False, False, False]
+    for _ in range(round(SERVED / 0.1) + 1):
+        turn.serve(0.04, 0.002, 0.01, 0.1)
+    assert turn.mine(-0.8, 0.7, apart=True, period=0.1)
+
+
+def test_a_hurdle_is_passed_by_both_ends_in_its_window_alone():
+    turn = Precedence(0.0, 1.0)
+    turn.see(0.2, 0.1, 0.2, 0.2)
+    turn.see(0.2, -0.1, 0.2, 0.17)
+    assert not turn.passed
+    turn.see(0.2, -0.1, 0.201, 0.195)
+    assert turn.passed
+    assert not turn.mine(-0.1, 1.0, apart=False, period=0.1)
+
+
+def played(person, secret, far, steps, common=0.15, frames=10):
+    """Return a person's references at the common height, after 2 s to settle there.
+
+    ``far`` returns the far end's height, of the person's own heights and the time.
+    """
+    person.reset(3)
+    settling = 20 * 10 // frames
+    references, own = [], [common] * 40
+    for step in range(settling + steps):
+        time = (step - settling) * frames * FRAME
+        view = np.zeros(HumanObservation.size(frames))
+        view[HumanObservation.OWN_HEIGHT] = own[-10:]
+        view[HumanObservation.OTHER_END] = far(own, time)
+        view[HumanObservation.TARGET] = common
+        now = secret._replace(start=secret.start - time, stop=secret.stop - time)
+        action = person.act(with_secret(view, now, 0.0)).tolist()
+        references += action
+        own += action
+    return np.array(references[settling * frames :])
+
+
+def rests(own, time):
+    return 0.15
+
+
+def test_a_person_passes_the_own_hurdle_when_the_far_end_comes_along():
+    secret = Secret(0.19, 0.5, 2.0, 1.0)
+    path = played(Negotiator(subject=S1), secret, lambda own, time: own[-20], 25)
+    assert path[50:200].max() == pytest.approx(0.19, abs=0.008)
+    assert path[:20] == pytest.approx(0.15, abs=0.01)
+
+
+def test_a_trusting_person_without_a_hurdle_goes_where_the_far_end_goes():
+    def leading(own, time):
+        return 0.15 + 0.04 * min(max((time - 0.3) / 0.4, 0.0), 1.0)
+
+    path = played(Negotiator(subject=SUBJECTS["S2"]), Secret(0.0, 0.0, 0.0, 0.0), leading, 20)
+    assert path[:30] == pytest.approx(0.15, abs=0.01)
+    assert path[80:120].mean() > 0.17
+
+
+def test_a_second_human_goes_to_its_hurdle_from_the_common_height():
+    path = played(SecondNegotiator(), Secret(0.11, 0.6, 2.1, 1.0), rests, 22)
+    assert path[:30] == pytest.approx(0.15, abs=0.01)
+    assert path[100:200].min() == pytest.approx(0.11, abs=0.012)
+
+
+@pytest.mark.parametrize("frames", [1, 4, 25])
+def test_any_length_of_a_step_can_be_played(frames):
+    path = played(
+        SecondNegotiator(), Secret(0.11, 0.6, 2.1, 1.0), rests, 200 // frames, frames=frames
+    )
+    assert path[100:].min() == pytest.approx(0.11, abs=0.015)
+
+
+def test_manners_follow_from_the_name_alone_and_new_people_differ():
+    drawn = [agreeing_manner(Subject.draw(seed)) for seed in range(20)]
+    assert len({manner.patience for manner in drawn}) == 20
+    assert drawn[3] == agreeing_manner(Subject.draw(3))
+    assert agreeing_manner(S1) == MANNERS["S1"]
