@@ -5,8 +5,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-PULL: Final = 8.76
-"""Acceleration of the ball [m/s2] by a height difference of the ends of 1 m: 5/7 g / L."""
+from .facts import PULL
 
 PLACE_NOISE: Final = 0.00023
 """Standard deviation of a seen place [m]."""
@@ -21,7 +20,7 @@ class BallFilter:
 
     The state x = (s, v) moves in a period T by
 
-        s <- s + T v + T^2 u / 2,    v <- v + T u,    u = -PULL d - FRICTION v,
+        s <- s + T v + T^2 u / 2,    v <- v + T u,    u = -PULL d,
 
     with the height difference d of the ends, far above near, on the mean over the period.
     """

@@ -38,6 +38,11 @@ class Inclining:
         """Time between the last two observations [s]."""
         return self._history.period(self._model.window.interval)
 
+    @property
+    def sag(self) -> float:
+        """Height of the command above the own hand [m], filtered."""
+        return self._sag
+
     def observe(self, observation: Observation) -> None:
         """Add the newest observation, and forecast the human's end."""
         history = self._history

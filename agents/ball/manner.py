@@ -19,8 +19,6 @@ class SteeringManner:
     """Natural frequency with which the person means to bring the ball to its target [rad/s]."""
     lead: float
     """Time by which the person carries on in thought what it sees of the ball [s]."""
-    insistence: float
-    """Rate at which the own end moves on while the table is not inclined as wanted [1/s]."""
     trust: float
     """Part of the own share that the person leaves to a partner who seems to do everything."""
     wrist: float
@@ -28,24 +26,27 @@ class SteeringManner:
 
 
 RANGES: Final = {
-    "share": (0.1, 1.2),
-    "haste": (1.4, 2.6),
-    "lead": (0.0, 0.3),
-    "insistence": (0.0, 1.0),
-    "trust": (0.0, 0.8),
-    "wrist": (0.2, 1.0),
+    "share": (0.1, 1.3),
+    "haste": (1.6, 2.4),
+    "lead": (0.0, 0.2),
+    "trust": (0.0, 0.5),
+    "wrist": (0.15, 0.8),
 }
 """Ranges of the population, uniform and independent: chosen, from people who leave the ball to the
 partner to people who do it all."""
 
 MANNERS: Final[Mapping[str, SteeringManner]] = {
-    "S1": SteeringManner(share=1.0, haste=2.2, lead=0.15, insistence=0.0, trust=0.0, wrist=0.4),
-    "S2": SteeringManner(share=0.5, haste=1.8, lead=0.2, insistence=0.0, trust=0.5, wrist=0.7),
-    "S3": SteeringManner(share=1.2, haste=2.6, lead=0.1, insistence=0.0, trust=0.2, wrist=0.5),
-    "S4": SteeringManner(share=0.12, haste=1.6, lead=0.2, insistence=0.0, trust=0.3, wrist=0.8),
-    "S5": SteeringManner(share=0.25, haste=2.0, lead=0.2, insistence=0.0, trust=0.6, wrist=0.3),
+    "S1": SteeringManner(share=1.0, haste=2.2, lead=0.15, trust=0.0, wrist=0.4),
+    "S2": SteeringManner(share=0.5, haste=1.8, lead=0.2, trust=0.5, wrist=0.7),
+    "S3": SteeringManner(share=1.3, haste=2.4, lead=0.05, trust=0.0, wrist=0.5),
+    "S4": SteeringManner(share=0.1, haste=1.6, lead=0.2, trust=0.3, wrist=0.8),
+    "S5": SteeringManner(share=0.1, haste=2.0, lead=0.2, trust=0.4, wrist=0.15),
 }
 """The manners of the five subjects, spread over the ranges."""
+
+
+PARTNER_MANNER: Final = SteeringManner(share=0.6, haste=1.8, lead=0.2, trust=0.3, wrist=0.5)
+"""The manner of the second person of the human-human baseline."""
 
 
 def steering_manner(subject: Subject) -> SteeringManner:

@@ -7,11 +7,10 @@ from typing import Final
 import numpy as np
 
 from ..agent import FRAME, HISTORY, Action, HumanObservation, Observation
-from ..humans import PARTNER_SUBJECT, Partner, ScriptedHuman, Subject
-from .manner import SteeringManner, steering_manner
-
-PULL: Final = 8.76
-"""Acceleration of the ball [m/s2] by a height difference of the ends of 1 m."""
+from ..humans import PARTNER_SUBJECT, ScriptedHuman, Subject
+from ..humans.partner import PartnerParameters
+from .facts import HALF_WEIGHT, PULL, meant_by_wrists
+from .manner import PARTNER_MANNER, SteeringManner, steering_manner
 
 DAMPING_RATIO: Final = 0.8
 """Damping with which people bring the ball to its target."""
@@ -19,7 +18,7 @@ DAMPING_RATIO: Final = 0.8
 STEEPEST: Final = 0.08
 """Largest wanted height difference of the ends [m]."""
 
-FARTHEST: Final = 0.08
+FARTHEST: Final = 0.1
 """Largest distance of the own end from the plan of the lift [m]."""
 
 FASTEST: Final = 0.25
@@ -30,6 +29,14 @@ HAND_TIME: Final = 0.1
 
 MEMORY: Final = 2.0
 """Time over which a person judges the partner [s]."""
+
+
+JOINING: Final = 1.2
+"""Height difference that a person who does not know the target makes, relative to the one that the
+other's wrists seem to mean."""
+
+CALMING: Final = 0.2
+"""Height difference that such a person adds by the ball's speed [s], against it."""
 
 
 class BallSenses:
@@ -80,7 +87,7 @@ class Steering:
 
     def reset(self) -> None:
         """Begin an episode."""
-        self._offset = self._insisted = 0.0
+        self._offset = 0.0
         self._own: deque[float] = deque([0.0] * (self._delay + 1), self._delay + 1)
         self._planned: deque[float] = deque([0.0] * (self._delay + 1), self._delay + 1)
         self._wanted = 0.0
@@ -114,17 +121,19 @@ class Steering:
         speed -= PULL * seen * lead
         target = observation[BallSenses.TARGET].tolist()
         half = (HISTORY - 1) // 2
+        known = observation[BallSenses.KNOWN] > 0.5
         first, middle, last = target[0], target[half], target[2 * half]
         span = half * FRAME
         error, slip = place - middle, speed - (last - first) / (2 * span)
         push = (last - 2 * middle + first) / span**2
         rate = manner.haste
         wanted = (rate**2 * error + 2 * DAMPING_RATIO * rate * slip - push) / PULL
+        if not known:
+            felt = float(view[HumanObservation.HAND_FORCE].mean())
+            wanted = JOINING * meant_by_wrists(felt - HALF_WEIGHT, seen, place) + CALMING * speed
         self._wanted = wanted = min(max(wanted, -STEEPEST), STEEPEST)
-        share = manner.share * (1.0 - manner.trust * done)
-        missing = wanted - seen
-        self._insisted += period * (manner.insistence * share * missing - self._insisted)
-        aim = side * (share * wanted + self._insisted)
+        share = manner.share * (1.0 - manner.trust * done) if known else 1.0
+        aim = side * share * wanted
         aim = min(max(aim, -FARTHEST), FARTHEST)
         offsets = []
         for _ in range(frames):
@@ -135,15 +144,45 @@ class Steering:
 
 
 class BallPartner:
-    """The second person: keeps the table level, and steers the ball as the first does."""
+    """The second person: keeps the table level, and steers the ball as the first does.
 
-    def __init__(self, *, subject: Subject = PARTNER_SUBJECT) -> None:
-        self._hand = Partner(subject=subject)
+    It follows the other end as :class:`.Partner` does. If it does not know the target, it joins in
+    what it feels of the other's wrists.
+    """
+
+    def __init__(
+        self,
+        *,
+        subject: Subject = PARTNER_SUBJECT,
+        manner: SteeringManner = PARTNER_MANNER,
+        parameters: PartnerParameters | None = None,
+    ) -> None:
+        parameters = parameters or PartnerParameters()
+        self._hand = ScriptedHuman(subject=subject)
+        self._steering = Steering(manner, subject.visual_delay)
+        self._ahead = subject.visual_delay - parameters.lag
+        self._memory = parameters.velocity_memory
 
     def reset(self, seed: int) -> None:
         """Begin an episode; the noise comes from ``seed``."""
         self._hand.reset(seed)
+        self._steering.reset()
+        self._height = self._velocity = 0.0
 
     def act(self, observation: Observation) -> Action:
         """Return the hand's reference height [m] in each of the next n frames."""
-        return self._hand.act(observation[BallSenses.SIZE :])
+        view = observation[BallSenses.SIZE :].copy()
+        frames = len(view[HumanObservation.TARGET])
+        new = view[HumanObservation.OTHER_END][-frames:].tolist()
+        # A step longer than the history leaves a gap before the first new frame.
+        elapsed = (frames - len(new) + 1) * FRAME
+        for height in new:
+            velocity = (height - self._height) / elapsed
+            self._velocity -= math.expm1(-elapsed / self._memory) * (velocity - self._velocity)
+            self._height = height
+            elapsed = FRAME
+        future = self._ahead + FRAME * np.arange(1, frames + 1)
+        level = self._height + self._velocity * future
+        offsets = self._steering.offsets(observation, level, 1.0)
+        view[HumanObservation.TARGET] = level + offsets
+        return self._hand.act(view)

@@ -14,11 +14,11 @@ from ..observations import BallObservation
 class BallSteadyParameters:
     """Parameters of :class:`BallSteady`."""
 
-    place_gain: float = 0.35
+    place_gain: float = 0.5
     """Height difference per distance from the target [m/m]."""
-    speed_gain: float = 0.35
+    speed_gain: float = 0.45
     """Height difference per speed of the ball [s]."""
-    steepest: float = 0.08
+    steepest: float = 0.1
     """Largest height difference [m]."""
 
 

@@ -42,21 +42,23 @@ def ball_rmse_mm(missed: Series, horizon: int) -> float:
     return math.sqrt((1e6 * float(dot(missed, missed)) + lost) / horizon)
 
 
-def leaps(target: Series) -> Iterator[slice]:
-    """Yield the frames of each target after the first, from its leap to the next.
+def ways(target: Series) -> Iterator[slice]:
+    """Yield the frames of each target after the first: from its first movement to the next's.
 
     Parameters
     ----------
     target
         Where the ball should be [m], shape (T,).
     """
-    starts = [*(np.flatnonzero(np.diff(target)) + 1).tolist(), len(target)]
-    for start, stop in zip(starts, starts[1:], strict=False):
+    moving = np.diff(target, prepend=target[:1]) != 0.0
+    starts = np.flatnonzero(moving & ~np.concatenate(([False], moving[:-1])))
+    ends = [*starts.tolist(), len(target)]
+    for start, stop in zip(ends, ends[1:], strict=False):
         yield slice(start, stop)
 
 
 def ball_settling_ms(missed: Series, target: Series) -> float:
-    """Return the time from a leap of the target until the ball stays within :data:`NEAR` of it.
+    """Return the time from the beginning of a movement of the target until the ball stays within :data:`NEAR` of it.
 
     A target that is never reached to stay counts its whole time.
 
@@ -71,7 +73,7 @@ def ball_settling_ms(missed: Series, target: Series) -> float:
         Mean over the targets [ms]; NaN if there is none.
     """
     times = []
-    for window in leaps(target):
+    for window in ways(target):
         away = np.flatnonzero(np.abs(missed[window]) > NEAR)
         times.append(1000 * FRAME * (int(away[-1]) + 1 if away.size else 0))
     return math.fsum(times) / len(times) if times else math.nan
@@ -80,8 +82,8 @@ def ball_settling_ms(missed: Series, target: Series) -> float:
 def velocity_peaks(place: Series, target: Series) -> tuple[float, float]:
     """Return the number and the mean size of the peaks of the ball's velocity for each target.
 
-    A peak is an extremum between two smaller speeds or turns, at least :data:`LEAST_PEAK` fast, and
-    by as much faster than the slowest moment since the last peak of its direction.
+    A peak is an extremum of the velocity, at least :data:`LEAST_PEAK` fast, from which the velocity
+    then recedes by as much.
 
     Parameters
     ----------
@@ -93,7 +95,7 @@ def velocity_peaks(place: Series, target: Series) -> tuple[float, float]:
     tuple
         Peaks per target, and their mean speed [m/s]; NaN if there is no target or no peak.
     """
-    windows = [place[window] for window in leaps(target)]
+    windows = [place[window] for window in ways(target)]
     sizes = [size for window in windows if len(window) > 1 for size in _peaks(window)]
     if not windows:
         return math.nan, math.nan
@@ -101,17 +103,16 @@ def velocity_peaks(place: Series, target: Series) -> tuple[float, float]:
 
 
 def _peaks(place: Series) -> list[float]:
+    """Return the speeds [m/s] at the turning points of the velocity, either way."""
     found: list[float] = []
-    for sign in (1.0, -1.0):
-        low, high = 0.0, 0.0
-        for speed in (sign * np.diff(place) / FRAME).tolist():
-            forward = max(speed, 0.0)
-            if forward > high:
-                high = forward
-            elif high - forward >= LEAST_PEAK:
-                found.append(high)
-                low = high = forward
-            if high - low < LEAST_PEAK:
-                low = min(low, forward)
-                high = max(low, forward) if forward > low else low
+    low = high = 0.0
+    rising = falling = True
+    for speed in (np.diff(place) / FRAME).tolist():
+        low, high = min(low, speed), max(high, speed)
+        if rising and high - speed >= LEAST_PEAK:
+            found += [high] if high >= LEAST_PEAK else []
+            rising, falling, low = False, True, speed
+        elif falling and speed - low >= LEAST_PEAK:
+            found += [-low] if low <= -LEAST_PEAK else []
+            rising, falling, high = True, False, speed
     return found

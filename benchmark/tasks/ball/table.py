@@ -24,7 +24,7 @@ BALL_METRICS: Final = metric_table(
             digits=0,
             missing="worst",
             shown="board",
-            meaning="time from a change of the target until the ball stays within 20 mm of it, "
+            meaning="time from when the target begins to move until the ball stays within 20 mm of it, "
             "mean over the targets",
         ),
         Metric(
