@@ -24,7 +24,7 @@ LAST: Final = 2.0
 CARRYING: Final = (2.0, 3.0)
 """Range of the time by which the table is held longer than in the lift alone [s]."""
 
-HEIGHT_SHARE: Final = 0.5
+HEIGHT_SHARE: Final = 0.15
 """Height of the lift above the lowest goal, relative to the lift alone: the ends need room above
 and below."""
 

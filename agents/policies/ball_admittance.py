@@ -38,16 +38,13 @@ class BallAdmittance:
     def reset(self, seed: int) -> None:
         """Begin an episode."""
         self._tracking.reset()
-        self._begun = False
 
     def act(self, observation: Observation) -> Action:
         """Return the change of the command [m]."""
         parameters, tracking = self._parameters, self._tracking
         tracking.observe(observation)
-        # The force of the first moment is that before the ball lay on the table.
-        meant = tracking.meant() if self._begun else 0.0
-        self._begun = True
-        difference = parameters.admittance * meant + parameters.calming * tracking.sample[1]
+        difference = parameters.admittance * tracking.meant()
+        difference += parameters.calming * tracking.sample[1]
         limit = parameters.steepest
         difference = min(max(difference, -limit), limit)
         return np.array([tracking.inclining.change(observation, difference)])

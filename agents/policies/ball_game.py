@@ -47,16 +47,13 @@ class BallGame:
         self._tracking.reset()
         self._aim.reset()
         self._targets: list[float] = []
-        self._begun = False
 
     def act(self, observation: Observation) -> Action:
         """Return the change of the command [m]."""
         parameters, tracking = self._parameters, self._tracking
         tracking.observe(observation)
         period = tracking.inclining.period
-        if self._begun:
-            self._aim.update(*tracking.sample, tracking.meant(), period)
-        self._begun = True
+        self._aim.update(*tracking.sample, tracking.meant(), period)
         aim = self._aim.aim
         if observation[BallObservation.TARGET_KNOWN] > 0.5:
             aim = self._known(float(observation[BallObservation.TARGET_PLACE]), period)

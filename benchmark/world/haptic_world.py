@@ -77,6 +77,8 @@ class HapticWorld(BulletWorld):
         self._difference = self._wrists = self._backwards = 0.0
         self._load = 0.0 if self._ball is None else self._ball.mass * GRAVITY
         self._intended: tuple[Sequence[float], Sequence[float]] | None = None
+        self.human_force = [WEIGHT_SHARE + self._carried] * HISTORY_FRAMES
+        self.robot_force = [WEIGHT_SHARE + self._carried] * HISTORY_FRAMES
         self._even = [0.0] * HISTORY_FRAMES
         self._felt = [WEIGHT_SHARE] * HISTORY_FRAMES
         self._far_felt = [WEIGHT_SHARE] * HISTORY_FRAMES
