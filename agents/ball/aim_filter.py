@@ -77,7 +77,7 @@ class AimFilter:
         """Add what the wrists seem to mean [m], with the ball's place and speed [m, m/s]."""
         scale = PULL / RATE**2 / PARTS
         seen = place + 2 * DAMPING / RATE * speed - scale * meant
-        self._variances = self._variances + DRIFT**2 * period / 0.1
+        self._variances = self._variances + DRIFT**2 * max(period, 0.0) / 0.1
         total = self._variances + (scale * FELT_NOISE) ** 2 + PLACE_NOISE**2
         error = seen - self._aims
         # The felt, not the aim, is what the candidates compete to predict.

@@ -1,12 +1,13 @@
 """The ball by admittance: the robot gives in to the torque of the human's wrists."""
 
+import math
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ..agent import Action, Observation
 from ..ball.tracking import Tracking
+from ..errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,6 +21,18 @@ class BallAdmittanceParameters:
     steepest: float = 0.08
     """Largest height difference [m]."""
 
+    def __post_init__(self) -> None:
+        """Check the ranges.
+
+        Raises
+        ------
+        InputError
+            If a parameter is negative or not finite.
+        """
+        for name, value in vars(self).items():
+            if not 0 <= value < math.inf:
+                raise InputError(f"{name} must be a number of at least 0, got {value}")
+
 
 class BallAdmittance:
     """Inclines the table as the human's wrists do, so many times as much.
@@ -28,8 +41,6 @@ class BallAdmittance:
     right for a person who shows half of what is wanted, too large for one who shows all of it, and
     too small for one who shows little. It uses no target, known or not.
     """
-
-    task: ClassVar[str] = "ball"
 
     def __init__(self, *, parameters: BallAdmittanceParameters | None = None) -> None:
         self._parameters = parameters or BallAdmittanceParameters()

@@ -1,12 +1,13 @@
 """The ball left to the human: the table is kept level, and the ball is slowed down."""
 
+import math
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ..agent import Action, Observation
 from ..ball.tracking import Tracking
+from ..errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,14 +19,24 @@ class BallCalmParameters:
     steepest: float = 0.08
     """Largest height difference [m]."""
 
+    def __post_init__(self) -> None:
+        """Check the ranges.
+
+        Raises
+        ------
+        InputError
+            If a parameter is negative or not finite.
+        """
+        for name, value in vars(self).items():
+            if not 0 <= value < math.inf:
+                raise InputError(f"{name} must be a number of at least 0, got {value}")
+
 
 class BallCalm:
     """Keeps level with the human, and inclines the table against the ball's speed.
 
     It never loses the ball, and leaves it to the human where the ball should be.
     """
-
-    task: ClassVar[str] = "ball"
 
     def __init__(self, *, parameters: BallCalmParameters | None = None) -> None:
         self._parameters = parameters or BallCalmParameters()

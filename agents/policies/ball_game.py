@@ -1,13 +1,14 @@
 """The ball by inference: the person's aim by Bayes' rule, and what is missing of the steering."""
 
+import math
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ..agent import Action, Observation
 from ..ball.aim_filter import DAMPING, RATE, AimFilter, wanted_difference
 from ..ball.tracking import Tracking
+from ..errors import InputError
 from ..observations import BallObservation
 
 
@@ -22,6 +23,18 @@ class BallGameParameters:
     steepest: float = 0.07
     """Largest height difference [m]."""
 
+    def __post_init__(self) -> None:
+        """Check the ranges.
+
+        Raises
+        ------
+        InputError
+            If a parameter is negative or not finite.
+        """
+        for name, value in vars(self).items():
+            if not 0 <= value < math.inf:
+                raise InputError(f"{name} must be a number of at least 0, got {value}")
+
 
 class BallGame:
     """Finds out where the ball should be, and gives what the person does not.
@@ -35,8 +48,6 @@ class BallGame:
     **Rest.** The law is that of an undelayed person (:func:`.wanted_difference`). The forecast of
     the human's end holds what the human does of it; the robot's end makes up the difference.
     """
-
-    task: ClassVar[str] = "ball"
 
     def __init__(self, *, parameters: BallGameParameters | None = None) -> None:
         self._parameters = parameters or BallGameParameters()

@@ -1,12 +1,13 @@
 """The ball by a fixed controller, whatever the person does."""
 
+import math
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ..agent import Action, Observation
 from ..ball.inclining import Inclining
+from ..errors import InputError
 from ..observations import BallObservation
 
 
@@ -21,6 +22,18 @@ class BallSteadyParameters:
     steepest: float = 0.1
     """Largest height difference [m]."""
 
+    def __post_init__(self) -> None:
+        """Check the ranges.
+
+        Raises
+        ------
+        InputError
+            If a parameter is negative or not finite.
+        """
+        for name, value in vars(self).items():
+            if not 0 <= value < math.inf:
+                raise InputError(f"{name} must be a number of at least 0, got {value}")
+
 
 class BallSteady:
     """Keeps level with the human but for a proportional-derivative controller of the ball.
@@ -28,8 +41,6 @@ class BallSteady:
     It does all of the steering, whatever the person does, by the place and the speed that it sees;
     a target that it does not know is the middle of the table.
     """
-
-    task: ClassVar[str] = "ball"
 
     def __init__(self, *, parameters: BallSteadyParameters | None = None) -> None:
         self._parameters = parameters or BallSteadyParameters()

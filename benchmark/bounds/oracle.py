@@ -14,6 +14,8 @@ from ..episode.scenario import Scenario
 from ..execution.kept_world import drop_kept_world, lift_in_kept_world
 from ..execution.runner import Run
 from ..suites.suite import Suite
+from ..tasks.ball.oracle import foresee
+from ..tasks.ball.task import BallSteering
 from ..tasks.intent.oracle import foreknow_pose
 from ..tasks.intent.task import Intent
 from ..tasks.rehearsal import Foreknowing, rehearse_lift
@@ -35,6 +37,7 @@ def foreknow(lift: Lift, seed: int) -> Episode:
 ORACLES: Final[Mapping[str, Callable[[Lift, int], Episode]]] = {
     Level.name: foreknow,
     Intent.name: foreknow_pose,
+    BallSteering.name: foresee,
 }
 """What an oracle does by task: it returns the episode of a lift with a seed."""
 

@@ -75,7 +75,7 @@ class HapticWorld(BulletWorld):
         """Restore the state of rest; see :meth:`.World.reset`."""
         super().reset()
         self._difference = self._wrists = self._backwards = 0.0
-        self._load = 0.0 if self._ball is None else self._ball.mass * GRAVITY
+        self._load = 0.0 if self._ball is None else self._ball.load(0.0)
         self._intended: tuple[Sequence[float], Sequence[float]] | None = None
         self.human_force = [WEIGHT_SHARE + self._carried] * HISTORY_FRAMES
         self.robot_force = [WEIGHT_SHARE + self._carried] * HISTORY_FRAMES
@@ -144,7 +144,7 @@ class HapticWorld(BulletWorld):
                 torque -= load * (TABLE_LENGTH / 2 + place)
                 control(tree, _JOINTS, _TORQUE, forces=[lift, torque], physicsClientId=client)
                 pybullet.stepSimulation(client)
-                before = velocity, pitch, pitch_rate
+                before = velocity, pitch
                 now = states(tree, joints, client)
                 (height, velocity, _, _), (pitch, pitch_rate, _, _) = now[:2]
                 if ball is not None:
@@ -157,7 +157,7 @@ class HapticWorld(BulletWorld):
                         push=(backwards - was) / step,
                     )
                     place, speed = ball.rolled(place, speed, table, step)
-                    load = ball.load(place, speed, table, (pitch_rate - before[2]) / step)
+                    load = ball.load(pitch)
                 lever = TABLE_LENGTH * cos(pitch)
                 far_height = height + TABLE_LENGTH * sin(pitch)
                 far_velocity = velocity + lever * pitch_rate

@@ -10,6 +10,7 @@ from ....agents.agent import FRAME, Action, Observation
 from ....agents.control.anticipation import ARM_LAG
 from ....agents.policies.ball_game import BallGame
 from ...episode.episode import Episode, run_episode
+from ...episode.lift import Lift
 from ...world.ball import ROLLING
 from ...world.table import GRAVITY, TABLE_LENGTH
 from .lift import BallLift
@@ -26,7 +27,7 @@ STEPS: Final = 15
 
 BENDS: Final = 3.0
 """Cost of a bend of the command, relative to a distance of the ball of its size that lasts for a
-frame: so small that it only keeps the commands within the hands' speed."""
+frame. A person who steers much makes plans of little cost unstable."""
 
 KEPT: Final = 0.97
 """Part of the human's deviation from the last rehearsal that is expected to remain after a frame."""
@@ -60,11 +61,9 @@ def _law(frames: int) -> Law:
     later = np.maximum(time[:, None] - time[None, :] + 0.5, 0.0) * (time[:, None] >= time[None, :])
     reply = -ROLLING * GRAVITY / TABLE_LENGTH * FRAME**2 * later
     lag = ARM_LAG / FRAME
-    ramps = np.stack(
-        [np.interp((time + 0.5 - lag) / frames, np.arange(STEPS + 1), knot)
-         for knot in np.eye(STEPS + 1)],
-        axis=1,
-    )
+    knots = np.arange(STEPS + 1)
+    at = (time + 0.5 - lag) / frames
+    ramps = np.stack([np.interp(at, knots, one) for one in np.eye(STEPS + 1)], axis=1)
     effect = reply @ ramps[:, 1:]
     bends = np.eye(STEPS) - 2 * np.eye(STEPS, k=-1) + np.eye(STEPS, k=-2)
     hessian = effect.T @ effect + BENDS * bends.T @ bends
@@ -112,13 +111,14 @@ class Foreseeing:
         return np.array([change])
 
 
-def foresee(lift: BallLift, seed: int) -> Episode:
+def foresee(lift: Lift, seed: int) -> Episode:
     """Return the episode of a seed, played by the oracle.
 
     It is rehearsed, from an episode of :class:`.BallGame` on: each time the oracle expects the
     human's end to move as the last time, and means to bring the ball nearer to its target. It sees
     the true state of the world without delay.
     """
+    assert isinstance(lift, BallLift)
     best = last = run_episode(lift, BallGame(), seed)
     for _ in range(REHEARSALS):
         human, ball = last.trace.human_end, last.trace.added["ball"]
