@@ -1,4 +1,4 @@
-"""Where the person wants the ball, from what the wrists seem to mean: a bank of Kalman filters."""
+"""A bank of Kalman filters of the aim that a person's wrists show."""
 
 from typing import Final
 
@@ -61,7 +61,7 @@ class AimFilter:
     def weights(self) -> NDArray[np.float64]:
         """Probability of each of the candidates."""
         likely = np.exp(self._evidence - self._evidence.max())
-        return likely / likely.sum()
+        return np.asarray(likely / likely.sum())
 
     @property
     def aim(self) -> float:

@@ -1,4 +1,4 @@
-"""Where the ball is now: a Kalman filter of place and speed, carried on over the latency."""
+"""A Kalman filter of the place and the speed of the ball."""
 
 from typing import Final
 

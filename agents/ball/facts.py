@@ -1,4 +1,4 @@
-"""What both partners know of the table and the ball."""
+"""The table and the ball, as both partners know them."""
 
 from typing import Final
 

@@ -54,8 +54,9 @@ class BallSenses:
 
 def with_ball(view: Observation, places: list[float], target: Observation | None) -> Observation:
     """Return the observation of a :class:`Steerer`: the ball, its target, then the senses."""
-    known = target is not None
-    return np.concatenate((places, target if known else np.zeros(HISTORY), (float(known),), view))
+    known = np.array([float(target is not None)])
+    coming = np.zeros(HISTORY) if target is None else target
+    return np.concatenate((np.array(places), coming, known, view))
 
 
 class Steerer:
@@ -79,7 +80,20 @@ class Steerer:
 
 
 class Steering:
-    """A delayed controller of the ball through the height of one end of the table."""
+    """A delayed controller of the ball through the height of one end of the table.
+
+    With the haste w, the damping ratio z, and the ball's place s and speed v as they were a visual
+    delay ago and carried on by the person's lead, the person wants the height difference
+
+        d = (w^2 (s - x) + 2 z w (v - x') - x'') / PULL,
+
+    far above near, for a target at x. The own end makes the part ``share (1 - trust done)`` of it.
+    ``done`` is the part that the partner seems to do: the regression, over the last seconds, of the
+    other end's distance from the lift on what was wanted.
+
+    A person who does not know the target wants a multiple of what the other's wrists seem to mean
+    (:func:`.meant_by_wrists`), and the ball to calm down, and makes all of it.
+    """
 
     def __init__(self, manner: SteeringManner, delay: float) -> None:
         self._manner = manner
@@ -87,10 +101,9 @@ class Steering:
 
     def reset(self) -> None:
         """Begin an episode."""
-        self._offset = 0.0
+        self._offset = self._wanted = 0.0
         self._own: deque[float] = deque([0.0] * (self._delay + 1), self._delay + 1)
         self._planned: deque[float] = deque([0.0] * (self._delay + 1), self._delay + 1)
-        self._wanted = 0.0
         self._product, self._square = 0.0, 1e-4
 
     def offsets(self, observation: Observation, plan: Observation, side: float) -> list[float]:
@@ -100,47 +113,49 @@ class Steering:
         near one.
         """
         manner, frames = self._manner, len(plan)
-        period = frames * FRAME
-        places = observation[BallSenses.PLACE].tolist()
         view = observation[BallSenses.SIZE :]
-        own = view[HumanObservation.OWN_HEIGHT].tolist()
         other = float(view[HumanObservation.OTHER_END][-1])
-        self._own.extend(own[-frames:])
-        seen = side * (self._own[0] - other)
-
-        partner = -side * (other - self._planned[0])
-        kept = math.exp(-period / MEMORY)
-        self._product = kept * self._product + period * partner * self._wanted
-        self._square = kept * self._square + period * self._wanted**2
-        done = min(max(self._product / (self._square + 1e-4), 0.0), 1.0)
+        done = self._done(-side * (other - self._planned[0]), frames * FRAME)
         self._planned.extend(plan.tolist())
-
-        speed = (places[-1] - places[0]) / (FRAME * (HISTORY - 1))
-        lead = manner.lead
-        place = places[-1] + lead * speed - PULL * seen * lead * lead / 2
-        speed -= PULL * seen * lead
-        target = observation[BallSenses.TARGET].tolist()
-        half = (HISTORY - 1) // 2
-        known = observation[BallSenses.KNOWN] > 0.5
-        first, middle, last = target[0], target[half], target[2 * half]
-        span = half * FRAME
-        error, slip = place - middle, speed - (last - first) / (2 * span)
-        push = (last - 2 * middle + first) / span**2
-        rate = manner.haste
-        wanted = (rate**2 * error + 2 * DAMPING_RATIO * rate * slip - push) / PULL
-        if not known:
-            felt = float(view[HumanObservation.HAND_FORCE].mean())
-            wanted = JOINING * meant_by_wrists(felt - HALF_WEIGHT, seen, place) + CALMING * speed
+        self._own.extend(view[HumanObservation.OWN_HEIGHT].tolist()[-frames:])
+        wanted = self._wanting(observation, side * (self._own[0] - other))
         self._wanted = wanted = min(max(wanted, -STEEPEST), STEEPEST)
+
+        known = observation[BallSenses.KNOWN] > 0.5
         share = manner.share * (1.0 - manner.trust * done) if known else 1.0
-        aim = side * share * wanted
-        aim = min(max(aim, -FARTHEST), FARTHEST)
+        aim = min(max(side * share * wanted, -FARTHEST), FARTHEST)
         offsets = []
         for _ in range(frames):
             change = (aim - self._offset) * FRAME / HAND_TIME
             self._offset += min(max(change, -FASTEST * FRAME), FASTEST * FRAME)
             offsets.append(self._offset)
         return offsets
+
+    def _done(self, partner: float, period: float) -> float:
+        """Return the part of what was wanted that the partner seems to do, 0 to 1."""
+        kept = math.exp(-period / MEMORY)
+        self._product = kept * self._product + period * partner * self._wanted
+        self._square = kept * self._square + period * self._wanted**2
+        return min(max(self._product / (self._square + 1e-4), 0.0), 1.0)
+
+    def _wanting(self, observation: Observation, seen: float) -> float:
+        """Return the wanted height difference [m] beside the one that is seen."""
+        places = observation[BallSenses.PLACE].tolist()
+        speed = (places[-1] - places[0]) / (FRAME * (HISTORY - 1))
+        lead, rate = self._manner.lead, self._manner.haste
+        place = places[-1] + lead * speed - PULL * seen * lead * lead / 2
+        speed -= PULL * seen * lead
+        if observation[BallSenses.KNOWN] < 0.5:
+            forces = observation[BallSenses.SIZE :][HumanObservation.HAND_FORCE].tolist()
+            felt = math.fsum(forces) / HISTORY - HALF_WEIGHT
+            return JOINING * meant_by_wrists(felt, seen, place) + CALMING * speed
+        target = observation[BallSenses.TARGET].tolist()
+        half = (HISTORY - 1) // 2
+        first, middle, last = target[0], target[half], target[2 * half]
+        span = half * FRAME
+        slip = speed - (last - first) / (2 * span)
+        push = (last - 2 * middle + first) / span**2
+        return (rate**2 * (place - middle) + 2 * DAMPING_RATIO * rate * slip - push) / PULL
 
 
 class BallPartner:
@@ -182,7 +197,7 @@ class BallPartner:
             self._height = height
             elapsed = FRAME
         future = self._ahead + FRAME * np.arange(1, frames + 1)
-        level = self._height + self._velocity * future
+        level = np.asarray(self._height + self._velocity * future, dtype=np.float64)
         offsets = self._steering.offsets(observation, level, 1.0)
         view[HumanObservation.TARGET] = level + offsets
         return self._hand.act(view)

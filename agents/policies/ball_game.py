@@ -1,4 +1,4 @@
-"""The ball by inference: the person's aim by Bayes' rule, and what is missing of the steering."""
+"""The ball by inference of the person's aim, and what is missing of the steering."""
 
 import math
 from dataclasses import dataclass

@@ -82,7 +82,7 @@ def test_an_unknown_name_is_told_all_names():
     assert str(error.value) == (
         f"unknown policy 'blnd'; did you mean blend? known: {', '.join(NAMES)}"
     )
-    with pytest.raises(InputError, match=r"unknown human behaviour 'hold'; known: changing_goal, "):
+    with pytest.raises(InputError, match=r"unknown human behaviour 'hold'; known: ball_pause, "):
         lookup(HUMANS, "hold")
 
 

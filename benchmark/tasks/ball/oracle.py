@@ -30,7 +30,7 @@ BENDS: Final = 3.0
 frame. A person who steers much makes plans of little cost unstable."""
 
 KEPT: Final = 0.97
-"""Part of the human's deviation from the last rehearsal that is expected to remain after a frame."""
+"""Part of the human's deviation from the last rehearsal that is expected to last for a frame."""
 
 Array = NDArray[np.float64]
 
@@ -40,8 +40,6 @@ class Law(NamedTuple):
 
     reply: Array
     """(n, n) place of the ball in each coming frame by the height difference in each [1]."""
-    ramps: Array
-    """(n, STEPS + 1) height of the command in each frame by the present and the coming commands."""
     gain: Array
     """(n,) next command by the place that is missing in each frame."""
     change: float
@@ -53,8 +51,8 @@ def _law(frames: int) -> Law:
     """Return the matrices of the plan for periods of so many frames.
 
     The ball's place in the coming n frames is what it would be on a level table, plus ``reply`` d
-    with the height difference d = u - z1. The commands' changes from the present one minimise the
-    squared distance from the target and :data:`BENDS` times their bends.
+    with the height difference d = u - z1. The coming commands' changes from the present one
+    minimise the squared distance from the path and :data:`BENDS` times their squared bends.
     """
     count = STEPS * frames
     time = np.arange(count)
@@ -71,7 +69,7 @@ def _law(frames: int) -> Law:
     first = np.zeros(STEPS)
     first[0] = 1.0
     change = float(np.linalg.solve(hessian, BENDS * bends.T @ first)[0])
-    return Law(reply, ramps, gain, change)
+    return Law(reply, gain, change)
 
 
 class Foreseeing:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -53,12 +54,14 @@ def ways(target: Series) -> Iterator[slice]:
     moving = np.diff(target, prepend=target[:1]) != 0.0
     starts = np.flatnonzero(moving & ~np.concatenate(([False], moving[:-1])))
     ends = [*starts.tolist(), len(target)]
-    for start, stop in zip(ends, ends[1:], strict=False):
+    for start, stop in pairwise(ends):
         yield slice(start, stop)
 
 
 def ball_settling_ms(missed: Series, target: Series) -> float:
-    """Return the time from the beginning of a movement of the target until the ball stays within :data:`NEAR` of it.
+    """Return the time from when the target begins to move until the ball stays at it.
+
+    It counts as being there within :data:`NEAR`.
 
     A target that is never reached to stay counts its whole time.
 

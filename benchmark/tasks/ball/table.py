@@ -24,8 +24,8 @@ BALL_METRICS: Final = metric_table(
             digits=0,
             missing="worst",
             shown="board",
-            meaning="time from when the target begins to move until the ball stays within 20 mm of it, "
-            "mean over the targets",
+            meaning="time from when the target begins to move until the ball stays within 20 mm of "
+            "it, mean over the targets",
         ),
         Metric(
             name="velocity_peaks",

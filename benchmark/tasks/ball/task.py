@@ -29,6 +29,9 @@ from .table import BALL_METRICS
 
 BEHAVIOURS: Final = ("ball_smooth", "ball_pause", "ball_smooth_shared", "ball_pause_shared")
 
+BALL: Final = Ball()
+"""The ball of the suite."""
+
 FELL: Final = "the ball rolled off the table"
 """Why a lift without the ball ends."""
 
@@ -44,7 +47,7 @@ class BallSteering(Haptic):
     name: ClassVar[str] = "ball"
     metrics: ClassVar[Metrics] = BALL_METRICS
     second_human: ClassVar[type[Agent]] = BallPartner
-    ball: Ball = Ball()
+    ball: Ball = BALL
 
     def world(self, human: BodyParameters, far_end: FarEnd) -> HapticWorld:
         """Return a world with a ball on the table."""

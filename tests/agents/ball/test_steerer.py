@@ -11,10 +11,10 @@ from colift.agents.ball import (
     BallSmooth,
     BallSmoothShared,
     SteeringManner,
+    facts,
     steering_manner,
     with_ball,
 )
-from colift.agents.ball import facts
 from colift.agents.ball.manner import RANGES
 from colift.agents.ball.places import FARTHEST, STRONGEST, WAY
 from colift.agents.ball.steerer import Steering

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.ball.facts import BALL_WEIGHT
+from colift.agents.errors import InputError
 from colift.agents.observations import BallObservation
 from colift.agents.policies.ball_admittance import BallAdmittance, BallAdmittanceParameters
 from colift.agents.policies.ball_calm import BallCalm, BallCalmParameters
@@ -48,7 +48,7 @@ def test_negative_parameters_are_refused(parameters):
         parameters(steepest=-1.0)
 
 
-@pytest.mark.parametrize("policy", ALL)
+@pytest.mark.parametrize("policy", [BallCalm, BallGame, BallSteady])
 def test_a_ball_that_lies_where_it_should_is_left_alone(policy):
     assert abs(raised(policy())) < 0.008
 

@@ -24,7 +24,7 @@ from colift.benchmark.tasks.ball.scores import (
 from colift.benchmark.tasks.ball.task import FELL, BallSteering
 from colift.testing import check_suite, check_task
 
-DIGEST = "11c593b6c6bfd3d9"
+DIGEST = "b5733c468d5994d0"
 SEED = 100_000
 
 
