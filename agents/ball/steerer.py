@@ -140,16 +140,18 @@ class Steering:
 
     def _wanting(self, observation: Observation, seen: float) -> float:
         """Return the wanted height difference [m] beside the one that is seen."""
-        places = observation[BallSenses.PLACE].tolist()
+        places: list[float] = observation[BallSenses.PLACE].tolist()
         speed = (places[-1] - places[0]) / (FRAME * (HISTORY - 1))
         lead, rate = self._manner.lead, self._manner.haste
         place = places[-1] + lead * speed - PULL * seen * lead * lead / 2
         speed -= PULL * seen * lead
         if observation[BallSenses.KNOWN] < 0.5:
-            forces = observation[BallSenses.SIZE :][HumanObservation.HAND_FORCE].tolist()
+            forces: list[float] = observation[BallSenses.SIZE :][
+                HumanObservation.HAND_FORCE
+            ].tolist()
             felt = math.fsum(forces) / HISTORY - HALF_WEIGHT
             return JOINING * meant_by_wrists(felt, seen, place) + CALMING * speed
-        target = observation[BallSenses.TARGET].tolist()
+        target: list[float] = observation[BallSenses.TARGET].tolist()
         half = (HISTORY - 1) // 2
         first, middle, last = target[0], target[half], target[2 * half]
         span = half * FRAME

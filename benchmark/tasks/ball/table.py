@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from ...episode.metric import Metric, metric_table
+from ...episode.metric import Metric, Words, metric_table
 
 BALL_METRICS: Final = metric_table(
     (
@@ -15,6 +15,11 @@ BALL_METRICS: Final = metric_table(
             shown="board",
             meaning="root mean square distance of the ball from its target over the whole trial, "
             "by which policies are ranked",
+            words=Words(
+                question="Who brings the ball where it should be?",
+                praise=("accurate", "more accurate", "most accurate"),
+                plain="how far the ball is from its target",
+            ),
         ),
         Metric(
             name="settling_ms",
@@ -26,6 +31,13 @@ BALL_METRICS: Final = metric_table(
             shown="board",
             meaning="time from when the target begins to move until the ball stays within 20 mm of "
             "it, mean over the targets",
+            words=Words(
+                praise=("quick", "quicker", "quickest"),
+                plain="time until the ball is where it should be",
+                absent="loses the ball",
+                present="that did not lose the ball",
+                note="until the ball stays within 20 mm of its target",
+            ),
         ),
         Metric(
             name="velocity_peaks",
@@ -51,6 +63,7 @@ BALL_METRICS: Final = metric_table(
             shown="board",
             meaning="1 if the ball rolled off the table, which ends the lift; its mean is the "
             "share of such lifts",
+            words=Words(note="share of lifts whose ball rolled off the table"),
         ),
         Metric(
             name="level_mm",
@@ -68,6 +81,11 @@ BALL_METRICS: Final = metric_table(
             shown="board",
             meaning="root mean square of the vertical force at the human's hands, beyond their "
             "half of the weight of table and ball",
+            words=Words(
+                noun="force",
+                note="at the human's hands",
+                caption="Force at the human's hands in N.",
+            ),
         ),
         Metric(
             name="clipped",
