@@ -16,6 +16,7 @@ def test_the_suites_have_the_sizes_that_their_descriptions_say():
         "paper-v1": 5 * 10,
         "quick-v1": 12,
         "intent-v1": 5 * 4 * 5,
+        "ball-v1": 5 * 4 * 5,
     }
 
 
