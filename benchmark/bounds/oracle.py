@@ -16,6 +16,8 @@ from ..execution.runner import Run
 from ..suites.suite import Suite
 from ..tasks.agree.oracle import foreknow_agreement
 from ..tasks.agree.task import Agree
+from ..tasks.ball.oracle import foresee
+from ..tasks.ball.task import BallSteering
 from ..tasks.intent.oracle import foreknow_pose
 from ..tasks.intent.task import Intent
 from ..tasks.rehearsal import Foreknowing, rehearse_lift
@@ -38,6 +40,7 @@ ORACLES: Final[Mapping[str, Callable[[Lift, int], Episode]]] = {
     Level.name: foreknow,
     Agree.name: foreknow_agreement,
     Intent.name: foreknow_pose,
+    BallSteering.name: foresee,
 }
 """What an oracle does by task: it returns the episode of a lift with a seed."""
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from ...agents.agent import FRAME
-from .ball import Ball
+from .ball import Ball, TableMotion
 from .bullet import pybullet
 from .bullet_world import BulletWorld
 from .human_body import BodyParameters
@@ -17,6 +17,7 @@ from .table import (
     GRIP_STIFFNESS,
     HANDS,
     PITCH,
+    SLIDE,
     TABLE_INERTIA,
     TABLE_LENGTH,
     TABLE_MASS,
@@ -32,6 +33,7 @@ FAR_GRIP_DAMPING: Final = 0.03
 """Pitch damping of that grip [Nm s/rad], in the same ratio to the human's."""
 
 _JOINTS: Final = [HANDS, PITCH]
+_ALL: Final = [HANDS, PITCH, SLIDE]
 _TORQUE: Final = pybullet.TORQUE_CONTROL
 
 
@@ -72,8 +74,11 @@ class HapticWorld(BulletWorld):
     def reset(self) -> None:
         """Restore the state of rest; see :meth:`.World.reset`."""
         super().reset()
-        self._difference = self._wrists = self._hinge = 0.0
+        self._difference = self._wrists = self._backwards = 0.0
+        self._load = 0.0 if self._ball is None else self._ball.load(0.0)
         self._intended: tuple[Sequence[float], Sequence[float]] | None = None
+        self.human_force = [WEIGHT_SHARE + self._carried] * HISTORY_FRAMES
+        self.robot_force = [WEIGHT_SHARE + self._carried] * HISTORY_FRAMES
         self._even = [0.0] * HISTORY_FRAMES
         self._felt = [WEIGHT_SHARE] * HISTORY_FRAMES
         self._far_felt = [WEIGHT_SHARE] * HISTORY_FRAMES
@@ -83,7 +88,7 @@ class HapticWorld(BulletWorld):
         self.ball_place = [0.0] * HISTORY_FRAMES
         """Place of the ball on the table [m], from the middle towards the far end."""
         self.ball_speed = [0.0] * HISTORY_FRAMES
-        """Its speed along the table [m/s]."""
+        """Speed of its centre along the table [m/s]."""
 
     def intend(self, differences: Sequence[float], pitches: Sequence[float]) -> None:
         """Take the person's intention for the frames of the next :meth:`advance`.
@@ -109,14 +114,15 @@ class HapticWorld(BulletWorld):
         human_end, robot_end = self.human_end, self.robot_end
         height, velocity = self._height, self._velocity
         pitch, pitch_rate = self._pitch, self._pitch_rate
-        place, speed, hinge = self.ball_place[-1], self.ball_speed[-1], self._hinge
+        place, speed = self.ball_place[-1], self.ball_speed[-1]
+        backwards, load = self._backwards, self._load
+        joints = _JOINTS if ball is None else _ALL
         previous, wrists = self._reference, self._wrists
         frames = len(human_reference)
         unchanged = [self._difference] * frames, [wrists] * frames
         differences, pitches = self._intended or unchanged
         lever = TABLE_LENGTH * cos(pitch)
         far_height, far_velocity = robot_end[-1], self.robot_velocity[-1]
-        load = 0.0
         for wanted, command, difference, turned in zip(
             human_reference, robot_reference, differences, pitches, strict=True
         ):
@@ -134,17 +140,24 @@ class HapticWorld(BulletWorld):
                 grip = -FAR_GRIP_STIFFNESS * pitch - FAR_GRIP_DAMPING * pitch_rate
                 torque = lever * far_arms + (wrist + grip) / implicit
                 lift = arms + weight + far_arms
-                if ball is not None:
-                    load = ball.mass * GRAVITY * cos(pitch)
-                    lift -= load * cos(pitch)
-                    torque -= load * (TABLE_LENGTH / 2 + place)
-                    pull = ball.acceleration(place, speed, pitch, pitch_rate, hinge)
-                    place, speed = ball.rolled(place, speed, pull, step)
+                lift -= load * cos(pitch)
+                torque -= load * (TABLE_LENGTH / 2 + place)
                 control(tree, _JOINTS, _TORQUE, forces=[lift, torque], physicsClientId=client)
                 pybullet.stepSimulation(client)
-                before = velocity
-                (height, velocity, _, _), (pitch, pitch_rate, _, _) = states(tree, _JOINTS, client)
-                hinge = (velocity - before) / step
+                before = velocity, pitch
+                now = states(tree, joints, client)
+                (height, velocity, _, _), (pitch, pitch_rate, _, _) = now[:2]
+                if ball is not None:
+                    was, backwards = backwards, now[2][1]
+                    table = TableMotion(
+                        pitch=(before[1] + pitch) / 2,
+                        pitch_rate=(pitch - before[1]) / step,
+                        turn=pitch - before[1],
+                        rise=(velocity - before[0]) / step,
+                        push=(backwards - was) / step,
+                    )
+                    place, speed = ball.rolled(place, speed, table, step)
+                    load = ball.load(pitch)
                 lever = TABLE_LENGTH * cos(pitch)
                 far_height = height + TABLE_LENGTH * sin(pitch)
                 far_velocity = velocity + lever * pitch_rate
@@ -160,7 +173,7 @@ class HapticWorld(BulletWorld):
             self.human_force.append(force)
             self.human_velocity.append(velocity)
             self.robot_velocity.append(far_velocity)
-            far_force = TABLE_MASS * (GRAVITY + centre) + load - force
+            far_force = TABLE_MASS * (GRAVITY + centre) + load * cos(pitch) - force
             self.robot_force.append(far_force)
             self._far_felt.append(far_force - far_carried)
             self.robot_torque.append(share * twist)
@@ -169,7 +182,8 @@ class HapticWorld(BulletWorld):
             previous, wrists = reference, turned
             self._difference = difference
         self._intended = None
-        self._reference, self._wrists, self._hinge = previous, wrists, hinge
+        self._reference, self._wrists = previous, wrists
+        self._backwards, self._load = backwards, load
         self._height, self._velocity = height, velocity
         self._pitch, self._pitch_rate = pitch, pitch_rate
         self.hand_height = hands.hand_height(far_height)

@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from ...episode.metric import DrawnSeries, Metric, Words, metric_table
+from ...episode.metric import DrawnSeries, Metric, MetricWords, metric_table
 
 AGREE_METRICS: Final = metric_table(
     (
@@ -16,7 +16,7 @@ AGREE_METRICS: Final = metric_table(
             meaning="root mean square of three errors: how far the whole table misses the human's "
             "hurdle and the robot's, and the height difference of its ends at the common height; "
             "hurdles that a lift does not have are left out",
-            words=Words(
+            words=MetricWords(
                 question="Who agrees best with a human on two secrets?",
                 praise=("accurate", "more accurate", "most accurate"),
                 plain="how far the table misses the heights that both want it to pass, and level",

@@ -17,6 +17,7 @@ def test_the_suites_have_the_sizes_that_their_descriptions_say():
         "quick-v1": 12,
         "agree-v1": 5 * 6 * 4,
         "intent-v1": 5 * 4 * 5,
+        "ball-v1": 5 * 4 * 5,
     }
 
 

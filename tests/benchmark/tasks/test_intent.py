@@ -18,7 +18,7 @@ from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tasks.intent.oracle import foreknow_pose
 from colift.benchmark.tasks.intent.scores import peak_mm, pose_rmse_mm, settling_ms
 
-DIGEST = "913027ed200b63e2"
+DIGEST = "e788335973d67661"
 SEED = 100_000
 
 

@@ -1,0 +1,57 @@
+"""A Kalman filter of the place and the speed of the ball."""
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .facts import PULL
+
+PLACE_NOISE: Final = 0.00023
+"""Standard deviation of a seen place [m]."""
+
+PUSH_NOISE: Final = 0.15
+"""Standard deviation of the ball's acceleration that the seen height difference does not explain,
+[m/s2] over one period."""
+
+
+class BallFilter:
+    """A Kalman filter of the ball's place and speed at the time of the newest sample.
+
+    The state x = (s, v) moves in a period T by
+
+        s <- s + T v + T^2 u / 2,    v <- v + T u,    u = -PULL d,
+
+    with the height difference d of the ends, far above near, on the mean over the period.
+    """
+
+    def reset(self) -> None:
+        """Begin an episode with the ball at rest in the middle."""
+        self.place = self.speed = 0.0
+        self._covariance: NDArray[np.float64] = np.diag((1e-6, 1e-4))
+
+    def update(self, place: float, difference: float, period: float) -> None:
+        """Add a seen place [m], a period after the last, with the mean difference between [m]."""
+        push = -PULL * difference
+        self.place += period * self.speed + period**2 / 2 * push
+        self.speed += period * push
+        (a, b), (_, c) = self._covariance.tolist()
+        g, h = period**2 / 2 * PUSH_NOISE, period * PUSH_NOISE
+        a, b, c = a + 2 * period * b + period**2 * c + g * g, b + period * c + g * h, c + h * h
+        total = a + PLACE_NOISE**2
+        first, second = a / total, b / total
+        error = place - self.place
+        self.place += first * error
+        self.speed += second * error
+        self._covariance = np.array(
+            (((1 - first) * a, (1 - first) * b), ((1 - first) * b, c - second * b))
+        )
+
+    def ahead(self, differences: list[float], step: float) -> tuple[float, float]:
+        """Return place and speed after so many steps [s] with these height differences [m]."""
+        place, speed = self.place, self.speed
+        for difference in differences:
+            push = -PULL * difference
+            place += step * speed + step**2 / 2 * push
+            speed += step * push
+        return place, speed

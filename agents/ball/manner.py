@@ -1,0 +1,63 @@
+"""The manner in which a person steers the ball."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..humans import SUBJECTS, Subject
+
+
+@dataclass(frozen=True, kw_only=True)
+class SteeringManner:
+    """How much of the steering a person does, and what the person makes of the partner."""
+
+    share: float
+    """Part of the wanted height difference of the ends that the own end makes; 1 is all of it."""
+    haste: float
+    """Natural frequency with which the person means to bring the ball to its target [rad/s]."""
+    lead: float
+    """Time by which the person carries on in thought what it sees of the ball [s]."""
+    trust: float
+    """Part of the own share that the person leaves to a partner who seems to do everything."""
+    wrist: float
+    """Part of the wanted inclination that the wrists turn to, however little the own end does."""
+
+
+RANGES: Final = {
+    "share": (0.1, 1.3),
+    "haste": (1.6, 2.4),
+    "lead": (0.0, 0.2),
+    "trust": (0.0, 0.5),
+    "wrist": (0.1, 0.8),
+}
+"""Ranges of the population, uniform and independent: chosen, from people who leave the ball to the
+partner to people who do it all."""
+
+MANNERS: Final[Mapping[str, SteeringManner]] = {
+    "S1": SteeringManner(share=1.0, haste=2.2, lead=0.15, trust=0.0, wrist=0.4),
+    "S2": SteeringManner(share=0.5, haste=1.8, lead=0.2, trust=0.5, wrist=0.7),
+    "S3": SteeringManner(share=1.3, haste=2.4, lead=0.05, trust=0.0, wrist=0.5),
+    "S4": SteeringManner(share=0.1, haste=1.6, lead=0.2, trust=0.3, wrist=0.8),
+    "S5": SteeringManner(share=0.1, haste=2.0, lead=0.2, trust=0.4, wrist=0.1),
+}
+"""The manners of the five subjects, spread over the ranges."""
+
+
+PARTNER_MANNER: Final = SteeringManner(share=0.6, haste=1.8, lead=0.2, trust=0.3, wrist=0.5)
+"""The manner of the second person of the human-human baseline."""
+
+
+def steering_manner(subject: Subject) -> SteeringManner:
+    """Return a person's manner: of the five as stated, of anybody else drawn by the name."""
+    if subject.name in SUBJECTS:
+        return MANNERS[subject.name]
+    kind, _, number = subject.name.partition("-")
+    seed = int(number) if kind == "draw" and number.isdecimal() else 0
+    shares = np.random.default_rng((seed, 0xBA11)).random(len(RANGES)).tolist()
+    drawn = {
+        name: low + (high - low) * part
+        for (name, (low, high)), part in zip(RANGES.items(), shares, strict=True)
+    }
+    return SteeringManner(**drawn)

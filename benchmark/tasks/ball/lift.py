@@ -1,0 +1,88 @@
+"""A lift with a ball on the table, and a human who steers it to a target."""
+
+import math
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from ....agents.agent import HISTORY, Agent, Observation
+from ....agents.ball import BallPlan, Steerer, steering_manner, with_ball
+from ...episode.lift import MOCAP_NOISE
+from ...world import HISTORY_FRAMES
+from ...world.table import TABLE_LENGTH
+from ..haptic import HapticLift
+
+_STEEPEST: Final = 0.5
+"""Largest intended pitch's sine; what people mean stays far inside it."""
+
+
+class BallLift(HapticLift):
+    """A lift whose human has a target for the ball, too.
+
+    The human means the height difference that the own end makes: reflexes even out what differs
+    from it, and the wrists turn with its pitch, as the person's manner has it
+    (:class:`.SteeringManner`).
+    """
+
+    def reset(self, seed: int) -> None:
+        """Begin the episode ``seed``, as :meth:`.HapticLift.reset`."""
+        super().reset(seed)
+        plan = self.plan
+        shown = isinstance(plan, BallPlan) and plan.shown
+        place = plan.place if isinstance(plan, BallPlan) else np.zeros(1)
+        self.shown = shown
+        """Whether both know the target."""
+        self.place = np.concatenate((place, np.full(self.horizon - len(place), place[-1])))
+        """(horizon,) where the ball should be at the end of each frame [m]."""
+        rng = np.random.default_rng(self.role_seed("ball sensor"))
+        self._ball_noise = rng.normal(0.0, MOCAP_NOISE, HISTORY_FRAMES + self.horizon).tolist()
+        manner = steering_manner(self.scenario.subject)
+        self._wrist = manner.wrist / manner.share
+        self._moved = 0
+
+    def scripted_human(self) -> Agent:
+        """Return the person who lifts and steers, reset for the episode."""
+        human = Steerer(subject=self.scenario.subject)
+        human.reset(self.role_seed("human"))
+        return human
+
+    def move(self, human: Sequence[float], commands: Sequence[float]) -> None:
+        """Advance by a frame for each hand reference and command; see :meth:`.Lift.move`."""
+        target = self.target[self._moved : self._moved + len(human)].tolist()
+        meant = [height - mine for height, mine in zip(target, human, strict=True)]
+        limit = _STEEPEST * TABLE_LENGTH
+        pitches = [
+            math.asin(min(max(self._wrist * each, -limit), limit) / TABLE_LENGTH) for each in meant
+        ]
+        self.world.intend(meant, pitches)
+        self._moved += len(human)
+        super().move(human, commands)
+
+    def coming_places(self) -> Observation:
+        """Return where the ball should be [m] at the end of each of the next ten frames."""
+        coming = np.arange(self.frame, self.frame + HISTORY)
+        return np.asarray(self.place[np.minimum(coming, self.horizon - 1)])
+
+    def ball_view(self) -> tuple[float, float, float]:
+        """Return the robot's view of the ball: its place, its target, whether that is known."""
+        age = self.scenario.latency_frames
+        noise = self._ball_noise[self.frame + HISTORY_FRAMES - 1 - age]
+        target = float(self.coming_places()[0]) if self.shown else 0.0
+        return self.world.ball_place[-1 - age] + noise, target, float(self.shown)
+
+    def person_view(self, view: Observation, *, far: bool) -> Observation:
+        """Return a person's senses with the ball before them; see :func:`.with_ball`.
+
+        Parameters
+        ----------
+        view
+            The other senses.
+        far
+            Whether it is the second human, who knows the target only if both do.
+        """
+        delays = self._partner_delays if far else self._human_delays
+        seen = len(self.world.ball_place) - delays[0]
+        places = self.world.ball_place[seen - HISTORY : seen]
+        known = self.shown or not far
+        return with_ball(view, places, self.coming_places() if known else None)

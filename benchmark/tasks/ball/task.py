@@ -1,0 +1,140 @@
+"""The task to steer a ball on the table to a target place, and its suite."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....agents.agent import Agent, Observation
+from ....agents.ball import BallPartner, BallSenses
+from ....agents.humans import SUBJECTS
+from ....agents.observations import BallObservation
+from ...episode import metrics
+from ...episode.level import HEIGHT_BOUND
+from ...episode.metric import Metrics, Scores
+from ...episode.scenario import Scenario
+from ...episode.task import Bounds, Playing
+from ...episode.trace import Trace
+from ...suites.catalogue import make_scenario
+from ...suites.suite import Suite
+from ...world import Ball, BodyParameters, FarEnd, HapticWorld
+from ...world.table import GRAVITY, TABLE_LENGTH, WEIGHT_SHARE
+from ..haptic import Haptic
+from .lift import BallLift
+from .scores import ball_rmse_mm, ball_settling_ms, velocity_peaks
+from .table import BALL_METRICS
+
+BEHAVIOURS: Final = ("ball_smooth", "ball_pause", "ball_smooth_shared", "ball_pause_shared")
+
+BALL: Final = Ball()
+"""The ball of the suite."""
+
+FELL: Final = "the ball rolled off the table"
+"""Why a lift without the ball ends."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallSteering(Haptic):
+    """Steer the ball to its target place on the table, while the human lifts and lowers it.
+
+    The robot has :class:`.BallObservation`, with the target if both know it. The human has what it
+    sees of the ball (:class:`.BallSenses`), and :class:`.HumanObservation`.
+    """
+
+    name: ClassVar[str] = "ball"
+    metrics: ClassVar[Metrics] = BALL_METRICS
+    second_human: ClassVar[type[Agent]] = BallPartner
+    ball: Ball = BALL
+
+    def world(self, human: BodyParameters, far_end: FarEnd) -> HapticWorld:
+        """Return a world with a ball on the table."""
+        return HapticWorld(human, far_end, ball=self.ball)
+
+    def lift(self, scenario: Scenario) -> BallLift:
+        """Return a lift whose human steers the ball."""
+        return BallLift(scenario)
+
+    def robot_observation(self, lift: Playing) -> Observation:
+        """Return the robot's senses, laid out as :class:`.BallObservation`."""
+        assert isinstance(lift, BallLift)
+        return np.concatenate((lift.haptic_view(), lift.ball_view()))
+
+    def human_observation(self, lift: Playing) -> Observation:
+        """Return what the human sees of the ball, and the human's senses."""
+        assert isinstance(lift, BallLift)
+        return lift.person_view(super().human_observation(lift), far=False)
+
+    def partner_observation(self, lift: Playing) -> Observation:
+        """Return the same of a second human in the robot's place."""
+        assert isinstance(lift, BallLift)
+        return lift.person_view(super().partner_observation(lift), far=True)
+
+    def robot_bounds(self) -> Bounds:
+        """Return the bounds of :class:`.BallObservation`."""
+        low, high = super().robot_bounds()
+        ball = np.full(len(BallObservation) - len(low), HEIGHT_BOUND)
+        ball[-1] = 1.0
+        lowest = -ball
+        lowest[-1] = 0.0
+        return np.concatenate((low, lowest)), np.concatenate((high, ball))
+
+    def human_bounds(self, frames: int) -> Bounds:
+        """Return the bounds of the humans' observations."""
+        low, high = super().human_bounds(frames)
+        ball = np.full(BallSenses.SIZE, HEIGHT_BOUND)
+        return np.concatenate((-ball, low)), np.concatenate((ball, high))
+
+    def rewards(self, lift: Playing) -> tuple[float, float]:
+        """Return minus the distance of the ball from its target [m], for both."""
+        assert isinstance(lift, BallLift)
+        missed = abs(lift.world.ball_place[-1] - float(lift.place[lift.frame - 1]))
+        return -missed, -missed
+
+    def failure(self, lift: Playing) -> str | None:
+        """Return how the table was dropped or the ball lost in the step just made, or None."""
+        assert isinstance(lift, BallLift)
+        farthest = max(map(abs, lift.world.ball_place[-lift.frames_per_step :]))
+        return FELL if farthest > TABLE_LENGTH / 2 else super().failure(lift)
+
+    def series(self, lift: Playing) -> Mapping[str, NDArray[np.float64]]:
+        """Return the places of the ball and of its target, and the torque of the robot's hands."""
+        assert isinstance(lift, BallLift)
+        frames, world = lift.frame, lift.world
+        return {
+            "ball": np.array(world.ball_place[-frames:][:frames]),
+            "ball_target": lift.place[:frames],
+            "robot_torque": np.array(world.robot_torque[-frames:][:frames]),
+        }
+
+    def score(self, lift: Playing, trace: Trace, *, failed: bool) -> Scores:
+        """Return the scores of :data:`.BALL_METRICS`."""
+        place, target = trace.added["ball"], trace.added["ball_target"]
+        felt = trace.human_force - WEIGHT_SHARE - self.ball.mass * GRAVITY / 2
+        nan, empty = math.nan, len(place) == 0
+        peaks, speed = (nan, nan) if failed else velocity_peaks(place, target)
+        lost = not empty and bool(np.abs(place[-lift.frames_per_step :]).max() > TABLE_LENGTH / 2)
+        return {
+            "rmse_mm": ball_rmse_mm(place - target, lift.horizon),
+            "settling_ms": nan if failed else ball_settling_ms(place - target, target),
+            "velocity_peaks": peaks,
+            "peak_speed_m_s": speed,
+            "fallen": float(lost),
+            "level_mm": nan
+            if empty
+            else metrics.rmse_mm(trace.human_end, trace.robot_end, horizon=len(place)),
+            "human_force_n": nan if empty else metrics.human_force_n(felt),
+            "clipped": lift.clipped(trace.action),
+        }
+
+
+def ball_suite() -> Suite:
+    """5 subjects x 4 behaviours x 5 lifts: a ball that both steer."""
+    scenarios = tuple(
+        make_scenario(behaviour, subject, task=BallSteering.name)
+        for behaviour in BEHAVIOURS
+        for subject in SUBJECTS
+    )
+    return Suite(name="ball-v1", scenarios=scenarios, seeds=tuple(range(5)))
