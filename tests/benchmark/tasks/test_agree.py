@@ -29,7 +29,7 @@ from colift.benchmark.tasks.agree.scores import (
 from colift.benchmark.tasks.agree.task import Agree
 from colift.testing import check_suite, check_task
 
-DIGEST = "24c8607177174979"
+DIGEST = "1cd4ea0a9258ff4e"
 SEED = 100_000
 BOTH = ("abreast", "ahead", "behind")
 
