@@ -62,11 +62,11 @@ def test_policies_are_compared_by_its_metric(colift):
 
 
 def test_everything_is_listed(colift):
-    listed = colift("list").stdout
+    listed = " ".join(colift("list").stdout.split())
     for line in (
-        "slope             Keep the table at a slope",
-        "slope-v1          12 lifts at a slope of 40 mm.",
-        "shy               Lifts to half the height",
+        "slope Keep the table at a slope",
+        "slope-v1 12 lifts at a slope of 40 mm.",
+        "shy Lifts to half the height",
     ):
         assert line in listed
     assert set(entries(SUITES)) > {"slope-v1", "standard-v1"}
