@@ -5,46 +5,59 @@ A browser's own throttling leaves WebSockets alone.
 
 import asyncio
 import contextlib
-import threading
-from collections.abc import Callable, Iterator
-from concurrent.futures import Future
+import multiprocessing
+import selectors
+from collections.abc import Iterator
 from contextlib import contextmanager
+from multiprocessing.connection import Connection
 from urllib.parse import urlsplit
+
+from colift.benchmark.live.priority import RELAY, take_turn
 
 CHUNK = 2**16
 
+SPAWN = multiprocessing.get_context("spawn")
+
 
 class Network:
-    """Delays that may be changed while connections are open."""
+    """A way with delays: of what the page sends, and of what it gets [s].
+
+    The proxy is a process: a thread would wait while the one that moves the hands has the
+    interpreter.
+    """
 
     def __init__(self, up: float = 0.0, down: float = 0.0) -> None:
         self.up = up
-        """Delay of what the page sends [s]."""
         self.down = down
-        """Delay of what the page gets [s]."""
         self._server = ("", 0)
-        self._connections: set[asyncio.Task[None]] = set()
 
     @contextmanager
     def before(self, url: str) -> Iterator[str]:
-        """Stand before a server, in a thread; yield the address of the way through here."""
+        """Stand before a server; yield the address of the way through here."""
         address = urlsplit(url)
         self._server = (str(address.hostname), int(address.port or 80))
-        opened: Future[tuple[int, Callable[[], object]]] = Future()
-        thread = threading.Thread(target=lambda: asyncio.run(self._serve(opened)))
-        thread.start()
-        port, close = opened.result()
+        ours, theirs = SPAWN.Pipe()
+        process = SPAWN.Process(target=self._run, args=(theirs,), daemon=True)
+        process.start()
         try:
-            yield f"http://127.0.0.1:{port}{address.path}"
+            yield f"http://127.0.0.1:{ours.recv()}{address.path}"
         finally:
-            close()
-            thread.join()
+            ours.send("close")
+            process.join()
+            ours.close()
+            theirs.close()
 
-    async def _serve(self, opened: "Future[tuple[int, Callable[[], object]]]") -> None:
-        loop, over = asyncio.get_running_loop(), asyncio.Event()
+    def _run(self, parent: Connection) -> None:
+        take_turn(RELAY)
+        with asyncio.Runner(loop_factory=_exact_loop) as runner:
+            runner.run(self._serve(parent))
+
+    async def _serve(self, parent: Connection) -> None:
+        self._connections: set[asyncio.Task[None]] = set()
+        over = asyncio.Event()
+        asyncio.get_running_loop().add_reader(parent.fileno(), over.set)
         server = await asyncio.start_server(self._connected, "127.0.0.1", 0)
-        port = server.sockets[0].getsockname()[1]
-        opened.set_result((port, lambda: loop.call_soon_threadsafe(over.set)))
+        parent.send(server.sockets[0].getsockname()[1])
         await over.wait()
         server.close()
         for connection in self._connections:
@@ -63,7 +76,8 @@ class Network:
             server_in, server_out = await asyncio.open_connection(*self._server)
             writers.append(server_out)
             await asyncio.gather(
-                self._relay(page_in, server_out, "up"), self._relay(server_in, page_out, "down")
+                self._relay(page_in, server_out, self.up),
+                self._relay(server_in, page_out, self.down),
             )
         for writer in writers:
             writer.close()
@@ -73,7 +87,7 @@ class Network:
         self._connections.discard(task)
 
     async def _relay(
-        self, source: asyncio.StreamReader, sink: asyncio.StreamWriter, way: str
+        self, source: asyncio.StreamReader, sink: asyncio.StreamWriter, delay: float
     ) -> None:
         """Relay until the source ends; every chunk is as late as the network is when it comes."""
         loop = asyncio.get_running_loop()
@@ -81,7 +95,7 @@ class Network:
 
         async def read() -> None:
             while data := await source.read(CHUNK):
-                queue.put_nowait((loop.time() + getattr(self, way), data))
+                queue.put_nowait((loop.time() + delay, data))
             queue.put_nowait((loop.time(), b""))
 
         reading = asyncio.ensure_future(read())
@@ -94,3 +108,8 @@ class Network:
         finally:
             reading.cancel()
             await asyncio.gather(reading, return_exceptions=True)
+
+
+def _exact_loop() -> asyncio.AbstractEventLoop:
+    """Return a loop that sleeps to the microsecond: epoll rounds up to whole milliseconds."""
+    return asyncio.SelectorEventLoop(selectors.SelectSelector())
