@@ -10,10 +10,13 @@ import typer
 from typer.core import TyperGroup
 
 from ..agents.errors import InputError
+from ..agents.registry import SUITES, own_entries
+from ..benchmark.episode.level import LEVEL
 from ..benchmark.execution.pool import local_pool
+from ..benchmark.suites.suite import make_suite
 from ..benchmark.training import cem as cross_entropy
 from ..benchmark.training.apg_settings import NAME as APG
-from ..benchmark.training.apg_settings import ApgSettings
+from ..benchmark.training.apg_settings import TASKS, ApgSettings
 from ..benchmark.training.cem import CemSettings
 from ..benchmark.training.course import Course, Point, open_course, write_summary
 from ..benchmark.training.ppo_settings import (
@@ -95,6 +98,9 @@ def cem(
 def apg(
     out: Out,
     seeds: Seeds = 1,
+    task: Annotated[
+        str, typer.Option(metavar="NAME", help=f"Task: {', '.join(TASKS)}.")
+    ] = ApgSettings.task,
     updates: Annotated[
         int, typer.Option(metavar="N", help="Steps of the optimiser.")
     ] = ApgSettings.updates,
@@ -125,6 +131,7 @@ def apg(
 ) -> None:
     """Train a recurrent network by gradients through whole lifts of the twin (extra: train)."""
     settings = ApgSettings(
+        task=task,
         updates=updates,
         last=last,
         lifts=lifts,
@@ -229,7 +236,16 @@ def _train_all(
     show(training_table(trainer, courses))
     print(f"written: {write_summary(courses)}")
     best = min(courses, key=lambda course: course.curve[-1].rmse_mm).policy
-    print(f"Next: colift run {argument(best)}, or colift check {argument(best)}")
+    on = _suite_option(getattr(settings, "task", LEVEL.name))
+    print(f"Next: colift run {argument(best)}{on}, or colift check {argument(best)}{on}")
+
+
+def _suite_option(task: str) -> str:
+    """Return the option that names the first suite of a task; a level table needs none."""
+    if task == LEVEL.name:
+        return ""
+    suites = (make_suite(name) for name in own_entries(SUITES))
+    return f" --suite {next(s.name for s in suites if s.scenarios[0].task.name == task)}"
 
 
 @contextmanager

@@ -7,7 +7,8 @@ import numpy as np
 
 from ..agent import FRAME, Action, HumanObservation, Observation
 from ..humans import PARTNER_SUBJECT, ScriptedHuman
-from .pose_filter import TABLE_LENGTH, PoseFilter, PoseFilterParameters
+from ..touch.touch import TABLE_LENGTH
+from .pose_filter import PoseFilter, PoseFilterParameters
 
 FELT_FRAMES: Final = 5
 """Newest frames of the felt force that are averaged."""

@@ -8,19 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...robots.arithmetic import each
+from ..touch.touch import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS
 
 SHARES: Final = (1.0, 0.0, -1.0)
 """Movement of the far end as a share of the near end's: together, pivot, counter."""
-
-TABLE_LENGTH: Final = 0.8
-"""Distance of the two grips [m]; colift's table, as measured."""
-
-WRIST_STIFFNESS: Final = 10.0
-"""Pitch stiffness of a person's two wrists [Nm/rad]."""
-
-FAR_STIFFNESS: Final = 1.0
-"""Pitch stiffness of the own grip [Nm/rad]."""
-
 
 LEAST_WEIGHT: Final = 1e-6
 """Weight that no hypothesis falls below: people are not as the model has them."""

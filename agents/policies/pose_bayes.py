@@ -7,8 +7,8 @@ import numpy as np
 from ..agent import Action, Observation
 from ..control.predictor import DEFAULT_PERIOD
 from ..intent.pose_filter import PoseFilter, PoseFilterParameters
-from ..intent.touch import touched
 from ..observations import HapticObservation
+from ..touch.touch import touched
 
 
 @dataclass(frozen=True, kw_only=True)

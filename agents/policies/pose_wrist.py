@@ -6,9 +6,8 @@ import numpy as np
 
 from ..agent import Action, Observation
 from ..errors import InputError
-from ..intent.pose_filter import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS
-from ..intent.touch import touched
 from ..observations import HapticObservation
+from ..touch.touch import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS, touched
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,8 +3,8 @@
 import numpy as np
 
 from ..agent import Action, Observation
-from ..intent.touch import touched
 from ..observations import HapticObservation
+from ..touch.touch import touched
 
 
 class TouchLevel:

@@ -1,13 +1,6 @@
 """Analytic policy gradients: a recurrent policy by gradients through whole lifts of the twin.
 
-The loss of a batch is the mean over its lifts of
-
-    weight (RMSE + smoothness bend + gentleness force),
-
-the score [mm], the root mean square of the second differences of the command [mm], and that of the
-force at the human's hands beyond half of the table's weight [N].
-The weight is 1 but for people with wide habits (:mod:`.pool`), whose force does not count: a robot
-that is to be gentle with people whom it cannot foresee follows late.
+The loss is that of a :class:`.Lesson`, such as :mod:`.level_lesson`.
 In the last updates, which are optional, the rate rises and falls once more (warm restart, I.
 Loshchilov and F. Hutter, "SGDR", ICLR 2017), with fewer people of wide habits.
 Nothing is estimated: the gradient is that of the lifts themselves (compare J. Freeman et al.,
@@ -20,14 +13,12 @@ from functools import cache, partial
 from typing import Any, Final, NamedTuple
 
 import jax
-import jax.numpy as jnp
-import numpy as np
 import optax
 
-from ...agents.control.recurrent import INPUTS, GatedNetwork
-from ..twin.rollout import recurrent, rollout
+from ...agents.control.recurrent import GatedNetwork
 from .apg_settings import PARTS, ApgSettings
-from .pool import LearningBatch, Pool, draw_batch, draw_pool
+from .lesson import first_network
+from .lessons import lesson_of
 
 LARGEST_GRADIENT: Final = 5.0
 """Norm to which gradients are cut."""
@@ -50,23 +41,6 @@ class Update(NamedTuple):
     """Mean RMSE of the batch's lifts in the twin [mm]."""
 
 
-def first_network(units: int, seed: int) -> GatedNetwork:
-    """Return the network to begin with: small random weights, and no correction of the line."""
-    rng = np.random.default_rng(seed)
-
-    def weights(rows: int, columns: int) -> jax.Array:
-        drawn = rng.standard_normal((rows, columns)) / np.sqrt(columns)
-        return jnp.asarray(drawn, jnp.float32)
-
-    return GatedNetwork(
-        inputs=weights(3 * units, INPUTS),
-        memory=weights(3 * units, units),
-        bias=jnp.zeros(3 * units),
-        output=0.1 * weights(1, units + INPUTS),
-        output_bias=jnp.zeros(1),
-    )
-
-
 def optimiser(settings: ApgSettings) -> optax.GradientTransformation:
     """Return Adam with its schedule and the cut of the gradients."""
     warm = max(settings.updates // 20, 1)
@@ -78,23 +52,12 @@ def optimiser(settings: ApgSettings) -> optax.GradientTransformation:
 
 def first_learner(settings: ApgSettings, seed: int) -> Learner:
     """Return the learner before the first update."""
-    network = first_network(settings.units, seed)
+    network = first_network(lesson_of(settings.task).inputs, settings.units, seed)
     return Learner(network, optimiser(settings).init(network), 0)
 
 
-def loss(
-    network: GatedNetwork, batch: LearningBatch, smoothness: float, gentleness: float
-) -> tuple[jax.Array, jax.Array]:
-    """Return the loss [mm] and the mean RMSE [mm] of a batch."""
-    policy, memory = recurrent(network, batch.lifts.size)
-    found = rollout(policy, memory, batch.lifts, batch.variation, batch.sensing)
-    force = batch.common * found.force_n
-    cost = found.rmse_mm + smoothness * found.bend_mm + gentleness * force
-    return (batch.weight * cost).mean(), found.rmse_mm.mean()
-
-
 def updates(
-    settings: ApgSettings, seed: int, learner: Learner | None = None, pool: Pool | None = None
+    settings: ApgSettings, seed: int, learner: Learner | None = None, pool: Any = None
 ) -> Iterator[Update]:
     """Yield the learner after each update; the same seed gives the same weights.
 
@@ -110,7 +73,7 @@ def updates(
         The drawn lifts; none: draw them.
     """
     learner = learner or first_learner(settings, seed)
-    lifts = pool or draw_pool(settings.lifts, settings.wide)
+    lifts = lesson_of(settings.task).draw(settings) if pool is None else pool
     network, state = learner.network, learner.optimiser
     now = settings if learner.update < settings.updates else settings.of_last()
     with ThreadPoolExecutor(PARTS) as threads:
@@ -137,17 +100,12 @@ def _finished(function: Any, *arguments: Any) -> Any:
 @cache
 def _functions(settings: ApgSettings) -> tuple[Any, Any]:
     """Return the gradient of a part of a batch, and the step of the optimiser, to be compiled."""
-    descent = optimiser(settings)
-    size = settings.batch // PARTS
+    descent, lesson = optimiser(settings), lesson_of(settings.task)
 
     @jax.jit
-    def gradient(network: GatedNetwork, lifts: Pool, key: jax.Array) -> tuple[Any, GatedNetwork]:
-        batch = draw_batch(lifts, size, settings.wide, settings.varied, key)
+    def gradient(network: GatedNetwork, lifts: Any, key: jax.Array) -> tuple[Any, GatedNetwork]:
         of_batch = partial(
-            loss,
-            batch=batch,
-            smoothness=settings.smoothness,
-            gentleness=settings.gentleness,
+            lesson.loss, pool=lifts, settings=settings, size=settings.batch // PARTS, key=key
         )
         return jax.value_and_grad(of_batch, has_aux=True)(network)
 

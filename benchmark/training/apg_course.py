@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Callable
-from functools import partial
 from typing import Any, Final
 
 import jax
@@ -10,16 +9,11 @@ import jax.numpy as jnp
 import numpy as np
 from numpy.typing import NDArray
 
-from ...agents.control.recurrent import GatedNetwork, network_of
-from ...agents.control.recurrent_controller import RecurrentController
-from ...agents.submissions import recurrent
-from .anticipation import FIRST_SEED
 from .apg import Learner, first_learner, updates
 from .apg_settings import ApgSettings
 from .course import Course, Point, check_finite
-from .pool import draw_pool
+from .lessons import lesson_of
 from .result import write_policy
-from .validation import validation_error
 
 EVERY: Final = 100
 """Fewest updates between two points of the curve."""
@@ -47,40 +41,33 @@ def train_apg(
     InputError
         If the course cannot be resumed, the training diverges, or a file cannot be written.
     """
-    learner = first_learner(settings, course.seed)
+    lesson, learner = lesson_of(settings.task), first_learner(settings, course.seed)
     state = course.load(_shapes(learner))
     if state is not None:
         learner = _unpacked(learner, state)
         progress(learner.update)
     start = time.perf_counter() - course.seconds
-    pool = draw_pool(settings.lifts, settings.wide)
+    pool = lesson.draw(settings)
     every = max(EVERY, settings.total // POINTS)
-    steps_of_update = settings.batch * float(pool.lifts.steps.mean())
+    steps_of_update = settings.batch * lesson.steps(pool)
     for update in updates(settings, course.seed, learner, pool):
         learner = update.learner
         check_finite(f"the RMSE of update {learner.update}", np.array(update.rmse_mm))
         progress(1)
         if learner.update % every == 0 or learner.update == settings.total:
-            network = in_numpy(learner.network)
-            error = validation_error(partial(RecurrentController, network))
+            error = lesson.error(lesson.weights(learner.network))
             steps = round(learner.update * steps_of_update)
             point = Point(steps, time.perf_counter() - start, error)
             course.keep(point, _packed(learner))
+    description, trained_on = lesson.about(settings)
     write_policy(
         course,
-        {name: np.asarray(array) for name, array in learner.network._asdict().items()},
-        description=f"A straight line through the human's last heights, corrected by "
-        f"{settings.units} gated recurrent units, trained by gradients through the twin.",
-        trained_on=f"{settings.lifts} lifts of colift with drawn people, seeds {FIRST_SEED} to "
-        f"{FIRST_SEED + settings.lifts - 1}, {settings.wide:.0%} of them with wide habits.",
-        package=recurrent,
-        check=partial(network_of, source="trained weights"),
+        lesson.weights(learner.network),
+        description=description,
+        trained_on=trained_on,
+        package=lesson.package,
+        check=lesson.check,
     )
-
-
-def in_numpy(network: GatedNetwork) -> GatedNetwork:
-    """Return a network of JAX in NumPy, in double precision."""
-    return network_of(network._asdict(), "trained weights")
 
 
 def _packed(learner: Learner) -> dict[str, NDArray[Any]]:

@@ -11,6 +11,9 @@ NAME: Final = "apg"
 PARTS: Final = 2
 """Parts of a batch, each in a thread of its own: a fixed number, so that sums keep their order."""
 
+TASKS: Final = ("level", "intent")
+"""Tasks with a twin."""
+
 LAST_WIDE: Final = 0.1
 """Largest share of wide lifts in the last updates: enough to keep what was learned of them."""
 
@@ -28,6 +31,8 @@ class ApgSettings:
         If a number is out of range.
     """
 
+    task: str = TASKS[0]
+    """Name of the task."""
     updates: int = 800
     """Steps of the optimiser."""
     last: int = 0
@@ -41,16 +46,18 @@ class ApgSettings:
     rate: float = 3e-3
     """Learning rate at its highest; it rises for 5 % of the updates, then falls as a cosine."""
     wide: float = 0.2
-    """Share of lifts with people, bodies and sensors from wide ranges."""
+    """Share of lifts with people, bodies and sensors from wide ranges; of a level table alone."""
     varied: float = 0.3
     """Variation of the arms."""
     smoothness: float = 0.05
-    """Cost of bends, relative to the RMSE."""
+    """Cost of bends, relative to the RMSE; of a level table alone."""
     gentleness: float = 0.0
-    """Cost of the force at the human's hands [mm/N]."""
+    """Cost of the force at the human's hands [mm/N]; of a level table alone."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
+        if self.task not in TASKS:
+            raise InputError(f"--task must be one of {', '.join(TASKS)}, got {self.task!r}")
         for name in ("updates", "units"):
             if getattr(self, name) < 1:
                 raise InputError(f"--{name} must be at least 1, got {getattr(self, name)}")

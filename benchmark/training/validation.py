@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
+from contextlib import closing
 from functools import partial
 from typing import Final
 
@@ -10,8 +11,10 @@ from numpy.typing import NDArray
 
 from ...agents.agent import Agent
 from ..environment.drawing import TRAINING_SEEDS
-from ..episode.lift import Lift
+from ..episode.episode import run_episode
+from ..episode.lift import Lift, make_lift
 from ..episode.metrics import rmse_mm
+from ..episode.scenario import Scenario
 from ..suites.suite import BEHAVIOURS
 from ..world import since_reset
 from .data import Timing, scenario
@@ -80,3 +83,20 @@ def validation_error(policy: MakeAgent, executor: Executor | None = None) -> flo
     """Return the mean RMSE of a policy on the validation lifts [mm]."""
     errors, _ = lift_errors([policy], VALIDATION_SEEDS, executor)
     return float(errors.mean())
+
+
+def task_error(policy: MakeAgent, make: Callable[[int], Scenario]) -> float:
+    """Return the mean score of a policy on the validation lifts [mm], in any task.
+
+    Parameters
+    ----------
+    policy
+        Makes it.
+    make
+        Returns the scenario of a seed.
+    """
+    errors = []
+    for seed in VALIDATION_SEEDS:
+        with closing(make_lift(make(seed))) as lift:
+            errors.append(run_episode(lift, policy(), seed).scores["rmse_mm"])
+    return float(np.mean(errors))

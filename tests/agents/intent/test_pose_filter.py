@@ -4,13 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.intent.pose_filter import (
-    FAR_STIFFNESS,
-    SHARES,
-    TABLE_LENGTH,
-    WRIST_STIFFNESS,
-    PoseFilter,
-)
+from colift.agents.intent.pose_filter import SHARES, PoseFilter
+from colift.agents.touch.touch import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS
 
 
 def fed(share, wrist, steps=12, follows=True):

@@ -10,7 +10,7 @@ from colift.agents.agent import RobotObservation
 from colift.agents.control.portable import PORTABLE
 from colift.agents.control.recurrent import GatedNetwork, act, memory_at_rest
 from colift.agents.errors import InputError
-from colift.benchmark.training import apg, apg_course
+from colift.benchmark.training import apg, apg_course, level_lesson
 from colift.benchmark.training.apg_settings import LAST_RATE, LAST_WIDE, NAME, ApgSettings
 from colift.benchmark.training.course import open_course
 from colift.benchmark.training.pool import draw_pool
@@ -32,9 +32,9 @@ def whole(pool):
 @pytest.fixture(autouse=True)
 def _short(monkeypatch, pool):
     """Draw the lifts once; two points on the curve, of few lifts."""
-    monkeypatch.setattr(apg_course, "draw_pool", lambda lifts, wide: pool)
+    monkeypatch.setattr(level_lesson, "draw_pool", lambda lifts, wide: pool)
     monkeypatch.setattr(apg_course, "EVERY", 2)
-    monkeypatch.setattr(apg_course, "validation_error", lambda make: 1.0)
+    monkeypatch.setattr(level_lesson, "validation_error", lambda make: 1.0)
 
 
 def same(one, other):

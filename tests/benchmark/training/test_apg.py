@@ -7,13 +7,15 @@ from colift.agents.errors import InputError
 from colift.benchmark.training.apg_settings import ApgSettings
 
 
-def test_training(in_own_process):
-    in_own_process(Path(__file__).with_name("jax_apg.py"))
+@pytest.mark.parametrize("module", ["jax_apg.py", "jax_touch.py"])
+def test_training(in_own_process, module):
+    in_own_process(Path(__file__).with_name(module))
 
 
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
+        ({"task": "tea"}, "--task must be one of level, intent, .*got 'tea'"),
         ({"updates": 0}, "--updates must be at least 1, got 0"),
         ({"last": -1}, "--last must be at least 0, got -1"),
         ({"batch": 5}, "--batch must be a multiple of 2, got 5"),

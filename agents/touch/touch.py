@@ -1,11 +1,19 @@
 """The table by touch: its pitch, and the other end's height without delay."""
 
 import math
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from ..agent import Observation
 from ..observations import HapticObservation
-from .pose_filter import FAR_STIFFNESS, TABLE_LENGTH
+
+TABLE_LENGTH: Final = 0.8
+"""Distance of the two grips [m]; colift's table, as measured."""
+
+WRIST_STIFFNESS: Final = 10.0
+"""Pitch stiffness of a person's two wrists [Nm/rad]."""
+
+FAR_STIFFNESS: Final = 1.0
+"""Pitch stiffness of the own grip [Nm/rad]."""
 
 
 class Touched(NamedTuple):

@@ -1,0 +1,103 @@
+"""Control of the hand by a recurrent network of sight and touch, and its file of weights."""
+
+import io
+import zipfile
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..agent import Action, Observation
+from ..control.portable import PORTABLE
+from ..control.recurrent import MOST_UNITS, GatedNetwork
+from ..errors import InputError
+from .touch_law import TASK_SENSES, TouchNetwork, felt_action, inputs_of, touch_at_rest
+
+
+class TouchController:
+    """The control law of :func:`.felt_action` with given weights.
+
+    Parameters
+    ----------
+    learned
+        The weights, and their task.
+    """
+
+    def __init__(self, learned: TouchNetwork) -> None:
+        self._learned = learned
+        self._expected = len(TASK_SENSES[learned.task].observation)
+
+    def reset(self, seed: int) -> None:
+        """Begin an episode."""
+        self._memory = touch_at_rest(self._learned.network)
+
+    def act(self, observation: Observation) -> Action:
+        """Return the change of the command [m].
+
+        Raises
+        ------
+        InputError
+            If the observation is another task's.
+        """
+        observation = np.asarray(observation, dtype=np.float64)
+        if observation.shape != (self._expected,):
+            raise InputError(
+                f"these weights are of the task {self._learned.task!r}, whose observation has "
+                f"{self._expected} numbers; got {observation.shape}"
+            )
+        self._memory, change = felt_action(self._learned, self._memory, observation, PORTABLE)
+        return np.array([change])
+
+
+def read_touch(file: Path | Traversable) -> TouchNetwork:
+    """Return the network of an ``.npz`` file, which names its task.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or as :func:`touch_network`.
+    """
+    try:
+        with np.load(io.BytesIO(file.read_bytes()), allow_pickle=False) as arrays:
+            return touch_network(arrays, file.name)
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
+        raise InputError(f"{file.name}: not an .npz file of weights: {error}") from None
+
+
+def touch_network(arrays: Any, source: str) -> TouchNetwork:
+    """Return the network of named arrays and of their ``task``, in double precision.
+
+    Raises
+    ------
+    InputError
+        If an array is missing, of a wrong shape, or not finite, or there is no such task.
+    """
+    try:
+        task = str(arrays["task"])
+        found = {name: np.asarray(arrays[name], dtype=np.float64) for name in GatedNetwork._fields}
+    except (KeyError, ValueError, TypeError) as error:
+        raise InputError(f"{source}: not the weights of a policy by touch: {error}") from None
+    if task not in TASK_SENSES:
+        raise InputError(f"{source}: task must be one of {', '.join(TASK_SENSES)}, got {task!r}")
+    units = found["memory"].shape[-1] if found["memory"].ndim == 2 else 0
+    if not 1 <= units <= MOST_UNITS:
+        raise InputError(
+            f"{source}: it must have 1 to {MOST_UNITS} units, memory is {found['memory'].shape}"
+        )
+    entering = inputs_of(task)
+    shapes = {
+        "inputs": (3 * units, entering),
+        "memory": (3 * units, units),
+        "bias": (3 * units,),
+        "output": (1, units + entering),
+        "output_bias": (1,),
+    }
+    for name, shape in shapes.items():
+        if found[name].shape != shape:
+            raise InputError(
+                f"{source}: {name} must have the shape {shape}, got {found[name].shape}"
+            )
+        if not np.isfinite(found[name]).all():
+            raise InputError(f"{source}: {name} has numbers that are not finite")
+    return TouchNetwork(task, GatedNetwork(**found))

@@ -1,0 +1,80 @@
+"""A lesson: the lifts that a network learns from by gradients, and the policy that it becomes."""
+
+from collections.abc import Mapping
+from types import ModuleType
+from typing import Any, Protocol
+
+import jax
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.control.recurrent import GatedNetwork
+from .apg_settings import ApgSettings
+
+Weights = Mapping[str, NDArray[Any]]
+
+
+class Lesson(Protocol):
+    """What training by gradients needs to know of a task."""
+
+    @property
+    def inputs(self) -> int:
+        """Inputs of the network."""
+
+    @property
+    def package(self) -> ModuleType:
+        """The package of the trained policy's ``policy.py``."""
+
+    def draw(self, settings: ApgSettings) -> Any:
+        """Return the lifts to learn from, as arrays."""
+
+    def steps(self, pool: Any) -> float:
+        """Return the mean number of control steps of these lifts."""
+
+    def loss(
+        self, network: GatedNetwork, pool: Any, settings: ApgSettings, size: int, key: jax.Array
+    ) -> tuple[jax.Array, jax.Array]:
+        """Return the loss [mm] and the mean RMSE [mm] of a batch.
+
+        Parameters
+        ----------
+        network
+            The policy's.
+        pool
+            The drawn lifts.
+        settings
+            Of the training.
+        size
+            Lifts of the batch.
+        key
+            Of its draw.
+        """
+
+    def error(self, weights: Weights) -> float:
+        """Return the policy's mean RMSE on validation lifts in the engine [mm]."""
+
+    def check(self, weights: Weights) -> object:
+        """Raise an InputError if the policy could not use these weights."""
+
+    def weights(self, network: GatedNetwork) -> Weights:
+        """Return the arrays of the policy's file of weights."""
+
+    def about(self, settings: ApgSettings) -> tuple[str, str]:
+        """Return the manifest's ``description`` and ``trained_on``."""
+
+
+def first_network(inputs: int, units: int, seed: int) -> GatedNetwork:
+    """Return the network to begin with: small random weights, and no correction of the line."""
+    rng = np.random.default_rng(seed)
+
+    def weights(rows: int, columns: int) -> jax.Array:
+        drawn = rng.standard_normal((rows, columns)) / np.sqrt(columns)
+        return jax.numpy.asarray(drawn, jax.numpy.float32)
+
+    return GatedNetwork(
+        inputs=weights(3 * units, inputs),
+        memory=weights(3 * units, units),
+        bias=jax.numpy.zeros(3 * units),
+        output=0.1 * weights(1, units + inputs),
+        output_bias=jax.numpy.zeros(1),
+    )

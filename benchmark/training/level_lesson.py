@@ -1,0 +1,81 @@
+"""The lesson of a level table.
+
+The loss of a batch is the mean over its lifts of
+
+    weight (RMSE + smoothness bend + gentleness force),
+
+the score [mm], the root mean square of the second differences of the command [mm], and that of the
+force at the human's hands beyond half of the table's weight [N].
+The weight is 1 but for people with wide habits (:mod:`.pool`), whose force does not count: a robot
+that is to be gentle with people whom it cannot foresee follows late.
+"""
+
+from functools import partial
+from types import ModuleType
+
+import jax
+import numpy as np
+
+from ...agents.control.recurrent import INPUTS, GatedNetwork, network_of
+from ...agents.control.recurrent_controller import RecurrentController
+from ...agents.submissions import recurrent as submission
+from ..twin.rollout import recurrent, rollout
+from .anticipation import FIRST_SEED
+from .apg_settings import ApgSettings
+from .lesson import Weights
+from .pool import LearningBatch, Pool, draw_batch, draw_pool
+from .validation import validation_error
+
+
+class LevelLesson:
+    """The lesson of the task ``level``."""
+
+    inputs: int = INPUTS
+    package: ModuleType = submission
+
+    def draw(self, settings: ApgSettings) -> Pool:
+        """Return lifts with people of the benchmark's and of wide habits."""
+        return draw_pool(settings.lifts, settings.wide)
+
+    def steps(self, pool: Pool) -> float:
+        """Return the mean number of control steps of these lifts."""
+        return float(pool.lifts.steps.mean())
+
+    def loss(
+        self, network: GatedNetwork, pool: Pool, settings: ApgSettings, size: int, key: jax.Array
+    ) -> tuple[jax.Array, jax.Array]:
+        """Return the loss [mm] and the mean RMSE [mm] of a batch."""
+        batch = draw_batch(pool, size, settings.wide, settings.varied, key)
+        return batch_loss(network, batch, settings.smoothness, settings.gentleness)
+
+    def error(self, weights: Weights) -> float:
+        """Return the policy's mean RMSE on validation lifts in the engine [mm]."""
+        return validation_error(partial(RecurrentController, self.check(weights)))
+
+    def check(self, weights: Weights) -> GatedNetwork:
+        """Return the network in NumPy, in double precision."""
+        return network_of(weights, "trained weights")
+
+    def weights(self, network: GatedNetwork) -> Weights:
+        """Return the arrays of the policy's file of weights."""
+        return {name: np.asarray(array) for name, array in network._asdict().items()}
+
+    def about(self, settings: ApgSettings) -> tuple[str, str]:
+        """Return the manifest's ``description`` and ``trained_on``."""
+        return (
+            f"A straight line through the human's last heights, corrected by "
+            f"{settings.units} gated recurrent units, trained by gradients through the twin.",
+            f"{settings.lifts} lifts of colift with drawn people, seeds {FIRST_SEED} to "
+            f"{FIRST_SEED + settings.lifts - 1}, {settings.wide:.0%} of them with wide habits.",
+        )
+
+
+def batch_loss(
+    network: GatedNetwork, batch: LearningBatch, smoothness: float, gentleness: float
+) -> tuple[jax.Array, jax.Array]:
+    """Return the loss [mm] and the mean RMSE [mm] of a batch."""
+    policy, memory = recurrent(network, batch.lifts.size)
+    found = rollout(policy, memory, batch.lifts, batch.variation, batch.sensing)
+    force = batch.common * found.force_n
+    cost = found.rmse_mm + smoothness * found.bend_mm + gentleness * force
+    return (batch.weight * cost).mean(), found.rmse_mm.mean()

@@ -1,0 +1,141 @@
+"""The lessons of tasks with touch: the score of the task, on lifts of its twin."""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from types import ModuleType
+from typing import Any, Final, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from ...agents.agent import FRAME
+from ...agents.control.recurrent import GatedNetwork
+from ...agents.intent.manner import LEADS, PATIENCES, SHARES
+from ...agents.submissions import touch as submission
+from ...agents.touch.touch_controller import TouchController, touch_network
+from ...agents.touch.touch_law import TouchMemory, TouchNetwork, felt_action, inputs_of
+from ..episode.scenario import Scenario
+from ..suites.catalogue import make_scenario
+from ..tasks.intent.task import BEHAVIOURS as INTENTS
+from ..twin.arm import ArmVariation
+from ..twin.intent_lifts import IntentLifts, draw_intent, stack_intent
+from ..twin.intent_playing import intent_rmse_mm
+from ..twin.lifts import some
+from ..twin.rollout import JAX
+from .anticipation import FIRST_SEED
+from .apg_settings import ApgSettings
+from .lesson import Weights
+from .pool import LAG, SAG
+from .validation import task_error
+
+WIDENED: Final = 0.1
+"""How far manners are drawn beyond the ranges of the population, relative to these: a person at a
+corner of them is then not at the corner of what was learned."""
+
+
+class TouchTwin(NamedTuple):
+    """The twin of a task, as functions."""
+
+    behaviours: Sequence[str]
+    draw: Callable[[Scenario, int], Any]
+    """Returns what is drawn for a lift."""
+    stack: Callable[[Sequence[Any]], Any]
+    """Returns drawn lifts in one."""
+    rmse_mm: Callable[..., jax.Array]
+    """Returns the score (n,) of policy, memory, lifts and variation of the arms [mm]."""
+    manners: Callable[[Any, jax.Array], Any]
+    """Returns lifts with manners of their people that are drawn anew by a key."""
+
+
+def _leading(lifts: IntentLifts, key: jax.Array) -> IntentLifts:
+    """Return lifts whose people lead in ways from a tenth beyond the ranges of the population."""
+    drawn = jax.random.uniform(key, (3, lifts.size), minval=-WIDENED, maxval=1 + WIDENED)
+    wrist, lead, patience = (
+        low + (high - low) * share
+        for (low, high), share in zip((SHARES, LEADS, PATIENCES), drawn, strict=True)
+    )
+    return lifts._replace(wrist=wrist, lead=lead / FRAME, patience=patience)
+
+
+TWINS: Final = {"intent": TouchTwin(INTENTS, draw_intent, stack_intent, intent_rmse_mm, _leading)}
+"""By task."""
+
+
+class TouchLesson:
+    """The lesson of a task with touch: the loss of a batch is its mean RMSE.
+
+    Parameters
+    ----------
+    task
+        Its name.
+    """
+
+    package: ModuleType = submission
+
+    def __init__(self, task: str) -> None:
+        self.task = task
+        self.inputs = inputs_of(task)
+        self._twin = TWINS[task]
+
+    def draw(self, settings: ApgSettings) -> Any:
+        """Return lifts with drawn people, the behaviours in turn."""
+        seeds = range(FIRST_SEED, FIRST_SEED + settings.lifts)
+        return self._twin.stack([self._twin.draw(self._scenario(seed), seed) for seed in seeds])
+
+    def _scenario(self, seed: int) -> Scenario:
+        behaviour = self._twin.behaviours[seed % len(self._twin.behaviours)]
+        return make_scenario(behaviour, f"draw-{seed}", task=self.task)
+
+    def steps(self, pool: Any) -> float:
+        """Return the mean number of control steps of these lifts."""
+        return float(pool.steps.mean())
+
+    def loss(
+        self, network: GatedNetwork, pool: Any, settings: ApgSettings, size: int, key: jax.Array
+    ) -> tuple[jax.Array, jax.Array]:
+        """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
+        keys = jax.random.split(key, 4)
+        lifts = some(pool, jax.random.randint(keys[0], (size,), 0, pool.size))
+        lifts = self._twin.manners(lifts, keys[1])
+        sag, lag = (jax.random.normal(each, (size,)) for each in keys[2:])
+        variation = ArmVariation(
+            sag=jnp.exp(settings.varied * SAG * sag), lag=jnp.exp(settings.varied * LAG * lag)
+        )
+        policy, memory = touch_policy(TouchNetwork(self.task, network), size)
+        mean = self._twin.rmse_mm(policy, memory, lifts, variation).mean()
+        return mean, mean
+
+    def error(self, weights: Weights) -> float:
+        """Return the policy's mean RMSE on validation lifts in the engine [mm]."""
+        make = partial(TouchController, self.check(weights))
+        return task_error(make, self._scenario)
+
+    def check(self, weights: Weights) -> TouchNetwork:
+        """Return the network in NumPy, in double precision."""
+        return touch_network(weights, "trained weights")
+
+    def weights(self, network: GatedNetwork) -> Weights:
+        """Return the arrays of the policy's file of weights."""
+        arrays = {name: np.asarray(array) for name, array in network._asdict().items()}
+        return {**arrays, "task": np.array(self.task)}
+
+    def about(self, settings: ApgSettings) -> tuple[str, str]:
+        """Return the manifest's ``description`` and ``trained_on``."""
+        return (
+            f"A table that is held by touch, with a departure from level by {settings.units} "
+            f"gated recurrent units, trained by gradients through the twin of {self.task!r}.",
+            f"{settings.lifts} lifts of the task {self.task!r} of colift with drawn people, seeds "
+            f"{FIRST_SEED} to {FIRST_SEED + settings.lifts - 1}.",
+        )
+
+
+def touch_policy(learned: TouchNetwork, count: int) -> tuple[Any, TouchMemory]:
+    """Return the policy of a network, and its memory at the beginning of n lifts."""
+
+    def policy(memory: TouchMemory, view: jax.Array) -> tuple[TouchMemory, jax.Array]:
+        return felt_action(learned, memory, view, JAX)
+
+    zero = jnp.zeros(count)
+    units = jnp.zeros((learned.network.units, count))
+    return policy, TouchMemory(units, zero, zero, zero, zero)
