@@ -3,15 +3,22 @@
 import dataclasses
 from typing import Annotated
 
+import numpy as np
 import typer
+from numpy.typing import NDArray
 from rich.table import Column
 
+from ..agents.errors import InputError
 from ..benchmark.admission.admission import admission_of, players
 from ..benchmark.admission.criteria import Criterion
+from ..benchmark.training.apg_settings import pair_settings
+from ..benchmark.twin.libraries import require_jax
 from .completion import suites
 from .options import AsJson, Jobs, chosen_suite
 from .printing import left, print_json, show, table
-from .progress import reported_interrupt, workers
+from .progress import job_bar, reported_interrupt, workers
+
+MOST_PAIRS = 20
 
 WORDS = {True: "passed", False: "FAILED", None: "unknown"}
 
@@ -20,6 +27,9 @@ def admit_suite(
     suite: Annotated[
         str, typer.Argument(metavar="SUITE", help="The suite to test.", autocompletion=suites)
     ],
+    pairs: Annotated[
+        int, typer.Option(metavar="N", help="Pairs to train in the twin, for (d); extra: train.")
+    ] = 0,
     jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
@@ -28,13 +38,14 @@ def admit_suite(
     Exit code 1 if a criterion failed.
     """
     episodes = chosen_suite(suite, None, None, None)
+    played = _cross_play(episodes.scenarios[0].task.name, pairs) if pairs else None
     names = players(episodes.scenarios[0].task.name)
     total = (3 + len(names)) * episodes.size
     with (
         reported_interrupt("a suite is tested with all policies or not at all"),
         workers("admit", total, jobs) as (pool, progress),
     ):
-        found = admission_of(episodes, names, executor=pool, progress=progress)
+        found = admission_of(episodes, names, pairs=played, executor=pool, progress=progress)
     if as_json:
         print_json({**dataclasses.asdict(found), "passed": found.passed})
     else:
@@ -60,6 +71,18 @@ def admit_suite(
         )
     if not found.passed:
         raise typer.Exit(1)
+
+
+def _cross_play(task: str, count: int) -> NDArray[np.float64]:
+    """Train pairs, and return how each person does with each robot."""
+    if not 2 <= count <= MOST_PAIRS:
+        raise InputError(f"--pairs must be 2 to {MOST_PAIRS}, or 0 for none; got {count}")
+    settings = pair_settings(task)
+    require_jax()
+    from ..benchmark.training.pairs import cross_play
+
+    with job_bar("pairs", count * settings.updates) as bar:
+        return cross_play(count, settings, bar.advance)
 
 
 def _row(each: Criterion) -> tuple[str, ...]:

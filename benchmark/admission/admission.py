@@ -5,6 +5,9 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Final
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ...agents.loading.loading import PolicySpec
 from ...agents.registry import own_policies, policies_by_task
 from ..bounds.oracle import oracle_run
@@ -56,6 +59,7 @@ def admission_of(
     suite: Suite,
     names: Sequence[str],
     *,
+    pairs: NDArray[np.float64] | None = None,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> Admission:
@@ -67,6 +71,8 @@ def admission_of(
         The suite.
     names
         The policies, :data:`KEEPERS` among them; see :func:`players`.
+    pairs
+        The result of :func:`.cross_play`; none: no pair was trained.
     executor, progress
         As of :func:`.run_suite`.
 
@@ -93,7 +99,7 @@ def admission_of(
             room(oracle, {name: run for name, run in runs.items() if name in KEEPERS}),
             interaction(runs),
             rank_changes(runs),
-            conventions(),
+            conventions(pairs),
             *([] if published is None else [like_people(human_human, published)]),
             no_free_ride(hold, human_human),
         ),

@@ -1,11 +1,12 @@
 """The criteria of admission, each a figure, a bar and what it means."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..episode.metrics import FAILED_FRAME_MM
 from ..execution.runner import Run
@@ -92,16 +93,30 @@ def rank_changes(runs: Mapping[str, Run]) -> Criterion:
     )
 
 
-def conventions() -> Criterion:
-    """Return that no pairs were trained for the suite; see :class:`Criterion`."""
-    return Criterion(
+def conventions(played: NDArray[np.float64] | None) -> Criterion:
+    """Return whether pairs that were trained apart are better with themselves than across.
+
+    Parameters
+    ----------
+    played
+        (n, n) mean RMSE of each person with each robot of n pairs [mm]; None: no pair was trained.
+    """
+    stated = Criterion(
         letter="d",
-        what="independently trained pairs are best with themselves",
+        what="pairs that learned apart fail with each other's partners: error across, over own",
         figure=None,
         bar="stated",
         passed=None,
-        detail="no pair was trained for this suite: nothing is known",
+        detail="no pair was trained for this test: nothing is known",
     )
+    if played is None:
+        return stated
+    count = len(played)
+    own = float(played.trace()) / count
+    across = (float(played.sum()) - count * own) / (count * (count - 1))
+    words = "they do better with themselves" if across > own else "they do not"
+    detail = f"{count} pairs in the twin: {own:.2f} mm with themselves, {across:.2f} mm across"
+    return replace(stated, figure=across / own, passed=True, detail=f"{detail}: {words}")
 
 
 def like_people(human_human: Run, published: Published) -> Criterion:

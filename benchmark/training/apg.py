@@ -15,9 +15,8 @@ from typing import Any, Final, NamedTuple
 import jax
 import optax
 
-from ...agents.control.recurrent import GatedNetwork
 from .apg_settings import PARTS, ApgSettings
-from .lesson import first_network
+from .lesson import Lesson
 from .lessons import lesson_of
 
 LARGEST_GRADIENT: Final = 5.0
@@ -27,7 +26,8 @@ LARGEST_GRADIENT: Final = 5.0
 class Learner(NamedTuple):
     """All that changes during the training."""
 
-    network: GatedNetwork
+    network: Any
+    """A :class:`.GatedNetwork`, or several."""
     optimiser: Any
     update: int
     """Updates done."""
@@ -50,14 +50,18 @@ def optimiser(settings: ApgSettings) -> optax.GradientTransformation:
     return optax.chain(optax.clip_by_global_norm(LARGEST_GRADIENT), optax.adam(schedule))
 
 
-def first_learner(settings: ApgSettings, seed: int) -> Learner:
-    """Return the learner before the first update."""
-    network = first_network(lesson_of(settings.task).inputs, settings.units, seed)
+def first_learner(settings: ApgSettings, seed: int, lesson: Lesson | None = None) -> Learner:
+    """Return the learner before the first update; arguments as of :func:`updates`."""
+    network = (lesson or lesson_of(settings.task)).first(settings, seed)
     return Learner(network, optimiser(settings).init(network), 0)
 
 
 def updates(
-    settings: ApgSettings, seed: int, learner: Learner | None = None, pool: Any = None
+    settings: ApgSettings,
+    seed: int,
+    learner: Learner | None = None,
+    pool: Any = None,
+    lesson: Lesson | None = None,
 ) -> Iterator[Update]:
     """Yield the learner after each update; the same seed gives the same weights.
 
@@ -71,9 +75,12 @@ def updates(
         Where to go on; none: from the beginning.
     pool
         The drawn lifts; none: draw them.
+    lesson
+        Another lesson than that of the settings' task.
     """
-    learner = learner or first_learner(settings, seed)
-    lifts = lesson_of(settings.task).draw(settings) if pool is None else pool
+    lesson = lesson or lesson_of(settings.task)
+    learner = learner or first_learner(settings, seed, lesson)
+    lifts = lesson.draw(settings) if pool is None else pool
     network, state = learner.network, learner.optimiser
     now = settings if learner.update < settings.updates else settings.of_last()
     with ThreadPoolExecutor(PARTS) as threads:
@@ -81,7 +88,7 @@ def updates(
             if update == settings.updates:
                 now = settings.of_last()
                 state = optimiser(now).init(network)
-            gradient, descend = _functions(now)
+            gradient, descend = _functions(now, lesson)
             key = jax.random.fold_in(jax.random.key(seed), update)
             keys = [jax.random.fold_in(key, part) for part in range(PARTS)]
             parts = list(threads.map(partial(_finished, gradient, network, lifts), keys))
@@ -98,12 +105,12 @@ def _finished(function: Any, *arguments: Any) -> Any:
 
 
 @cache
-def _functions(settings: ApgSettings) -> tuple[Any, Any]:
+def _functions(settings: ApgSettings, lesson: Lesson) -> tuple[Any, Any]:
     """Return the gradient of a part of a batch, and the step of the optimiser, to be compiled."""
-    descent, lesson = optimiser(settings), lesson_of(settings.task)
+    descent = optimiser(settings)
 
     @jax.jit
-    def gradient(network: GatedNetwork, lifts: Any, key: jax.Array) -> tuple[Any, GatedNetwork]:
+    def gradient(network: Any, lifts: Any, key: jax.Array) -> tuple[Any, Any]:
         of_batch = partial(
             lesson.loss, pool=lifts, settings=settings, size=settings.batch // PARTS, key=key
         )
@@ -111,8 +118,8 @@ def _functions(settings: ApgSettings) -> tuple[Any, Any]:
 
     @jax.jit
     def descend(
-        network: GatedNetwork, state: Any, parts: list[tuple[Any, GatedNetwork]]
-    ) -> tuple[GatedNetwork, Any, jax.Array]:
+        network: Any, state: Any, parts: list[tuple[Any, Any]]
+    ) -> tuple[Any, Any, jax.Array]:
         total = jax.tree.map(lambda *each: sum(each) / PARTS, *(part for _, part in parts))
         steps, state = descent.update(total, state, network)
         rmse = sum(rmse for (_, rmse), _ in parts) / PARTS

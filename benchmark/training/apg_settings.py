@@ -87,3 +87,16 @@ class ApgSettings:
             rate=LAST_RATE * self.rate,
             wide=min(self.wide, LAST_WIDE),
         )
+
+
+def pair_settings(task: str) -> ApgSettings:
+    """Return the settings of the training of a person and a robot together.
+
+    Raises
+    ------
+    InputError
+        If the task has no twin in which people learn.
+    """
+    if task not in TASKS[1:]:
+        raise InputError(f"pairs can be trained for {', '.join(TASKS[1:])}; got the task {task!r}")
+    return ApgSettings(task=task, updates=200, lifts=1000, batch=128, units=32)

@@ -15,24 +15,18 @@ Weights = Mapping[str, NDArray[Any]]
 
 
 class Lesson(Protocol):
-    """What training by gradients needs to know of a task."""
+    """What gradients are taken of."""
 
-    @property
-    def inputs(self) -> int:
-        """Inputs of the network."""
+    def __hash__(self) -> int: ...
 
-    @property
-    def package(self) -> ModuleType:
-        """The package of the trained policy's ``policy.py``."""
+    def first(self, settings: ApgSettings, seed: int) -> Any:
+        """Return the network, or the networks, to begin with."""
 
     def draw(self, settings: ApgSettings) -> Any:
         """Return the lifts to learn from, as arrays."""
 
-    def steps(self, pool: Any) -> float:
-        """Return the mean number of control steps of these lifts."""
-
     def loss(
-        self, network: GatedNetwork, pool: Any, settings: ApgSettings, size: int, key: jax.Array
+        self, network: Any, pool: Any, settings: ApgSettings, size: int, key: jax.Array
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm] and the mean RMSE [mm] of a batch.
 
@@ -50,6 +44,17 @@ class Lesson(Protocol):
             Of its draw.
         """
 
+
+class PolicyLesson(Lesson, Protocol):
+    """A lesson that a policy comes of: one file of weights, and what is to be said of it."""
+
+    @property
+    def package(self) -> ModuleType:
+        """The package of the trained policy's ``policy.py``."""
+
+    def steps(self, pool: Any) -> float:
+        """Return the mean number of control steps of these lifts."""
+
     def error(self, weights: Weights) -> float:
         """Return the policy's mean RMSE on validation lifts in the engine [mm]."""
 
@@ -63,8 +68,8 @@ class Lesson(Protocol):
         """Return the manifest's ``description`` and ``trained_on``."""
 
 
-def first_network(inputs: int, units: int, seed: int) -> GatedNetwork:
-    """Return the network to begin with: small random weights, and no correction of the line."""
+def first_network(inputs: int, units: int, seed: int, outputs: int = 1) -> GatedNetwork:
+    """Return a network to begin with: small random weights, and no output yet but little."""
     rng = np.random.default_rng(seed)
 
     def weights(rows: int, columns: int) -> jax.Array:
@@ -75,6 +80,6 @@ def first_network(inputs: int, units: int, seed: int) -> GatedNetwork:
         inputs=weights(3 * units, inputs),
         memory=weights(3 * units, units),
         bias=jax.numpy.zeros(3 * units),
-        output=0.1 * weights(1, units + inputs),
-        output_bias=jax.numpy.zeros(1),
+        output=0.1 * weights(outputs, units + inputs),
+        output_bias=jax.numpy.zeros(outputs),
     )

@@ -22,7 +22,7 @@ from ...agents.submissions import recurrent as submission
 from ..twin.rollout import recurrent, rollout
 from .anticipation import FIRST_SEED
 from .apg_settings import ApgSettings
-from .lesson import Weights
+from .lesson import Weights, first_network
 from .pool import LearningBatch, Pool, draw_batch, draw_pool
 from .validation import validation_error
 
@@ -30,8 +30,11 @@ from .validation import validation_error
 class LevelLesson:
     """The lesson of the task ``level``."""
 
-    inputs: int = INPUTS
     package: ModuleType = submission
+
+    def first(self, settings: ApgSettings, seed: int) -> GatedNetwork:
+        """Return a network that corrects the line by little."""
+        return first_network(INPUTS, settings.units, seed)
 
     def draw(self, settings: ApgSettings) -> Pool:
         """Return lifts with people of the benchmark's and of wide habits."""

@@ -25,7 +25,7 @@ from ..twin.lifts import some
 from ..twin.rollout import JAX
 from .anticipation import FIRST_SEED
 from .apg_settings import ApgSettings
-from .lesson import Weights
+from .lesson import Weights, first_network
 from .pool import LAG, SAG
 from .validation import task_error
 
@@ -75,16 +75,20 @@ class TouchLesson:
 
     def __init__(self, task: str) -> None:
         self.task = task
-        self.inputs = inputs_of(task)
-        self._twin = TWINS[task]
+        self.twin = TWINS[task]
+
+    def first(self, settings: ApgSettings, seed: int) -> Any:
+        """Return a network that departs from level by little."""
+        return first_network(inputs_of(self.task), settings.units, seed)
 
     def draw(self, settings: ApgSettings) -> Any:
         """Return lifts with drawn people, the behaviours in turn."""
         seeds = range(FIRST_SEED, FIRST_SEED + settings.lifts)
-        return self._twin.stack([self._twin.draw(self._scenario(seed), seed) for seed in seeds])
+        return self.twin.stack([self.twin.draw(self.scenario(seed), seed) for seed in seeds])
 
-    def _scenario(self, seed: int) -> Scenario:
-        behaviour = self._twin.behaviours[seed % len(self._twin.behaviours)]
+    def scenario(self, seed: int) -> Scenario:
+        """Return the lift of a seed."""
+        behaviour = self.twin.behaviours[seed % len(self.twin.behaviours)]
         return make_scenario(behaviour, f"draw-{seed}", task=self.task)
 
     def steps(self, pool: Any) -> float:
@@ -92,24 +96,28 @@ class TouchLesson:
         return float(pool.steps.mean())
 
     def loss(
-        self, network: GatedNetwork, pool: Any, settings: ApgSettings, size: int, key: jax.Array
+        self, network: Any, pool: Any, settings: ApgSettings, size: int, key: jax.Array
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
+        lifts, variation = self.batch(pool, settings.varied, size, key)
+        policy, memory = touch_policy(TouchNetwork(self.task, network), size)
+        mean = self.twin.rmse_mm(policy, memory, lifts, variation).mean()
+        return mean, mean
+
+    def batch(
+        self, pool: Any, varied: float, size: int, key: jax.Array
+    ) -> tuple[Any, ArmVariation]:
+        """Return some of the lifts, with people and arms drawn anew."""
         keys = jax.random.split(key, 4)
         lifts = some(pool, jax.random.randint(keys[0], (size,), 0, pool.size))
-        lifts = self._twin.manners(lifts, keys[1])
         sag, lag = (jax.random.normal(each, (size,)) for each in keys[2:])
-        variation = ArmVariation(
-            sag=jnp.exp(settings.varied * SAG * sag), lag=jnp.exp(settings.varied * LAG * lag)
-        )
-        policy, memory = touch_policy(TouchNetwork(self.task, network), size)
-        mean = self._twin.rmse_mm(policy, memory, lifts, variation).mean()
-        return mean, mean
+        variation = ArmVariation(sag=jnp.exp(varied * SAG * sag), lag=jnp.exp(varied * LAG * lag))
+        return self.twin.manners(lifts, keys[1]), variation
 
     def error(self, weights: Weights) -> float:
         """Return the policy's mean RMSE on validation lifts in the engine [mm]."""
         make = partial(TouchController, self.check(weights))
-        return task_error(make, self._scenario)
+        return task_error(make, self.scenario)
 
     def check(self, weights: Weights) -> TouchNetwork:
         """Return the network in NumPy, in double precision."""

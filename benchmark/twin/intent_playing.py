@@ -21,6 +21,15 @@ from .intent_lifts import IntentLifts
 from .lifts import chunk
 from .playing import ramp
 
+LOOKS_AHEAD: Final = (10.0, 30.0, 60.0)
+"""Frames ahead at which a learning person knows the own intention."""
+
+ADDED_HEIGHT: Final = 0.02
+"""Most that a learning person adds to the height of the hands [m]."""
+
+ADDED_PITCH: Final = 0.1
+"""Most that a learning person adds to the pitch that the wrists turn to [rad]."""
+
 _KEPT: Final = math.exp(-FRAME / LEAK)
 
 
@@ -42,13 +51,15 @@ class IntentState(NamedTuple):
     """History of the far end's intended height [m]."""
     step: jax.Array
     """() number of the coming step."""
+    added: jax.Array
+    """(2, n) what a :class:`Person` has added at the end of the last step."""
 
 
 def intent_at_rest(count: int) -> IntentState:
     """Return lifts at rest."""
     zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
-    rest = haptic_plant_at_rest(count)
-    return IntentState(rest, zero, zero, zero, zero, past, past, jnp.zeros((), jnp.int32))
+    rest, added = haptic_plant_at_rest(count), jnp.zeros((2, count))
+    return IntentState(rest, zero, zero, zero, zero, past, past, jnp.zeros((), jnp.int32), added)
 
 
 def planned(series: jax.Array, time: jax.Array) -> jax.Array:
@@ -106,6 +117,29 @@ def haptic_view(state: IntentState, noise: jax.Array, latency: jax.Array, period
     )
 
 
+class Person(NamedTuple):
+    """A person at the near end who has learned to add to what the hands do by themselves."""
+
+    policy: Callable[[Any, jax.Array], tuple[Any, jax.Array]]
+    """Returns memory and additions (2, n), each of at most 1, for a memory and a view (9, n)."""
+    memory: Any
+    """The memory at the beginning."""
+
+
+def person_view(state: IntentState, lifts: IntentLifts) -> jax.Array:
+    """Return what n persons know (9, n): their senses, as late as they are, and their intention.
+
+    Height of the own end and the difference of the far one, as seen, the felt force, and for three
+    times ahead the intended height of the own end and the intended difference of the far one.
+    """
+    plant, body = state.haptic.plant, lifts.body
+    ahead = state.time + jnp.asarray(LOOKS_AHEAD)[:, jnp.newaxis]
+    near = planned(lifts.near, ahead)
+    seen = (delayed(series, body.seen, 1) for series in (plant.heights, plant.differences))
+    felt = delayed(plant.forces, body.felt, 1)
+    return jnp.concatenate((*seen, felt, near, planned(lifts.far, ahead) - near))
+
+
 class IntentFrames(NamedTuple):
     """Heights in the frames of a step, (f, n) [m]."""
 
@@ -120,6 +154,7 @@ def intent_step(
     tremor: jax.Array,
     action: jax.Array,
     variation: ArmVariation | None = None,
+    added: jax.Array | None = None,
 ) -> tuple[IntentState, IntentFrames]:
     """Return the lifts after a step, and the heights in its frames.
 
@@ -133,6 +168,8 @@ def intent_step(
         (n,) change of the command [m], cut to the hands' speed and stroke.
     variation
         Arms that differ from the benchmark's; none: its own.
+    added
+        (2, n) what a :class:`Person` adds at the end of the step; none: nothing.
     """
     size, body, plant = len(gain), lifts.body, state.haptic.plant
     times = paced(state, lifts, size)
@@ -140,6 +177,8 @@ def intent_step(
     ahead = times + lifts.lead
     sine = (planned(lifts.far, ahead) - planned(lifts.near, ahead)) / TABLE_LENGTH
     wrist = lifts.wrist * sine * (1 + sine**2 / 6)
+    before, after = state.added, jnp.zeros_like(state.added) if added is None else added
+    hand, turn = (ramp(a, b, size) for a, b in zip(before, after, strict=True))
 
     missing = (delayed(state.targets, body.seen, 1) - delayed(plant.heights, body.seen, 1))[0]
     wanted = state.correction + CORRECTION_GAIN * missing * size * FRAME
@@ -152,6 +191,7 @@ def intent_step(
 
     error, errors = jax.lax.scan(erring, state.error, (gain, changes))
     references = targets + errors + tremor + ramp(state.correction, correction, size)
+    references, wrist = references + ADDED_HEIGHT * hand, wrist + ADDED_PITCH * turn
     references = jnp.clip(references, *REFERENCE_RANGE)
     limit = action_limit(size * FRAME)
     command = jnp.clip(state.command + jnp.clip(action, -limit, limit), *STROKE)
@@ -166,7 +206,7 @@ def intent_step(
         heights = haptic.plant.heights[:many][::-1]
         near.append(heights)
         far.append(heights + haptic.plant.differences[:many][::-1])
-    after = IntentState(
+    moved = IntentState(
         haptic=haptic,
         command=command,
         correction=correction,
@@ -175,8 +215,9 @@ def intent_step(
         targets=pushed(state.targets, targets),
         far_targets=pushed(state.far_targets, far_targets),
         step=state.step + 1,
+        added=after,
     )
-    return after, IntentFrames(jnp.concatenate(near), jnp.concatenate(far))
+    return moved, IntentFrames(jnp.concatenate(near), jnp.concatenate(far))
 
 
 IntentPolicy = Callable[[Any, jax.Array], tuple[Any, jax.Array]]
@@ -188,6 +229,7 @@ def intent_rmse_mm(
     memory: Any,
     lifts: IntentLifts,
     variation: ArmVariation | None = None,
+    person: Person | None = None,
 ) -> jax.Array:
     """Return the RMSE of the pose (n,) [mm] of lifts with a policy; differentiable.
 
@@ -199,24 +241,29 @@ def intent_rmse_mm(
         People, plans and noise.
     variation
         Arms that differ from the benchmark's; none: its own.
+    person
+        A person who has learned; none: the benchmark's.
     """
     longest, size, count = lifts.gain.shape
     plans = (each.reshape(longest, size, count) for each in (lifts.near, lifts.far))
 
     def step(
-        held: tuple[IntentState, Any], now: tuple[jax.Array, ...]
-    ) -> tuple[tuple[IntentState, Any], jax.Array]:
-        (state, memory), (gain, tremor, noise, near, far) = held, now
+        held: tuple[IntentState, Any, Any], now: tuple[jax.Array, ...]
+    ) -> tuple[tuple[IntentState, Any, Any], jax.Array]:
+        (state, memory, knowing), (gain, tremor, noise, near, far) = held, now
+        added = None
+        if person is not None:
+            knowing, added = person.policy(knowing, person_view(state, lifts))
         view = haptic_view(state, noise, lifts.latency, size * FRAME)
         memory, action = policy(memory, view)
         valid = (state.step < lifts.steps).astype(jnp.float32)
-        state, frames = intent_step(state, lifts, gain, tremor, action, variation)
+        state, frames = intent_step(state, lifts, gain, tremor, action, variation, added)
         squares = ((frames.near - near) ** 2 + (frames.far - far) ** 2).sum(axis=0) / 2
-        return (state, memory), squares * valid
+        return (state, memory, knowing), squares * valid
 
     _, squares = jax.lax.scan(
         jax.checkpoint(step),
-        (intent_at_rest(count), memory),
+        (intent_at_rest(count), memory, None if person is None else person.memory),
         (lifts.gain, lifts.tremor, lifts.noise, *plans),
     )
     return 1000 * jnp.sqrt(squares.sum(axis=0) / (lifts.steps * size) + 1e-12)

@@ -1,5 +1,7 @@
 """A small training in the twin of a task with touch, and the policy that it becomes."""
 
+import dataclasses
+
 import colift
 import jax
 import jax.numpy as jnp
@@ -8,7 +10,13 @@ import pytest
 from colift.agents.control.portable import PORTABLE
 from colift.agents.control.recurrent import GatedNetwork
 from colift.agents.touch.touch_controller import read_touch
-from colift.agents.touch.touch_law import TASK_SENSES, TouchNetwork, felt_action, touch_at_rest
+from colift.agents.touch.touch_law import (
+    TASK_SENSES,
+    TouchNetwork,
+    felt_action,
+    inputs_of,
+    touch_at_rest,
+)
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.training import apg, apg_course, validation
@@ -16,8 +24,10 @@ from colift.benchmark.training.apg_settings import NAME, ApgSettings
 from colift.benchmark.training.course import open_course
 from colift.benchmark.training.lesson import first_network
 from colift.benchmark.training.lessons import lesson_of
-from colift.benchmark.training.touch_lesson import TWINS, touch_policy
+from colift.benchmark.training.pairs import cross_play
+from colift.benchmark.training.touch_lesson import TWINS, TouchLesson, touch_policy
 from colift.benchmark.training.validation import VALIDATION_SEEDS
+from colift.benchmark.twin.intent_playing import Person, intent_rmse_mm
 
 TINY = ApgSettings(task="intent", updates=2, lifts=4, batch=4, units=3)
 
@@ -29,7 +39,7 @@ def whole():
 
 @pytest.mark.parametrize("task", TASK_SENSES)
 def test_the_network_acts_the_same_in_numpy(task):
-    made = first_network(lesson_of("intent").inputs + TASK_SENSES[task].inputs, 3, 0)
+    made = first_network(inputs_of(task), 3, 0)
     plain = GatedNetwork(*(np.asarray(array, np.float64) for array in made))
     policy, many = touch_policy(TouchNetwork(task, made), 1)
     memory, rng = touch_at_rest(plain), np.random.default_rng(0)
@@ -72,3 +82,21 @@ def test_a_training_ends_with_a_submission_that_plays_its_task(tmp_path, monkeyp
     scenario = make_scenario("pivot", task="intent")
     suite = Suite(name="one", scenarios=(scenario,), seeds=(0,))
     assert 1 < colift.evaluate(course.policy, suite, isolation="none").rmse_mm < 200
+
+
+def test_pairs_that_learned_apart_are_played_across():
+    settings = dataclasses.replace(TINY, updates=1)
+    played = cross_play(2, settings)
+    assert played.shape == (2, 2)
+    assert np.isfinite(played).all()
+    assert len(set(played.ravel().tolist())) == 4
+    assert np.array_equal(played, cross_play(2, settings))
+
+
+def test_a_person_who_adds_nothing_is_the_benchmarks():
+    lesson = TouchLesson("intent")
+    lifts, count = lesson.draw(TINY), 4
+    policy, memory = touch_policy(TouchNetwork("intent", lesson.first(TINY, 0)), count)
+    quiet = Person(lambda memory, view: (memory, jnp.zeros((2, count))), None)
+    alone, added = (intent_rmse_mm(policy, memory, lifts, None, each) for each in (None, quiet))
+    assert np.array_equal(alone, added)

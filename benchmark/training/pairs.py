@@ -1,0 +1,128 @@
+"""Pairs of a person and a robot that learn together, and how they do with each other's partners.
+
+The person adds to what the benchmark's people do (:class:`.Person`); the wrists show nothing of an
+intention by themselves. So what tells the robot the intention is an agreement that each pair finds
+by itself. All of it is in the twin: no suite and no board takes part.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Final, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.control.recurrent import GatedNetwork, gated
+from ...agents.touch.touch_law import TouchNetwork
+from ..twin.intent_playing import Person
+from ..twin.rollout import JAX
+from .apg import updates
+from .apg_settings import ApgSettings
+from .lesson import first_network
+from .touch_lesson import TouchLesson, touch_policy
+from .validation import VALIDATION_SEEDS
+
+PERSON_INPUTS: Final = 9
+
+PERSON_SCALES: Final = (10.0, 20.0, 0.5, 10.0, 10.0, 10.0, 20.0, 20.0, 20.0)
+"""Scale of each number that a person knows, to an input."""
+
+
+class Pair(NamedTuple):
+    """Two networks that were trained together."""
+
+    robot: GatedNetwork
+    person: GatedNetwork
+
+
+@dataclass(frozen=True)
+class PairLesson:
+    """What gradients are taken of: the score of both, as of a :class:`.TouchLesson`."""
+
+    of_robot: TouchLesson
+
+    def first(self, settings: ApgSettings, seed: int) -> Pair:
+        """Return a pair that has learned nothing."""
+        person = first_network(PERSON_INPUTS, settings.units, seed + 1_000_000, outputs=2)
+        return Pair(self.of_robot.first(settings, seed), person)
+
+    def draw(self, settings: ApgSettings) -> Any:
+        """Return lifts with drawn people whose wrists show nothing."""
+        return silent(self.of_robot.draw(settings))
+
+    def loss(
+        self, network: Pair, pool: Any, settings: ApgSettings, size: int, key: jax.Array
+    ) -> tuple[jax.Array, jax.Array]:
+        """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
+        lifts, variation = self.of_robot.batch(pool, settings.varied, size, key)
+        mean = self.errors(network, silent(lifts), variation).mean()
+        return mean, mean
+
+    def errors(self, pair: Pair, lifts: Any, variation: Any = None) -> jax.Array:
+        """Return the RMSE of lifts (n,) with a pair [mm]."""
+        count = lifts.size
+        policy, memory = touch_policy(TouchNetwork(self.of_robot.task, pair.robot), count)
+        person = learned_person(pair.person, count)
+        return self.of_robot.twin.rmse_mm(policy, memory, lifts, variation, person)
+
+
+def silent(lifts: Any) -> Any:
+    """Return lifts whose people's wrists show nothing of an intention."""
+    return lifts._replace(wrist=jnp.zeros_like(lifts.wrist))
+
+
+def learned_person(network: GatedNetwork, count: int) -> Person:
+    """Return the person of a network at the beginning of n lifts."""
+    scales = jnp.asarray(PERSON_SCALES)[:, jnp.newaxis]
+
+    def policy(units: jax.Array, view: jax.Array) -> tuple[jax.Array, jax.Array]:
+        inputs = scales * view
+        units = gated(network, units, inputs, JAX)
+        output = network.output @ jnp.concatenate((units, inputs))
+        return units, jnp.tanh(output + network.output_bias[:, jnp.newaxis])
+
+    return Person(policy, jnp.zeros((network.units, count)))
+
+
+def cross_play(
+    count: int,
+    settings: ApgSettings,
+    progress: Callable[[int], None] = lambda many: None,
+) -> NDArray[np.float64]:
+    """Train pairs apart from each other, and return the mean RMSE of each person with each robot.
+
+    Parameters
+    ----------
+    count
+        How many pairs: the seeds are 0 and up.
+    settings
+        Of their training; see :func:`.pair_settings`.
+    progress
+        Called with the number of updates since the last call.
+
+    Returns
+    -------
+    array
+        (persons, robots) [mm], on the validation lifts in the twin.
+    """
+    lesson = PairLesson(TouchLesson(settings.task))
+    pool, pairs = lesson.draw(settings), []
+    for seed in range(count):
+        for update in updates(settings, seed, pool=pool, lesson=lesson):
+            learner = update.learner
+            progress(1)
+        pairs.append(learner.network)
+    return played_across(lesson, pairs)
+
+
+def played_across(lesson: PairLesson, pairs: Sequence[Pair]) -> NDArray[np.float64]:
+    """Return the mean RMSE of each person (rows) with each robot (columns) of some pairs [mm]."""
+    twin = lesson.of_robot.twin
+    scenarios = [(lesson.of_robot.scenario(seed), seed) for seed in VALIDATION_SEEDS]
+    lifts = silent(twin.stack([twin.draw(*each) for each in scenarios]))
+    errors = jax.jit(lambda pair: lesson.errors(pair, lifts).mean())
+    return np.array(
+        [[float(errors(Pair(two.robot, one.person))) for two in pairs] for one in pairs]
+    )
