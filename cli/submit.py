@@ -11,6 +11,8 @@ import typer
 from ..agents.errors import InputError
 from ..agents.submissions.submission import Submission, open_submission
 from ..benchmark.execution.pool import checked_jobs, local_pool
+from ..benchmark.suites.suite import make_suite
+from ..benchmark.verification.checking import SUITE, checked_with
 from ..leaderboard.board.board import Board
 from ..leaderboard.client import API, RemoteBoard
 from ..leaderboard.evaluation.progress import Callbacks
@@ -75,7 +77,7 @@ def submit_policy(
 def _submit_to_folder(submission: Submission, folder: Path, board: Board, jobs: int) -> None:
     """Evaluate a submission unless its board has an entry of it, and print its row."""
     if board.entry(board.season.name, submission.contents.digest) is None:
-        _check(folder, jobs)
+        _check(folder, board.season.suite.name, jobs)
     else:
         print(f"This content (digest {submission.digest}) is on the board already.")
     queue = Queue(board, quota=NO_QUOTA)
@@ -123,7 +125,7 @@ def _submit_to_web(submission: Submission, folder: Path, url: str, token: str, j
         )
     board = RemoteBoard(url, token)
     board.submitter()  # Refuses an unknown token before any work is done.
-    _check(folder, jobs)
+    _check(folder, board.suite(), jobs)
     job = board.submit(submission.folder)
     links = ServiceLinks(board.url.rstrip("/"))
     page = f"{links.root}/jobs/{job['id']}"
@@ -160,18 +162,21 @@ def _followed(board: RemoteBoard, job: dict[str, Any]) -> dict[str, Any]:
     return job
 
 
-def _check(folder: Path, jobs: int) -> None:
-    """End with the reason if the submission fails a check."""
-    for each in all_checks(folder, None, False, jobs):
+def _check(folder: Path, suite: str, jobs: int) -> None:
+    """End with the reason if the submission fails a check with the task of the board's suite."""
+    played = checked_with(make_suite(suite))
+    option = "" if played.name == SUITE else f" --suite {suite}"
+    for each in all_checks(folder, None, False, jobs, played):
         if not each.ok:
-            _refuse(f"not submitted, its check fails: {each.name}: {each.message}", fix=folder)
+            reason = f"not submitted, its check fails: {each.name}: {each.message}"
+            _refuse(reason, fix=folder, option=option)
 
 
-def _refuse(reason: str, fix: Path | None = None) -> NoReturn:
+def _refuse(reason: str, fix: Path | None = None, option: str = "") -> NoReturn:
     """End with the reason why there is no row, and the folder to fix, if any."""
     print(reason, file=sys.stderr)
     if fix is not None:
-        print(f"Fix it, then: colift check {argument(fix)}", file=sys.stderr)
+        print(f"Fix it, then: colift check {argument(fix)}{option}", file=sys.stderr)
     raise typer.Exit(1)
 
 

@@ -86,6 +86,11 @@ class RemoteBoard:
         answer: list[dict[str, Any]] = self._patiently(f"/standings?season={season}")
         return answer
 
+    def suite(self) -> str:
+        """Return the name of the current season's suite; :class:`.InputError` as :meth:`submit`."""
+        seasons: list[dict[str, Any]] = self._patiently("/seasons")
+        return next(str(each["suite"]) for each in seasons if each["current"])
+
     @property
     def _identity(self) -> dict[str, str]:
         return {"Authorization": f"Bearer {self.token}"}

@@ -46,7 +46,8 @@ class ApgSettings:
     rate: float = 3e-3
     """Learning rate at its highest; it rises for 5 % of the updates, then falls as a cosine."""
     wide: float = 0.2
-    """Share of lifts with people, bodies and sensors from wide ranges; of a level table alone."""
+    """Of a level table: share of lifts with people, bodies and sensors from wide ranges. Of tasks
+    with touch: how much longer the ranges of people's manners are than the population's."""
     varied: float = 0.3
     """Variation of the arms."""
     smoothness: float = 0.05

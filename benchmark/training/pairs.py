@@ -56,7 +56,7 @@ class PairLesson:
         self, network: Pair, pool: Any, settings: ApgSettings, size: int, key: jax.Array
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
-        lifts, variation = self.of_robot.batch(pool, settings.varied, size, key)
+        lifts, variation = self.of_robot.batch(pool, settings, size, key)
         mean = self.errors(network, silent(lifts), variation).mean()
         return mean, mean
 

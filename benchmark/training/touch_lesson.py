@@ -29,10 +29,6 @@ from .lesson import Weights, first_network
 from .pool import LAG, SAG
 from .validation import task_error
 
-WIDENED: Final = 0.1
-"""How far manners are drawn beyond the ranges of the population, relative to these: a person at a
-corner of them is then not at the corner of what was learned."""
-
 
 class TouchTwin(NamedTuple):
     """The twin of a task, as functions."""
@@ -44,13 +40,14 @@ class TouchTwin(NamedTuple):
     """Returns drawn lifts in one."""
     rmse_mm: Callable[..., jax.Array]
     """Returns the score (n,) of policy, memory, lifts and variation of the arms [mm]."""
-    manners: Callable[[Any, jax.Array], Any]
-    """Returns lifts with manners of their people that are drawn anew by a key."""
+    manners: Callable[[Any, jax.Array, float], Any]
+    """Returns lifts with manners of their people that are drawn anew by a key, from ranges that are
+    longer than the population's by a share."""
 
 
-def _leading(lifts: IntentLifts, key: jax.Array) -> IntentLifts:
-    """Return lifts whose people lead in ways from a tenth beyond the ranges of the population."""
-    drawn = jax.random.uniform(key, (3, lifts.size), minval=-WIDENED, maxval=1 + WIDENED)
+def leading_anew(lifts: IntentLifts, key: jax.Array, wide: float) -> IntentLifts:
+    """Return lifts with other manners (:class:`.LeadingManner`); see :class:`TouchTwin`."""
+    drawn = jax.random.uniform(key, (3, lifts.size), minval=-wide / 2, maxval=1 + wide / 2)
     wrist, lead, patience = (
         low + (high - low) * share
         for (low, high), share in zip((SHARES, LEADS, PATIENCES), drawn, strict=True)
@@ -58,7 +55,9 @@ def _leading(lifts: IntentLifts, key: jax.Array) -> IntentLifts:
     return lifts._replace(wrist=wrist, lead=lead / FRAME, patience=patience)
 
 
-TWINS: Final = {"intent": TouchTwin(INTENTS, draw_intent, stack_intent, intent_rmse_mm, _leading)}
+TWINS: Final = {
+    "intent": TouchTwin(INTENTS, draw_intent, stack_intent, intent_rmse_mm, leading_anew)
+}
 """By task."""
 
 
@@ -99,20 +98,21 @@ class TouchLesson:
         self, network: Any, pool: Any, settings: ApgSettings, size: int, key: jax.Array
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
-        lifts, variation = self.batch(pool, settings.varied, size, key)
+        lifts, variation = self.batch(pool, settings, size, key)
         policy, memory = touch_policy(TouchNetwork(self.task, network), size)
         mean = self.twin.rmse_mm(policy, memory, lifts, variation).mean()
         return mean, mean
 
     def batch(
-        self, pool: Any, varied: float, size: int, key: jax.Array
+        self, pool: Any, settings: ApgSettings, size: int, key: jax.Array
     ) -> tuple[Any, ArmVariation]:
         """Return some of the lifts, with people and arms drawn anew."""
         keys = jax.random.split(key, 4)
         lifts = some(pool, jax.random.randint(keys[0], (size,), 0, pool.size))
         sag, lag = (jax.random.normal(each, (size,)) for each in keys[2:])
+        varied = settings.varied
         variation = ArmVariation(sag=jnp.exp(varied * SAG * sag), lag=jnp.exp(varied * LAG * lag))
-        return self.twin.manners(lifts, keys[1]), variation
+        return self.twin.manners(lifts, keys[1], settings.wide), variation
 
     def error(self, weights: Weights) -> float:
         """Return the policy's mean RMSE on validation lifts in the engine [mm]."""

@@ -11,6 +11,7 @@ from ...agents.hardware.decisions import POLICY_SHARE
 from ...agents.spec import AgentSpec
 from ..bundle import Results, results
 from ..episode.episode import Episode
+from ..episode.level import LEVEL
 from ..episode.level_metrics import MOSTLY_CLIPPED
 from ..episode.scenario import CONTROL_PERIOD, Scenario
 from ..episode.turns import START
@@ -119,6 +120,15 @@ def _checks(
     yield _score(run, content)
     yield _actions(content.summary)
     yield _time(content.summary, run.episodes)
+
+
+def checked_with(suite: Suite) -> Suite:
+    """Return the suite that a submission to a board of ``suite`` is checked with.
+
+    It is :data:`SUITE` for a level table, else that of the board: a policy of another task plays no
+    other.
+    """
+    return make_suite(SUITE) if suite.scenarios[0].task.name == LEVEL.name else suite
 
 
 def check_part(suite: Suite) -> Suite:

@@ -23,10 +23,15 @@ from ...benchmark.results.baselines import (
     shipped_baselines,
 )
 from ...benchmark.statistics import Estimate
-from ...benchmark.suites.suite import Suite, make_suite
+from ...benchmark.suites.suite import Suite
 from ...benchmark.verification import verify
 from ...benchmark.verification.audit import audit, audited
-from ...benchmark.verification.checking import MACHINE, SUITE, presubmission_checks
+from ...benchmark.verification.checking import (
+    MACHINE,
+    check_part,
+    checked_with,
+    presubmission_checks,
+)
 from ..records.row import BoardRow, HiddenScores, PublicScores
 from ..records.season import Season
 from .entrant import Entrant
@@ -95,7 +100,7 @@ def evaluate_entrant(
     watch, budget = watch or Callbacks(), budget or Budget()
     playing: PlayingOptions = {"executor": executor, "progress": watch.progress, "keep": budget.add}
     watch.stage("check")
-    _check(entrant, playing)
+    _check(entrant, season.suite, playing)
     watch.stage("public run")
     public = run_suite(entrant.policy, season.suite, **playing)
     content = results(public, _baselines(season, executor, watch))
@@ -137,7 +142,7 @@ class PlayingOptions(TypedDict):
     keep: Callable[[int, Episode], None]
 
 
-def _check(entrant: Entrant, playing: PlayingOptions) -> None:
+def _check(entrant: Entrant, suite: Suite, playing: PlayingOptions) -> None:
     """Check a policy as ``colift check`` does, with the same code.
 
     Raises
@@ -151,7 +156,7 @@ def _check(entrant: Entrant, playing: PlayingOptions) -> None:
             return run_suite(policy, suite, **playing)
         return run_suite(policy, suite, executor=playing["executor"])
 
-    for check in presubmission_checks(entrant.policy, entrant.fresh, play):
+    for check in presubmission_checks(entrant.policy, entrant.fresh, play, checked_with(suite)):
         if check.name == MACHINE:
             raise EvaluatorFault(check.message)
         if not check.ok:
@@ -162,7 +167,7 @@ def episode_count(season: Season) -> int:
     """Return how many episodes :func:`evaluate` counts, if nothing is refused."""
     size = season.suite.size
     played = 0 if shipped_baselines(season.suite) else len(BASELINES) * size
-    return make_suite(SUITE).size + 2 * (size + audited(size)) + played + size
+    return check_part(checked_with(season.suite)).size + 2 * (size + audited(size)) + played + size
 
 
 def play_human_human(

@@ -53,7 +53,7 @@ def test_the_network_acts_the_same_in_numpy(task):
 def test_the_manners_of_a_batch_are_drawn_anew_about_those_of_the_population():
     for task, twin in TWINS.items():
         pool = lesson_of(task).draw(TINY)
-        one, other = (twin.manners(pool, jax.random.key(seed)) for seed in (0, 1))
+        one, other = (twin.manners(pool, jax.random.key(seed), 0.2) for seed in (0, 1))
         changed = [
             name
             for name in type(pool)._fields
