@@ -97,9 +97,9 @@ class PolicyView:
         return next((each for each in self.parts if each.part == part), None)
 
     @property
-    def is_blend(self) -> bool:
-        """Whether it is the policy that others are set against."""
-        return self.standing.row.name == BLEND
+    def has_blend(self) -> bool:
+        """Whether it is set against ``blend``: that is on the board, and another policy."""
+        return any(each.blend_mm is not None for each in self.parts)
 
 
 @dataclass(frozen=True, kw_only=True)
