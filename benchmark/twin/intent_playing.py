@@ -1,27 +1,27 @@
 """A step of lifts with an intended pose: pace, intention, sensors, frames; and whole lifts."""
 
-import math
 from collections.abc import Callable
-from typing import Any, Final, NamedTuple
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 
-from ...agents.actions import action_limit
 from ...agents.agent import FRAME
-from ...agents.humans.scripted import CORRECTION_GAIN, CORRECTION_LIMIT, LEAK
 from ...agents.intent.pace import CATCHING_UP
-from ...robots.nao.kinematics import STROKE
 from ..episode.seat import REFERENCE_RANGE
 from ..world.table import TABLE_LENGTH
 from .arm import ArmVariation
 from .body import DEPTH, delayed, pushed
 from .haptic_plant import HapticPlant, Meant, advance_haptic_plant, haptic_plant_at_rest
+from .haptic_playing import (
+    commanded,
+    corrected_by_sight,
+    noise_of_motion,
+    sensed_by_hands,
+)
 from .intent_lifts import IntentLifts
 from .lifts import chunk
 from .playing import ramp
-
-_KEPT: Final = math.exp(-FRAME / LEAK)
 
 
 class IntentState(NamedTuple):
@@ -74,38 +74,6 @@ def paced(state: IntentState, lifts: IntentLifts, size: int) -> jax.Array:
     return state.time + pace * jnp.arange(1, size + 1, dtype=jnp.float32)[:, jnp.newaxis]
 
 
-def haptic_view(state: IntentState, noise: jax.Array, latency: jax.Array, period: float) -> Any:
-    """Return the robot's observations (7, n), laid out as :class:`.HapticObservation`.
-
-    Parameters
-    ----------
-    state
-        The lifts.
-    noise
-        (4, n) error of the sensors.
-    latency
-        (n,) age of the motion capture's sample in frames.
-    period
-        Control period [s].
-    """
-    plant = state.haptic.plant
-    (human_end,) = delayed(plant.heights, latency, 1)
-    robot_end = human_end + delayed(plant.differences, latency, 1)[0]
-    force, torque = state.haptic.touch.mean(axis=0)
-    time = jnp.full_like(human_end, period) * state.step
-    return jnp.stack(
-        (
-            human_end + noise[0],
-            robot_end + noise[1],
-            plant.hand,
-            state.command,
-            time,
-            force + noise[2],
-            torque + noise[3],
-        )
-    )
-
-
 class IntentFrames(NamedTuple):
     """Heights in the frames of a step, (f, n) [m]."""
 
@@ -141,21 +109,11 @@ def intent_step(
     sine = (planned(lifts.far, ahead) - planned(lifts.near, ahead)) / TABLE_LENGTH
     wrist = lifts.wrist * sine * (1 + sine**2 / 6)
 
-    missing = (delayed(state.targets, body.seen, 1) - delayed(plant.heights, body.seen, 1))[0]
-    wanted = state.correction + CORRECTION_GAIN * missing * size * FRAME
-    correction = jnp.clip(wanted, -CORRECTION_LIMIT, CORRECTION_LIMIT)
-    changes = jnp.diff(jnp.concatenate((state.targets[:1], targets)), axis=0)
-
-    def erring(error: jax.Array, due: tuple[jax.Array, jax.Array]) -> tuple[jax.Array, jax.Array]:
-        error = _KEPT * error + due[0] * due[1]
-        return error, error
-
-    error, errors = jax.lax.scan(erring, state.error, (gain, changes))
+    correction = corrected_by_sight(state.correction, state.targets, plant.heights, body, size)
+    errors = noise_of_motion(state.error, gain, state.targets[0], targets)
     references = targets + errors + tremor + ramp(state.correction, correction, size)
     references = jnp.clip(references, *REFERENCE_RANGE)
-    limit = action_limit(size * FRAME)
-    command = jnp.clip(state.command + jnp.clip(action, -limit, limit), *STROKE)
-    commands = ramp(state.command, command, size)
+    commands = commanded(state.command, action, size)
 
     haptic, near, far = state.haptic, [], []
     many = chunk(size)
@@ -168,9 +126,9 @@ def intent_step(
         far.append(heights + haptic.plant.differences[:many][::-1])
     after = IntentState(
         haptic=haptic,
-        command=command,
+        command=commands[-1],
         correction=correction,
-        error=error,
+        error=errors[-1],
         time=times[-1],
         targets=pushed(state.targets, targets),
         far_targets=pushed(state.far_targets, far_targets),
@@ -207,7 +165,8 @@ def intent_rmse_mm(
         held: tuple[IntentState, Any], now: tuple[jax.Array, ...]
     ) -> tuple[tuple[IntentState, Any], jax.Array]:
         (state, memory), (gain, tremor, noise, near, far) = held, now
-        view = haptic_view(state, noise, lifts.latency, size * FRAME)
+        time = state.step * size * FRAME
+        view = sensed_by_hands(state.haptic, state.command, time, noise, lifts.latency)
         memory, action = policy(memory, view)
         valid = (state.step < lifts.steps).astype(jnp.float32)
         state, frames = intent_step(state, lifts, gain, tremor, action, variation)
