@@ -128,28 +128,30 @@ def advance_ball_plant(
         first, last = now.reference, wanted.reference + reflex
         turn = (wanted.wrist - wrist) / FRAME
         load, target = prepared(now.arm, command, now.far_force, variation)
-        force = far_force = torque = jnp.zeros_like(command)
-        for number in range(STEPS):
-            begin, end = number / STEPS, (number + 1) / STEPS
+
+        def physics_step(held: Held, begin: jax.Array) -> tuple[Held, tuple[jax.Array, ...]]:
+            now, _, ball = held
             meant_now = wrist + (wanted.wrist - wrist) * begin
             own = GRIP_STIFFNESS * (now.pitch - meant_now) + GRIP_DAMPING * (now.pitch_rate - turn)
             far = (FAR_GRIP_STIFFNESS * now.pitch + FAR_GRIP_DAMPING * now.pitch_rate) / _IMPLICIT
             normal = _WEIGHT * jnp.cos(now.pitch)
             level = TABLE_LENGTH * jnp.cos(now.pitch)
             pressed = normal * ((_HALF + ball.place) / level - jnp.cos(now.pitch)) + _WEIGHT / 2
-            arm = followed(now.arm, target, begin, _STEP, variation)
             after, hands = after_physics_step(
                 now,
-                first + (last - first) * end,
+                first + (last - first) * (begin + 1 / STEPS),
                 body,
-                arm,
+                followed(now.arm, target, begin, _STEP, variation),
                 own / _IMPLICIT + far,
                 pressed=pressed,
                 step=_STEP,
             )
-            ball = rolled(ball, now, after)
-            force, far_force = force + hands / STEPS, far_force + after.far_force / STEPS
-            torque, now = torque - far / STEPS, after
+            return (after, wrist, rolled(ball, now, after)), (hands, after.far_force, -far)
+
+        (now, _, ball), found = jax.lax.scan(
+            physics_step, (now, wrist, ball), jnp.arange(STEPS) / STEPS
+        )
+        force, far_force, torque = (each.mean(axis=0) for each in found)
         far_force = far_force + _WEIGHT * jnp.cos(now.pitch) ** 2 - _WEIGHT / 2
         now = now._replace(
             far_force=far_force, reflex=reflex, arm=now.arm._replace(target=target, load=load)
