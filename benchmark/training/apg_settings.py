@@ -11,8 +11,11 @@ NAME: Final = "apg"
 PARTS: Final = 2
 """Parts of a batch, each in a thread of its own: a fixed number, so that sums keep their order."""
 
-TASKS: Final = ("level", "intent")
+TASKS: Final = ("level", "intent", "ball")
 """Tasks with a twin."""
+
+PAIRED: Final = ("intent",)
+"""Tasks in whose twin people learn, too."""
 
 LAST_WIDE: Final = 0.1
 """Largest share of wide lifts in the last updates: enough to keep what was learned of them."""
@@ -98,6 +101,6 @@ def pair_settings(task: str) -> ApgSettings:
     InputError
         If the task has no twin in which people learn.
     """
-    if task not in TASKS[1:]:
-        raise InputError(f"pairs can be trained for {', '.join(TASKS[1:])}; got the task {task!r}")
+    if task not in PAIRED:
+        raise InputError(f"pairs can be trained for {', '.join(PAIRED)}; got the task {task!r}")
     return ApgSettings(task=task, updates=200, lifts=1000, batch=128, units=32)

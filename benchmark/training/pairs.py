@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ...agents.control.recurrent import GatedNetwork, gated
 from ...agents.touch.touch_law import TouchNetwork
-from ..twin.intent_playing import Person
+from ..twin.intent_rollout import Person
 from ..twin.rollout import JAX
 from .apg import updates
 from .apg_settings import ApgSettings

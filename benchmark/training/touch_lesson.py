@@ -20,7 +20,7 @@ from ..suites.catalogue import make_scenario
 from ..tasks.intent.task import BEHAVIOURS as INTENTS
 from ..twin.arm import ArmVariation
 from ..twin.intent_lifts import IntentLifts, draw_intent, stack_intent
-from ..twin.intent_playing import intent_rmse_mm
+from ..twin.intent_rollout import intent_rmse_mm
 from ..twin.lifts import some
 from ..twin.rollout import JAX
 from .anticipation import FIRST_SEED

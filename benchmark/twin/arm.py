@@ -26,8 +26,6 @@ _DEGREE: Final = 7
 
 _MIDDLE: Final = (STROKE[0] + STROKE[1]) / 2
 _HALF: Final = (STROKE[1] - STROKE[0]) / 2
-_GAIN: Final = -math.expm1(-FRAME / SERVO.time)
-_AHEAD: Final = (FRAME / _GAIN - SERVO.time) / FRAME
 _YIELDING: Final = -math.expm1(-FRAME / SERVO.load_time)
 
 
@@ -91,7 +89,7 @@ def arms_at_rest(count: int) -> Arm:
 def drive(
     arm: Arm, command: jax.Array, force: jax.Array, variation: ArmVariation | None = None
 ) -> Arm:
-    """Return the arms a frame later; see :class:`.NaoArms` for the equations.
+    """Return the arms a frame later, in one step; see :class:`.NaoArms` for the equations.
 
     Parameters
     ----------
@@ -104,22 +102,56 @@ def drive(
     variation
         Arms that differ from the benchmark's; none: its own.
     """
+    load, target = prepared(arm, command, force, variation)
+    return followed(arm, target, variation=variation)._replace(target=target, load=load)
+
+
+def prepared(
+    arm: Arm, command: jax.Array, force: jax.Array, variation: ArmVariation | None = None
+) -> tuple[jax.Array, jax.Array]:
+    """Return the load [N] and the set-point for the end of a frame [m], each (n,); see `drive`."""
     load = arm.load + _YIELDING * (force - arm.load)
     place = (command - _MIDDLE) / _HALF
     sag = _sag(place, load)
     # At rest, the offset makes up for the sag under the table's weight.
     rest_place = jnp.full_like(command, -_MIDDLE / _HALF)
     sag = sag - _sag(rest_place, jnp.full_like(load, WEIGHT_SHARE))
-    gain = jnp.full_like(load, _GAIN)
     if variation is not None:
-        sag, gain = sag * variation.sag, gain * variation.lag
-    target = _nearest_row(jnp.clip(command - sag, *STROKE))
-    half_way = _nearest_row(arm.target + (target - arm.target) * _AHEAD)
-    off = half_way - arm.mean
-    mean = arm.mean + gain * off
-    variance = (1 - gain) * (arm.variance + gain * off**2)
+        sag = sag * variation.sag
+    return load, _nearest_row(jnp.clip(command - sag, *STROKE))
+
+
+def followed(
+    arm: Arm,
+    target: jax.Array,
+    begin: float | jax.Array = 0.0,
+    step: float = FRAME,
+    variation: ArmVariation | None = None,
+) -> Arm:
+    """Return the arms a physics step later, the set-point of the last frame kept.
+
+    Parameters
+    ----------
+    arm, variation
+        As of :func:`drive`.
+    target
+        (n,) set-point for the end of the frame [m].
+    begin
+        Beginning of the step, as a fraction of the frame.
+    step
+        Its duration [s].
+    """
+    gain = -math.expm1(-step / SERVO.time)
+    ahead = (step / gain - SERVO.time) / FRAME
+    gains = jnp.full_like(arm.load, gain)
+    if variation is not None:
+        gains = gains * variation.lag
+    on_the_way = _nearest_row(arm.target + (target - arm.target) * (begin + ahead))
+    off = on_the_way - arm.mean
+    mean = arm.mean + gains * off
+    variance = (1 - gains) * (arm.variance + gains * off**2)
     bend = _polynomial(_BEND, (mean - _MIDDLE) / _HALF)
-    return Arm(hand=mean + bend * variance, mean=mean, variance=variance, target=target, load=load)
+    return arm._replace(hand=mean + bend * variance, mean=mean, variance=variance)
 
 
 def _nearest_row(height: jax.Array) -> jax.Array:

@@ -40,8 +40,8 @@ class Body(NamedTuple):
     """(n,) haptic delay in frames."""
 
 
-def bodies(people: Sequence[BodyParameters]) -> Body:
-    """Return the bodies of people as arrays.
+def bodies(people: Sequence[BodyParameters], step: float = FRAME) -> Body:
+    """Return the bodies of people as arrays, for physics steps of ``step`` [s].
 
     Raises
     ------
@@ -61,7 +61,7 @@ def bodies(people: Sequence[BodyParameters]) -> Body:
     def column(values: Sequence[float]) -> jax.Array:
         return jnp.asarray(values, jnp.float32)
 
-    implicit = [1 + FRAME * each.damping / each.mass / 2 for each in people]
+    implicit = [1 + step * each.damping / each.mass / 2 for each in people]
     felt = [each.felt_share * each.pull for each in people]
     return Body(
         mass=column([each.mass for each in people]),

@@ -156,23 +156,51 @@ def after_frame(
     grip
         (n,) torque with which the grips resist the pitch [Nm].
     """
+    arm = drive(now.arm, command, now.far_force, variation)
+    return after_physics_step(now, reference, body, arm, grip)
+
+
+def after_physics_step(
+    now: Moving,
+    reference: jax.Array,
+    body: Body,
+    arm: Arm,
+    grip: jax.Array,
+    *,
+    pressed: jax.Array | float = 0.0,
+    step: float = FRAME,
+) -> tuple[Moving, jax.Array]:
+    """Return the lifts a physics step later, and the force of the person's hands as `after_frame`.
+
+    Parameters
+    ----------
+    now, body, grip
+        As of :func:`after_frame`; the body is one for steps of this duration.
+    reference
+        (n,) what the person's arms pull towards at the end of the step, with the reflex [m].
+    arm
+        The NAO's arms after the step.
+    pressed
+        (n,) force on the height of the person's hands by loads on the table [N].
+    step
+        Duration [s].
+    """
     mass = body.mass
     arms = body.stiffness * (now.reference - now.height)
-    arms = arms + body.damping * ((reference - now.reference) / FRAME - now.velocity)
-    arm = drive(now.arm, command, now.far_force, variation)
-    far_velocity = (arm.hand - now.far_height) / FRAME
+    arms = arms + body.damping * ((reference - now.reference) / step - now.velocity)
+    far_velocity = (arm.hand - now.far_height) / step
 
     square = ((now.far_height - now.height) / TABLE_LENGTH) ** 2
     tilted = TABLE_MASS / 12 * (1 + square) + (2 * mass + TABLE_MASS / 4) * square
-    carried = (TABLE_MASS / 4 - tilted) * (far_velocity - now.far_velocity) / FRAME
-    driving = arms + grip / TABLE_LENGTH * (1 + square / 2) - carried
+    carried = (TABLE_MASS / 4 - tilted) * (far_velocity - now.far_velocity) / step
+    driving = arms + grip / TABLE_LENGTH * (1 + square / 2) - carried + pressed
     acceleration = driving / (mass + TABLE_MASS / 4 + tilted)
 
-    velocity = now.velocity + FRAME * acceleration
-    height = now.height + FRAME * velocity
+    velocity = now.velocity + step * acceleration
+    height = now.height + step * velocity
     sine = (arm.hand - height) / TABLE_LENGTH
     pitch_rate = (far_velocity - velocity) / TABLE_LENGTH * (1 + sine**2 / 2)
-    centre = acceleration + TABLE_LENGTH / 2 / FRAME * (pitch_rate - now.pitch_rate)
+    centre = acceleration + TABLE_LENGTH / 2 / step * (pitch_rate - now.pitch_rate)
     force = arms - mass * acceleration
     far_force = TABLE_MASS * (GRAVITY + centre) - force - WEIGHT_SHARE
     after = Moving(

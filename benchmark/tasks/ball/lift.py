@@ -13,7 +13,7 @@ from ...world import HISTORY_FRAMES
 from ...world.table import TABLE_LENGTH
 from ..haptic import HapticLift
 
-_STEEPEST: Final = 0.5
+STEEPEST_MEANT: Final = 0.5
 """Largest intended pitch's sine; what people mean stays far inside it."""
 
 
@@ -51,7 +51,7 @@ class BallLift(HapticLift):
         """Advance by a frame for each hand reference and command; see :meth:`.Lift.move`."""
         target = self.target[self._moved : self._moved + len(human)].tolist()
         meant = [height - mine for height, mine in zip(target, human, strict=True)]
-        limit = _STEEPEST * TABLE_LENGTH
+        limit = STEEPEST_MEANT * TABLE_LENGTH
         pitches = [
             math.asin(min(max(self._wrist * each, -limit), limit) / TABLE_LENGTH) for each in meant
         ]

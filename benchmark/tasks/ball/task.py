@@ -20,7 +20,7 @@ from ...episode.task import Bounds, Playing
 from ...episode.trace import Trace
 from ...suites.catalogue import make_scenario
 from ...suites.suite import Suite
-from ...world import Ball, BodyParameters, FarEnd, HapticWorld
+from ...world import Ball, BodyParameters, FarEnd, HapticWorld, Physics
 from ...world.table import GRAVITY, TABLE_LENGTH, WEIGHT_SHARE
 from ..haptic import Haptic
 from .lift import BallLift
@@ -31,6 +31,10 @@ BEHAVIOURS: Final = ("ball_smooth", "ball_pause", "ball_smooth_shared", "ball_pa
 
 BALL: Final = Ball()
 """The ball of the suite."""
+
+FINER: Final = Physics(step=0.0025)
+"""The physics of the task. A person and a robot who steer one ball amplify small differences, so that
+the usual step is too coarse (``colift bench --convergence --suite ball-v1``)."""
 
 FELL: Final = "the ball rolled off the table"
 """Why a lift without the ball ends."""
@@ -51,7 +55,7 @@ class BallSteering(Haptic):
 
     def world(self, human: BodyParameters, far_end: FarEnd) -> HapticWorld:
         """Return a world with a ball on the table."""
-        return HapticWorld(human, far_end, ball=self.ball)
+        return HapticWorld(human, far_end, physics=FINER, ball=self.ball)
 
     def lift(self, scenario: Scenario) -> BallLift:
         """Return a lift whose human steers the ball."""

@@ -27,7 +27,7 @@ from colift.benchmark.training.lessons import lesson_of
 from colift.benchmark.training.pairs import cross_play
 from colift.benchmark.training.touch_lesson import TWINS, TouchLesson, touch_policy
 from colift.benchmark.training.validation import VALIDATION_SEEDS
-from colift.benchmark.twin.intent_playing import Person, intent_rmse_mm
+from colift.benchmark.twin.intent_rollout import Person, intent_rmse_mm
 
 TINY = ApgSettings(task="intent", updates=2, lifts=4, batch=4, units=3)
 

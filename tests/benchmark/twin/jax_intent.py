@@ -12,7 +12,7 @@ from colift.benchmark.episode.lift import make_lift
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.twin import haptic_plant
 from colift.benchmark.twin.intent_lifts import draw_intent, stack_intent
-from colift.benchmark.twin.intent_playing import intent_rmse_mm
+from colift.benchmark.twin.intent_rollout import intent_rmse_mm
 from colift.benchmark.world.table import TABLE_LENGTH
 
 PEOPLE = (210_000, 210_001)

@@ -1,0 +1,109 @@
+"""Drawn arrays of all tasks with touch: sensors, the noise of a hand, and lifts in one."""
+
+import math
+from collections.abc import Sequence
+from typing import Final, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.agent import FRAME
+from ...agents.errors import InputError
+from ...agents.humans import ScriptedHuman
+from ...agents.humans.scripted import LEAK
+from ..episode.lift import MOCAP_NOISE
+from ..episode.scenario import Scenario
+from ..episode.seeding import derive_seed
+from ..tasks.haptic import FORCE_NOISE, TORQUE_NOISE
+from ..world.world import HISTORY_FRAMES
+from .lifts import hand_references
+
+Array = NDArray[np.float64]
+
+KEPT: Final = math.exp(-FRAME / LEAK)
+"""Part of a hand's error that is left after a frame; see :class:`.ScriptedHuman`."""
+
+
+class Sensed(NamedTuple):
+    """What is drawn of a lift with touch whatever the task, for s steps of f frames."""
+
+    gain: Array
+    """(s, f) signal-dependent noise of the person's hand, relative to its velocity."""
+    tremor: Array
+    """(s, f) tremor of the hand [m]."""
+    noise: Array
+    """(s, 4) error of the motion capture at either end [m], of force [N] and torque [Nm]."""
+
+
+def draw_sensed(scenario: Scenario, seed: int, steps: int) -> Sensed:
+    """Return the noise of sensors and hand in a lift of so many steps."""
+    name, size = scenario.name, scenario.frames_per_step
+    frames = steps * size
+    rng = np.random.default_rng(derive_seed(seed, f"sensor/{name}"))
+    mocap = rng.normal(0.0, MOCAP_NOISE, (2, HISTORY_FRAMES + frames))
+    rng = np.random.default_rng(derive_seed(seed, f"force sensor/{name}"))
+    touch = rng.normal(0.0, 1.0, (2, steps + 1))[:, :steps]
+    touch = touch * np.array([[FORCE_NOISE], [TORQUE_NOISE]])
+    gain, tremor = _hand_noise(scenario, seed, frames)
+    return Sensed(
+        gain.reshape(steps, size),
+        tremor.reshape(steps, size),
+        np.concatenate((mocap[:, sampled_frames(scenario, steps)], touch)).T,
+    )
+
+
+def sampled_frames(scenario: Scenario, steps: int) -> NDArray[np.int64]:
+    """Return where the samples of the steps are in a lift's noise of the motion capture (s,)."""
+    size = scenario.frames_per_step
+    return size * np.arange(steps) + HISTORY_FRAMES - 1 - scenario.latency_frames
+
+
+def _hand_noise(scenario: Scenario, seed: int, frames: int) -> tuple[Array, Array]:
+    """Return gain and tremor of a person's hand (frames,), from what it does.
+
+    One that is to stay shows the tremor alone. One that is to move by 1 m in each frame shows
+    errors e, too, of which those of the last frame are kept in part: g_i = e_i - kept e_(i-1).
+    """
+    size = scenario.frames_per_step
+    ramp = np.arange(1.0, frames + 1)
+    tremor, moving = (
+        hand_references(_hand(scenario, seed), target, size).ravel()
+        for target in (np.zeros(frames), ramp)
+    )
+    error = moving - ramp - tremor
+    return error - KEPT * np.concatenate(([0.0], error[:-1])), tremor
+
+
+def _hand(scenario: Scenario, seed: int) -> ScriptedHuman:
+    hand = ScriptedHuman(subject=scenario.subject)
+    hand.reset(derive_seed(seed, f"human/{scenario.name}"))
+    return hand
+
+
+def lengthened(values: Array, frames: int) -> Array:
+    """Return values (T,) with the last one repeated until there are so many."""
+    return np.concatenate((values, np.full(frames - len(values), values[-1])))
+
+
+def joined(arrays: Sequence[Array], many: int) -> jax.Array:
+    """Return arrays as one (many, ..., n), in single precision; shorter ones stay at their end."""
+    filled = np.empty((many, *arrays[0].shape[1:], len(arrays)), np.float32)
+    for index, array in enumerate(arrays):
+        filled[: len(array), ..., index] = array
+        filled[len(array) :, ..., index] = array[-1]
+    return jnp.asarray(filled)
+
+
+def common_size(sizes: Sequence[int]) -> int:
+    """Return the frames of a step, which all lifts must have in common.
+
+    Raises
+    ------
+    InputError
+        If there is no lift, or there are different control periods.
+    """
+    if len(set(sizes)) != 1:
+        raise InputError(f"the twin needs lifts of one control period, got {len(set(sizes))}")
+    return sizes[0]

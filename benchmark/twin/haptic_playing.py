@@ -1,0 +1,105 @@
+"""The common part of a step of lifts with touch: sensors, the hand of the person, and commands."""
+
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+
+from ...agents.actions import action_limit
+from ...agents.agent import FRAME
+from ...agents.humans.scripted import CORRECTION_GAIN, CORRECTION_LIMIT
+from ...robots.nao.kinematics import STROKE
+from .body import Body, delayed
+from .haptic_lifts import KEPT
+from .haptic_plant import HapticPlant
+from .playing import ramp
+
+
+def sensed_by_hands(
+    haptic: HapticPlant,
+    command: jax.Array,
+    time: jax.Array,
+    noise: jax.Array,
+    latency: jax.Array,
+) -> Any:
+    """Return the robot's observations (7, n), laid out as :class:`.HapticObservation`.
+
+    Parameters
+    ----------
+    haptic
+        The lifts.
+    command
+        (n,) command of the far hands [m].
+    time
+        () since the lifts began [s].
+    noise
+        (4, n) error of the sensors.
+    latency
+        (n,) age of the motion capture's sample in frames.
+    """
+    plant = haptic.plant
+    (human_end,) = delayed(plant.heights, latency, 1)
+    robot_end = human_end + delayed(plant.differences, latency, 1)[0]
+    force, torque = haptic.touch.mean(axis=0)
+    return jnp.stack(
+        (
+            human_end + noise[0],
+            robot_end + noise[1],
+            plant.hand,
+            command,
+            jnp.full_like(human_end, time),
+            force + noise[2],
+            torque + noise[3],
+        )
+    )
+
+
+def corrected_by_sight(
+    correction: jax.Array, targets: jax.Array, heights: jax.Array, body: Body, size: int
+) -> jax.Array:
+    """Return the voluntary correction (n,) [m] at the end of a step; see :class:`.ScriptedHuman`.
+
+    Parameters
+    ----------
+    correction
+        (n,) as it was [m].
+    targets, heights
+        (DEPTH, n) histories of the intended height and of the height [m], newest first.
+    body
+        The people.
+    size
+        Frames of a step.
+    """
+    missing = (delayed(targets, body.seen, 1) - delayed(heights, body.seen, 1))[0]
+    wanted = correction + CORRECTION_GAIN * missing * size * FRAME
+    return jnp.clip(wanted, -CORRECTION_LIMIT, CORRECTION_LIMIT)
+
+
+def noise_of_motion(
+    error: jax.Array, gain: jax.Array, before: jax.Array, targets: jax.Array
+) -> jax.Array:
+    """Return the error of the hand by motor noise (f, n) [m] in each frame of a step.
+
+    Parameters
+    ----------
+    error
+        (n,) of the last frame [m].
+    gain
+        (f, n) noise relative to the velocity.
+    before, targets
+        (n,) intended height in the last frame, and (f, n) in those of the step [m].
+    """
+    changes = jnp.diff(jnp.concatenate((before[jnp.newaxis], targets)), axis=0)
+
+    def erring(error: jax.Array, due: tuple[jax.Array, jax.Array]) -> tuple[jax.Array, jax.Array]:
+        error = KEPT * error + due[0] * due[1]
+        return error, error
+
+    return jax.lax.scan(erring, error, (gain, changes))[1]
+
+
+def commanded(command: jax.Array, action: jax.Array, size: int) -> jax.Array:
+    """Return the commands (f, n) [m] in a step by an action, cut to the hands' speed and stroke."""
+    limit = action_limit(size * FRAME)
+    after = jnp.clip(command + jnp.clip(action, -limit, limit), *STROKE)
+    return ramp(command, after, size)

@@ -1,0 +1,158 @@
+"""The twin of the ball: the lifts of the engine, with policies that steer and that do not."""
+
+import contextlib
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.agents.observations import BallObservation as Seen
+from colift.agents.policies.ball_game import BallGame
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import make_lift
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.tasks.ball.task import BALL
+from colift.benchmark.twin import ball_playing
+from colift.benchmark.twin.ball_lifts import draw_ball, stack_ball
+from colift.benchmark.twin.ball_playing import (
+    BallDue,
+    ball_rmse_mm,
+    ball_step,
+    ball_view,
+    balls_at_rest,
+)
+from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH
+
+PEOPLE = range(210_000, 210_003)
+"""Seeds of people and lifts outside all suites."""
+LIFTS = [
+    (make_scenario(behaviour, f"draw-{seed}", task="ball"), seed)
+    for behaviour in ("ball_smooth", "ball_pause", "ball_smooth_shared", "ball_pause_shared")
+    for seed in PEOPLE
+]
+
+
+def steering(gain):
+    """Return a policy that goes to the seen height of the human's end, inclined against the ball."""
+
+    def policy(last, seen):
+        place = seen[Seen.BALL_PLACE]
+        error = place - seen[Seen.TARGET_PLACE] + (place - last) / (10 * FRAME)
+        height = seen[Seen.HUMAN_END] + gain * error
+        return place, 0.5 * (height - seen[Seen.HAND_COMMAND])
+
+    return policy
+
+
+def yielding(last, seen):
+    """Give in to the force of the hands but for the ball's weight, and slow the ball down."""
+    place = seen[Seen.BALL_PLACE]
+    weight = BALL.mass * GRAVITY * (0.5 + place / TABLE_LENGTH)
+    speed = (place - last) / (10 * FRAME)
+    return place, -0.03 * (seen[Seen.FORCE] - weight) + 0.02 * speed
+
+
+def idle(last, seen):
+    """Stand still: the ball falls."""
+    return last, 0.0 * seen[Seen.FORCE]
+
+
+class Played:
+    """A policy of the twin as an agent of the engine."""
+
+    def __init__(self, policy):
+        self.policy = policy
+
+    def reset(self, seed):
+        self.memory = 0.0
+
+    def act(self, observation):
+        self.memory, action = self.policy(self.memory, observation)
+        return np.array([action])
+
+
+def in_engine(make):
+    """Return the errors of the lifts with new agents, and whether each lost the ball."""
+    scores = []
+    for scenario, seed in LIFTS:
+        with contextlib.closing(make_lift(scenario)) as lift:
+            scores.append(run_episode(lift, make(), seed).scores)
+    return np.array([(each["rmse_mm"], each["fallen"]) for each in scores]).T
+
+
+def in_twin(policy, lifts):
+    return np.asarray(ball_rmse_mm(policy, jnp.zeros(lifts.size), lifts))
+
+
+def agents_in_twin(make, lifts):
+    """Return the errors of the lifts with agents as they play in the engine, step by step."""
+    agents = [make() for _ in LIFTS]
+    for agent in agents:
+        agent.reset(0)
+    count = lifts.size
+    squares, state = np.zeros(count), balls_at_rest(count)
+    step, view = jax.jit(ball_step), jax.jit(ball_view)
+    for number, valid in enumerate(np.arange(len(lifts.gain))[:, np.newaxis] < lifts.steps):
+        coming = lifts.coming[number]
+        seen = np.asarray(view(state, lifts, lifts.noise[number], coming), np.float64)
+        acts = [float(agent.act(seen[:, i])[0]) for i, agent in enumerate(agents)]
+        due = BallDue(lifts.target[number], coming, lifts.gain[number], lifts.tremor[number])
+        state, places = step(state, lifts, due, jnp.asarray(acts))
+        missed = np.asarray(((places - lifts.place[number]) ** 2).sum(axis=0))
+        squares += np.where(valid, missed, 0.0)
+    assert not np.asarray(state.lost).any()
+    return 1000 * np.sqrt(squares / (np.asarray(lifts.steps) * lifts.gain.shape[1]))
+
+
+@pytest.fixture(scope="module")
+def drawn():
+    return stack_ball([draw_ball(scenario, seed) for scenario, seed in LIFTS])
+
+
+@pytest.mark.parametrize("policy", [steering(0.15), yielding], ids=["steering", "yielding"])
+def test_each_lift_with_a_ball_is_that_of_the_engine(drawn, policy):
+    (engine, fallen), twin = in_engine(lambda: Played(policy)), in_twin(policy, drawn)
+    assert not fallen.any()
+    assert abs(twin.mean() / engine.mean() - 1) < 0.003
+    assert np.abs(twin / engine - 1).max() < 0.015
+
+
+def test_the_agent_that_infers_the_aim_plays_as_in_the_engine(drawn):
+    (engine, _), twin = in_engine(BallGame), agents_in_twin(BallGame, drawn)
+    print("GAME", engine, twin, twin.mean() / engine.mean() - 1)
+    assert abs(twin.mean() / engine.mean() - 1) < 0.01
+
+
+def test_a_ball_that_falls_counts_as_in_the_engine(drawn):
+    (engine, fallen), twin = in_engine(lambda: Played(idle)), in_twin(idle, drawn)
+    assert fallen.all()
+    assert np.abs(twin / engine - 1).max() < 0.015
+
+
+def test_the_gradient_is_the_slope_and_finite_where_the_ball_falls(drawn):
+    def error(gain, policy):
+        return ball_rmse_mm(policy(gain), jnp.zeros(drawn.size), drawn).mean()
+
+    slope = jax.jit(jax.grad(error), static_argnums=1)
+    found = float(slope(0.15, steering))
+    near = [float(error(gain, steering)) for gain in (0.148, 0.152)]
+    assert found == pytest.approx((near[1] - near[0]) / 0.004, rel=0.1)
+
+    def lazy(gain):
+        return lambda last, seen: (last, gain * seen[Seen.BALL_PLACE])
+
+    assert np.isfinite(float(slope(0.0, lazy)))
+
+
+def test_people_who_steer_otherwise_are_found(drawn, monkeypatch):
+    (engine, _), policy = in_engine(lambda: Played(yielding)), yielding
+    monkeypatch.setattr(ball_playing, "HAND_TIME", 0.2)
+    assert np.abs(in_twin(policy, drawn) / engine - 1).max() > 0.015
+
+
+@pytest.mark.parametrize("settings", [{"task": "level"}, {"task": "ball", "partner": "human"}])
+def test_what_the_twin_of_the_ball_does_not_model_is_refused(settings):
+    with pytest.raises(InputError, match="this twin has the task ball with a NAO"):
+        draw_ball(make_scenario("smooth", **settings), 0)
