@@ -15,7 +15,8 @@ class LeadingManner:
 
     wrist: float
     """Share of the intended pitch that the wrists turn to. A person with little of it leads by
-    waiting rather than by torque."""
+    waiting rather than by torque. It is negative if the wrists turn along with the forearms: who
+    raises a hand from the elbow raises its front, whatever the table is to do."""
     lead: float
     """How far the wrists are ahead of the hands [s]; negative if they follow."""
     patience: float
@@ -23,18 +24,18 @@ class LeadingManner:
     twice this distance the person waits."""
 
 
-SHARES: Final = (0.2, 1.2)
+SHARES: Final = (-0.4, 1.2)
 LEADS: Final = (-0.1, 0.2)
 PATIENCES: Final = (0.02, 0.08)
 """Ranges of the population, uniform and independent: chosen, wide enough that people differ in what
 tells their intention."""
 
 MANNERS: Final[Mapping[str, LeadingManner]] = {
-    "S1": LeadingManner(wrist=1.0, lead=0.1, patience=0.05),
-    "S2": LeadingManner(wrist=0.5, lead=0.0, patience=0.03),
-    "S3": LeadingManner(wrist=0.8, lead=0.2, patience=0.08),
-    "S4": LeadingManner(wrist=0.2, lead=0.0, patience=0.02),
-    "S5": LeadingManner(wrist=1.2, lead=-0.1, patience=0.06),
+    "S1": LeadingManner(wrist=1.2, lead=0.1, patience=0.06),
+    "S2": LeadingManner(wrist=0.6, lead=0.0, patience=0.03),
+    "S3": LeadingManner(wrist=-0.4, lead=0.1, patience=0.05),
+    "S4": LeadingManner(wrist=0.1, lead=0.0, patience=0.03),
+    "S5": LeadingManner(wrist=-0.2, lead=0.2, patience=0.08),
 }
 """The manners of the five subjects, spread over the ranges."""
 

@@ -21,7 +21,7 @@ LEAST_WEIGHT: Final = 1e-6
 class PoseFilterParameters:
     """Parameters of :class:`PoseFilter`."""
 
-    wrists: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2)
+    wrists: tuple[float, ...] = (-0.4, -0.1, 0.2, 0.5, 0.8, 1.2)
     """Shares of the intended pitch that the wrists may show, equally likely."""
     switch: float = 0.03
     """Probability that the intent changes within a step."""

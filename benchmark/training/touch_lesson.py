@@ -1,64 +1,28 @@
 """The lessons of tasks with touch: the score of the task, on lifts of its twin."""
 
-from collections.abc import Callable, Sequence
 from functools import partial
 from types import ModuleType
-from typing import Any, Final, NamedTuple
+from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
-from ...agents.agent import FRAME
 from ...agents.control.recurrent import GatedNetwork
-from ...agents.intent.manner import LEADS, PATIENCES, SHARES
 from ...agents.submissions import touch as submission
 from ...agents.touch.touch_controller import TouchController, touch_network
 from ...agents.touch.touch_law import TouchMemory, TouchNetwork, felt_action, inputs_of
 from ..episode.scenario import Scenario
 from ..suites.catalogue import make_scenario
-from ..tasks.intent.task import BEHAVIOURS as INTENTS
 from ..twin.arm import ArmVariation
-from ..twin.intent_lifts import IntentLifts, draw_intent, stack_intent
-from ..twin.intent_rollout import intent_rmse_mm
 from ..twin.lifts import some
 from ..twin.rollout import JAX
 from .anticipation import FIRST_SEED
 from .apg_settings import ApgSettings
 from .lesson import Weights, first_network
 from .pool import LAG, SAG
+from .touch_twins import TWINS
 from .validation import task_error
-
-
-class TouchTwin(NamedTuple):
-    """The twin of a task, as functions."""
-
-    behaviours: Sequence[str]
-    draw: Callable[[Scenario, int], Any]
-    """Returns what is drawn for a lift."""
-    stack: Callable[[Sequence[Any]], Any]
-    """Returns drawn lifts in one."""
-    rmse_mm: Callable[..., jax.Array]
-    """Returns the score (n,) of policy, memory, lifts and variation of the arms [mm]."""
-    manners: Callable[[Any, jax.Array, float], Any]
-    """Returns lifts with manners of their people that are drawn anew by a key, from ranges that are
-    longer than the population's by a share."""
-
-
-def leading_anew(lifts: IntentLifts, key: jax.Array, wide: float) -> IntentLifts:
-    """Return lifts with other manners (:class:`.LeadingManner`); see :class:`TouchTwin`."""
-    drawn = jax.random.uniform(key, (3, lifts.size), minval=-wide / 2, maxval=1 + wide / 2)
-    wrist, lead, patience = (
-        low + (high - low) * share
-        for (low, high), share in zip((SHARES, LEADS, PATIENCES), drawn, strict=True)
-    )
-    return lifts._replace(wrist=wrist, lead=lead / FRAME, patience=patience)
-
-
-TWINS: Final = {
-    "intent": TouchTwin(INTENTS, draw_intent, stack_intent, intent_rmse_mm, leading_anew)
-}
-"""By task."""
 
 
 class TouchLesson:

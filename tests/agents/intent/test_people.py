@@ -61,7 +61,7 @@ def test_a_person_waits_for_a_far_end_that_is_off_and_catches_up_later():
         times = pace.coming(10, history)
         history += [planned_at(far, time) for time in times]
     assert times[-1] == 100
-    for _ in range(60):
+    for _ in range(90):
         times = pace.coming(10, history)
         history += [history[-1]] * 10
     assert times[-1] - times[0] < 0.01
@@ -89,4 +89,4 @@ def test_manners_follow_from_the_name_alone_and_new_people_differ():
     assert len({manner.wrist for manner in drawn}) == 20
     assert drawn[3] == leading_manner(Subject.draw(3))
     assert leading_manner(S1) == MANNERS["S1"]
-    assert all(0.2 <= manner.wrist <= 1.2 and math.isfinite(manner.lead) for manner in drawn)
+    assert all(-0.4 <= manner.wrist <= 1.2 and math.isfinite(manner.lead) for manner in drawn)

@@ -43,14 +43,16 @@ def test_at_first_every_intent_is_as_likely():
 
 def test_a_person_who_waits_makes_the_present_pose_less_likely():
     """With the same torque, standing still for long shifts the expected height away from here."""
-    made = fed(-1.0, 0.5, follows=False)
+    made = fed(0.0, -0.1, follows=False)
     near = 0.1
     pitch = 0.0
-    torque = WRIST_STIFFNESS * 0.5 * math.asin(-0.2 / TABLE_LENGTH)
+    torque = -WRIST_STIFFNESS * 0.1 * math.asin(-0.1 / TABLE_LENGTH)
     before = made.height
+    assert made.intents.argmax() == 0
     for _ in range(15):
         made.update(near, pitch, -torque / TABLE_LENGTH)
-    assert made.height < before
+    assert made.height < 0.5 * before
+    assert made.intents.argmax() == 1
 
 
 def test_no_signal_makes_it_lose_its_numbers():

@@ -1,0 +1,64 @@
+"""The twins of tasks with touch, as functions, with the manners that people may have in them."""
+
+from collections.abc import Callable, Sequence
+from typing import Any, Final, NamedTuple
+
+import jax
+import jax.numpy as jnp
+
+from ...agents.agent import FRAME
+from ...agents.ball.manner import RANGES
+from ...agents.intent.manner import LEADS, PATIENCES, SHARES
+from ..episode.scenario import Scenario
+from ..tasks.ball.task import BEHAVIOURS as ROLLINGS
+from ..tasks.intent.task import BEHAVIOURS as INTENTS
+from ..twin.ball_lifts import BallLifts, Manner, draw_ball, stack_ball
+from ..twin.ball_playing import ball_rmse_mm
+from ..twin.intent_lifts import IntentLifts, draw_intent, stack_intent
+from ..twin.intent_rollout import intent_rmse_mm
+
+
+class TouchTwin(NamedTuple):
+    """The twin of a task, as functions."""
+
+    behaviours: Sequence[str]
+    draw: Callable[[Scenario, int], Any]
+    """Returns what is drawn for a lift."""
+    stack: Callable[[Sequence[Any]], Any]
+    """Returns drawn lifts in one."""
+    rmse_mm: Callable[..., jax.Array]
+    """Returns the score (n,) of policy, memory, lifts and variation of the arms [mm]."""
+    manners: Callable[[Any, jax.Array, float], Any]
+    """Returns lifts with manners of their people that are drawn anew by a key, from ranges that are
+    longer than the population's by a share."""
+
+
+def leading_anew(lifts: IntentLifts, key: jax.Array, wide: float) -> IntentLifts:
+    """Return lifts with other manners (:class:`.LeadingManner`); see :class:`TouchTwin`."""
+    drawn = jax.random.uniform(key, (3, lifts.size), minval=-wide / 2, maxval=1 + wide / 2)
+    wrist, lead, patience = (
+        low + (high - low) * share
+        for (low, high), share in zip((SHARES, LEADS, PATIENCES), drawn, strict=True)
+    )
+    return lifts._replace(wrist=wrist, lead=lead / FRAME, patience=patience)
+
+
+def steering_anew(lifts: BallLifts, key: jax.Array, wide: float) -> BallLifts:
+    """Return lifts with other manners (:class:`.SteeringManner`), all of the population's ranges.
+
+    Beyond them, people who steer with a robot who has learned nothing yet fling the ball about, and
+    gradients through such lifts overflow.
+    """
+    drawn = jax.random.uniform(key, (len(RANGES), lifts.size))
+    manner = {
+        name: low + (high - low) * share
+        for (name, (low, high)), share in zip(RANGES.items(), drawn, strict=True)
+    }
+    return lifts._replace(manner=Manner(**manner))
+
+
+TWINS: Final = {
+    "intent": TouchTwin(INTENTS, draw_intent, stack_intent, intent_rmse_mm, leading_anew),
+    "ball": TouchTwin(ROLLINGS, draw_ball, stack_ball, ball_rmse_mm, steering_anew),
+}
+"""By task."""
