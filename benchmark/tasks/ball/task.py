@@ -33,8 +33,8 @@ BALL: Final = Ball()
 """The ball of the suite."""
 
 FINER: Final = Physics(step=0.0025)
-"""The physics of the task. A person and a robot who steer one ball amplify small differences, so that
-the usual step is too coarse (``colift bench --convergence --suite ball-v1``)."""
+"""The physics of the task. A person and a robot who steer one ball amplify small differences: the
+usual step is too coarse (``colift bench --convergence --suite ball-v1``)."""
 
 FELL: Final = "the ball rolled off the table"
 """Why a lift without the ball ends."""
