@@ -24,7 +24,7 @@ from colift.benchmark.tasks.ball.scores import (
 from colift.benchmark.tasks.ball.task import FELL, BallSteering
 from colift.testing import check_suite, check_task
 
-DIGEST = "b5733c468d5994d0"
+DIGEST = "e7f56177ef5705f8"
 SEED = 100_000
 
 
