@@ -86,19 +86,20 @@ def study(name: str = USUAL) -> Iterator[PhysicsDeviation]:
         if reference is CONVERGED and name != USUAL:
             continue
         for policy in PLAYERS[task.name]:
-            yield from _errors(suite, policy, reference, *settings)
+            yield from physics_errors(suite, policy, reference, *settings)
 
 
 def solver_error() -> float:
     """Return the worst relative RMSE error of a lift against a converged solver."""
     suite = make_suite(USUAL)
-    rows = [row for policy in POLICIES for row in _errors(suite, policy, CONVERGED, PHYSICS)]
+    rows = [row for policy in POLICIES for row in physics_errors(suite, policy, CONVERGED, PHYSICS)]
     return max(row.rmse_error for row in rows)
 
 
-def _errors(
+def physics_errors(
     suite: Suite, policy: str, reference: Physics, *settings: Physics
 ) -> Iterator[PhysicsDeviation]:
+    """Yield the errors of settings on the first seed of a suite, with one policy."""
     exact_rmse, exact_heights = _play(suite, policy, reference)
     for physics in settings:
         rmse, heights = _play(suite, policy, physics)
