@@ -14,7 +14,7 @@ from ..agents.registry import playing
 from ..benchmark.episode.level import LEVEL
 from ..benchmark.execution.pool import process_pool
 from ..benchmark.profiling.cluster import scale as measure_scale
-from ..benchmark.profiling.convergence import solver_error, study
+from ..benchmark.profiling.convergence import USUAL, solver_error, study
 from ..benchmark.profiling.engine import endurance, single_process, two_workers_ratio
 from ..benchmark.profiling.policies import LIMIT_MS, StepTime, default_scenarios, step_time
 from ..benchmark.profiling.sandbox import (
@@ -28,6 +28,7 @@ from ..benchmark.profiling.sandbox import (
 from ..benchmark.suites.suite import make_suite
 from ..benchmark.twin.libraries import require_jax
 from ..benchmark.world import Physics
+from .completion import suites
 from .options import AsJson, check_exclusive
 from .printing import Cell, left, print_json, show, table
 from .progress import progress_bar
@@ -63,6 +64,10 @@ def bench(
     convergence: Annotated[
         bool, typer.Option("--convergence", help="Print the convergence study instead.")
     ] = False,
+    suite: Annotated[
+        str,
+        typer.Option(metavar="SUITE", help="The suite of --convergence.", autocompletion=suites),
+    ] = USUAL,
     policies: Annotated[
         bool, typer.Option("--policies", help="Time a step of every registered policy instead.")
     ] = False,
@@ -81,10 +86,12 @@ def bench(
     check_exclusive(
         convergence=convergence, policies=policies, isolation=isolation, scale=scale, twin=twin
     )
+    if suite != USUAL and not convergence:
+        raise InputError("--suite belongs to --convergence")
     if episodes < 200:
         raise InputError(f"--episodes must be at least 200, got {episodes}")
     studies: dict[Callable[[], Report], bool] = {
-        _convergence: convergence,
+        partial(_convergence, suite): convergence,
         _policies: policies,
         _isolation: isolation,
         _scale: scale,
@@ -239,9 +246,9 @@ def _policies() -> Report:
     return content, table("time of a step", titles, rows, caption=caption)
 
 
-def _convergence() -> Report:
+def _convergence(suite: str) -> Report:
     """Return the errors of coarser physics."""
-    errors = list(study())
+    errors = list(study(suite))
     content = [
         {
             "policy": row.policy,
@@ -274,7 +281,9 @@ def _convergence() -> Report:
         "worst",
         "heights mm",
     )
-    return content, table("convergence", titles, rows)
+    return content, table(
+        f"convergence on {suite}" if suite != USUAL else "convergence", titles, rows
+    )
 
 
 def _setting(physics: Physics) -> str:

@@ -27,20 +27,20 @@ class SteeringManner:
 
 RANGES: Final = {
     "share": (0.1, 1.3),
-    "haste": (1.6, 2.4),
+    "haste": (1.6, 2.2),
     "lead": (0.0, 0.2),
     "trust": (0.0, 0.5),
-    "wrist": (0.1, 0.8),
+    "wrist": (0.03, 0.8),
 }
 """Ranges of the population, uniform and independent: chosen, from people who leave the ball to the
 partner to people who do it all."""
 
 MANNERS: Final[Mapping[str, SteeringManner]] = {
-    "S1": SteeringManner(share=1.0, haste=2.2, lead=0.15, trust=0.0, wrist=0.4),
-    "S2": SteeringManner(share=0.5, haste=1.8, lead=0.2, trust=0.5, wrist=0.7),
-    "S3": SteeringManner(share=1.3, haste=2.4, lead=0.1, trust=0.0, wrist=0.5),
+    "S1": SteeringManner(share=1.3, haste=2.2, lead=0.2, trust=0.0, wrist=0.4),
+    "S2": SteeringManner(share=0.9, haste=2.0, lead=0.2, trust=0.5, wrist=0.5),
+    "S3": SteeringManner(share=1.2, haste=2.2, lead=0.1, trust=0.0, wrist=0.5),
     "S4": SteeringManner(share=0.1, haste=1.6, lead=0.2, trust=0.3, wrist=0.8),
-    "S5": SteeringManner(share=0.1, haste=2.0, lead=0.2, trust=0.4, wrist=0.1),
+    "S5": SteeringManner(share=0.1, haste=1.6, lead=0.2, trust=0.4, wrist=0.03),
 }
 """The manners of the five subjects, spread over the ranges."""
 

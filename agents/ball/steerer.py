@@ -24,7 +24,7 @@ FARTHEST: Final = 0.1
 FASTEST: Final = 0.25
 """Highest speed of the own end that steering adds [m/s]."""
 
-HAND_TIME: Final = 0.25
+HAND_TIME: Final = 0.2
 """Time constant with which the own end approaches where it should be [s], an assumption: with less,
 two who steer ring, and a lift's error depends on differences of micrometres."""
 

@@ -26,6 +26,7 @@ _DEGREE: Final = 7
 
 _MIDDLE: Final = (STROKE[0] + STROKE[1]) / 2
 _HALF: Final = (STROKE[1] - STROKE[0]) / 2
+_LAG: Final = SERVO.time
 _YIELDING: Final = -math.expm1(-FRAME / SERVO.load_time)
 
 
@@ -141,8 +142,8 @@ def followed(
     step
         Its duration [s].
     """
-    gain = -math.expm1(-step / SERVO.time)
-    ahead = (step / gain - SERVO.time) / FRAME
+    gain = -math.expm1(-step / _LAG)
+    ahead = (step / gain - _LAG) / FRAME
     gains = jnp.full_like(arm.load, gain)
     if variation is not None:
         gains = gains * variation.lag

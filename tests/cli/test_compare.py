@@ -122,6 +122,12 @@ def test_bench_does_one_thing_at_a_time(colift) -> None:
     assert "--convergence and --policies" in done.stderr
 
 
+def test_bench_has_a_suite_for_the_convergence_alone(colift) -> None:
+    done = colift("bench", "--suite", "ball-v1")
+    assert done.returncode == 2
+    assert "--suite belongs to --convergence" in done.stderr
+
+
 def test_a_bundle_is_compared_as_it_is(colift, tmp_path: Path) -> None:
     for name in ("hold", "copy"):
         colift("run", name, *QUICK, "--seeds", "0:2", "--out", name + "s")

@@ -21,7 +21,7 @@ LEAST_PEAK: Final = 0.03
 Series = NDArray[np.float64]
 
 
-def ball_rmse_mm(missed: Series, horizon: int) -> float:
+def missed_rmse_mm(missed: Series, horizon: int) -> float:
     r"""Return the root mean square distance of the ball from its target.
 
     .. math:: \sqrt{\tfrac{1}{H} \sum_t (s_t - s^*_t)^2}

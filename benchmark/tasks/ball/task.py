@@ -24,7 +24,7 @@ from ...world import Ball, BodyParameters, FarEnd, HapticWorld, Physics
 from ...world.table import GRAVITY, TABLE_LENGTH, WEIGHT_SHARE
 from ..haptic import Haptic
 from .lift import BallLift
-from .scores import ball_rmse_mm, ball_settling_ms, velocity_peaks
+from .scores import ball_settling_ms, missed_rmse_mm, velocity_peaks
 from .table import BALL_METRICS
 
 BEHAVIOURS: Final = ("ball_smooth", "ball_pause", "ball_smooth_shared", "ball_pause_shared")
@@ -33,8 +33,8 @@ BALL: Final = Ball()
 """The ball of the suite."""
 
 FINER: Final = Physics(step=0.0025)
-"""The physics of the task. A person and a robot who steer one ball amplify small differences, so that
-the usual step is too coarse (``colift bench --convergence --suite ball-v1``)."""
+"""The physics of the task. A person and a robot who steer one ball amplify small differences: the
+usual step is too coarse (``colift bench --convergence --suite ball-v1``)."""
 
 FELL: Final = "the ball rolled off the table"
 """Why a lift without the ball ends."""
@@ -121,7 +121,7 @@ class BallSteering(Haptic):
         peaks, speed = (nan, nan) if failed else velocity_peaks(place, target)
         lost = not empty and bool(np.abs(place[-lift.frames_per_step :]).max() > TABLE_LENGTH / 2)
         return {
-            "rmse_mm": ball_rmse_mm(place - target, lift.horizon),
+            "rmse_mm": missed_rmse_mm(place - target, lift.horizon),
             "settling_ms": nan if failed else ball_settling_ms(place - target, target),
             "velocity_peaks": peaks,
             "peak_speed_m_s": speed,

@@ -16,15 +16,15 @@ from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tasks.ball.oracle import foresee
 from colift.benchmark.tasks.ball.scores import (
-    ball_rmse_mm,
     ball_settling_ms,
+    missed_rmse_mm,
     velocity_peaks,
     ways,
 )
 from colift.benchmark.tasks.ball.task import FELL, BallSteering
 from colift.testing import check_suite, check_task
 
-DIGEST = "b5733c468d5994d0"
+DIGEST = "e7f56177ef5705f8"
 SEED = 100_000
 
 
@@ -67,9 +67,9 @@ def test_a_target_known_to_both_is_observed_and_a_private_one_is_not():
 
 def test_lost_frames_count_as_such():
     missed = np.full(50, 0.03)
-    assert ball_rmse_mm(missed, 50) == pytest.approx(30.0)
-    assert ball_rmse_mm(missed, 100) == pytest.approx(np.sqrt((900 + 250**2) / 2))
-    assert ball_rmse_mm(missed[:0], 10) == 250.0
+    assert missed_rmse_mm(missed, 50) == pytest.approx(30.0)
+    assert missed_rmse_mm(missed, 100) == pytest.approx(np.sqrt((900 + 250**2) / 2))
+    assert missed_rmse_mm(missed[:0], 10) == 250.0
 
 
 def moved(*stops):

@@ -34,7 +34,7 @@ def test_the_force_at_the_humans_hands_is_that_of_the_engine():
 
 @pytest.mark.parametrize(
     ("module", "constant", "factor"),
-    [(arm, "_GAIN", 0.9), (plant, "TABLE_MASS", 1.2), (body, "_ACTIVATION", 0.6)],
+    [(arm, "_LAG", 1.15), (plant, "TABLE_MASS", 1.2), (body, "_ACTIVATION", 0.6)],
 )
 def test_a_wrong_constant_fails_the_check(monkeypatch, module, constant, factor):
     monkeypatch.setattr(module, constant, factor * getattr(module, constant))

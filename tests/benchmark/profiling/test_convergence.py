@@ -1,0 +1,27 @@
+"""The convergence study: the step of a task is as near to a fine one as it says."""
+
+import dataclasses
+
+import pytest
+from colift.benchmark.profiling.convergence import PAIR, physics_errors
+from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tasks.ball.task import FINER
+from colift.benchmark.world import PHYSICS, Physics
+
+
+@pytest.mark.parametrize("policy", ["ball_calm", PAIR])
+def test_the_step_of_the_ball_is_finer_than_the_usual_one(policy):
+    suite = make_suite("ball-v1")
+    one = dataclasses.replace(suite, scenarios=suite.scenarios[:1], seeds=(100_000,))
+    fine, usual = physics_errors(one, policy, Physics(step=0.001), FINER, PHYSICS)
+    assert fine.height_error_mm < 0.5 * usual.height_error_mm
+    assert fine.rmse_error < min(0.01, usual.rmse_error)
+
+
+def test_another_physics_is_what_is_played():
+    suite = make_suite("intent-v1")
+    one = dataclasses.replace(suite, scenarios=suite.scenarios[:1])
+    (same,) = physics_errors(one, "touch_level", PHYSICS, PHYSICS)
+    (other,) = physics_errors(one, "touch_level", PHYSICS, Physics(step=0.005))
+    assert same.height_error_mm == 0.0
+    assert other.height_error_mm > 0.0
