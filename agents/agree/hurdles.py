@@ -57,7 +57,7 @@ class HurdlePlan(Plan):
 class Abreast:
     """Lifts to a common height and lowers again; on the way both have a hurdle, at a time.
 
-    Both windows open within 0.15 s of each other: the order is free.
+    Both windows open within 0.1 s of each other: the order is free.
     """
 
     has: ClassVar[tuple[bool, bool]] = (True, True)
@@ -112,14 +112,14 @@ class Abreast:
 
 @dataclass(frozen=True, kw_only=True)
 class Ahead(Abreast):
-    """As :class:`Abreast`, but the human's window opens 0.4 to 0.7 s before the other."""
+    """As :class:`Abreast`, but the human's window opens 0.2 to 0.4 s before the other."""
 
     ahead: ClassVar[tuple[float, float]] = (0.2, 0.4)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Behind(Abreast):
-    """As :class:`Abreast`, but the human's window opens 0.4 to 0.7 s after the other."""
+    """As :class:`Abreast`, but the human's window opens 0.2 to 0.4 s after the other."""
 
     ahead: ClassVar[tuple[float, float]] = (-0.4, -0.2)
 

@@ -11,7 +11,7 @@ NAME: Final = "apg"
 PARTS: Final = 2
 """Parts of a batch, each in a thread of its own: a fixed number, so that sums keep their order."""
 
-TASKS: Final = ("level", "intent", "ball")
+TASKS: Final = ("level", "intent", "agree", "ball")
 """Tasks with a twin."""
 
 PAIRED: Final = ("intent",)

@@ -7,11 +7,16 @@ import jax
 import jax.numpy as jnp
 
 from ...agents.agent import FRAME
+from ...agents.agree.manner import INSISTENCES, STIFFNESSES, TRUSTS
+from ...agents.agree.manner import PATIENCES as PATIENCES_TO_AGREE
 from ...agents.ball.manner import RANGES
 from ...agents.intent.manner import LEADS, PATIENCES, SHARES
 from ..episode.scenario import Scenario
+from ..tasks.agree.task import BEHAVIOURS as HURDLES
 from ..tasks.ball.task import BEHAVIOURS as ROLLINGS
 from ..tasks.intent.task import BEHAVIOURS as INTENTS
+from ..twin.agree_lifts import AgreeLifts, draw_agree, stack_agree
+from ..twin.agree_playing import agree_rmse_mm
 from ..twin.ball_lifts import BallLifts, Manner, draw_ball, stack_ball
 from ..twin.ball_playing import ball_rmse_mm
 from ..twin.intent_lifts import IntentLifts, draw_intent, stack_intent
@@ -57,8 +62,24 @@ def steering_anew(lifts: BallLifts, key: jax.Array, wide: float) -> BallLifts:
     return lifts._replace(manner=Manner(**manner))
 
 
+def agreeing_anew(lifts: AgreeLifts, key: jax.Array, wide: float) -> AgreeLifts:
+    """Return lifts with other manners of people with a hurdle of their own; see :class:`TouchTwin`."""
+    drawn = jax.random.uniform(key, (4, lifts.size), minval=-wide / 2, maxval=1 + wide / 2)
+    ranges = (PATIENCES_TO_AGREE, TRUSTS, STIFFNESSES, INSISTENCES)
+    patience, trust, stiffness, insistence = (
+        low + (high - low) * share for (low, high), share in zip(ranges, drawn, strict=True)
+    )
+    return lifts._replace(
+        patience=jnp.maximum(patience, 0.0),
+        trust=jnp.clip(trust, 0.0, 1.0),
+        stiffness=jnp.clip(stiffness, 0.0, 1.0),
+        insistence=jnp.maximum(insistence, 0.0),
+    )
+
+
 TWINS: Final = {
     "intent": TouchTwin(INTENTS, draw_intent, stack_intent, intent_rmse_mm, leading_anew),
+    "agree": TouchTwin(HURDLES, draw_agree, stack_agree, agree_rmse_mm, agreeing_anew),
     "ball": TouchTwin(ROLLINGS, draw_ball, stack_ball, ball_rmse_mm, steering_anew),
 }
 """By task."""

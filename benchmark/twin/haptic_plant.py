@@ -11,6 +11,7 @@ from ..world.haptic_world import FAR_GRIP_DAMPING, FAR_GRIP_STIFFNESS
 from ..world.table import GRIP_DAMPING, GRIP_STIFFNESS, TABLE_INERTIA, WEIGHT_SHARE
 from .arm import ArmVariation
 from .body import DEPTH, Body, activated, delayed, pushed, wanted_shift
+from .lifts import chunk
 from .plant import Moving, Plant, after_frame, plant_at_rest
 
 _IMPLICIT: Final = 1 + FRAME * (GRIP_DAMPING + FAR_GRIP_DAMPING) / TABLE_INERTIA / 2
@@ -107,3 +108,29 @@ def advance_haptic_plant(
         wrist=wrist,
         touch=jnp.concatenate((state.touch, felt))[-SENSED_FRAMES:],
     )
+
+
+def advance_haptic_step(
+    state: HapticPlant,
+    body: Body,
+    meant: Meant,
+    commands: jax.Array,
+    variation: ArmVariation | None = None,
+) -> tuple[HapticPlant, jax.Array, jax.Array]:
+    """Return the lifts after a step of f frames, and the heights of both ends in these (f, n) [m].
+
+    Parameters
+    ----------
+    state, body, meant, commands, variation
+        As of :func:`advance_haptic_plant`; the frames are made some at once.
+    """
+    near, far, size = [], [], len(commands)
+    many = chunk(size)
+    for first in range(0, size, many):
+        frames = slice(first, first + many)
+        some = Meant(*(each[frames] for each in meant))
+        state = advance_haptic_plant(state, body, some, commands[frames], variation)
+        heights = state.plant.heights[:many][::-1]
+        near.append(heights)
+        far.append(heights + state.plant.differences[:many][::-1])
+    return state, jnp.concatenate(near), jnp.concatenate(far)

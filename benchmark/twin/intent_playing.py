@@ -10,14 +10,13 @@ from ..episode.seat import REFERENCE_RANGE
 from ..world.table import TABLE_LENGTH
 from .arm import ArmVariation
 from .body import DEPTH, delayed, pushed
-from .haptic_plant import HapticPlant, Meant, advance_haptic_plant, haptic_plant_at_rest
+from .haptic_plant import HapticPlant, Meant, advance_haptic_step, haptic_plant_at_rest
 from .haptic_playing import (
     commanded,
     corrected_by_sight,
     noise_of_motion,
 )
 from .intent_lifts import IntentLifts
-from .lifts import chunk
 from .playing import ramp
 
 ADDED_HEIGHT: Final = 0.02
@@ -126,15 +125,8 @@ def intent_step(
     references = jnp.clip(references, *REFERENCE_RANGE)
     commands = commanded(state.command, action, size)
 
-    haptic, near, far = state.haptic, [], []
-    many = chunk(size)
-    for first in range(0, size, many):
-        frames = slice(first, first + many)
-        meant = Meant(references[frames], (far_targets - targets)[frames], wrist[frames])
-        haptic = advance_haptic_plant(haptic, body, meant, commands[frames], variation)
-        heights = haptic.plant.heights[:many][::-1]
-        near.append(heights)
-        far.append(heights + haptic.plant.differences[:many][::-1])
+    meant = Meant(references, far_targets - targets, wrist)
+    haptic, near, far = advance_haptic_step(state.haptic, body, meant, commands, variation)
     moved = IntentState(
         haptic=haptic,
         command=commands[-1],
@@ -146,4 +138,4 @@ def intent_step(
         step=state.step + 1,
         added=after,
     )
-    return moved, IntentFrames(jnp.concatenate(near), jnp.concatenate(far))
+    return moved, IntentFrames(near, far)

@@ -55,6 +55,7 @@ AGREE_METRICS: Final = metric_table(
             symbol="tilt",
             label="Height difference of the whole trial",
             unit="mm",
+            shown="board",
             meaning="root mean square height difference of the ends over the whole trial",
         ),
         Metric(

@@ -9,7 +9,8 @@ HERE = Path(__file__).parent
 
 
 @pytest.mark.parametrize(
-    "module", ["jax_ball.py", "jax_deviation.py", "jax_intent.py", "jax_lifts.py"]
+    "module",
+    ["jax_agree.py", "jax_ball.py", "jax_deviation.py", "jax_intent.py", "jax_lifts.py"],
 )
 def test_the_twin(in_own_process, module):
     in_own_process(HERE / module)

@@ -1,0 +1,205 @@
+"""Drawn lifts of the task to agree on two hurdles, as arrays."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from numpy.typing import NDArray
+
+from ...agents.agent import FRAME
+from ...agents.agree import Hurdle, HurdlePlan, agreeing_manner
+from ...agents.agree.negotiator import LIFTED, RESTING
+from ...agents.agree.precedence import EARLY, NEEDED
+from ...agents.errors import InputError
+from ..episode.scenario import Scenario
+from ..episode.seat import body_parameters
+from ..episode.seeding import derive_seed
+from ..tasks.agree.task import Agree
+from .body import Body, bodies
+from .haptic_lifts import Sensed, common_size, draw_sensed, joined, lengthened
+
+Array = NDArray[np.float64]
+
+
+class Obstacle(NamedTuple):
+    """The hurdle of one end in n lifts, all (n,); without one all are 0."""
+
+    height: jax.Array
+    """[m]"""
+    start: jax.Array
+    """First frame of its window."""
+    stop: jax.Array
+    """Frame past its last."""
+    given: jax.Array
+    """1 if there is a hurdle."""
+
+
+class AgreeLifts(NamedTuple):
+    """n lifts of at most s steps of f frames, in single precision."""
+
+    target: jax.Array
+    """(s, f, n) height of the common way at the end of each frame [m]."""
+    common: jax.Array
+    """(s, n) the common height while the way rests there [m], 0 elsewhere."""
+    times: jax.Array
+    """(s, 4, n) from the beginning of each step until the human's window opens and closes, and
+    until the first and the last moment to go there [s]."""
+    shown: jax.Array
+    """(s, 4, n) the robot's hurdle as the robot has it, see :class:`.Secret`."""
+    gain: jax.Array
+    """(s, f, n) signal-dependent noise of the person's hand, relative to its velocity."""
+    tremor: jax.Array
+    """(s, f, n) tremor of the hand [m]."""
+    noise: jax.Array
+    """(s, 4, n) error of the motion capture at either end [m], of force [N] and torque [Nm]."""
+    sight: jax.Array
+    """(s, n) error of the far end's speed as the person perceives it [m/s]."""
+    uncertainty: jax.Array
+    """(n,) its standard deviation [m/s]."""
+    latency: jax.Array
+    """(n,) age of the motion capture's sample in frames."""
+    steps: jax.Array
+    """(n,) length in steps."""
+    human: Obstacle
+    """The human's hurdle."""
+    robot: Obstacle
+    """The robot's."""
+    agreeing: jax.Array
+    """(2, n) first frame and frame past the last at the common height."""
+    body: Body
+    """The people."""
+    patience: jax.Array
+    """(n,) see :class:`.AgreeingManner`, and so on."""
+    trust: jax.Array
+    stiffness: jax.Array
+    insistence: jax.Array
+    """[s]"""
+
+    @property
+    def size(self) -> int:
+        """How many lifts."""
+        return int(self.steps.shape[0])
+
+
+class DrawnAgree(NamedTuple):
+    """One lift in NumPy."""
+
+    scenario: Scenario
+    target: Array
+    common: Array
+    times: Array
+    shown: Array
+    sight: Array
+    sensed: Sensed
+    human: Hurdle | None
+    robot: Hurdle | None
+    agreeing: tuple[int, int]
+    uncertainty: float
+
+
+def draw_agree(scenario: Scenario, seed: int) -> DrawnAgree:
+    """Return what is drawn for a lift: the same as :class:`.AgreeLift` plays.
+
+    Raises
+    ------
+    InputError
+        If the task is another, or a second person holds the far end.
+    """
+    task = scenario.task
+    if type(task) is not Agree or scenario.partner != "nao":
+        raise InputError(
+            f"this twin has the task {Agree.name} with a NAO, not {task.name!r} with "
+            f"{scenario.partner!r}"
+        )
+    name, size = scenario.name, scenario.frames_per_step
+    plan = scenario.human.plan(scenario.subject, derive_seed(seed, f"plan/{name}"))
+    steps = -(-len(plan.target) // size)
+    human, robot, agreeing = None, None, (0, steps * size)
+    if isinstance(plan, HurdlePlan):
+        human, robot, agreeing = plan.own, plan.other, plan.agreeing
+    target = lengthened(plan.target, steps * size).reshape(steps, size)
+    rng = np.random.default_rng((derive_seed(seed, f"human/{name}"), 1))
+    until = _until(human, steps, size)
+    going = np.column_stack((until[:, 0] - EARLY, until[:, 1] - NEEDED))
+    shown = np.zeros((steps, 4))
+    if robot is not None:
+        shown[:, 0], shown[:, 3] = robot.height, 1.0
+        shown[:, 1:3] = _until(robot, steps, size)
+    return DrawnAgree(
+        scenario,
+        target,
+        common_heights(target),
+        np.concatenate((until, going), axis=1),
+        shown,
+        task.uncertainty * rng.standard_normal(steps),
+        draw_sensed(scenario, seed, steps),
+        human,
+        robot,
+        agreeing,
+        task.uncertainty,
+    )
+
+
+def common_heights(target: Array) -> Array:
+    """Return the common height (s,) [m] by a way (s, f), 0 in steps in which it does not rest.
+
+    It is the height at the end of the first step of a rest, as a :class:`.Negotiator` takes it.
+    """
+    heights, common = [], 0.0
+    for way in target:
+        rests = abs(way[-1] - way[0]) < RESTING * len(way) * FRAME and way[0] > LIFTED
+        common = (common or float(way[-1])) if rests else 0.0
+        heights.append(common)
+    return np.array(heights)
+
+
+def _until(hurdle: Hurdle | None, steps: int, size: int) -> Array:
+    """Return the times until a window opens and closes (s, 2) [s]."""
+    frames = np.zeros(2) if hurdle is None else np.array((hurdle.start, hurdle.stop))
+    passed = size * np.arange(steps) if hurdle is not None else np.zeros(steps)
+    return (frames - passed[:, np.newaxis]) * FRAME
+
+
+def stack_agree(drawn: Sequence[DrawnAgree]) -> AgreeLifts:
+    """Return lifts of one control period in one; shorter ones go on at rest.
+
+    Raises
+    ------
+    InputError
+        If there is none, or they have different control periods.
+    """
+    common_size([lift.scenario.frames_per_step for lift in drawn])
+    longest = max(len(lift.target) for lift in drawn)
+    people = [lift.scenario.subject for lift in drawn]
+    manners = [agreeing_manner(person) for person in people]
+
+    def column(values: Sequence[float]) -> jax.Array:
+        return jnp.asarray(values, jnp.float32)
+
+    def obstacle(hurdles: Sequence[Hurdle | None]) -> Obstacle:
+        rows = [(0.0,) * 4 if each is None else (*each, 1.0) for each in hurdles]
+        return Obstacle(*map(column, zip(*rows, strict=True)))
+
+    return AgreeLifts(
+        target=joined([lift.target for lift in drawn], longest),
+        common=joined([lift.common for lift in drawn], longest),
+        times=joined([lift.times for lift in drawn], longest),
+        shown=joined([lift.shown for lift in drawn], longest),
+        gain=joined([lift.sensed.gain for lift in drawn], longest),
+        tremor=joined([lift.sensed.tremor for lift in drawn], longest),
+        noise=joined([lift.sensed.noise for lift in drawn], longest),
+        sight=joined([lift.sight for lift in drawn], longest),
+        uncertainty=column([lift.uncertainty for lift in drawn]),
+        latency=jnp.asarray([lift.scenario.latency_frames for lift in drawn]),
+        steps=jnp.asarray([len(lift.target) for lift in drawn]),
+        human=obstacle([lift.human for lift in drawn]),
+        robot=obstacle([lift.robot for lift in drawn]),
+        agreeing=jnp.asarray([lift.agreeing for lift in drawn]).T,
+        body=bodies([body_parameters(person) for person in people]),
+        patience=column([manner.patience for manner in manners]),
+        trust=column([manner.trust for manner in manners]),
+        stiffness=column([manner.stiffness for manner in manners]),
+        insistence=column([manner.insistence for manner in manners]),
+    )

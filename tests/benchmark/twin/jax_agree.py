@@ -1,0 +1,154 @@
+"""The twin of two hurdles: the lifts of the engine, and the beliefs of its people."""
+
+import contextlib
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from colift.agents.agree.belief import GoalBelief
+from colift.agents.errors import InputError
+from colift.agents.observations import AgreeObservation as Seen
+from colift.agents.policies.agree_game import AgreeGame
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import make_lift
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.tasks.agree.task import BEHAVIOURS
+from colift.benchmark.twin import agree_people
+from colift.benchmark.twin.agree_lifts import draw_agree, stack_agree
+from colift.benchmark.twin.agree_people import agree_minds, believed
+from colift.benchmark.twin.agree_playing import (
+    agree_at_rest,
+    agree_due,
+    agree_rmse_mm,
+    agree_score_mm,
+    agree_squares,
+    agree_step,
+    agree_view,
+)
+from colift.benchmark.world.table import TABLE_LENGTH
+
+PEOPLE = range(210_000, 210_003)
+"""Seeds of people and lifts outside all suites."""
+LIFTS = [
+    (make_scenario(behaviour, f"draw-{seed}", task="agree"), seed)
+    for behaviour in (*BEHAVIOURS, "smooth")
+    for seed in PEOPLE
+]
+
+
+def leading(gain):
+    """Return a policy that keeps level by touch, and goes to its hurdle in the whole window."""
+
+    def policy(memory, seen):
+        torque = seen[Seen.TORQUE]
+        near = seen[Seen.HAND_HEIGHT] + TABLE_LENGTH * torque * (1 - torque**2 / 6)
+        window = (seen[Seen.HURDLE_START] < 0.3) & (seen[Seen.HURDLE_STOP] > 0.0)
+        goes = gain * seen[Seen.HURDLE_GIVEN] * window
+        to = seen[Seen.HURDLE_HEIGHT] - seen[Seen.HAND_COMMAND]
+        kept = 2 * near - memory - seen[Seen.HAND_COMMAND]
+        return near, goes * to + (1 - goes) * kept
+
+    return policy
+
+
+def yielding(memory, seen):
+    return memory, -0.06 * seen[Seen.FORCE]
+
+
+class Played:
+    """A policy of the twin as an agent of the engine."""
+
+    def __init__(self, policy):
+        self.policy = policy
+
+    def reset(self, seed):
+        self.memory = 0.0
+
+    def act(self, observation):
+        self.memory, action = self.policy(self.memory, observation)
+        return np.array([action])
+
+
+def in_engine(make):
+    errors = []
+    for scenario, seed in LIFTS:
+        with contextlib.closing(make_lift(scenario)) as lift:
+            errors.append(run_episode(lift, make(), seed).scores["rmse_mm"])
+    return np.array(errors)
+
+
+def in_twin(policy, lifts):
+    return np.asarray(agree_rmse_mm(policy, jnp.zeros(lifts.size), lifts))
+
+
+def agents_in_twin(make, lifts):
+    """Return the errors of the lifts with agents as they play in the engine, step by step."""
+    agents = [make() for _ in LIFTS]
+    for agent in agents:
+        agent.reset(0)
+    state, squares = agree_at_rest(lifts.size), []
+    view, step, score = map(jax.jit, (agree_view, agree_step, agree_squares))
+    for number in range(len(lifts.gain)):
+        due = jax.tree.map(lambda each, number=number: each[number], agree_due(lifts))
+        seen = np.asarray(view(state, lifts, due), np.float64)
+        acts = [float(agent.act(seen[:, i])[0]) for i, agent in enumerate(agents)]
+        after, frames = step(state, lifts, due, jnp.asarray(acts))
+        squares.append(score(lifts, frames, state.step))
+        state = after
+    return np.asarray(agree_score_mm(lifts, jax.tree.map(lambda *all: jnp.stack(all), *squares)))
+
+
+@pytest.fixture(scope="module")
+def drawn():
+    return stack_agree([draw_agree(scenario, seed) for scenario, seed in LIFTS])
+
+
+@pytest.mark.parametrize("policy", [leading(0.6), yielding], ids=["leading", "yielding"])
+def test_each_lift_with_hurdles_is_that_of_the_engine(drawn, policy):
+    engine, twin = in_engine(lambda: Played(policy)), in_twin(policy, drawn)
+    assert abs(twin.mean() / engine.mean() - 1) < 0.003
+    assert np.abs(twin / engine - 1).max() < 0.015
+
+
+def test_the_agent_that_infers_the_goal_plays_as_in_the_engine(drawn):
+    engine, twin = in_engine(AgreeGame), agents_in_twin(AgreeGame, drawn)
+    assert abs(twin.mean() / engine.mean() - 1) < 0.01
+
+
+def test_beliefs_are_those_of_one_person_at_a_time():
+    rng = np.random.default_rng(0)
+    steps, people = 12, 3
+    heights = 0.15 + 0.02 * rng.standard_normal((steps + 1, people)).cumsum(axis=0)
+    mine = 0.15 + 0.02 * rng.standard_normal((steps, people))
+    noise = np.array([0.0, 0.01, 0.2])
+    minds = [GoalBelief() for _ in range(people)]
+    chances = agree_minds(people).chances
+    for before, after, own in zip(heights, heights[1:], mine, strict=False):
+        chances = believed(chances, before, after, own, jnp.full(people, 0.15), 0.1, noise)
+        for i, mind in enumerate(minds):
+            mind.update(before[i], after[i], own[i], 0.15, 0.1, noise[i])
+        goals = np.asarray(agree_people.GOALS) @ np.asarray(chances[1:])
+        assert goals == pytest.approx([mind.offset for mind in minds], abs=1e-5)
+
+
+def test_the_gradient_is_the_slope_where_nobody_decides_otherwise(drawn):
+    @jax.jit
+    @jax.value_and_grad
+    def error(gain):
+        return agree_rmse_mm(leading(gain), jnp.zeros(drawn.size), drawn).mean()
+
+    low, high = (float(error(gain)[0]) for gain in (0.598, 0.602))
+    assert float(error(0.6)[1]) == pytest.approx((high - low) / 0.004, rel=0.1)
+
+
+def test_people_who_go_slower_are_found(drawn, monkeypatch):
+    engine = in_engine(lambda: Played(yielding))
+    monkeypatch.setattr(agree_people, "PACE", 7.0)
+    assert np.abs(in_twin(yielding, drawn) / engine - 1).max() > 0.015
+
+
+@pytest.mark.parametrize("settings", [{"task": "level"}, {"task": "agree", "partner": "human"}])
+def test_what_the_twin_of_two_hurdles_does_not_model_is_refused(settings):
+    with pytest.raises(InputError, match="this twin has the task agree with a NAO"):
+        draw_agree(make_scenario("smooth", **settings), 0)
