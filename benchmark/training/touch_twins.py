@@ -63,7 +63,7 @@ def steering_anew(lifts: BallLifts, key: jax.Array, wide: float) -> BallLifts:
 
 
 def agreeing_anew(lifts: AgreeLifts, key: jax.Array, wide: float) -> AgreeLifts:
-    """Return lifts with other manners of people with a hurdle of their own; see :class:`TouchTwin`."""
+    """Return lifts with other manners of people with hurdles; see :class:`TouchTwin`."""
     drawn = jax.random.uniform(key, (4, lifts.size), minval=-wide / 2, maxval=1 + wide / 2)
     ranges = (PATIENCES_TO_AGREE, TRUSTS, STIFFNESSES, INSISTENCES)
     patience, trust, stiffness, insistence = (
