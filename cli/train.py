@@ -116,6 +116,9 @@ def apg(
     units: Annotated[
         int, typer.Option(metavar="N", help="Gated recurrent units of the network.")
     ] = ApgSettings.units,
+    rate: Annotated[
+        float, typer.Option(metavar="X", help="Learning rate at its highest.")
+    ] = ApgSettings.rate,
     wide: Annotated[
         float, typer.Option(metavar="X", help="Share of people from wide ranges.")
     ] = ApgSettings.wide,
@@ -137,6 +140,7 @@ def apg(
         lifts=lifts,
         batch=batch,
         units=units,
+        rate=rate,
         wide=wide,
         varied=varied,
         smoothness=smoothness,
