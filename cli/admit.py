@@ -60,7 +60,7 @@ def admit_suite(
                 f"Admission of {found.suite}",
                 (
                     "",
-                    Column("criterion", min_width=30),
+                    Column("criterion", min_width=24),
                     left("figure"),
                     left("must be"),
                     left("result"),

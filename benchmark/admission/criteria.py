@@ -67,9 +67,9 @@ def interaction(runs: Mapping[str, Run]) -> Criterion:
     )
     return Criterion(
         letter="b",
-        what="which policy is good depends on the human",
+        what="which policy is good depends on the human: share of the variance",
         figure=shares.interaction,
-        bar=f"at least {INTERACTION:g} of the variance",
+        bar=f"at least {INTERACTION:g}",
         passed=shares.interaction >= INTERACTION,
         detail=f"policy {shares.policy:.2f}, person {shares.human:.2f}, interaction "
         f"{shares.interaction:.2f}; with persons and behaviours {fine.interaction:.2f}",
