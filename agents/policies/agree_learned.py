@@ -11,8 +11,8 @@ class AgreeLearned(TouchController):
     """Departs from a level table as a recurrent network tells, learned by gradients (ours).
 
     The network was trained on the score itself, by gradients through whole lifts of the twin, with
-    people whose manners were drawn anew for each lift (``colift train apg --task agree --updates 500
-    --lifts 4000 --rate 0.001 --wide 0.1``). See :func:`.felt_action` for the equations.
+    people whose manners were drawn anew for each lift (``colift train apg --task agree
+    --updates 500 --lifts 4000 --rate 0.001 --wide 0.1``). See :func:`.felt_action` for the equations.
     """
 
     def __init__(self) -> None:

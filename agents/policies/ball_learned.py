@@ -11,7 +11,8 @@ class BallLearned(TouchController):
     """Departs from a level table as a recurrent network tells, learned by gradients (ours).
 
     The network was trained on the score itself, by gradients through whole lifts of the twin, with
-    people whose manners were drawn anew for each lift. See :func:`.felt_action` for the equations.
+    people whose manners were drawn anew for each lift (``colift train apg --task ball
+    --updates 600 --lifts 4000``). See :func:`.felt_action` for the equations.
     """
 
     def __init__(self) -> None:

@@ -29,6 +29,9 @@ from .published import PUBLISHED
 KEEPERS: Final = ("copy", "extrapolate", "anticipate")
 """Policies that keep the table level, from the simplest to the best."""
 
+TRAINED: Final = ("pose_learned", "agree_learned", "ball_learned")
+"""Policies that were trained with the population of a suite."""
+
 HOLD: Final = "hold"
 """The policy that stands still."""
 
@@ -97,7 +100,10 @@ def admission_of(
         means={name: mean_mm(run) for name, run in everybody.items()},
         criteria=(
             room(oracle, {name: run for name, run in runs.items() if name in KEEPERS}),
-            interaction(runs),
+            interaction(
+                {name: run for name, run in runs.items() if name not in TRAINED},
+                {name: run for name, run in runs.items() if name in TRAINED},
+            ),
             rank_changes(runs),
             conventions(pairs),
             *([] if published is None else [like_people(human_human, published)]),

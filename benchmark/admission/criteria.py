@@ -56,11 +56,24 @@ def room(oracle: Run, keepers: Mapping[str, Run]) -> Criterion:
     )
 
 
-def interaction(runs: Mapping[str, Run]) -> Criterion:
-    """Return whether it depends on the person which policy is good."""
+def interaction(runs: Mapping[str, Run], trained: Mapping[str, Run]) -> Criterion:
+    """Return whether it depends on the person which policy is good.
+
+    Parameters
+    ----------
+    runs
+        Of policies that were made by hand, each with a view of its own of what people do.
+    trained
+        Of policies that were trained with the suite's population. They are told of, and do not
+        count: one that has learned to get along with everybody leads everywhere, and its lead is
+        variance of policies, however different the people are.
+    """
     people = list(dict.fromkeys(each.subject for each in next(iter(runs.values())).episodes))
-    table = [[_log_mean(run, person) for person in people] for run in runs.values()]
-    shares = variance_shares(table)
+
+    def by_person(some: Mapping[str, Run]) -> list[list[float]]:
+        return [[_log_mean(run, person) for person in people] for run in some.values()]
+
+    shares, all_shares = (variance_shares(by_person(some)) for some in (runs, {**runs, **trained}))
     cells = list(dict.fromkeys(stratum(each) for each in next(iter(runs.values())).episodes))
     fine = variance_shares(
         [[_log_mean(run, person, way) for way, person in cells] for run in runs.values()]
@@ -72,7 +85,8 @@ def interaction(runs: Mapping[str, Run]) -> Criterion:
         bar=f"at least {INTERACTION:g}",
         passed=shares.interaction >= INTERACTION,
         detail=f"policy {shares.policy:.2f}, person {shares.human:.2f}, interaction "
-        f"{shares.interaction:.2f}; with persons and behaviours {fine.interaction:.2f}",
+        f"{shares.interaction:.2f}; with persons and behaviours {fine.interaction:.2f}"
+        + (f"; with {', '.join(trained)} {all_shares.interaction:.2f}" if trained else ""),
     )
 
 
