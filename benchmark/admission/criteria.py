@@ -64,7 +64,7 @@ def interaction(runs: Mapping[str, Run], trained: Mapping[str, Run]) -> Criterio
     runs
         Of policies that were made by hand, each with a view of its own of what people do.
     trained
-        Of policies that were trained with the suite's population. They are told of, and do not
+        Of policies that were trained with the suite's population. They are reported, and do not
         count: one that has learned to get along with everybody leads everywhere, and its lead is
         variance of policies, however different the people are.
     """
