@@ -1,6 +1,6 @@
 """Analytic policy gradients: a recurrent policy by gradients through whole lifts of the twin.
 
-The loss is that of a :class:`.Lesson`, such as :mod:`.level_lesson`.
+The loss is that of a :class:`.GradientLesson`, such as :mod:`.level_lesson`.
 In the last updates, which are optional, the rate rises and falls once more (warm restart, I.
 Loshchilov and F. Hutter, "SGDR", ICLR 2017), with fewer people of wide habits.
 Nothing is estimated: the gradient is that of the lifts themselves (compare J. Freeman et al.,
@@ -16,7 +16,7 @@ import jax
 import optax
 
 from .apg_settings import PARTS, ApgSettings
-from .lesson import Lesson
+from .lesson import GradientLesson
 from .lessons import lesson_of
 
 LARGEST_GRADIENT: Final = 5.0
@@ -50,7 +50,9 @@ def optimiser(settings: ApgSettings) -> optax.GradientTransformation:
     return optax.chain(optax.clip_by_global_norm(LARGEST_GRADIENT), optax.adam(schedule))
 
 
-def first_learner(settings: ApgSettings, seed: int, lesson: Lesson | None = None) -> Learner:
+def first_learner(
+    settings: ApgSettings, seed: int, lesson: GradientLesson | None = None
+) -> Learner:
     """Return the learner before the first update; arguments as of :func:`updates`."""
     network = (lesson or lesson_of(settings.task)).first(settings, seed)
     return Learner(network, optimiser(settings).init(network), 0)
@@ -61,7 +63,7 @@ def updates(
     seed: int,
     learner: Learner | None = None,
     pool: Any = None,
-    lesson: Lesson | None = None,
+    lesson: GradientLesson | None = None,
 ) -> Iterator[Update]:
     """Yield the learner after each update; the same seed gives the same weights.
 
@@ -105,7 +107,7 @@ def _finished(function: Any, *arguments: Any) -> Any:
 
 
 @cache
-def _functions(settings: ApgSettings, lesson: Lesson) -> tuple[Any, Any]:
+def _functions(settings: ApgSettings, lesson: GradientLesson) -> tuple[Any, Any]:
     """Return the gradient of a part of a batch, and the step of the optimiser, to be compiled."""
     descent = optimiser(settings)
 

@@ -14,7 +14,7 @@ from .apg_settings import ApgSettings
 Weights = Mapping[str, NDArray[Any]]
 
 
-class Lesson(Protocol):
+class GradientLesson(Protocol):
     """What gradients are taken of."""
 
     def __hash__(self) -> int: ...
@@ -45,7 +45,7 @@ class Lesson(Protocol):
         """
 
 
-class PolicyLesson(Lesson, Protocol):
+class PolicyLesson(GradientLesson, Protocol):
     """A lesson that a policy comes of: one file of weights, and what is to be said of it."""
 
     @property

@@ -1,6 +1,6 @@
 """Pairs of a person and a robot that learn together, and how they do with each other's partners.
 
-The person adds to what the benchmark's people do (:class:`.Person`); the wrists show nothing of an
+The person adds to what the benchmark's people do (:class:`.LearningPerson`); the wrists show no
 intention by themselves. So what tells the robot the intention is an agreement that each pair finds
 by itself. All of it is in the twin: no suite and no board takes part.
 """
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ...agents.control.recurrent import GatedNetwork, gated
 from ...agents.touch.touch_law import TouchNetwork
-from ..twin.intent_rollout import Person
+from ..twin.intent_rollout import LearningPerson
 from ..twin.rollout import JAX
 from .apg import updates
 from .apg_settings import ApgSettings
@@ -30,7 +30,7 @@ PERSON_SCALES: Final = (10.0, 20.0, 0.5, 10.0, 10.0, 10.0, 20.0, 20.0, 20.0)
 """Scale of each number that a person knows, to an input."""
 
 
-class Pair(NamedTuple):
+class TrainedPair(NamedTuple):
     """Two networks that were trained together."""
 
     robot: GatedNetwork
@@ -43,24 +43,24 @@ class PairLesson:
 
     of_robot: TouchLesson
 
-    def first(self, settings: ApgSettings, seed: int) -> Pair:
+    def first(self, settings: ApgSettings, seed: int) -> TrainedPair:
         """Return a pair that has learned nothing."""
         person = first_network(PERSON_INPUTS, settings.units, seed + 1_000_000, outputs=2)
-        return Pair(self.of_robot.first(settings, seed), person)
+        return TrainedPair(self.of_robot.first(settings, seed), person)
 
     def draw(self, settings: ApgSettings) -> Any:
         """Return lifts with drawn people whose wrists show nothing."""
-        return silent(self.of_robot.draw(settings))
+        return with_quiet_wrists(self.of_robot.draw(settings))
 
     def loss(
-        self, network: Pair, pool: Any, settings: ApgSettings, size: int, key: jax.Array
+        self, network: TrainedPair, pool: Any, settings: ApgSettings, size: int, key: jax.Array
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
         lifts, variation = self.of_robot.batch(pool, settings, size, key)
-        mean = self.errors(network, silent(lifts), variation).mean()
+        mean = self.errors(network, with_quiet_wrists(lifts), variation).mean()
         return mean, mean
 
-    def errors(self, pair: Pair, lifts: Any, variation: Any = None) -> jax.Array:
+    def errors(self, pair: TrainedPair, lifts: Any, variation: Any = None) -> jax.Array:
         """Return the RMSE of lifts (n,) with a pair [mm]."""
         count = lifts.size
         policy, memory = touch_policy(TouchNetwork(self.of_robot.task, pair.robot), count)
@@ -68,12 +68,12 @@ class PairLesson:
         return self.of_robot.twin.rmse_mm(policy, memory, lifts, variation, person)
 
 
-def silent(lifts: Any) -> Any:
+def with_quiet_wrists(lifts: Any) -> Any:
     """Return lifts whose people's wrists show nothing of an intention."""
     return lifts._replace(wrist=jnp.zeros_like(lifts.wrist))
 
 
-def learned_person(network: GatedNetwork, count: int) -> Person:
+def learned_person(network: GatedNetwork, count: int) -> LearningPerson:
     """Return the person of a network at the beginning of n lifts."""
     scales = jnp.asarray(PERSON_SCALES)[:, jnp.newaxis]
 
@@ -83,7 +83,7 @@ def learned_person(network: GatedNetwork, count: int) -> Person:
         output = network.output @ jnp.concatenate((units, inputs))
         return units, jnp.tanh(output + network.output_bias[:, jnp.newaxis])
 
-    return Person(policy, jnp.zeros((network.units, count)))
+    return LearningPerson(policy, jnp.zeros((network.units, count)))
 
 
 def cross_play(
@@ -117,12 +117,12 @@ def cross_play(
     return played_across(lesson, pairs)
 
 
-def played_across(lesson: PairLesson, pairs: Sequence[Pair]) -> NDArray[np.float64]:
+def played_across(lesson: PairLesson, pairs: Sequence[TrainedPair]) -> NDArray[np.float64]:
     """Return the mean RMSE of each person (rows) with each robot (columns) of some pairs [mm]."""
     twin = lesson.of_robot.twin
     scenarios = [(lesson.of_robot.scenario(seed), seed) for seed in VALIDATION_SEEDS]
-    lifts = silent(twin.stack([twin.draw(*each) for each in scenarios]))
+    lifts = with_quiet_wrists(twin.stack([twin.draw(*each) for each in scenarios]))
     errors = jax.jit(lambda pair: lesson.errors(pair, lifts).mean())
     return np.array(
-        [[float(errors(Pair(two.robot, one.person))) for two in pairs] for one in pairs]
+        [[float(errors(TrainedPair(two.robot, one.person))) for two in pairs] for one in pairs]
     )

@@ -45,7 +45,7 @@ class IntentState(NamedTuple):
     step: jax.Array
     """() number of the coming step."""
     added: jax.Array
-    """(2, n) what a :class:`.Person` has added at the end of the last step."""
+    """(2, n) what a :class:`.LearningPerson` has added at the end of the last step."""
 
 
 def intent_at_rest(count: int) -> IntentState:
@@ -107,7 +107,7 @@ def intent_step(
     variation
         Arms that differ from the benchmark's; none: its own.
     added
-        (2, n) what a :class:`.Person` adds at the end of the step; none: nothing.
+        (2, n) what a :class:`.LearningPerson` adds at the end of the step; none: nothing.
     """
     size, body, plant = len(gain), lifts.body, state.haptic.plant
     times = paced(state, lifts, size)

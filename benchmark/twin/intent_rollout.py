@@ -17,7 +17,7 @@ LOOKS_AHEAD: Final = (10.0, 30.0, 60.0)
 """Frames ahead at which a learning person knows the own intention."""
 
 
-class Person(NamedTuple):
+class LearningPerson(NamedTuple):
     """A person at the near end who has learned to add to what the hands do by themselves."""
 
     policy: Callable[[Any, jax.Array], tuple[Any, jax.Array]]
@@ -49,7 +49,7 @@ def intent_rmse_mm(
     memory: Any,
     lifts: IntentLifts,
     variation: ArmVariation | None = None,
-    person: Person | None = None,
+    person: LearningPerson | None = None,
 ) -> jax.Array:
     """Return the RMSE of the pose (n,) [mm] of lifts with a policy; differentiable.
 

@@ -27,7 +27,7 @@ from colift.benchmark.training.lessons import lesson_of
 from colift.benchmark.training.pairs import cross_play
 from colift.benchmark.training.touch_lesson import TWINS, TouchLesson, touch_policy
 from colift.benchmark.training.validation import VALIDATION_SEEDS
-from colift.benchmark.twin.intent_rollout import Person, intent_rmse_mm
+from colift.benchmark.twin.intent_rollout import LearningPerson, intent_rmse_mm
 
 TINY = ApgSettings(task="intent", updates=2, lifts=4, batch=4, units=3)
 
@@ -97,6 +97,6 @@ def test_a_person_who_adds_nothing_is_the_benchmarks():
     lesson = TouchLesson("intent")
     lifts, count = lesson.draw(TINY), 4
     policy, memory = touch_policy(TouchNetwork("intent", lesson.first(TINY, 0)), count)
-    quiet = Person(lambda memory, view: (memory, jnp.zeros((2, count))), None)
+    quiet = LearningPerson(lambda memory, view: (memory, jnp.zeros((2, count))), None)
     alone, added = (intent_rmse_mm(policy, memory, lifts, None, each) for each in (None, quiet))
     assert np.array_equal(alone, added)
