@@ -120,7 +120,8 @@ def apg(
         float, typer.Option(metavar="X", help="Learning rate at its highest.")
     ] = ApgSettings.rate,
     wide: Annotated[
-        float, typer.Option(metavar="X", help="Share of people from wide ranges.")
+        float,
+        typer.Option(metavar="X", help="Share of people from wide ranges; with touch: how wide."),
     ] = ApgSettings.wide,
     varied: Annotated[
         float, typer.Option(metavar="X", help="Variation of the robot's arms.")

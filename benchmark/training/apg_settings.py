@@ -62,6 +62,9 @@ class ApgSettings:
         """Check the ranges."""
         if self.task not in TASKS:
             raise InputError(f"--task must be one of {', '.join(TASKS)}, got {self.task!r}")
+        for name in ("smoothness", "gentleness"):
+            if self.task != TASKS[0] and getattr(self, name) != getattr(ApgSettings, name):
+                raise InputError(f"--{name} is of the task {TASKS[0]}, not of {self.task}")
         for name in ("updates", "units"):
             if getattr(self, name) < 1:
                 raise InputError(f"--{name} must be at least 1, got {getattr(self, name)}")

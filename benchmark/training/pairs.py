@@ -24,8 +24,6 @@ from .lesson import first_network
 from .touch_lesson import TouchLesson, touch_policy
 from .validation import VALIDATION_SEEDS
 
-PERSON_INPUTS: Final = 9
-
 PERSON_SCALES: Final = (10.0, 20.0, 0.5, 10.0, 10.0, 10.0, 20.0, 20.0, 20.0)
 """Scale of each number that a person knows, to an input."""
 
@@ -45,7 +43,7 @@ class PairLesson:
 
     def first(self, settings: ApgSettings, seed: int) -> TrainedPair:
         """Return a pair that has learned nothing."""
-        person = first_network(PERSON_INPUTS, settings.units, seed + 1_000_000, outputs=2)
+        person = first_network(len(PERSON_SCALES), settings.units, seed + 1_000_000, outputs=2)
         return TrainedPair(self.of_robot.first(settings, seed), person)
 
     def draw(self, settings: ApgSettings) -> Any:

@@ -10,7 +10,6 @@ import numpy as np
 
 from ...agents.agent import FRAME, RobotObservation
 from ...agents.control.recurrent import STEPS_AHEAD
-from ...agents.errors import InputError
 from ...agents.humans import Subject
 from ...agents.humans.subject import BOUNDS
 from ..episode.lift import MOCAP_NOISE
@@ -22,7 +21,7 @@ from ..twin.lifts import DrawnLift, Lifts, carried_out, some, stack
 from ..twin.rollout import Sensing, rollout
 from .anticipation import CURRICULUM, FIRST_SEED
 from .data import Timing, scenario
-from .validation import LEARNING_SEEDS
+from .validation import learning_seeds
 from .wandering import Wandering
 
 LONGEST: Final = 11.0
@@ -84,13 +83,7 @@ def draw_pool(count: int, wide: float, first_seed: int = FIRST_SEED) -> Pool:
     InputError
         If there are fewer than 2, or a seed is not for learning.
     """
-    first, last = LEARNING_SEEDS[0], LEARNING_SEEDS[-1]
-    if not (count >= 2 and first <= first_seed and first_seed + count - 1 <= last):
-        raise InputError(
-            f"lifts to learn from are at least 2, on seeds {first} to {last}; got "
-            f"{count} from {first_seed}"
-        )
-    seeds = range(first_seed, first_seed + count)
+    seeds = learning_seeds(count, first_seed)
     common = count - round(wide * count)
     drawn = [carried_out(scenario(seed, CURRICULUM, Timing()), seed) for seed in seeds[:common]]
     drawn += [carried_out(_wide(seed), seed) for seed in seeds[common:]]

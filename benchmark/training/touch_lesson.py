@@ -17,12 +17,11 @@ from ..suites.catalogue import make_scenario
 from ..twin.arm import ArmVariation
 from ..twin.lifts import some
 from ..twin.rollout import JAX
-from .anticipation import FIRST_SEED
 from .apg_settings import ApgSettings
 from .lesson import Weights, first_network
 from .pool import LAG, SAG
 from .touch_twins import TWINS
-from .validation import task_error
+from .validation import LEARNING_SEEDS, learning_seeds, task_error
 
 
 class TouchLesson:
@@ -46,7 +45,7 @@ class TouchLesson:
 
     def draw(self, settings: ApgSettings) -> Any:
         """Return lifts with drawn people, the behaviours in turn."""
-        seeds = range(FIRST_SEED, FIRST_SEED + settings.lifts)
+        seeds = learning_seeds(settings.lifts)
         return self.twin.stack([self.twin.draw(self.scenario(seed), seed) for seed in seeds])
 
     def scenario(self, seed: int) -> Scenario:
@@ -98,7 +97,7 @@ class TouchLesson:
             f"A table that is held by touch, with a departure from level by {settings.units} "
             f"gated recurrent units, trained by gradients through the twin of {self.task!r}.",
             f"{settings.lifts} lifts of the task {self.task!r} of colift with drawn people, seeds "
-            f"{FIRST_SEED} to {FIRST_SEED + settings.lifts - 1}.",
+            f"{LEARNING_SEEDS[0]} to {LEARNING_SEEDS[settings.lifts - 1]}.",
         )
 
 

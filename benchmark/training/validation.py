@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...agents.agent import Agent
+from ...agents.errors import InputError
 from ..environment.drawing import TRAINING_SEEDS
 from ..episode.episode import run_episode
 from ..episode.lift import Lift, make_lift
@@ -26,6 +27,24 @@ LEARNING_SEEDS: Final = TRAINING_SEEDS[:90_000]
 
 VALIDATION_SEEDS: Final = TRAINING_SEEDS[90_000:90_040]
 """Seeds of the people and lifts of a curve: ten of each behaviour."""
+
+
+def learning_seeds(count: int, first: int = LEARNING_SEEDS[0]) -> range:
+    """Return the seeds of so many lifts to learn from.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than 2, or a seed is not for learning.
+    """
+    low, high = LEARNING_SEEDS[0], LEARNING_SEEDS[-1]
+    if not (count >= 2 and low <= first and first + count - 1 <= high):
+        raise InputError(
+            f"lifts to learn from are at least 2, on seeds {low} to {high}; got {count} from "
+            f"{first}"
+        )
+    return range(first, first + count)
+
 
 MakeAgent = Callable[[], Agent]
 
