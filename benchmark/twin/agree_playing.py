@@ -1,6 +1,5 @@
 """A step of lifts with two hurdles: people, sensors, frames; and whole lifts."""
 
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import jax
@@ -13,8 +12,9 @@ from .agree_people import AgreeMind, AgreeSight, agree_minds, negotiated
 from .arm import ArmVariation
 from .body import DEPTH, pushed
 from .haptic_plant import HapticPlant, Meant, advance_haptic_step, haptic_plant_at_rest
-from .haptic_playing import commanded, corrected_by_sight, noise_of_motion, sensed_by_hands
-from .playing import Frames, ramp
+from .haptic_playing import commanded, moved_hand, sensed_by_hands
+from .playing import Frames
+from .rollout import Policy
 
 
 class AgreeState(NamedTuple):
@@ -87,10 +87,8 @@ def agree_step(
     """
     size, body, plant = len(due.gain), lifts.body, state.haptic.plant
     mind, targets = negotiated(state.mind, lifts, due.sight, plant)
-    correction = corrected_by_sight(state.correction, state.targets, plant.heights, body, size)
-    errors = noise_of_motion(state.error, due.gain, state.targets[0], targets)
-    references = targets + errors + due.tremor + ramp(state.correction, correction, size)
-    references = jnp.clip(references, *REFERENCE_RANGE)
+    hand = moved_hand(state, targets, plant.heights, body, due)
+    references = jnp.clip(hand.references, *REFERENCE_RANGE)
     commands = commanded(state.command, action, size)
     level = jnp.zeros_like(references)
     meant = Meant(references, level, level)
@@ -98,8 +96,8 @@ def agree_step(
     after = AgreeState(
         haptic=haptic,
         command=commands[-1],
-        correction=correction,
-        error=errors[-1],
+        correction=hand.correction,
+        error=hand.error,
         mind=mind,
         targets=pushed(state.targets, targets),
         step=state.step + 1,
@@ -146,12 +144,8 @@ def agree_score_mm(lifts: AgreeLifts, squares: AgreeSquares) -> jax.Array:
     return 1000 * jnp.sqrt((missed + level) / (1 + given[0] + given[1]) + 1e-12)
 
 
-AgreePolicy = Callable[[Any, jax.Array], tuple[Any, jax.Array]]
-"""Returns memory and actions (n,) [m] for a memory and observations (11, n)."""
-
-
 def agree_rmse_mm(
-    policy: AgreePolicy, memory: Any, lifts: AgreeLifts, variation: ArmVariation | None = None
+    policy: Policy, memory: Any, lifts: AgreeLifts, variation: ArmVariation | None = None
 ) -> jax.Array:
     """Return the RMSE of the agreement (n,) [mm] of lifts with a policy; differentiable.
 

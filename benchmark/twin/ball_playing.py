@@ -1,7 +1,6 @@
 """A step of lifts with a ball: steering, sensors, frames; and whole lifts."""
 
 import math
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import jax
@@ -19,9 +18,9 @@ from .ball_lifts import BallLifts
 from .ball_plant import BallPlant, advance_ball_plant, ball_plant_at_rest
 from .body import DEPTH, delayed, pushed
 from .haptic_plant import Meant
-from .haptic_playing import commanded, corrected_by_sight, noise_of_motion, sensed_by_hands
+from .haptic_playing import commanded, moved_hand, sensed_by_hands
 from .lifts import chunk
-from .playing import ramp
+from .rollout import Policy
 
 
 class BallState(NamedTuple):
@@ -160,13 +159,11 @@ def ball_step(
     size, body, plant = len(due.gain), lifts.body, state.table.haptic.plant
     steering = steered(state, lifts, due.coming, size)
     targets = due.target + steering.offsets
-    correction = corrected_by_sight(state.correction, state.targets, plant.heights, body, size)
-    errors = noise_of_motion(state.error, due.gain, state.targets[0], targets)
-    references = targets + errors + due.tremor + ramp(state.correction, correction, size)
-    differences = due.target - references
+    hand = moved_hand(state, targets, plant.heights, body, due)
+    differences = due.target - hand.references
     part, limit = lifts.manner.wrist / lifts.manner.share, STEEPEST_MEANT * TABLE_LENGTH
     wrist = jnp.arcsin(jnp.clip(part * differences, -limit, limit) / TABLE_LENGTH)
-    references = jnp.clip(references, *REFERENCE_RANGE)
+    references = jnp.clip(hand.references, *REFERENCE_RANGE)
     commands = commanded(state.command, action, size)
 
     table, places = state.table, []
@@ -181,8 +178,8 @@ def ball_step(
     after = BallState(
         table=table,
         command=commands[-1],
-        correction=correction,
-        error=errors[-1],
+        correction=hand.correction,
+        error=hand.error,
         offset=steering.offsets[-1],
         wanted=steering.wanted,
         product=steering.product,
@@ -195,12 +192,8 @@ def ball_step(
     return after, place
 
 
-BallPolicy = Callable[[Any, jax.Array], tuple[Any, jax.Array]]
-"""Returns memory and actions (n,) [m] for a memory and observations (10, n)."""
-
-
 def ball_rmse_mm(
-    policy: BallPolicy, memory: Any, lifts: BallLifts, variation: ArmVariation | None = None
+    policy: Policy, memory: Any, lifts: BallLifts, variation: ArmVariation | None = None
 ) -> jax.Array:
     """Return the RMSE of the ball (n,) [mm] of lifts with a policy; differentiable.
 

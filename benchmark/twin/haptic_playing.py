@@ -1,6 +1,6 @@
 """The common part of a step of lifts with touch: sensors, the hand of the person, and commands."""
 
-from typing import Any
+from typing import Any, NamedTuple, Protocol
 
 import jax
 import jax.numpy as jnp
@@ -13,6 +13,34 @@ from .body import Body, delayed
 from .haptic_lifts import KEPT
 from .haptic_plant import HapticPlant
 from .playing import ramp
+
+
+class HandState(Protocol):
+    """What a step of the hand begins with."""
+
+    @property
+    def correction(self) -> jax.Array:
+        """(n,) the voluntary correction [m]."""
+
+    @property
+    def error(self) -> jax.Array:
+        """(n,) error of the hand by motor noise [m]."""
+
+    @property
+    def targets(self) -> jax.Array:
+        """(DEPTH, n) history of the intended height [m], newest first."""
+
+
+class HandNoise(Protocol):
+    """A step's share of the hand's noise; both (f, n)."""
+
+    @property
+    def gain(self) -> jax.Array:
+        """Noise relative to the velocity."""
+
+    @property
+    def tremor(self) -> jax.Array:
+        """Tremor [m]."""
 
 
 def sensed_by_hands(
@@ -96,6 +124,42 @@ def noise_of_motion(
         return error, error
 
     return jax.lax.scan(erring, error, (gain, changes))[1]
+
+
+class Hand(NamedTuple):
+    """The person's hand in a step."""
+
+    references: jax.Array
+    """(f, n) what the arms pull towards in each frame [m], not yet cut to the range of heights."""
+    correction: jax.Array
+    """(n,) the voluntary correction at the end [m]."""
+    error: jax.Array
+    """(n,) the error by motor noise at the end [m]."""
+
+
+def moved_hand(
+    state: HandState, targets: jax.Array, heights: jax.Array, body: Body, noise: HandNoise
+) -> Hand:
+    """Return the hand in a step of targets (f, n) [m]: what is meant, noise, and correction.
+
+    Parameters
+    ----------
+    state
+        The lifts before the step.
+    targets
+        Intended height in each frame [m].
+    heights
+        (DEPTH, n) history of the height [m], newest first.
+    body
+        The people.
+    noise
+        The step's share of the hand's noise.
+    """
+    size = len(targets)
+    correction = corrected_by_sight(state.correction, state.targets, heights, body, size)
+    errors = noise_of_motion(state.error, noise.gain, state.targets[0], targets)
+    ramped = ramp(state.correction, correction, size)
+    return Hand(targets + errors + noise.tremor + ramped, correction, errors[-1])
 
 
 def commanded(command: jax.Array, action: jax.Array, size: int) -> jax.Array:

@@ -11,13 +11,9 @@ from ..world.table import TABLE_LENGTH
 from .arm import ArmVariation
 from .body import DEPTH, delayed, pushed
 from .haptic_plant import HapticPlant, Meant, advance_haptic_step, haptic_plant_at_rest
-from .haptic_playing import (
-    commanded,
-    corrected_by_sight,
-    noise_of_motion,
-)
+from .haptic_playing import commanded, moved_hand
 from .intent_lifts import IntentLifts
-from .playing import ramp
+from .playing import Frames, ramp
 
 ADDED_HEIGHT: Final = 0.02
 """Most that a learning person adds to the height of the hands [m]."""
@@ -78,30 +74,29 @@ def paced(state: IntentState, lifts: IntentLifts, size: int) -> jax.Array:
     return state.time + pace * jnp.arange(1, size + 1, dtype=jnp.float32)[:, jnp.newaxis]
 
 
-class IntentFrames(NamedTuple):
-    """Heights in the frames of a step, (f, n) [m]."""
+class IntentDue(NamedTuple):
+    """A step's share of :class:`.IntentLifts`, see there."""
 
-    near: jax.Array
-    far: jax.Array
+    gain: jax.Array
+    tremor: jax.Array
 
 
 def intent_step(
     state: IntentState,
     lifts: IntentLifts,
-    gain: jax.Array,
-    tremor: jax.Array,
+    due: IntentDue,
     action: jax.Array,
     variation: ArmVariation | None = None,
     added: jax.Array | None = None,
-) -> tuple[IntentState, IntentFrames]:
+) -> tuple[IntentState, Frames]:
     """Return the lifts after a step, and the heights in its frames.
 
     Parameters
     ----------
     state, lifts
         The lifts.
-    gain, tremor
-        (f, n) the step's share of the hand's noise.
+    due
+        The step's share of them.
     action
         (n,) change of the command [m], cut to the hands' speed and stroke.
     variation
@@ -109,20 +104,18 @@ def intent_step(
     added
         (2, n) what a :class:`.LearningPerson` adds at the end of the step; none: nothing.
     """
-    size, body, plant = len(gain), lifts.body, state.haptic.plant
+    size, body, plant = len(due.gain), lifts.body, state.haptic.plant
     times = paced(state, lifts, size)
     targets, far_targets = planned(lifts.near, times), planned(lifts.far, times)
     ahead = times + lifts.lead
     sine = (planned(lifts.far, ahead) - planned(lifts.near, ahead)) / TABLE_LENGTH
     wrist = lifts.wrist * sine * (1 + sine**2 / 6)
     before, after = state.added, jnp.zeros_like(state.added) if added is None else added
-    hand, turn = (ramp(a, b, size) for a, b in zip(before, after, strict=True))
+    shift, turn = (ramp(a, b, size) for a, b in zip(before, after, strict=True))
 
-    correction = corrected_by_sight(state.correction, state.targets, plant.heights, body, size)
-    errors = noise_of_motion(state.error, gain, state.targets[0], targets)
-    references = targets + errors + tremor + ramp(state.correction, correction, size)
-    references, wrist = references + ADDED_HEIGHT * hand, wrist + ADDED_PITCH * turn
-    references = jnp.clip(references, *REFERENCE_RANGE)
+    hand = moved_hand(state, targets, plant.heights, body, due)
+    references = jnp.clip(hand.references + ADDED_HEIGHT * shift, *REFERENCE_RANGE)
+    wrist = wrist + ADDED_PITCH * turn
     commands = commanded(state.command, action, size)
 
     meant = Meant(references, far_targets - targets, wrist)
@@ -130,12 +123,12 @@ def intent_step(
     moved = IntentState(
         haptic=haptic,
         command=commands[-1],
-        correction=correction,
-        error=errors[-1],
+        correction=hand.correction,
+        error=hand.error,
         time=times[-1],
         targets=pushed(state.targets, targets),
         far_targets=pushed(state.far_targets, far_targets),
         step=state.step + 1,
         added=after,
     )
-    return moved, IntentFrames(near, far)
+    return moved, Frames(near, far)

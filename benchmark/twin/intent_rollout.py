@@ -1,6 +1,5 @@
 """Whole lifts with an intended pose, with a policy and with a person who learns."""
 
-from collections.abc import Callable
 from typing import Any, Final, NamedTuple
 
 import jax
@@ -11,7 +10,8 @@ from .arm import ArmVariation
 from .body import delayed
 from .haptic_playing import sensed_by_hands
 from .intent_lifts import IntentLifts
-from .intent_playing import IntentState, intent_at_rest, intent_step, planned
+from .intent_playing import IntentDue, IntentState, intent_at_rest, intent_step, planned
+from .rollout import Policy
 
 LOOKS_AHEAD: Final = (10.0, 30.0, 60.0)
 """Frames ahead at which a learning person knows the own intention."""
@@ -20,7 +20,7 @@ LOOKS_AHEAD: Final = (10.0, 30.0, 60.0)
 class LearningPerson(NamedTuple):
     """A person at the near end who has learned to add to what the hands do by themselves."""
 
-    policy: Callable[[Any, jax.Array], tuple[Any, jax.Array]]
+    policy: Policy
     """Returns memory and additions (2, n), each of at most 1, for a memory and a view (9, n)."""
     memory: Any
     """The memory at the beginning."""
@@ -40,12 +40,8 @@ def person_view(state: IntentState, lifts: IntentLifts) -> jax.Array:
     return jnp.concatenate((*seen, felt, near, planned(lifts.far, ahead) - near))
 
 
-IntentPolicy = Callable[[Any, jax.Array], tuple[Any, jax.Array]]
-"""Returns memory and actions (n,) [m] for a memory and observations (7, n)."""
-
-
 def intent_rmse_mm(
-    policy: IntentPolicy,
+    policy: Policy,
     memory: Any,
     lifts: IntentLifts,
     variation: ArmVariation | None = None,
@@ -68,9 +64,10 @@ def intent_rmse_mm(
     plans = (each.reshape(longest, size, count) for each in (lifts.near, lifts.far))
 
     def step(
-        held: tuple[IntentState, Any, Any], now: tuple[jax.Array, ...]
+        held: tuple[IntentState, Any, Any],
+        now: tuple[IntentDue, jax.Array, jax.Array, jax.Array],
     ) -> tuple[tuple[IntentState, Any, Any], jax.Array]:
-        (state, memory, knowing), (gain, tremor, noise, near, far) = held, now
+        (state, memory, knowing), (due, noise, near, far) = held, now
         added = None
         if person is not None:
             knowing, added = person.policy(knowing, person_view(state, lifts))
@@ -78,13 +75,13 @@ def intent_rmse_mm(
         view = sensed_by_hands(state.haptic, state.command, time, noise, lifts.latency)
         memory, action = policy(memory, view)
         valid = (state.step < lifts.steps).astype(jnp.float32)
-        state, frames = intent_step(state, lifts, gain, tremor, action, variation, added)
-        squares = ((frames.near - near) ** 2 + (frames.far - far) ** 2).sum(axis=0) / 2
+        state, frames = intent_step(state, lifts, due, action, variation, added)
+        squares = ((frames.human_end - near) ** 2 + (frames.robot_end - far) ** 2).sum(axis=0) / 2
         return (state, memory, knowing), squares * valid
 
     _, squares = jax.lax.scan(
         jax.checkpoint(step),
         (intent_at_rest(count), memory, None if person is None else person.memory),
-        (lifts.gain, lifts.tremor, lifts.noise, *plans),
+        (IntentDue(lifts.gain, lifts.tremor), lifts.noise, *plans),
     )
     return 1000 * jnp.sqrt(squares.sum(axis=0) / (lifts.steps * size) + 1e-12)

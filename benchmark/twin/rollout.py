@@ -58,7 +58,7 @@ class Outcome(NamedTuple):
 
 
 Policy = Callable[[Any, jax.Array], tuple[Any, jax.Array]]
-"""Returns memory and actions (n,) [m] for a memory and observations (5, n)."""
+"""Returns memory and actions (n,) [m] for a memory and observations (k, n) of its task."""
 
 
 def recurrent(network: GatedNetwork, count: int) -> tuple[Policy, Memory]:
