@@ -7,7 +7,6 @@ import jax.numpy as jnp
 
 from ...agents.agent import FRAME, HISTORY
 from ..tasks.ball.task import BALL, FINER
-from ..tasks.haptic import SENSED_FRAMES
 from ..world.ball import ROLLING
 from ..world.haptic_world import FAR_GRIP_DAMPING, FAR_GRIP_STIFFNESS
 from ..world.table import (
@@ -19,9 +18,16 @@ from ..world.table import (
     WEIGHT_SHARE,
 )
 from .arm import ArmVariation, followed, prepared
-from .body import DEPTH, Body, activated, delayed, pushed, wanted_shift
-from .haptic_plant import HapticPlant, Meant, haptic_plant_at_rest
-from .plant import Moving, Plant, after_physics_step
+from .body import DEPTH, Body, activated
+from .haptic_plant import (
+    Felt,
+    HapticPlant,
+    Meant,
+    haptic_plant_at_rest,
+    remembered,
+    shifts_of_reflex,
+)
+from .plant import Moving, after_physics_step
 
 STEPS: Final = FINER.steps_per_frame
 """Physics steps of a frame."""
@@ -115,14 +121,12 @@ def advance_ball_plant(
     variation
         Arms that differ from the benchmark's; none: its own.
     """
-    haptic, plant, count = state.haptic, state.haptic.plant, len(commands)
-    shifts = wanted_shift(
-        body, delayed(haptic.uneven, body.seen, count), delayed(plant.forces, body.felt, count)
-    )
+    haptic = state.haptic
+    shifts = shifts_of_reflex(haptic, body, len(commands))
 
     def frame(
         held: Held, due: tuple[Meant, jax.Array, jax.Array]
-    ) -> tuple[Held, tuple[jax.Array, ...]]:
+    ) -> tuple[Held, tuple[Felt, jax.Array]]:
         (now, wrist, ball), (wanted, shift, command) = held, due
         reflex = activated(now.reflex, shift)
         first, last = now.reference, wanted.reference + reflex
@@ -157,25 +161,15 @@ def advance_ball_plant(
             far_force=far_force, reflex=reflex, arm=now.arm._replace(target=target, load=load)
         )
         difference = now.far_height - now.height
-        felt = jnp.stack((far_force - WEIGHT_SHARE, torque))
-        seen = (now.height, difference, force, difference - wanted.difference, felt, ball.place)
-        return (now, wanted.wrist, ball), seen
+        touch = jnp.stack((far_force - WEIGHT_SHARE, torque))
+        felt = Felt(now.height, difference, force, difference - wanted.difference, touch)
+        return (now, wanted.wrist, ball), (felt, ball.place)
 
-    (moving, wrist, ball), (heights, differences, forces, uneven, felt, places) = jax.lax.scan(
-        frame, (plant.moving, haptic.wrist, state.ball), (meant, shifts, commands)
+    (moving, wrist, ball), (felt, places) = jax.lax.scan(
+        frame, (haptic.plant.moving, haptic.wrist, state.ball), (meant, shifts, commands)
     )
     return BallPlant(
-        haptic=HapticPlant(
-            plant=Plant(
-                moving=moving,
-                heights=pushed(plant.heights, heights),
-                differences=pushed(plant.differences, differences),
-                forces=pushed(plant.forces, forces),
-            ),
-            uneven=pushed(haptic.uneven, uneven),
-            wrist=wrist,
-            touch=jnp.concatenate((haptic.touch, felt))[-SENSED_FRAMES:],
-        ),
+        haptic=remembered(haptic, moving, wrist, felt),
         ball=ball,
         places=jnp.concatenate((places[::-1], state.places))[:PLACES],
     )

@@ -51,6 +51,41 @@ class Meant(NamedTuple):
     """The pitch that the wrists turn towards [rad]."""
 
 
+class Felt(NamedTuple):
+    """What some frames add to the histories of :class:`HapticPlant`, each (frames, ..., n)."""
+
+    heights: jax.Array
+    differences: jax.Array
+    forces: jax.Array
+    uneven: jax.Array
+    touch: jax.Array
+
+
+def remembered(state: HapticPlant, moving: Moving, wrist: jax.Array, felt: Felt) -> HapticPlant:
+    """Return the lifts after some frames: how they move then, with what was seen and felt."""
+    plant = state.plant
+    return HapticPlant(
+        plant=Plant(
+            moving=moving,
+            heights=pushed(plant.heights, felt.heights),
+            differences=pushed(plant.differences, felt.differences),
+            forces=pushed(plant.forces, felt.forces),
+        ),
+        uneven=pushed(state.uneven, felt.uneven),
+        wrist=wrist,
+        touch=jnp.concatenate((state.touch, felt.touch))[-SENSED_FRAMES:],
+    )
+
+
+def shifts_of_reflex(state: HapticPlant, body: Body, count: int) -> jax.Array:
+    """Return where the people's reflexes want to shift their references in the next frames [m]."""
+    return wanted_shift(
+        body,
+        delayed(state.uneven, body.seen, count),
+        delayed(state.plant.forces, body.felt, count),
+    )
+
+
 def advance_haptic_plant(
     state: HapticPlant,
     body: Body,
@@ -73,14 +108,11 @@ def advance_haptic_plant(
     variation
         Arms that differ from the benchmark's; none: its own.
     """
-    plant, count = state.plant, len(commands)
-    shifts = wanted_shift(
-        body, delayed(state.uneven, body.seen, count), delayed(plant.forces, body.felt, count)
-    )
+    shifts = shifts_of_reflex(state, body, len(commands))
 
     def frame(
         held: tuple[Moving, jax.Array], due: tuple[Meant, jax.Array, jax.Array]
-    ) -> tuple[tuple[Moving, jax.Array], tuple[jax.Array, ...]]:
+    ) -> tuple[tuple[Moving, jax.Array], Felt]:
         (now, wrist), (wanted, shift, command) = held, due
         reflex = activated(now.reflex, shift)
         turn = (wanted.wrist - wrist) / FRAME
@@ -90,24 +122,14 @@ def advance_haptic_plant(
         after, force = after_frame(now, wanted.reference + reflex, body, command, grip, variation)
         after = after._replace(reflex=reflex)
         difference = after.far_height - after.height
-        felt = jnp.stack((after.far_force - WEIGHT_SHARE, -far / _IMPLICIT))
-        seen = (after.height, difference, force, difference - wanted.difference, felt)
-        return (after, wanted.wrist), seen
+        touch = jnp.stack((after.far_force - WEIGHT_SHARE, -far / _IMPLICIT))
+        felt = Felt(after.height, difference, force, difference - wanted.difference, touch)
+        return (after, wanted.wrist), felt
 
-    (moving, wrist), (heights, differences, forces, uneven, felt) = jax.lax.scan(
-        frame, (plant.moving, state.wrist), (meant, shifts, commands)
+    (moving, wrist), felt = jax.lax.scan(
+        frame, (state.plant.moving, state.wrist), (meant, shifts, commands)
     )
-    return HapticPlant(
-        plant=Plant(
-            moving=moving,
-            heights=pushed(plant.heights, heights),
-            differences=pushed(plant.differences, differences),
-            forces=pushed(plant.forces, forces),
-        ),
-        uneven=pushed(state.uneven, uneven),
-        wrist=wrist,
-        touch=jnp.concatenate((state.touch, felt))[-SENSED_FRAMES:],
-    )
+    return remembered(state, moving, wrist, felt)
 
 
 def advance_haptic_step(

@@ -1,7 +1,5 @@
 """The twin of two hurdles: the lifts of the engine, and the beliefs of its people."""
 
-import contextlib
-
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -10,8 +8,6 @@ from colift.agents.agree.belief import GoalBelief
 from colift.agents.errors import InputError
 from colift.agents.observations import AgreeObservation as Seen
 from colift.agents.policies.agree_game import AgreeGame
-from colift.benchmark.episode.episode import run_episode
-from colift.benchmark.episode.lift import make_lift
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.tasks.agree.task import BEHAVIOURS
 from colift.benchmark.twin import agree_people
@@ -27,6 +23,8 @@ from colift.benchmark.twin.agree_playing import (
     agree_view,
 )
 from colift.benchmark.world.table import TABLE_LENGTH
+
+from .played import Played, engine_scores
 
 PEOPLE = range(210_000, 210_003)
 """Seeds of people and lifts outside all suites."""
@@ -56,26 +54,8 @@ def yielding(memory, seen):
     return memory, -0.06 * seen[Seen.FORCE]
 
 
-class Played:
-    """A policy of the twin as an agent of the engine."""
-
-    def __init__(self, policy):
-        self.policy = policy
-
-    def reset(self, seed):
-        self.memory = 0.0
-
-    def act(self, observation):
-        self.memory, action = self.policy(self.memory, observation)
-        return np.array([action])
-
-
 def in_engine(make):
-    errors = []
-    for scenario, seed in LIFTS:
-        with contextlib.closing(make_lift(scenario)) as lift:
-            errors.append(run_episode(lift, make(), seed).scores["rmse_mm"])
-    return np.array(errors)
+    return np.array([each["rmse_mm"] for each in engine_scores(make, LIFTS)])
 
 
 def in_twin(policy, lifts):

@@ -1,7 +1,5 @@
 """The twin of the ball: the lifts of the engine, with policies that steer and that do not."""
 
-import contextlib
-
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -10,8 +8,6 @@ from colift.agents.agent import FRAME
 from colift.agents.errors import InputError
 from colift.agents.observations import BallObservation as Seen
 from colift.agents.policies.ball_game import BallGame
-from colift.benchmark.episode.episode import run_episode
-from colift.benchmark.episode.lift import make_lift
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.tasks.ball.task import BALL
 from colift.benchmark.twin import ball_playing
@@ -24,6 +20,8 @@ from colift.benchmark.twin.ball_playing import (
     balls_at_rest,
 )
 from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH
+
+from .played import Played, engine_scores
 
 PEOPLE = range(210_000, 210_006)
 """Seeds of people and lifts outside all suites."""
@@ -65,26 +63,9 @@ def idle(last, seen):
     return last, 0.0 * seen[Seen.FORCE]
 
 
-class Played:
-    """A policy of the twin as an agent of the engine."""
-
-    def __init__(self, policy):
-        self.policy = policy
-
-    def reset(self, seed):
-        self.memory = 0.0
-
-    def act(self, observation):
-        self.memory, action = self.policy(self.memory, observation)
-        return np.array([action])
-
-
 def in_engine(make, lifts=FEW):
     """Return the errors of the lifts with new agents, and whether each lost the ball."""
-    scores = []
-    for scenario, seed in lifts:
-        with contextlib.closing(make_lift(scenario)) as lift:
-            scores.append(run_episode(lift, make(), seed).scores)
+    scores = engine_scores(make, lifts)
     return np.array([(each["rmse_mm"], each["fallen"]) for each in scores]).T
 
 

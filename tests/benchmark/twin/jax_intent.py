@@ -1,19 +1,17 @@
 """The twin of intended poses: the lifts of the engine, with policies that touch and that do not."""
 
-import contextlib
-
 import jax.numpy as jnp
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.observations import HapticObservation as Seen
-from colift.benchmark.episode.episode import run_episode
-from colift.benchmark.episode.lift import make_lift
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.twin import haptic_plant
 from colift.benchmark.twin.intent_lifts import draw_intent, stack_intent
 from colift.benchmark.twin.intent_rollout import intent_rmse_mm
 from colift.benchmark.world.table import TABLE_LENGTH
+
+from .played import Played, engine_scores
 
 PEOPLE = (210_000, 210_001)
 """Seeds of people and lifts outside all suites."""
@@ -34,26 +32,8 @@ def level(memory, seen):
     return near, 2 * near - memory - seen[Seen.HAND_COMMAND]
 
 
-class Played:
-    """A policy of the twin as an agent of the engine."""
-
-    def __init__(self, policy):
-        self.policy = policy
-
-    def reset(self, seed):
-        self.memory = 0.0
-
-    def act(self, observation):
-        self.memory, action = self.policy(self.memory, observation)
-        return np.array([action])
-
-
 def in_engine(policy):
-    errors = []
-    for scenario, seed in LIFTS:
-        with contextlib.closing(make_lift(scenario)) as lift:
-            errors.append(run_episode(lift, Played(policy), seed).scores["rmse_mm"])
-    return np.array(errors)
+    return np.array([each["rmse_mm"] for each in engine_scores(lambda: Played(policy), LIFTS)])
 
 
 @pytest.fixture(scope="module")
