@@ -135,8 +135,8 @@ def memory_at_rest(network: GatedNetwork) -> Memory:
     return Memory(np.zeros(network.units), 0.0, 0.0, 0.0, 0.0)
 
 
-def network_of(arrays: Any, source: str) -> GatedNetwork:
-    """Return the network of named arrays, in double precision.
+def network_of(arrays: Any, source: str, inputs: int = INPUTS) -> GatedNetwork:
+    """Return the network of named arrays with so many inputs, in double precision.
 
     Raises
     ------
@@ -154,10 +154,10 @@ def network_of(arrays: Any, source: str) -> GatedNetwork:
             f"{source}: it must have 1 to {MOST_UNITS} units, memory is {memory.shape}"
         )
     shapes = {
-        "inputs": (3 * units, INPUTS),
+        "inputs": (3 * units, inputs),
         "memory": (3 * units, units),
         "bias": (3 * units,),
-        "output": (1, units + INPUTS),
+        "output": (1, units + inputs),
         "output_bias": (1,),
     }
     for name, shape in shapes.items():

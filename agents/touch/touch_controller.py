@@ -10,7 +10,7 @@ import numpy as np
 
 from ..agent import Action, Observation
 from ..control.portable import PORTABLE
-from ..control.recurrent import MOST_UNITS, GatedNetwork
+from ..control.recurrent import network_of
 from ..errors import InputError
 from .touch_law import TASK_SENSES, TouchNetwork, felt_action, inputs_of, touch_at_rest
 
@@ -73,31 +73,9 @@ def touch_network(arrays: Any, source: str) -> TouchNetwork:
     InputError
         If an array is missing, of a wrong shape, or not finite, or there is no such task.
     """
-    try:
-        task = str(arrays["task"])
-        found = {name: np.asarray(arrays[name], dtype=np.float64) for name in GatedNetwork._fields}
-    except (KeyError, ValueError, TypeError) as error:
-        raise InputError(f"{source}: not the weights of a policy by touch: {error}") from None
+    if "task" not in arrays:
+        raise InputError(f"{source}: not the weights of a policy by touch: task is missing")
+    task = str(arrays["task"])
     if task not in TASK_SENSES:
         raise InputError(f"{source}: task must be one of {', '.join(TASK_SENSES)}, got {task!r}")
-    units = found["memory"].shape[-1] if found["memory"].ndim == 2 else 0
-    if not 1 <= units <= MOST_UNITS:
-        raise InputError(
-            f"{source}: it must have 1 to {MOST_UNITS} units, memory is {found['memory'].shape}"
-        )
-    entering = inputs_of(task)
-    shapes = {
-        "inputs": (3 * units, entering),
-        "memory": (3 * units, units),
-        "bias": (3 * units,),
-        "output": (1, units + entering),
-        "output_bias": (1,),
-    }
-    for name, shape in shapes.items():
-        if found[name].shape != shape:
-            raise InputError(
-                f"{source}: {name} must have the shape {shape}, got {found[name].shape}"
-            )
-        if not np.isfinite(found[name]).all():
-            raise InputError(f"{source}: {name} has numbers that are not finite")
-    return TouchNetwork(task, GatedNetwork(**found))
+    return TouchNetwork(task, network_of(arrays, source, inputs_of(task)))

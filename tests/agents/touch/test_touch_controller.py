@@ -59,7 +59,7 @@ def test_the_file_names_the_task(tmp_path, task):
         ({"memory": np.zeros((6, 0))}, "1 to 4096 units"),
         ({"bias": np.zeros(5)}, r"bias must have the shape \(6,\), got \(5,\)"),
         ({"output_bias": np.array([np.nan])}, "output_bias has numbers that are not finite"),
-        ({"inputs": np.array("text")}, "not the weights of a policy by touch"),
+        ({"inputs": np.array("text")}, "not the weights of a recurrent policy"),
     ],
 )
 def test_weights_that_cannot_be_used_are_refused(change, message):
@@ -78,3 +78,10 @@ def test_the_observation_of_another_task_is_refused():
     policy.reset(0)
     with pytest.raises(InputError, match="task 'ball', whose observation has 10 numbers"):
         policy.act(np.zeros(len(Seen)))
+
+
+def test_weights_that_name_no_task_are_refused():
+    arrays = weights()
+    del arrays["task"]
+    with pytest.raises(InputError, match="task is missing"):
+        touch_network(arrays, "made up")
