@@ -126,7 +126,7 @@ def noise_of_motion(
     return jax.lax.scan(erring, error, (gain, changes))[1]
 
 
-class Hand(NamedTuple):
+class MovedHand(NamedTuple):
     """The person's hand in a step."""
 
     references: jax.Array
@@ -139,7 +139,7 @@ class Hand(NamedTuple):
 
 def moved_hand(
     state: HandState, targets: jax.Array, heights: jax.Array, body: Body, noise: HandNoise
-) -> Hand:
+) -> MovedHand:
     """Return the hand in a step of targets (f, n) [m]: what is meant, noise, and correction.
 
     Parameters
@@ -159,7 +159,7 @@ def moved_hand(
     correction = corrected_by_sight(state.correction, state.targets, heights, body, size)
     errors = noise_of_motion(state.error, noise.gain, state.targets[0], targets)
     ramped = ramp(state.correction, correction, size)
-    return Hand(targets + errors + noise.tremor + ramped, correction, errors[-1])
+    return MovedHand(targets + errors + noise.tremor + ramped, correction, errors[-1])
 
 
 def commanded(command: jax.Array, action: jax.Array, size: int) -> jax.Array:
