@@ -14,9 +14,6 @@ PARTS: Final = 2
 TASKS: Final = ("level", "intent", "agree", "ball")
 """Tasks with a twin."""
 
-PAIRED: Final = ("intent",)
-"""Tasks in whose twin people learn, too."""
-
 LAST_WIDE: Final = 0.1
 """Largest share of wide lifts in the last updates: enough to keep what was learned of them."""
 
@@ -102,8 +99,9 @@ def pair_settings(task: str) -> ApgSettings:
     Raises
     ------
     InputError
-        If the task has no twin in which people learn.
+        If the task is none with touch, or has no twin.
     """
-    if task not in PAIRED:
-        raise InputError(f"pairs can be trained for {', '.join(PAIRED)}; got the task {task!r}")
+    paired = TASKS[1:]
+    if task not in paired:
+        raise InputError(f"pairs can be trained for {', '.join(paired)}; got the task {task!r}")
     return ApgSettings(task=task, updates=200, lifts=1000, batch=128, units=32)

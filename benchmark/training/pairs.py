@@ -1,13 +1,13 @@
 """Pairs of a person and a robot that learn together, and how they do with each other's partners.
 
 The person adds to what the benchmark's people do (:class:`.LearningPerson`); the wrists show no
-intention by themselves. So what tells the robot the intention is an agreement that each pair finds
-by itself. All of it is in the twin: no suite and no board takes part.
+intention by themselves. So what else tells the robot the intention is an agreement that each pair
+finds by itself. All of it is in the twin: no suite and no board takes part.
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Final, NamedTuple
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -16,16 +16,14 @@ from numpy.typing import NDArray
 
 from ...agents.control.recurrent import GatedNetwork, gated
 from ...agents.touch.touch_law import TouchNetwork
-from ..twin.intent_rollout import LearningPerson
+from ..twin.learning_person import SENSES, LearningPerson
 from ..twin.rollout import JAX
+from ..twin.touch_rollout import touch_rmse_mm
 from .apg import updates
 from .apg_settings import ApgSettings
 from .lesson import first_network
 from .touch_lesson import TouchLesson, touch_policy
 from .validation import VALIDATION_SEEDS
-
-PERSON_SCALES: Final = (10.0, 20.0, 0.5, 10.0, 10.0, 10.0, 20.0, 20.0, 20.0)
-"""Scale of each number that a person knows, to an input."""
 
 
 class TrainedPair(NamedTuple):
@@ -43,19 +41,20 @@ class PairLesson:
 
     def first(self, settings: ApgSettings, seed: int) -> TrainedPair:
         """Return a pair that has learned nothing."""
-        person = first_network(len(PERSON_SCALES), settings.units, seed + 1_000_000, outputs=2)
+        inputs = SENSES + self.of_robot.twin.steps.knows
+        person = first_network(inputs, settings.units, seed + 1_000_000, outputs=2)
         return TrainedPair(self.of_robot.first(settings, seed), person)
 
     def draw(self, settings: ApgSettings) -> Any:
         """Return lifts with drawn people whose wrists show nothing."""
-        return with_quiet_wrists(self.of_robot.draw(settings))
+        return self.of_robot.twin.quiet(self.of_robot.draw(settings))
 
     def loss(
         self, network: TrainedPair, pool: Any, settings: ApgSettings, size: int, key: jax.Array
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
         lifts, variation = self.of_robot.batch(pool, settings, size, key)
-        mean = self.errors(network, with_quiet_wrists(lifts), variation).mean()
+        mean = self.errors(network, self.of_robot.twin.quiet(lifts), variation).mean()
         return mean, mean
 
     def errors(self, pair: TrainedPair, lifts: Any, variation: Any = None) -> jax.Array:
@@ -63,20 +62,13 @@ class PairLesson:
         count = lifts.size
         policy, memory = touch_policy(TouchNetwork(self.of_robot.task, pair.robot), count)
         person = learned_person(pair.person, count)
-        return self.of_robot.twin.rmse_mm(policy, memory, lifts, variation, person)
-
-
-def with_quiet_wrists(lifts: Any) -> Any:
-    """Return lifts whose people's wrists show nothing of an intention."""
-    return lifts._replace(wrist=jnp.zeros_like(lifts.wrist))
+        return touch_rmse_mm(self.of_robot.twin.steps, policy, memory, lifts, variation, person)
 
 
 def learned_person(network: GatedNetwork, count: int) -> LearningPerson:
     """Return the person of a network at the beginning of n lifts."""
-    scales = jnp.asarray(PERSON_SCALES)[:, jnp.newaxis]
 
-    def policy(units: jax.Array, view: jax.Array) -> tuple[jax.Array, jax.Array]:
-        inputs = scales * view
+    def policy(units: jax.Array, inputs: jax.Array) -> tuple[jax.Array, jax.Array]:
         units = gated(network, units, inputs, JAX)
         output = network.output @ jnp.concatenate((units, inputs))
         return units, jnp.tanh(output + network.output_bias[:, jnp.newaxis])
@@ -119,7 +111,7 @@ def played_across(lesson: PairLesson, pairs: Sequence[TrainedPair]) -> NDArray[n
     """Return the mean RMSE of each person (rows) with each robot (columns) of some pairs [mm]."""
     twin = lesson.of_robot.twin
     scenarios = [(lesson.of_robot.scenario(seed), seed) for seed in VALIDATION_SEEDS]
-    lifts = with_quiet_wrists(twin.stack([twin.draw(*each) for each in scenarios]))
+    lifts = twin.quiet(twin.stack([twin.draw(*each) for each in scenarios]))
     errors = jax.jit(lambda pair: lesson.errors(pair, lifts).mean())
     return np.array(
         [[float(errors(TrainedPair(two.robot, one.person))) for two in pairs] for one in pairs]

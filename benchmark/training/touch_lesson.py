@@ -17,6 +17,7 @@ from ..suites.catalogue import make_scenario
 from ..twin.arm import ArmVariation
 from ..twin.lifts import some
 from ..twin.rollout import JAX
+from ..twin.touch_rollout import touch_rmse_mm
 from .apg_settings import ApgSettings
 from .lesson import Weights, first_network
 from .pool import LAG, SAG
@@ -63,7 +64,7 @@ class TouchLesson:
         """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
         lifts, variation = self.batch(pool, settings, size, key)
         policy, memory = touch_policy(TouchNetwork(self.task, network), size)
-        mean = self.twin.rmse_mm(policy, memory, lifts, variation).mean()
+        mean = touch_rmse_mm(self.twin.steps, policy, memory, lifts, variation).mean()
         return mean, mean
 
     def batch(

@@ -16,11 +16,12 @@ from ..tasks.agree.task import BEHAVIOURS as HURDLES
 from ..tasks.ball.task import BEHAVIOURS as ROLLINGS
 from ..tasks.intent.task import BEHAVIOURS as INTENTS
 from ..twin.agree_lifts import AgreeLifts, draw_agree, stack_agree
-from ..twin.agree_playing import agree_rmse_mm
+from ..twin.agree_playing import AGREE_STEPS
 from ..twin.ball_lifts import BallLifts, Manner, draw_ball, stack_ball
-from ..twin.ball_playing import ball_rmse_mm
+from ..twin.ball_playing import BALL_STEPS
 from ..twin.intent_lifts import IntentLifts, draw_intent, stack_intent
-from ..twin.intent_rollout import intent_rmse_mm
+from ..twin.intent_playing import INTENT_STEPS
+from ..twin.touch_rollout import TouchSteps
 
 
 class TouchTwin(NamedTuple):
@@ -31,11 +32,13 @@ class TouchTwin(NamedTuple):
     """Returns what is drawn for a lift."""
     stack: Callable[[Sequence[Any]], Any]
     """Returns drawn lifts in one."""
-    rmse_mm: Callable[..., jax.Array]
-    """Returns the score (n,) of policy, memory, lifts and variation of the arms [mm]."""
+    steps: TouchSteps
+    """The lifts, step by step."""
     manners: Callable[[Any, jax.Array, float], Any]
     """Returns lifts with manners of their people that are drawn anew by a key, from ranges that are
     longer than the population's by a share."""
+    quiet: Callable[[Any], Any]
+    """Returns lifts whose people's wrists show nothing of an intention."""
 
 
 def leading_anew(lifts: IntentLifts, key: jax.Array, wide: float) -> IntentLifts:
@@ -77,9 +80,29 @@ def agreeing_anew(lifts: AgreeLifts, key: jax.Array, wide: float) -> AgreeLifts:
     )
 
 
+def leading_quietly(lifts: IntentLifts) -> IntentLifts:
+    """Return lifts with wrists that stay level."""
+    return lifts._replace(wrist=jnp.zeros_like(lifts.wrist))
+
+
+def steering_quietly(lifts: BallLifts) -> BallLifts:
+    """Return lifts with wrists that take no part in steering."""
+    manner = lifts.manner
+    return lifts._replace(manner=manner._replace(wrist=jnp.zeros_like(manner.wrist)))
+
+
+def agreeing_quietly(lifts: AgreeLifts) -> AgreeLifts:
+    """Return the lifts: people with hurdles keep their wrists level."""
+    return lifts
+
+
 TWINS: Final = {
-    "intent": TouchTwin(INTENTS, draw_intent, stack_intent, intent_rmse_mm, leading_anew),
-    "agree": TouchTwin(HURDLES, draw_agree, stack_agree, agree_rmse_mm, agreeing_anew),
-    "ball": TouchTwin(ROLLINGS, draw_ball, stack_ball, ball_rmse_mm, steering_anew),
+    "intent": TouchTwin(
+        INTENTS, draw_intent, stack_intent, INTENT_STEPS, leading_anew, leading_quietly
+    ),
+    "agree": TouchTwin(
+        HURDLES, draw_agree, stack_agree, AGREE_STEPS, agreeing_anew, agreeing_quietly
+    ),
+    "ball": TouchTwin(ROLLINGS, draw_ball, stack_ball, BALL_STEPS, steering_anew, steering_quietly),
 }
 """By task."""

@@ -1,6 +1,6 @@
-"""A step of lifts with two hurdles: people, sensors, frames; and whole lifts."""
+"""The steps of lifts with two hurdles: people, sensors, frames, score."""
 
-from typing import Any, NamedTuple
+from typing import Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -13,8 +13,9 @@ from .arm import ArmVariation
 from .body import DEPTH, pushed
 from .haptic_plant import HapticPlant, Meant, advance_haptic_step, haptic_plant_at_rest
 from .haptic_playing import commanded, moved_hand, sensed_by_hands
+from .learning_person import Added
 from .playing import Frames
-from .rollout import Policy
+from .touch_rollout import TouchSteps
 
 
 class AgreeState(NamedTuple):
@@ -65,12 +66,24 @@ def agree_view(state: AgreeState, lifts: AgreeLifts, due: AgreeDue) -> jax.Array
     return jnp.concatenate((touch, due.shown))
 
 
+def agree_known(state: AgreeState, lifts: AgreeLifts, due: AgreeDue) -> jax.Array:
+    """Return what n people know of their hurdle (5, n).
+
+    The common height while the way rests there, the height of the own hurdle, the times until its
+    window opens and closes, and whether there is one.
+    """
+    sight, own = due.sight, lifts.human
+    heights = jnp.stack((10.0 * sight.common, 10.0 * own.height))
+    return jnp.concatenate((heights, 0.5 * sight.times[:2], own.given[jnp.newaxis]))
+
+
 def agree_step(
     state: AgreeState,
     lifts: AgreeLifts,
     due: AgreeDue,
     action: jax.Array,
     variation: ArmVariation | None = None,
+    added: Added | None = None,
 ) -> tuple[AgreeState, Frames]:
     """Return the lifts after a step, and the heights in its frames.
 
@@ -84,14 +97,19 @@ def agree_step(
         (n,) change of the command [m], cut to the hands' speed and stroke.
     variation
         Arms that differ from the benchmark's; none: its own.
+    added
+        What learning people add; none: nothing.
     """
     size, body, plant = len(due.gain), lifts.body, state.haptic.plant
     mind, targets = negotiated(state.mind, lifts, due.sight, plant)
     hand = moved_hand(state, targets, plant.heights, body, due)
-    references = jnp.clip(hand.references, *REFERENCE_RANGE)
+    references = hand.references
+    level = wrist = jnp.zeros_like(references)
+    if added is not None:
+        references, wrist = references + added.height, added.pitch
+    references = jnp.clip(references, *REFERENCE_RANGE)
     commands = commanded(state.command, action, size)
-    level = jnp.zeros_like(references)
-    meant = Meant(references, level, level)
+    meant = Meant(references, level, wrist)
     haptic, near, far = advance_haptic_step(state.haptic, body, meant, commands, variation)
     after = AgreeState(
         haptic=haptic,
@@ -123,10 +141,15 @@ def _passing(hurdle: Obstacle, frames: Frames, numbers: jax.Array) -> jax.Array:
     return jnp.where(within, ends / 2, 1.0).min(axis=0)
 
 
-def agree_squares(lifts: AgreeLifts, frames: Frames, step: jax.Array) -> AgreeSquares:
-    """Return what the step of this number, of which these are the frames, adds to the score."""
+def agree_missed(
+    state: AgreeState, lifts: AgreeLifts, due: AgreeDue, frames: Frames
+) -> AgreeSquares:
+    """Return what a step adds to the score, of the state before it and its frames.
+
+    The gradient of a missed hurdle is that of the frame in which the table comes nearest.
+    """
     size = len(frames.human_end)
-    numbers = (step * size + jnp.arange(size))[:, jnp.newaxis]
+    numbers = (state.step * size + jnp.arange(size))[:, jnp.newaxis]
     first, past = lifts.agreeing
     held = ((first <= numbers) & (numbers < past)).astype(jnp.float32)
     return AgreeSquares(
@@ -144,33 +167,14 @@ def agree_score_mm(lifts: AgreeLifts, squares: AgreeSquares) -> jax.Array:
     return 1000 * jnp.sqrt((missed + level) / (1 + given[0] + given[1]) + 1e-12)
 
 
-def agree_rmse_mm(
-    policy: Policy, memory: Any, lifts: AgreeLifts, variation: ArmVariation | None = None
-) -> jax.Array:
-    """Return the RMSE of the agreement (n,) [mm] of lifts with a policy; differentiable.
-
-    The gradient of a missed hurdle is that of the frame in which the table comes nearest. A table
-    that is dropped is not modelled.
-
-    Parameters
-    ----------
-    policy, memory
-        The policy, and its memory at the beginning.
-    lifts
-        People, plans and noise.
-    variation
-        Arms that differ from the benchmark's; none: its own.
-    """
-
-    def step(
-        held: tuple[AgreeState, Any], due: AgreeDue
-    ) -> tuple[tuple[AgreeState, Any], AgreeSquares]:
-        state, memory = held
-        memory, action = policy(memory, agree_view(state, lifts, due))
-        after, frames = agree_step(state, lifts, due, action, variation)
-        return (after, memory), agree_squares(lifts, frames, state.step)
-
-    _, squares = jax.lax.scan(
-        jax.checkpoint(step), (agree_at_rest(lifts.size), memory), agree_due(lifts)
-    )
-    return agree_score_mm(lifts, squares)
+AGREE_STEPS: Final = TouchSteps(
+    at_rest=agree_at_rest,
+    shares=agree_due,
+    view=agree_view,
+    known=agree_known,
+    knows=5,
+    step=agree_step,
+    missed=agree_missed,
+    score_mm=agree_score_mm,
+)
+"""The task."""

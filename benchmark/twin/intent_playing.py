@@ -1,25 +1,25 @@
-"""A step of lifts with an intended pose: pace, intention, frames."""
+"""The steps of lifts with an intended pose: pace, intention, sensors, frames, score."""
 
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
 
+from ...agents.agent import FRAME
 from ...agents.intent.pace import CATCHING_UP
 from ..episode.seat import REFERENCE_RANGE
 from ..world.table import TABLE_LENGTH
 from .arm import ArmVariation
 from .body import DEPTH, delayed, pushed
 from .haptic_plant import HapticPlant, Meant, advance_haptic_step, haptic_plant_at_rest
-from .haptic_playing import commanded, moved_hand
+from .haptic_playing import commanded, moved_hand, sensed_by_hands
 from .intent_lifts import IntentLifts
-from .playing import Frames, ramp
+from .learning_person import Added
+from .playing import Frames
+from .touch_rollout import TouchSteps, mean_error_mm
 
-ADDED_HEIGHT: Final = 0.02
-"""Most that a learning person adds to the height of the hands [m]."""
-
-ADDED_PITCH: Final = 0.1
-"""Most that a learning person adds to the pitch that the wrists turn to [rad]."""
+LOOKS_AHEAD: Final = (10.0, 30.0, 60.0)
+"""Frames ahead at which learning people know their intention."""
 
 
 class IntentState(NamedTuple):
@@ -40,15 +40,13 @@ class IntentState(NamedTuple):
     """History of the far end's intended height [m]."""
     step: jax.Array
     """() number of the coming step."""
-    added: jax.Array
-    """(2, n) what a :class:`.LearningPerson` has added at the end of the last step."""
 
 
 def intent_at_rest(count: int) -> IntentState:
     """Return lifts at rest."""
     zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
-    rest, added = haptic_plant_at_rest(count), jnp.zeros((2, count))
-    return IntentState(rest, zero, zero, zero, zero, past, past, jnp.zeros((), jnp.int32), added)
+    rest, number = haptic_plant_at_rest(count), jnp.zeros((), jnp.int32)
+    return IntentState(rest, zero, zero, zero, zero, past, past, number)
 
 
 def planned(series: jax.Array, time: jax.Array) -> jax.Array:
@@ -77,8 +75,36 @@ def paced(state: IntentState, lifts: IntentLifts, size: int) -> jax.Array:
 class IntentDue(NamedTuple):
     """A step's share of :class:`.IntentLifts`, see there."""
 
+    near: jax.Array
+    """(f, n)"""
+    far: jax.Array
+    """(f, n)"""
     gain: jax.Array
     tremor: jax.Array
+    noise: jax.Array
+
+
+def intent_due(lifts: IntentLifts) -> IntentDue:
+    """Return the shares of all steps, with a first axis of steps."""
+    near, far = (each.reshape(lifts.gain.shape) for each in (lifts.near, lifts.far))
+    return IntentDue(near, far, lifts.gain, lifts.tremor, lifts.noise)
+
+
+def intent_view(state: IntentState, lifts: IntentLifts, due: IntentDue) -> Any:
+    """Return the robot's observations (7, n), laid out as :class:`.HapticObservation`."""
+    time = state.step * len(due.gain) * FRAME
+    return sensed_by_hands(state.haptic, state.command, time, due.noise, lifts.latency)
+
+
+def intent_known(state: IntentState, lifts: IntentLifts, due: IntentDue) -> jax.Array:
+    """Return what n people know of their intention (6, n).
+
+    For three times ahead the intended height of the own end, then the intended difference of the
+    far one.
+    """
+    ahead = state.time + jnp.asarray(LOOKS_AHEAD)[:, jnp.newaxis]
+    near = planned(lifts.near, ahead)
+    return jnp.concatenate((10.0 * near, 20.0 * (planned(lifts.far, ahead) - near)))
 
 
 def intent_step(
@@ -87,7 +113,7 @@ def intent_step(
     due: IntentDue,
     action: jax.Array,
     variation: ArmVariation | None = None,
-    added: jax.Array | None = None,
+    added: Added | None = None,
 ) -> tuple[IntentState, Frames]:
     """Return the lifts after a step, and the heights in its frames.
 
@@ -102,7 +128,7 @@ def intent_step(
     variation
         Arms that differ from the benchmark's; none: its own.
     added
-        (2, n) what a :class:`.LearningPerson` adds at the end of the step; none: nothing.
+        What learning people add; none: nothing.
     """
     size, body, plant = len(due.gain), lifts.body, state.haptic.plant
     times = paced(state, lifts, size)
@@ -110,12 +136,11 @@ def intent_step(
     ahead = times + lifts.lead
     sine = (planned(lifts.far, ahead) - planned(lifts.near, ahead)) / TABLE_LENGTH
     wrist = lifts.wrist * sine * (1 + sine**2 / 6)
-    before, after = state.added, jnp.zeros_like(state.added) if added is None else added
-    shift, turn = (ramp(a, b, size) for a, b in zip(before, after, strict=True))
-
     hand = moved_hand(state, targets, plant.heights, body, due)
-    references = jnp.clip(hand.references + ADDED_HEIGHT * shift, *REFERENCE_RANGE)
-    wrist = wrist + ADDED_PITCH * turn
+    references = hand.references
+    if added is not None:
+        references, wrist = references + added.height, wrist + added.pitch
+    references = jnp.clip(references, *REFERENCE_RANGE)
     commands = commanded(state.command, action, size)
 
     meant = Meant(references, far_targets - targets, wrist)
@@ -129,6 +154,26 @@ def intent_step(
         targets=pushed(state.targets, targets),
         far_targets=pushed(state.far_targets, far_targets),
         step=state.step + 1,
-        added=after,
     )
     return moved, Frames(near, far)
+
+
+def intent_missed(
+    state: IntentState, lifts: IntentLifts, due: IntentDue, frames: Frames
+) -> jax.Array:
+    """Return the sum of the square distances from the pose in a step (n,), ends averaged [m2]."""
+    squares = (frames.human_end - due.near) ** 2 + (frames.robot_end - due.far) ** 2
+    return squares.sum(axis=0) / 2 * (state.step < lifts.steps)
+
+
+INTENT_STEPS: Final = TouchSteps(
+    at_rest=intent_at_rest,
+    shares=intent_due,
+    view=intent_view,
+    known=intent_known,
+    knows=2 * len(LOOKS_AHEAD),
+    step=intent_step,
+    missed=intent_missed,
+    score_mm=mean_error_mm,
+)
+"""The task."""

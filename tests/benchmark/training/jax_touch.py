@@ -27,7 +27,8 @@ from colift.benchmark.training.lessons import lesson_of
 from colift.benchmark.training.pairs import cross_play
 from colift.benchmark.training.touch_lesson import TWINS, TouchLesson, touch_policy
 from colift.benchmark.training.validation import VALIDATION_SEEDS
-from colift.benchmark.twin.intent_rollout import LearningPerson, intent_rmse_mm
+from colift.benchmark.twin.learning_person import LearningPerson
+from colift.benchmark.twin.touch_rollout import touch_rmse_mm
 
 TINY = ApgSettings(task="intent", updates=2, lifts=4, batch=4, units=3)
 
@@ -84,8 +85,9 @@ def test_a_training_ends_with_a_submission_that_plays_its_task(tmp_path, monkeyp
     assert 1 < colift.evaluate(course.policy, suite, isolation="none").rmse_mm < 200
 
 
-def test_pairs_that_learned_apart_are_played_across():
-    settings = dataclasses.replace(TINY, updates=1)
+@pytest.mark.parametrize("task", TWINS)
+def test_pairs_that_learned_apart_are_played_across(task):
+    settings = dataclasses.replace(TINY, updates=1, task=task)
     played = cross_play(2, settings)
     assert played.shape == (2, 2)
     assert np.isfinite(played).all()
@@ -93,10 +95,14 @@ def test_pairs_that_learned_apart_are_played_across():
     assert np.array_equal(played, cross_play(2, settings))
 
 
-def test_a_person_who_adds_nothing_is_the_benchmarks():
-    lesson = TouchLesson("intent")
+@pytest.mark.parametrize("task", TWINS)
+def test_a_person_who_adds_nothing_is_the_benchmarks(task):
+    lesson = TouchLesson(task)
     lifts, count = lesson.draw(TINY), 4
-    policy, memory = touch_policy(TouchNetwork("intent", lesson.first(TINY, 0)), count)
+    policy, memory = touch_policy(TouchNetwork(task, lesson.first(TINY, 0)), count)
     quiet = LearningPerson(lambda memory, view: (memory, jnp.zeros((2, count))), None)
-    alone, added = (intent_rmse_mm(policy, memory, lifts, None, each) for each in (None, quiet))
+    steps = lesson.twin.steps
+    alone, added = (
+        touch_rmse_mm(steps, policy, memory, lifts, None, each) for each in (None, quiet)
+    )
     assert np.array_equal(alone, added)

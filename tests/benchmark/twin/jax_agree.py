@@ -13,18 +13,11 @@ from colift.benchmark.tasks.agree.task import BEHAVIOURS
 from colift.benchmark.twin import agree_people
 from colift.benchmark.twin.agree_lifts import draw_agree, stack_agree
 from colift.benchmark.twin.agree_people import agree_minds, believed
-from colift.benchmark.twin.agree_playing import (
-    agree_at_rest,
-    agree_due,
-    agree_rmse_mm,
-    agree_score_mm,
-    agree_squares,
-    agree_step,
-    agree_view,
-)
+from colift.benchmark.twin.agree_playing import AGREE_STEPS
+from colift.benchmark.twin.touch_rollout import touch_rmse_mm
 from colift.benchmark.world.table import TABLE_LENGTH
 
-from .played import Played, engine_scores
+from .played import Played, agents_in_twin, engine_scores
 
 PEOPLE = range(210_000, 210_003)
 """Seeds of people and lifts outside all suites."""
@@ -59,24 +52,7 @@ def in_engine(make):
 
 
 def in_twin(policy, lifts):
-    return np.asarray(agree_rmse_mm(policy, jnp.zeros(lifts.size), lifts))
-
-
-def agents_in_twin(make, lifts):
-    """Return the errors of the lifts with agents as they play in the engine, step by step."""
-    agents = [make() for _ in LIFTS]
-    for agent in agents:
-        agent.reset(0)
-    state, squares = agree_at_rest(lifts.size), []
-    view, step, score = map(jax.jit, (agree_view, agree_step, agree_squares))
-    for number in range(len(lifts.gain)):
-        due = jax.tree.map(lambda each, number=number: each[number], agree_due(lifts))
-        seen = np.asarray(view(state, lifts, due), np.float64)
-        acts = [float(agent.act(seen[:, i])[0]) for i, agent in enumerate(agents)]
-        after, frames = step(state, lifts, due, jnp.asarray(acts))
-        squares.append(score(lifts, frames, state.step))
-        state = after
-    return np.asarray(agree_score_mm(lifts, jax.tree.map(lambda *all: jnp.stack(all), *squares)))
+    return np.asarray(touch_rmse_mm(AGREE_STEPS, policy, jnp.zeros(lifts.size), lifts))
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +68,7 @@ def test_each_lift_with_hurdles_is_that_of_the_engine(drawn, policy):
 
 
 def test_the_agent_that_infers_the_goal_plays_as_in_the_engine(drawn):
-    engine, twin = in_engine(AgreeGame), agents_in_twin(AgreeGame, drawn)
+    engine, twin = in_engine(AgreeGame), agents_in_twin(AGREE_STEPS, AgreeGame, drawn)
     assert abs(twin.mean() / engine.mean() - 1) < 0.01
 
 
@@ -116,7 +92,7 @@ def test_the_gradient_is_the_slope_where_nobody_decides_otherwise(drawn):
     @jax.jit
     @jax.value_and_grad
     def error(gain):
-        return agree_rmse_mm(leading(gain), jnp.zeros(drawn.size), drawn).mean()
+        return touch_rmse_mm(AGREE_STEPS, leading(gain), jnp.zeros(drawn.size), drawn).mean()
 
     low, high = (float(error(gain)[0]) for gain in (0.598, 0.602))
     assert float(error(0.6)[1]) == pytest.approx((high - low) / 0.004, rel=0.1)

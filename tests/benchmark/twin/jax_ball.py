@@ -10,18 +10,13 @@ from colift.agents.observations import BallObservation as Seen
 from colift.agents.policies.ball_game import BallGame
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.tasks.ball.task import BALL
-from colift.benchmark.twin import ball_playing
+from colift.benchmark.twin import ball_people
 from colift.benchmark.twin.ball_lifts import draw_ball, stack_ball
-from colift.benchmark.twin.ball_playing import (
-    BallDue,
-    ball_rmse_mm,
-    ball_step,
-    ball_view,
-    balls_at_rest,
-)
+from colift.benchmark.twin.ball_playing import BALL_STEPS
+from colift.benchmark.twin.touch_rollout import touch_rmse_mm
 from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH
 
-from .played import Played, engine_scores
+from .played import Played, agents_in_twin, engine_scores
 
 PEOPLE = range(210_000, 210_006)
 """Seeds of people and lifts outside all suites."""
@@ -70,27 +65,7 @@ def in_engine(make, lifts=FEW):
 
 
 def in_twin(policy, lifts):
-    return np.asarray(ball_rmse_mm(policy, jnp.zeros(lifts.size), lifts))
-
-
-def agents_in_twin(make, lifts):
-    """Return the errors of the lifts with agents as they play in the engine, step by step."""
-    agents = [make() for _ in range(lifts.size)]
-    for agent in agents:
-        agent.reset(0)
-    count = lifts.size
-    squares, state = np.zeros(count), balls_at_rest(count)
-    step, view = jax.jit(ball_step), jax.jit(ball_view)
-    for number, valid in enumerate(np.arange(len(lifts.gain))[:, np.newaxis] < lifts.steps):
-        coming = lifts.coming[number]
-        seen = np.asarray(view(state, lifts, lifts.noise[number], coming), np.float64)
-        acts = [float(agent.act(seen[:, i])[0]) for i, agent in enumerate(agents)]
-        due = BallDue(lifts.target[number], coming, lifts.gain[number], lifts.tremor[number])
-        state, places = step(state, lifts, due, jnp.asarray(acts))
-        missed = np.asarray(((places - lifts.place[number]) ** 2).sum(axis=0))
-        squares += np.where(valid, missed, 0.0)
-    assert not np.asarray(state.lost).any()
-    return 1000 * np.sqrt(squares / (np.asarray(lifts.steps) * lifts.gain.shape[1]))
+    return np.asarray(touch_rmse_mm(BALL_STEPS, policy, jnp.zeros(lifts.size), lifts))
 
 
 @pytest.fixture(scope="module")
@@ -108,7 +83,7 @@ def test_each_lift_with_a_ball_is_that_of_the_engine(drawn, policy):
 
 def test_an_agent_that_amplifies_differences_has_the_same_mean():
     drawn = stack_ball([draw_ball(scenario, seed) for scenario, seed in MANY])
-    (engine, _), twin = in_engine(BallGame, MANY), agents_in_twin(BallGame, drawn)
+    (engine, _), twin = in_engine(BallGame, MANY), agents_in_twin(BALL_STEPS, BallGame, drawn)
     assert abs(twin.mean() / engine.mean() - 1) < 0.01
 
 
@@ -123,7 +98,7 @@ def test_the_gradient_is_the_slope_and_finite_where_the_ball_falls(drawn):
     @jax.value_and_grad
     def error(gain, following):
         policy = steering(gain, following)
-        return ball_rmse_mm(policy, jnp.zeros(drawn.size), drawn).mean()
+        return touch_rmse_mm(BALL_STEPS, policy, jnp.zeros(drawn.size), drawn).mean()
 
     _, slope = error(0.15, 1.0)
     below, above = error(0.148, 1.0)[0], error(0.152, 1.0)[0]
@@ -135,7 +110,7 @@ def test_the_gradient_is_the_slope_and_finite_where_the_ball_falls(drawn):
 
 def test_people_who_steer_otherwise_are_found(drawn, monkeypatch):
     engine, _ = in_engine(lambda: Played(yielding))
-    monkeypatch.setattr(ball_playing, "HAND_TIME", 0.3)
+    monkeypatch.setattr(ball_people, "HAND_TIME", 0.3)
     assert np.abs(in_twin(yielding, drawn) / engine - 1).max() > 0.015
 
 

@@ -8,7 +8,8 @@ from colift.agents.observations import HapticObservation as Seen
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.twin import haptic_plant
 from colift.benchmark.twin.intent_lifts import draw_intent, stack_intent
-from colift.benchmark.twin.intent_rollout import intent_rmse_mm
+from colift.benchmark.twin.intent_playing import INTENT_STEPS
+from colift.benchmark.twin.touch_rollout import touch_rmse_mm
 from colift.benchmark.world.table import TABLE_LENGTH
 
 from .played import Played, engine_scores
@@ -42,7 +43,7 @@ def drawn():
 
 
 def in_twin(policy, lifts):
-    return np.asarray(intent_rmse_mm(policy, jnp.zeros(lifts.size), lifts))
+    return np.asarray(touch_rmse_mm(INTENT_STEPS, policy, jnp.zeros(lifts.size), lifts))
 
 
 @pytest.mark.parametrize("policy", [yielding, level])

@@ -2,6 +2,8 @@
 
 import contextlib
 
+import jax
+import jax.numpy as jnp
 import numpy as np
 from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import make_lift
@@ -28,3 +30,20 @@ def engine_scores(make, lifts):
         with contextlib.closing(make_lift(scenario)) as lift:
             scores.append(run_episode(lift, make(), seed).scores)
     return scores
+
+
+def agents_in_twin(steps, make, lifts):
+    """Return the errors of the lifts with agents as they play in the engine, step by step."""
+    agents = [make() for _ in range(lifts.size)]
+    for agent in agents:
+        agent.reset(0)
+    state, missed = steps.at_rest(lifts.size), []
+    view, step, missing = map(jax.jit, (steps.view, steps.step, steps.missed))
+    for number in range(len(lifts.gain)):
+        share = jax.tree.map(lambda each, number=number: each[number], steps.shares(lifts))
+        seen = np.asarray(view(state, lifts, share), np.float64)
+        acts = [float(agent.act(seen[:, i])[0]) for i, agent in enumerate(agents)]
+        after, frames = step(state, lifts, share, jnp.asarray(acts))
+        missed.append(missing(state, lifts, share, frames))
+        state = after
+    return np.asarray(steps.score_mm(lifts, jax.tree.map(lambda *all: jnp.stack(all), *missed)))
