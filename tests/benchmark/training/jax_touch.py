@@ -1,7 +1,5 @@
 """A small training in the twin of a task with touch, and the policy that it becomes."""
 
-import dataclasses
-
 import colift
 import jax
 import jax.numpy as jnp
@@ -24,11 +22,8 @@ from colift.benchmark.training.apg_settings import NAME, ApgSettings
 from colift.benchmark.training.course import open_course
 from colift.benchmark.training.lesson import first_network
 from colift.benchmark.training.lessons import lesson_of
-from colift.benchmark.training.pairs import cross_play
-from colift.benchmark.training.touch_lesson import TWINS, TouchLesson, touch_policy
+from colift.benchmark.training.touch_lesson import TWINS, touch_policy
 from colift.benchmark.training.validation import VALIDATION_SEEDS
-from colift.benchmark.twin.learning_person import LearningPerson
-from colift.benchmark.twin.touch_rollout import touch_rmse_mm
 
 TINY = ApgSettings(task="intent", updates=2, lifts=4, batch=4, units=3)
 
@@ -83,26 +78,3 @@ def test_a_training_ends_with_a_submission_that_plays_its_task(tmp_path, monkeyp
     scenario = make_scenario("pivot", task="intent")
     suite = Suite(name="one", scenarios=(scenario,), seeds=(0,))
     assert 1 < colift.evaluate(course.policy, suite, isolation="none").rmse_mm < 200
-
-
-@pytest.mark.parametrize("task", TWINS)
-def test_pairs_that_learned_apart_are_played_across(task):
-    settings = dataclasses.replace(TINY, updates=1, task=task)
-    played = cross_play(2, settings)
-    assert played.shape == (2, 2)
-    assert np.isfinite(played).all()
-    assert len(set(played.ravel().tolist())) == 4
-    assert np.array_equal(played, cross_play(2, settings))
-
-
-@pytest.mark.parametrize("task", TWINS)
-def test_a_person_who_adds_nothing_is_the_benchmarks(task):
-    lesson = TouchLesson(task)
-    lifts, count = lesson.draw(TINY), 4
-    policy, memory = touch_policy(TouchNetwork(task, lesson.first(TINY, 0)), count)
-    quiet = LearningPerson(lambda memory, view: (memory, jnp.zeros((2, count))), None)
-    steps = lesson.twin.steps
-    alone, added = (
-        touch_rmse_mm(steps, policy, memory, lifts, None, each) for each in (None, quiet)
-    )
-    assert np.array_equal(alone, added)
