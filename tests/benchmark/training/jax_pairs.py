@@ -38,5 +38,6 @@ def test_a_person_who_adds_nothing_is_the_benchmarks(task):
 
         return LearningPerson(policy, None)
 
-    assert np.array_equal(played(None), played(adding(0.0)))
-    assert not np.equal(played(None), played(adding(1.0))).any()
+    alone = played(None)
+    assert np.isclose(alone, played(adding(0.0)), rtol=0.01).all()
+    assert not np.isclose(alone, played(adding(1.0)), rtol=0.01).all()
