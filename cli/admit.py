@@ -6,11 +6,12 @@ from typing import Annotated
 import numpy as np
 import typer
 from numpy.typing import NDArray
-from rich.table import Column
+from rich.table import Column, Table
 
 from ..agents.errors import InputError
-from ..benchmark.admission.admission import admission_of, players
+from ..benchmark.admission.admission import Admission, admission_of, players
 from ..benchmark.admission.criteria import Criterion
+from ..benchmark.bounds.causal import suite_bounds
 from ..benchmark.training.apg_settings import pair_settings
 from ..benchmark.twin.libraries import require_jax
 from .completion import suites
@@ -40,7 +41,7 @@ def admit_suite(
     episodes = chosen_suite(suite, None, None, None)
     played = _cross_play(episodes.scenarios[0].task.name, pairs) if pairs else None
     names = players(episodes.scenarios[0].task.name)
-    total = (3 + len(names)) * episodes.size
+    total = (2 + len(suite_bounds(episodes)) + len(names)) * episodes.size
     with (
         reported_interrupt("a suite is tested with all policies or not at all"),
         workers("admit", total, jobs) as (pool, progress),
@@ -49,13 +50,8 @@ def admit_suite(
     if as_json:
         print_json({**dataclasses.asdict(found), "passed": found.passed})
     else:
-        means = sorted(found.means.items(), key=lambda each: each[1])
         show(
-            table(
-                f"Mean RMSE on {found.suite}",
-                ("who", "RMSE mm"),
-                ((name, f"{value:.2f}") for name, value in means),
-            ),
+            _means(found),
             table(
                 f"Admission of {found.suite}",
                 (
@@ -83,6 +79,17 @@ def _cross_play(task: str, count: int) -> NDArray[np.float64]:
 
     with job_bar("pairs", count * settings.updates) as bar:
         return cross_play(count, settings, bar.advance)
+
+
+def _means(found: Admission) -> Table:
+    """Return the errors of everybody, with all people and with each."""
+    people = dict.fromkeys(name for means in found.by_person.values() for name in means)
+    means = sorted(found.means.items(), key=lambda each: each[1])
+    rows = (
+        (name, f"{mean:.2f}", *(f"{found.by_person[name][each]:.1f}" for each in people))
+        for name, mean in means
+    )
+    return table(f"Mean RMSE on {found.suite}, mm", ("who", "all", *people), rows)
 
 
 def _row(each: Criterion) -> tuple[str, ...]:

@@ -49,7 +49,15 @@ class AimFilter:
 
     of an aim that drifts. Each candidate has its Kalman filter; the likelihoods of what each has
     predicted weigh them (Bayes), and the estimate is the mean of all.
+
+    Parameters
+    ----------
+    felt_noise
+        Standard deviation of the height difference that the wrists seem to mean [m].
     """
+
+    def __init__(self, felt_noise: float = FELT_NOISE) -> None:
+        self._felt_noise = felt_noise
 
     def reset(self) -> None:
         """Begin an episode: the aim is near the middle."""
@@ -78,7 +86,7 @@ class AimFilter:
         scale = PULL / RATE**2 / PARTS
         seen = place + 2 * DAMPING / RATE * speed - scale * meant
         self._variances = self._variances + DRIFT**2 * max(period, 0.0) / 0.1
-        total = self._variances + (scale * FELT_NOISE) ** 2 + PLACE_NOISE**2
+        total = self._variances + (scale * self._felt_noise) ** 2 + PLACE_NOISE**2
         error = seen - self._aims
         # The felt, not the aim, is what the candidates compete to predict.
         self._evidence += -0.5 * error**2 / total - 0.5 * np.log(total / scale**2)

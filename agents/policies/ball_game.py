@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..agent import Action, Observation
-from ..ball.aim_filter import DAMPING, RATE, AimFilter, wanted_difference
+from ..ball.aim_filter import DAMPING, FELT_NOISE, RATE, AimFilter, wanted_difference
 from ..ball.tracking import Tracking
 from ..errors import InputError
 from ..observations import BallObservation
@@ -22,6 +22,8 @@ class BallGameParameters:
     """Height difference relative to the person's own law."""
     steepest: float = 0.07
     """Largest height difference [m]."""
+    felt_noise: float = FELT_NOISE
+    """See :class:`.AimFilter` [m]; with 1, the wrists tell nothing."""
 
     def __post_init__(self) -> None:
         """Check the ranges.
@@ -51,7 +53,7 @@ class BallGame:
 
     def __init__(self, *, parameters: BallGameParameters | None = None) -> None:
         self._parameters = parameters or BallGameParameters()
-        self._tracking, self._aim = Tracking(), AimFilter()
+        self._tracking, self._aim = Tracking(), AimFilter(self._parameters.felt_noise)
 
     def reset(self, seed: int) -> None:
         """Begin an episode."""

@@ -23,6 +23,8 @@ class PoseByBayesParameters:
     """See :class:`.PoseFilterParameters` [rad]."""
     path_noise: float = 0.1
     """See :class:`.PoseFilterParameters`."""
+    haste: float = 0.1
+    """See :class:`.PoseFilterParameters`; with 1, a human who waits tells nothing."""
 
 
 class PoseByBayes:
@@ -40,7 +42,10 @@ class PoseByBayes:
         self._ahead = p.ahead / DEFAULT_PERIOD
         self._filter = PoseFilter(
             PoseFilterParameters(
-                switch=p.switch, pitch_noise=p.pitch_noise, path_noise=p.path_noise
+                switch=p.switch,
+                pitch_noise=p.pitch_noise,
+                path_noise=p.path_noise,
+                haste=p.haste,
             )
         )
 

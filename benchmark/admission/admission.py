@@ -8,11 +8,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from ...agents.errors import InputError
 from ...agents.loading.loading import PolicySpec
 from ...agents.registry import own_policies, policies_by_task
-from ..bounds.oracle import oracle_run
+from ..bounds.causal import suite_bounds
+from ..bounds.oracle import ORACLE
 from ..execution.runner import Run, run_suite
-from ..results.baselines import human_human_run
+from ..results.baselines import HUMAN_HUMAN_LABEL, human_human_run
 from ..suites.suite import Suite
 from .criteria import (
     Criterion,
@@ -21,6 +23,7 @@ from .criteria import (
     like_people,
     mean_mm,
     no_free_ride,
+    person_means_mm,
     rank_changes,
     room,
 )
@@ -44,6 +47,8 @@ class Admission:
     digest: str
     means: Mapping[str, float]
     """Mean RMSE of everybody who played [mm]."""
+    by_person: Mapping[str, Mapping[str, float]]
+    """The same with each person [mm]."""
     criteria: tuple[Criterion, ...]
 
     @property
@@ -88,18 +93,24 @@ def admission_of(
     def played(name: str) -> Run:
         return run_suite(PolicySpec(text=name), suite, executor=executor, progress=progress)
 
-    oracle = oracle_run(suite, executor=executor, progress=progress)
+    limits = suite_bounds(suite)
+    if ORACLE not in limits:
+        raise InputError(f"{suite.name} has lifts of a task without an oracle")
+    bounds = {
+        name: bound(suite, executor=executor, progress=progress) for name, bound in limits.items()
+    }
     human_human = human_human_run(suite, executor=executor, progress=progress)
     hold = played(HOLD)
     runs = {name: played(name) for name in names}
     published = PUBLISHED.get(suite.scenarios[0].task.name)
-    everybody = {"oracle": oracle, "human-human": human_human, HOLD: hold, **runs}
+    everybody = {**bounds, HUMAN_HUMAN_LABEL: human_human, HOLD: hold, **runs}
     return Admission(
         suite=suite.name,
         digest=suite.digest,
         means={name: mean_mm(run) for name, run in everybody.items()},
+        by_person={name: person_means_mm(run) for name, run in everybody.items()},
         criteria=(
-            room(oracle, {name: run for name, run in runs.items() if name in KEEPERS}),
+            room(bounds[ORACLE], {name: run for name, run in runs.items() if name in KEEPERS}),
             interaction(
                 {name: run for name, run in runs.items() if name not in TRAINED},
                 {name: run for name, run in runs.items() if name in TRAINED},

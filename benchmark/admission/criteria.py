@@ -140,7 +140,7 @@ def like_people(human_human: Run, published: Published) -> Criterion:
         letter="e",
         what=f"two simulated people are like real ones: {published.what}",
         figure=found,
-        bar=f"{published.low:g} to {published.high:g} {published.unit}",
+        bar=published.interval,
         passed=published.low <= found <= published.high,
         detail=published.source,
     )
@@ -164,6 +164,14 @@ def no_free_ride(hold: Run, human_human: Run) -> Criterion:
 def mean_mm(run: Run) -> float:
     """Return the mean RMSE of a run [mm]."""
     return float(np.mean([each.scores["rmse_mm"] for each in run.episodes]))
+
+
+def person_means_mm(run: Run) -> dict[str, float]:
+    """Return the mean RMSE of a run with each person [mm]."""
+    errors: dict[str, list[float]] = {}
+    for each in run.episodes:
+        errors.setdefault(each.subject, []).append(each.scores["rmse_mm"])
+    return {person: float(np.mean(some)) for person, some in errors.items()}
 
 
 def _log_mean(run: Run, person: str, behaviour: str | None = None) -> float:

@@ -31,6 +31,13 @@ class Published:
     measure: Callable[[Run], float]
     """Returns the figure of a run."""
 
+    @property
+    def interval(self) -> str:
+        """The interval in words."""
+        if math.isinf(self.high):
+            return f"at least {self.low:g} {self.unit}"
+        return f"{self.low:g} to {self.high:g} {self.unit}"
+
 
 def negotiation_s(run: Run) -> float:
     """Return how much longer two people take to a pose that has to be found out [s].

@@ -14,6 +14,8 @@ from ...agents.control.recurrent import GatedNetwork, read_gated
 from ...agents.control.recurrent_controller import RecurrentController
 from ...agents.errors import InputError
 from ...agents.spec import InProcess
+from ...agents.touch.touch_controller import TouchController, read_touch
+from ...agents.touch.touch_law import TASK_SENSES, TouchNetwork
 from ..comparison.playing import Bound
 from ..episode.level import LEVEL
 from ..episode.scenario import CONTROL_PERIOD, LATENCY
@@ -23,39 +25,53 @@ from .oracle import ORACLE, ORACLES, oracle_run
 
 CAUSAL_BOUND: Final = "causal_bound"
 
+BOUNDED: Final = (LEVEL.name, *TASK_SENSES)
+"""Names of the tasks for which a causal bound was learned."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class CausalBound(InProcess):
-    """The causal bound, as :class:`.AgentSpec`.
+    """The causal bound of a task, as :class:`.AgentSpec`.
 
     It is an estimate, not a proof: the lowest error known of a policy with a policy's observation,
-    the paper's latency and control period. It has the equations of :class:`.Learned`, and was
-    trained in the same way, by gradients through the twin's lifts, for the error alone: nothing was
-    given away for smoothness, for other people than the benchmark's, or for other arms.
+    the paper's latency and control period. It has the equations of the task's learned policy
+    (:class:`.Learned`, or :class:`.TouchController`), and was trained in the same way, by gradients
+    through the twin's lifts, for the error alone: nothing was given away for smoothness, for other
+    people than the benchmark's, or for other arms.
     """
 
     name: str = CAUSAL_BOUND
+    task: str = LEVEL.name
+    """Name of the task."""
 
     def check(self) -> None:
         """Do nothing: the weights are shipped."""
 
     def digest(self) -> str:
         """Return a hash of the weights."""
-        return hashlib.sha256(_weights().read_bytes()).hexdigest()[:16]
+        return hashlib.sha256(_weights(self.task).read_bytes()).hexdigest()[:16]
 
     def make(self) -> Agent:
         """Return a new robot."""
-        return RecurrentController(causal_bound())
+        if self.task == LEVEL.name:
+            return RecurrentController(causal_bound())
+        return TouchController(touch_bound(self.task))
 
 
 @cache
 def causal_bound() -> GatedNetwork:
-    """Return the network of the bound that is shipped."""
-    return read_gated(_weights())
+    """Return the network of the bound of the task ``level``."""
+    return read_gated(_weights(LEVEL.name))
 
 
-def _weights() -> Traversable:
-    return files(__package__).joinpath("data", "causal_bound.npz")
+@cache
+def touch_bound(task: str) -> TouchNetwork:
+    """Return the network of the bound of a task with touch."""
+    return read_touch(_weights(task))
+
+
+def _weights(task: str) -> Traversable:
+    return files(__package__).joinpath("data", f"causal_{task}.npz")
 
 
 def causal_run(
@@ -69,9 +85,14 @@ def causal_run(
     Raises
     ------
     InputError
-        If the suite has another latency or control period than it was learned with.
+        If no bound was learned for the suite's task, or it was learned with another latency or
+        control period.
     """
-    learned = LATENCY, CONTROL_PERIOD
+    learned, task = (LATENCY, CONTROL_PERIOD), suite.scenarios[0].task.name
+    if task not in BOUNDED:
+        raise InputError(
+            f"no {CAUSAL_BOUND} was learned for the task {task!r}; known: {', '.join(BOUNDED)}"
+        )
     for scenario in suite.scenarios:
         found = scenario.latency, scenario.control_period
         if found != learned:
@@ -79,20 +100,15 @@ def causal_run(
                 f"{CAUSAL_BOUND} was learned with a latency and a control period of {learned} s, "
                 f"{scenario.name} has {found} s"
             )
-    return run_suite(CausalBound(), suite, executor=executor, progress=progress)
+    return run_suite(CausalBound(task=task), suite, executor=executor, progress=progress)
 
 
 BOUNDS: Final[Mapping[str, Bound]] = {CAUSAL_BOUND: causal_run, ORACLE: oracle_run}
-"""The bounds of the task ``level``."""
+"""The bounds by name. They are in no registry: no board can take them."""
 
 
 def suite_bounds(suite: Suite) -> Mapping[str, Bound]:
-    """Return the bounds of a suite's task by name; none if it has none.
-
-    They are in no registry: no board can take them. The causal bound has been learned for the task
-    ``level``; any task with an oracle has that.
-    """
+    """Return the bounds of a suite's task by name; none if it has none."""
     task = suite.scenarios[0].task.name
-    if task == LEVEL.name:
-        return BOUNDS
-    return {ORACLE: oracle_run} if task in ORACLES else {}
+    known = {CAUSAL_BOUND: task in BOUNDED, ORACLE: task in ORACLES}
+    return {name: BOUNDS[name] for name, has in known.items() if has}
