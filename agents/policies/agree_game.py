@@ -6,8 +6,8 @@ from typing import Final
 import numpy as np
 
 from ..agent import Action, Observation
-from ..agree.belief import BeliefParameters, GoalBelief
 from ..control.approach import Approach, HurdleWatch
+from ..estimators.belief import BeliefParameters, GoalBelief
 from ..estimators.touched_end import TouchedEnd
 from ..observations import AgreeObservation
 from .agree_leader import check_positive

@@ -23,7 +23,7 @@ class BallGameParameters:
     steepest: float = 0.07
     """Largest height difference [m]."""
     felt_noise: float = FELT_NOISE
-    """See :class:`.AimFilter` [m]; with 1, the wrists tell nothing."""
+    """See :class:`.AimFilter` [m]; with 1, the wrists are not used."""
 
     def __post_init__(self) -> None:
         """Check the ranges.

@@ -6,8 +6,8 @@ import numpy as np
 
 from ..agent import Action, Observation
 from ..control.predictor import DEFAULT_PERIOD
-from ..intent.pose_filter import PoseFilter, PoseFilterParameters
 from ..observations import HapticObservation
+from ..touch.pose_filter import PoseFilter, PoseFilterParameters
 from ..touch.touch import touched
 
 
@@ -24,7 +24,7 @@ class PoseByBayesParameters:
     path_noise: float = 0.1
     """See :class:`.PoseFilterParameters`."""
     haste: float = 0.1
-    """See :class:`.PoseFilterParameters`; with 1, a human who waits tells nothing."""
+    """See :class:`.PoseFilterParameters`; with 1, it is not used whether the human waits."""
 
 
 class PoseByBayes:

@@ -7,10 +7,10 @@ import jax
 import jax.numpy as jnp
 
 from ...agents.agent import FRAME
-from ...agents.agree.manner import INSISTENCES, STIFFNESSES, TRUSTS
-from ...agents.agree.manner import PATIENCES as PATIENCES_TO_AGREE
-from ...agents.ball.manner import RANGES
-from ...agents.intent.manner import LEADS, PATIENCES, SHARES
+from ...agents.humans.agree.manner import INSISTENCES, STIFFNESSES, TRUSTS
+from ...agents.humans.agree.manner import PATIENCES as PATIENCES_TO_AGREE
+from ...agents.humans.ball.manner import RANGES
+from ...agents.humans.intent.manner import LEADS, PATIENCES, SHARES
 from ..episode.scenario import Scenario
 from ..tasks.agree.task import BEHAVIOURS as HURDLES
 from ..tasks.ball.task import BEHAVIOURS as ROLLINGS

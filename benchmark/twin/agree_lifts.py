@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...agents.agent import FRAME
-from ...agents.agree import Hurdle, HurdlePlan, agreeing_manner
-from ...agents.agree.negotiator import LIFTED, RESTING
-from ...agents.agree.precedence import EARLY, NEEDED
 from ...agents.errors import InputError
+from ...agents.humans.agree import Hurdle, HurdlePlan, agreeing_manner
+from ...agents.humans.agree.negotiator import LIFTED, RESTING
+from ...agents.humans.agree.precedence import EARLY, NEEDED
 from ..episode.scenario import Scenario
 from ..episode.seat import body_parameters
 from ..episode.seeding import derive_seed

@@ -7,9 +7,9 @@ import jax
 import jax.numpy as jnp
 
 from ...agents.agent import FRAME
-from ...agents.agree.belief import GOALS, BeliefParameters
-from ...agents.agree.negotiator import APART, PACE
-from ...agents.agree.precedence import AWAY, FAR_NEAR, LEVEL, NEAR, SERVED, SLOW
+from ...agents.estimators.belief import GOALS, BeliefParameters
+from ...agents.humans.agree.negotiator import APART, PACE
+from ...agents.humans.agree.precedence import AWAY, FAR_NEAR, LEVEL, NEAR, SERVED, SLOW
 from .agree_lifts import AgreeLifts
 from .body import delayed
 from .plant import Plant

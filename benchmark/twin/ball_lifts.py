@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...agents.agent import HISTORY
-from ...agents.ball import BallPlan, steering_manner
 from ...agents.errors import InputError
+from ...agents.humans.ball import BallPlan, steering_manner
 from ..episode.lift import MOCAP_NOISE
 from ..episode.scenario import Scenario
 from ..episode.seat import body_parameters

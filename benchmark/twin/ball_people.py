@@ -8,7 +8,14 @@ import jax.numpy as jnp
 
 from ...agents.agent import FRAME, HISTORY
 from ...agents.ball.facts import PULL
-from ...agents.ball.steerer import DAMPING_RATIO, FARTHEST, FASTEST, HAND_TIME, MEMORY, STEEPEST
+from ...agents.humans.ball.steerer import (
+    DAMPING_RATIO,
+    FARTHEST,
+    FASTEST,
+    HAND_TIME,
+    MEMORY,
+    STEEPEST,
+)
 from .ball_lifts import BallLifts
 from .ball_plant import BallPlant
 from .body import DEPTH, delayed

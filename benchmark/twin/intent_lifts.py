@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...agents.agent import FRAME
 from ...agents.errors import InputError
-from ...agents.intent import PosePlan, leading_manner
+from ...agents.humans.intent import PosePlan, leading_manner
 from ..episode.scenario import Scenario
 from ..episode.seat import body_parameters
 from ..episode.seeding import derive_seed

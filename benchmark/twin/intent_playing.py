@@ -6,7 +6,7 @@ import jax
 import jax.numpy as jnp
 
 from ...agents.agent import FRAME
-from ...agents.intent.pace import CATCHING_UP
+from ...agents.humans.intent.pace import CATCHING_UP
 from ..episode.seat import REFERENCE_RANGE
 from ..world.table import TABLE_LENGTH
 from .arm import ArmVariation

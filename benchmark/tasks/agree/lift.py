@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....agents.agent import FRAME, Agent
-from ....agents.agree import Hurdle, HurdlePlan, Negotiator, Secret
+from ....agents.humans.agree import Hurdle, HurdlePlan, Negotiator, Secret
 from ..haptic import HapticLift
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....agents.agent import FRAME
-from ....agents.agree import Hurdle
+from ....agents.humans.agree import Hurdle
 from ....robots.arithmetic import dot
 from ...episode.metrics import FAILED_FRAME_MM
 

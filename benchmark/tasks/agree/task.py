@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....agents.agent import FRAME, Agent, Observation
-from ....agents.agree import SecondNegotiator, with_secret
 from ....agents.errors import InputError
 from ....agents.humans import SUBJECTS
+from ....agents.humans.agree import SecondNegotiator, with_secret
 from ...episode import metrics
 from ...episode.level import HEIGHT_BOUND, LONGEST_EPISODE
 from ...episode.metric import Metrics, Scores

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from ....agents.agent import HISTORY, Agent, Observation
-from ....agents.ball import BallPlan, Steerer, steering_manner, with_ball
+from ....agents.humans.ball import BallPlan, Steerer, steering_manner, with_ball
 from ...episode.lift import MOCAP_NOISE
 from ...world import HISTORY_FRAMES
 from ...world.table import TABLE_LENGTH

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....agents.agent import Agent, Observation
-from ....agents.ball import BallPartner, BallSenses
 from ....agents.humans import SUBJECTS
+from ....agents.humans.ball import BallPartner, BallSenses
 from ....agents.observations import BallObservation
 from ...episode import metrics
 from ...episode.level import HEIGHT_BOUND

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ....agents.agent import FRAME, Observation
-from ....agents.intent import Pace, PosePlan, leading_manner, planned_at
+from ....agents.humans.intent import Pace, PosePlan, leading_manner, planned_at
 from ...world.table import TABLE_LENGTH
 from ..haptic import HapticLift
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ....agents.agent import Agent, Observation
 from ....agents.humans import SUBJECTS
-from ....agents.intent import Companion
+from ....agents.humans.intent import Companion
 from ...episode import metrics
 from ...episode.metric import Metrics, Scores
 from ...episode.scenario import Scenario

@@ -8,8 +8,8 @@ import sys
 
 import numpy as np
 import pytest
-from colift.agents.agree import Hurdle
 from colift.agents.errors import InputError
+from colift.agents.humans.agree import Hurdle
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.observations import AgreeObservation, HapticObservation
 from colift.benchmark.admission import published

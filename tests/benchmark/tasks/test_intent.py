@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 from colift.agents.agent import RobotObservation
-from colift.agents.intent import MANNERS
+from colift.agents.humans.intent import MANNERS
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.observations import HapticObservation
 from colift.benchmark.episode.episode import run_episode
@@ -19,7 +19,7 @@ from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tasks.intent.oracle import foreknow_pose
 from colift.benchmark.tasks.intent.scores import peak_mm, pose_rmse_mm, settling_ms
 
-DIGEST = "f745ca7fc66d0f16"
+DIGEST = "39b15bd26abc6b54"
 SEED = 100_000
 
 
@@ -93,7 +93,7 @@ def test_two_people_find_the_pose_and_the_lift_is_proved_by_its_actions():
 
 
 FRESH = """
-from colift.agents.intent import MANNERS
+from colift.agents.humans.intent import MANNERS
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.execution.batches import play
 from colift.benchmark.suites.catalogue import make_scenario

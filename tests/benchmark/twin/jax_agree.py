@@ -4,8 +4,8 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from colift.agents.agree.belief import GoalBelief
 from colift.agents.errors import InputError
+from colift.agents.estimators.belief import GoalBelief
 from colift.agents.observations import AgreeObservation as Seen
 from colift.agents.policies.agree_game import AgreeGame
 from colift.benchmark.suites.catalogue import make_scenario

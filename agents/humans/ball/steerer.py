@@ -6,10 +6,10 @@ from typing import Final
 
 import numpy as np
 
-from ..agent import FRAME, HISTORY, Action, HumanObservation, Observation
-from ..humans import PARTNER_SUBJECT, ScriptedHuman, Subject
-from ..humans.partner import PartnerParameters
-from .facts import HALF_WEIGHT, PULL, meant_by_wrists
+from ...agent import FRAME, HISTORY, Action, HumanObservation, Observation
+from ...ball.facts import HALF_WEIGHT, PULL, meant_by_wrists
+from .. import PARTNER_SUBJECT, ScriptedHuman, Subject
+from ..partner import PartnerParameters
 from .manner import PARTNER_MANNER, SteeringManner, steering_manner
 
 DAMPING_RATIO: Final = 0.8

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 from colift.agents.agent import FRAME, HumanObservation
-from colift.agents.agree import (
+from colift.agents.estimators.belief import GoalBelief
+from colift.agents.humans import SUBJECTS, Subject
+from colift.agents.humans.agree import (
     MANNERS,
     Abreast,
     Ahead,
@@ -17,10 +19,8 @@ from colift.agents.agree import (
     agreeing_manner,
     with_secret,
 )
-from colift.agents.agree.belief import GoalBelief
-from colift.agents.agree.hurdles import APART, AWAY, LENGTH
-from colift.agents.agree.precedence import EARLY, NEEDED, SERVED, Precedence
-from colift.agents.humans import SUBJECTS, Subject
+from colift.agents.humans.agree.hurdles import APART, AWAY, LENGTH
+from colift.agents.humans.agree.precedence import EARLY, NEEDED, SERVED, Precedence
 from colift.testing import check_behaviour
 
 S1 = SUBJECTS["S1"]

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ..humans import PARTNER_SUBJECT, Subject
+from .. import PARTNER_SUBJECT, Subject
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,8 +7,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ...robots.arithmetic import each
-from ..touch.touch import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS
+from .touch import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS
 
 SHARES: Final = (1.0, 0.0, -1.0)
 """Movement of the far end as a share of the near end's: together, pivot, counter."""
@@ -37,6 +36,10 @@ class PoseFilterParameters:
     """Movement of the near end in a step [m] that is none of a person who waits."""
     haste: float = 0.1
     """Probability that a person moves on although the far end is more than twice as far off."""
+
+
+_exponential: Final = np.vectorize(math.exp, otypes=[np.float64])
+"""NumPy's own takes its bits from the processor's vector extensions."""
 
 
 class PoseFilter:
@@ -103,7 +106,7 @@ class PoseFilter:
         self._mean = self._mean + gain * surprise
         self._variance = (1.0 - gain * slope) * self._variance
         unlikely = 0.5 * surprise**2 / spread
-        likelihood = each(math.exp, unlikely.min() - unlikely) / np.sqrt(spread)
+        likelihood = _exponential(unlikely.min() - unlikely) / np.sqrt(spread)
         weight = self._weight * likelihood * self._waiting(abs(rise))
         self._far = near + TABLE_LENGTH * math.sin(pitch)
         weight = np.maximum(weight / weight.sum(), LEAST_WEIGHT)

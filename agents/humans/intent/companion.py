@@ -5,10 +5,10 @@ from typing import Final
 
 import numpy as np
 
-from ..agent import FRAME, Action, HumanObservation, Observation
-from ..humans import PARTNER_SUBJECT, ScriptedHuman
-from ..touch.touch import TABLE_LENGTH
-from .pose_filter import PoseFilter, PoseFilterParameters
+from ...agent import FRAME, Action, HumanObservation, Observation
+from ...touch.pose_filter import PoseFilter, PoseFilterParameters
+from ...touch.touch import TABLE_LENGTH
+from .. import PARTNER_SUBJECT, ScriptedHuman
 
 FELT_FRAMES: Final = 5
 """Newest frames of the felt force that are averaged."""

@@ -5,10 +5,10 @@ from typing import ClassVar, Final, NamedTuple
 
 import numpy as np
 
-from ..agent import FRAME
-from ..humans import Plan, Subject
-from ..humans.movement import MovementDraw, natural_stroke
-from ..humans.plan import assemble, move, still
+from ...agent import FRAME
+from .. import Plan, Subject
+from ..movement import MovementDraw, natural_stroke
+from ..plan import assemble, move, still
 
 COMMON: Final = (0.13, 0.17)
 """Range of the common height, which both ends are lifted to [m]."""

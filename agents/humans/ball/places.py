@@ -7,10 +7,10 @@ from typing import ClassVar, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..agent import FRAME
-from ..humans import Behaviour, Pause, Plan, Smooth, Subject
-from ..humans.plan import LENGTH_STEP
-from ..humans.subject import GOAL_RANGE
+from ...agent import FRAME
+from .. import Behaviour, Pause, Plan, Smooth, Subject
+from ..plan import LENGTH_STEP
+from ..subject import GOAL_RANGE
 
 FIRST: Final = (0.0, 0.5)
 """Range of the time from the beginning of the lift to the first change of the target [s]."""

@@ -5,8 +5,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..agent import FRAME
-from ..humans import Subject
+from ...agent import FRAME
+from .. import Subject
 from .manner import leading_manner
 
 CATCHING_UP: Final = 1.25

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ..humans import SUBJECTS, Subject
+from .. import SUBJECTS, Subject
 
 
 @dataclass(frozen=True, kw_only=True)

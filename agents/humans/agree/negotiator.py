@@ -5,9 +5,9 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from ..agent import FRAME, HISTORY, Action, HumanObservation, Observation
-from ..humans import ScriptedHuman, Subject
-from .belief import GoalBelief
+from ...agent import FRAME, HISTORY, Action, HumanObservation, Observation
+from ...estimators.belief import GoalBelief
+from .. import ScriptedHuman, Subject
 from .manner import AgreeingManner, agreeing_manner
 from .precedence import Precedence
 

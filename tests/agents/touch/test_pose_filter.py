@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.intent.pose_filter import SHARES, PoseFilter
+from colift.agents.touch.pose_filter import SHARES, PoseFilter
 from colift.agents.touch.touch import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS
 
 

@@ -3,9 +3,9 @@
 import math
 from typing import Final
 
-from ..agent import FRAME, HumanObservation, Observation
-from ..humans import PARTNER_SUBJECT, Subject
-from ..humans.partner import PartnerParameters
+from ...agent import FRAME, HumanObservation, Observation
+from .. import PARTNER_SUBJECT, Subject
+from ..partner import PartnerParameters
 from .manner import AgreeingManner
 from .negotiator import LIFTED, Negotiator
 

@@ -7,9 +7,9 @@ from typing import ClassVar, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..humans import Plan, Subject
-from ..humans.movement import MovementDraw, natural_stroke
-from ..humans.plan import LENGTH_STEP, Segment, assemble, move, still
+from .. import Plan, Subject
+from ..movement import MovementDraw, natural_stroke
+from ..plan import LENGTH_STEP, Segment, assemble, move, still
 
 BASE: Final = (0.12, 0.16)
 """Range of the height to which the table is lifted level at first [m]."""

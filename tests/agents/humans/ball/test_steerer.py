@@ -5,20 +5,20 @@ import math
 import numpy as np
 import pytest
 from colift.agents.agent import HISTORY, HumanObservation
-from colift.agents.ball import (
+from colift.agents.ball import facts
+from colift.agents.humans import SUBJECTS, Subject
+from colift.agents.humans.ball import (
     MANNERS,
     BallPause,
     BallSmooth,
     BallSmoothShared,
     SteeringManner,
-    facts,
     steering_manner,
     with_ball,
 )
-from colift.agents.ball.manner import RANGES
-from colift.agents.ball.places import FARTHEST, STRONGEST, WAY
-from colift.agents.ball.steerer import Steering
-from colift.agents.humans import SUBJECTS, Subject
+from colift.agents.humans.ball.manner import RANGES
+from colift.agents.humans.ball.places import FARTHEST, STRONGEST, WAY
+from colift.agents.humans.ball.steerer import Steering
 from colift.benchmark.world import Ball
 from colift.benchmark.world.ball import ROLLING
 from colift.benchmark.world.table import (

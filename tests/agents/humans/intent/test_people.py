@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from colift.agents.humans import SUBJECTS, Subject
-from colift.agents.intent import (
+from colift.agents.humans.intent import (
     MANNERS,
     Counter,
     Pace,
@@ -15,8 +15,8 @@ from colift.agents.intent import (
     leading_manner,
     planned_at,
 )
-from colift.agents.intent.pace import CATCHING_UP
-from colift.agents.intent.poses import HIGHEST, LOWEST, SHARES, STEEPEST
+from colift.agents.humans.intent.pace import CATCHING_UP
+from colift.agents.humans.intent.poses import HIGHEST, LOWEST, SHARES, STEEPEST
 
 S1 = SUBJECTS["S1"]
 

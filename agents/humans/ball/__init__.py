@@ -1,0 +1,21 @@
+"""People who steer a ball on the table while they lift it."""
+
+from .manner import MANNERS, SteeringManner, steering_manner
+from .places import BallPause, BallPauseShared, BallPlan, BallSmooth, BallSmoothShared, Placing
+from .steerer import BallPartner, BallSenses, Steerer, with_ball
+
+__all__ = [
+    "MANNERS",
+    "BallPartner",
+    "BallPause",
+    "BallPauseShared",
+    "BallPlan",
+    "BallSenses",
+    "BallSmooth",
+    "BallSmoothShared",
+    "Placing",
+    "Steerer",
+    "SteeringManner",
+    "steering_manner",
+    "with_ball",
+]
