@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Final, Literal
 
 from ...agents.errors import InputError
+from .drawn import DrawnSeries
 
 LEADING: Final = "rmse_mm"
 """The metric that ranks policies, first in the table of every task: the root mean square of the
@@ -121,25 +122,6 @@ class Metric:
 
 Metrics = Mapping[str, Metric]
 """A table of metrics by name; the first is :data:`LEADING`."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class DrawnSeries:
-    """A series of :meth:`.Task.series` that pictures and replays of a lift show.
-
-    A height [m] is drawn beside the two ends of the table, in the chart of heights and as a mark in
-    the scene; a place is drawn as a ball on the table, and in a chart of its own.
-    """
-
-    name: str
-    """Key in :attr:`.Trace.added`."""
-    label: str
-    """Its name in legends, such as ``"intended far end"``."""
-    where: Literal["robot", "human", "place"] = "robot"
-    """At whose end its height is marked; or it is a place on the table: how far from the middle
-    towards the human [m]."""
-    goal: bool = False
-    """Whether the robot's end should be there: then the error is the distance to it."""
 
 
 class MetricTable(dict[str, Metric]):

@@ -8,8 +8,8 @@ import matplotlib
 from PIL import Image, ImageDraw, ImageFont
 
 from ...agents.agent import FRAME
+from ..episode.drawn import DrawnSeries, intended_far_end, places, shown_error
 from ..episode.episode import Episode
-from ..episode.metric import DrawnSeries
 from ..episode.seat import SEATS
 from ..episode.trace import Trace
 from .style import FAINT, HUMAN, INK, PAPER, ROBOT
@@ -73,11 +73,9 @@ def readout(
         (f"{SEATS[partner].label}'s end", _millimetres(robot), ROBOT, False),
         *((each.label, _millimetres(_at(trace, each, frame)), INK, False) for each in drawn),
     ]
-    goal = next((each for each in drawn if each.goal), None)
-    meant = human if goal is None else _at(trace, goal, frame)
-    rows.append(
-        ("difference" if goal is None else "error", _millimetres(abs(meant - robot)), INK, True)
-    )
+    level = intended_far_end(drawn) is None and places(drawn) is None
+    error = 1000 * abs(float(shown_error(drawn, trace)[frame]))
+    rows.append(("difference" if level else "error", _millimetres(error), INK, True))
     pen = ImageDraw.Draw(picture)
     size, line, wide = 16, 24, 192 if not drawn else 216
     top = 18

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from ...agents.agent import FRAME
-from ..episode.metric import DrawnSeries
+from ..episode.drawn import DrawnSeries, intended_far_end
 from ..episode.trace import Trace
-from .style import FAINT, HUMAN, INK, LINE, PAPER, ROBOT
+from .style import AIM, FAINT, HUMAN, INK, LINE, PAPER, ROBOT
 
 DPI: Final = 100
 LETTERS: Final = 8.5
@@ -66,6 +66,8 @@ class Curves:
         self._ends = 1000 * np.stack([trace.human_end, trace.robot_end])
         self._target = 1000 * trace.target
         self._added = [(each, 1000 * trace.added[each.name]) for each in drawn]
+        goal = intended_far_end(drawn)
+        self._goal = None if goal is None else 1000 * trace.added[goal.name]
         self._partner = partner
         self._past = self._drawn(width, height, 1.0)
         self._future = self._drawn(width, height, PALE)
@@ -81,13 +83,18 @@ class Curves:
             top=1 - 30 * scale / height,
         )
         axes = figure.add_subplot()
-        goal = next((values for each, values in self._added if each.goal), None)
+        goal = self._goal
         meant, gap = (human, "difference") if goal is None else (goal, "error")
         axes.fill_between(times, meant, robot, color=FAINT, alpha=GAP * opacity, linewidth=0)
         dashes = (0, (4, 3))
         axes.plot(times, self._target, color=INK, alpha=opacity, lw=0.9 * scale, ls=dashes)
         more = [
-            (each.label, values, STYLES[each.where], DOTS if each.where == "place" else dashes)
+            (
+                each.label,
+                values,
+                AIM if _is_aim(each) else STYLES[each.where],
+                DOTS if each.where == "place" and not each.goal else dashes,
+            )
             for each, values in self._added
         ]
         for _, values, colour, style in more:
@@ -166,3 +173,7 @@ class Curves:
                 outline=PAPER,
                 width=width,
             )
+
+
+def _is_aim(each: DrawnSeries) -> bool:
+    return each.where == "place" and each.goal

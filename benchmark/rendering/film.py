@@ -10,8 +10,9 @@ from PIL import Image
 
 from ...agents.agent import FRAME
 from ...agents.errors import InputError
+from ..episode.drawn import DrawnSeries, intended_far_end, places, shown_error
 from ..episode.episode import Episode
-from ..episode.metric import DrawnSeries, drawn_series
+from ..episode.metric import drawn_series
 from ..episode.scenario import Scenario
 from ..episode.seat import SEATS
 from .caption import readout, title_strip
@@ -78,7 +79,7 @@ def frames(
     drawn = drawn_series(scenario.task.metrics)
     label = SEATS[partner].label
     curves = Curves(episode.trace, WIDTH, CURVES, partner=label, drawn=drawn)
-    with closing(Scene(partner, intended=_goal(drawn) is not None)) as scene:
+    with closing(_scene(partner, drawn)) as scene:
         for frame in shown:
             view = _view(scene, episode, frame, WIDTH, SCENE, drawn)
             readout(view, episode, frame, partner, drawn)
@@ -101,11 +102,9 @@ def still_picture(episode: Episode, scenario: Scenario, policy: str) -> Picture:
     partner = scenario.partner
     shown = shown_frames(episode)
     drawn = drawn_series(scenario.task.metrics)
-    human, robot = episode.trace.human_end, episode.trace.robot_end
     if episode.failure is None:
-        goal = _goal(drawn)
-        meant = human if goal is None else episode.trace.added[goal.name]
-        highest, worst = int(np.argmax(human)), int(np.argmax(np.abs(meant - robot)))
+        highest = int(np.argmax(episode.trace.human_end))
+        worst = int(np.argmax(np.abs(shown_error(drawn, episode.trace))))
         moments = sorted((shown[0], highest, worst))
     else:
         moments = [shown[0], shown[len(shown) // 2], shown[-1]]
@@ -113,7 +112,7 @@ def still_picture(episode: Episode, scenario: Scenario, policy: str) -> Picture:
     page = Image.new("RGB", size, PAPER)
     page.paste(title_strip(episode, policy, STILL_WIDTH, STILL_TITLE))
     step = (STILL_WIDTH + GUTTER) // len(moments)
-    with closing(Scene(partner, intended=_goal(drawn) is not None)) as scene:
+    with closing(_scene(partner, drawn)) as scene:
         for column, frame in enumerate(moments):
             view = _view(scene, episode, frame, step - GUTTER, STILL_SCENE, drawn)
             readout(view, episode, frame, partner, drawn)
@@ -172,9 +171,11 @@ def _counted(pictures: Iterator[Picture], drawn: Callable[[int], None] | None) -
             drawn(1)
 
 
-def _goal(drawn: Sequence[DrawnSeries]) -> DrawnSeries | None:
-    """Return the series at which the robot's end should be, if the task has one."""
-    return next((each for each in drawn if each.goal), None)
+def _scene(partner: str, drawn: Sequence[DrawnSeries]) -> Scene:
+    """Return a scene with what the task adds to it."""
+    return Scene(
+        partner, intended=intended_far_end(drawn) is not None, ball=places(drawn) is not None
+    )
 
 
 def _view(
@@ -185,8 +186,11 @@ def _view(
     height: int,
     drawn: Sequence[DrawnSeries],
 ) -> Image.Image:
-    trace, goal = episode.trace, _goal(drawn)
+    trace, goal, both = episode.trace, intended_far_end(drawn), places(drawn)
     scene.pose(float(trace.human_end[frame]), float(trace.robot_end[frame]))
     if goal is not None:
         scene.intend(float(trace.target[frame]), float(trace.added[goal.name][frame]))
+    if both is not None:
+        ball, target = (float(trace.added[each.name][frame]) for each in both)
+        scene.roll(ball, target)
     return Image.fromarray(scene.picture(width, height))

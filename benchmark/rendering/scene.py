@@ -17,8 +17,8 @@ from ...robots.nao.urdf import nao_urdf_path
 from ..world.bullet import pybullet
 from ..world.table import TABLE_LENGTH
 from .mannequin import Mannequin
-from .solids import box, disc
-from .style import HUMAN, ROBOT, SKY, rgba
+from .solids import box, disc, limb
+from .style import AIM, HUMAN, ROBOT, SKY, rgba
 
 Picture = NDArray[np.uint8]
 
@@ -33,6 +33,11 @@ MEANT: Final = (0.25, 0.55, 0.30, 1.0)
 STAGE: Final = (0.90, 0.91, 0.93, 1.0)
 SHADE: Final = (0.80, 0.82, 0.85, 1.0)
 STONE: Final = (0.66, 0.70, 0.75, 1.0)
+
+BALL: Final = 0.03
+"""Radius of a ball in pictures [m]."""
+
+BALL_COLOUR: Final = (0.20, 0.22, 0.26, 1.0)
 
 EDGE: Final = 0.04
 """Half length of the coloured piece at each end of the table [m]."""
@@ -76,11 +81,15 @@ class Scene:
         Who holds the robot's end.
     intended
         Whether :meth:`intend` will show an intended pose of the table.
+    ball
+        Whether :meth:`roll` will show a ball on the table.
     window
         Whether to open a window, if there is a display; otherwise all is drawn headless.
     """
 
-    def __init__(self, partner: str, *, intended: bool = False, window: bool = False) -> None:
+    def __init__(
+        self, partner: str, *, intended: bool = False, ball: bool = False, window: bool = False
+    ) -> None:
         window = window and _display_there()
         self._client: int = pybullet.connect(pybullet.GUI if window else pybullet.DIRECT)
         far_hands = np.array([GRIP_X, 0.0, REST_Z])
@@ -101,6 +110,15 @@ class Scene:
         self._intended = (
             [(0.0, box(client, hands, (edge + EDGE, 0.03, 0.003), MEANT))] if intended else []
         )
+        self._ball = (
+            (
+                limb(client, 0.0, (BALL, BALL), BALL_COLOUR),
+                box(client, hands, (0.012, 0.21, 0.014), rgba(AIM)),
+            )
+            if ball
+            else None
+        )
+        self._ends = 0.0, 0.0
         stands = [hands[0] + 0.37]
         # The middle of the picture [m], and what has to be seen to its left and right.
         self._middle, self._half_width = (middle, 1.08) if partner == "human" else (0.65, 0.92)
@@ -147,16 +165,35 @@ class Scene:
             for joint, angle in zip(self._arm_joints, angles, strict=True):
                 pybullet.resetJointState(self._nao, joint, angle, physicsClientId=self._client)
         self._place(self._table, human_end, tilt)
+        self._ends = human_end, tilt
+
+    def roll(self, ball: float, target: float) -> None:
+        """Show a ball, and where it should be [m] from the table's middle towards the robot.
+
+        It lies on the table as :meth:`pose` has placed it.
+        """
+        assert self._ball is not None
+        body, mark = self._ball
+        human_end, tilt = self._ends
+        self._place([(-ball, body)], human_end, tilt, above=BALL + 0.01)
+        self._place([(-target, mark)], human_end, tilt)
 
     def intend(self, human_end: float, robot_end: float) -> None:
         """Show the pose with the table's ends at these heights [m] as intended."""
         tilt = math.asin(min(max((robot_end - human_end) / TABLE_LENGTH, -1.0), 1.0))
         self._place(self._intended, human_end, tilt)
 
-    def _place(self, parts: Sequence[tuple[float, int]], human_end: float, tilt: float) -> None:
-        """Place parts of a table, with their distances from its middle [m]."""
+    def _place(
+        self,
+        parts: Sequence[tuple[float, int]],
+        human_end: float,
+        tilt: float,
+        above: float = 0.0,
+    ) -> None:
+        """Place parts of a table, by their distances from its middle towards the human [m]."""
         along = np.array([math.cos(tilt), 0.0, -math.sin(tilt)])
         grip = self._hands + [0.0, 0.0, human_end]
+        grip = grip + above * np.array([math.sin(tilt), 0.0, math.cos(tilt)])
         for offset, part in parts:
             centre = grip + (offset - TABLE_LENGTH / 2) * along
             pybullet.resetBasePositionAndOrientation(

@@ -16,6 +16,7 @@ FAINT: Final = "#6B7280"
 LINE: Final = "#D7DBE0"
 PAPER: Final = "#FFFFFF"
 SKY: Final = "#EFF2F6"
+AIM: Final = "#00805D"
 
 
 def rgba(colour: str) -> tuple[float, float, float, float]:

@@ -14,6 +14,7 @@ from ...agents.errors import InputError
 from ...agents.extras import how_to_install
 from ...agents.submissions.new import PLACEHOLDER, write_template
 from ...benchmark.comparison.scatter.svg import svg
+from ...benchmark.episode.drawn import error_words
 from ...benchmark.episode.metric import drawn_series
 from ...benchmark.rendering.page import templates
 from ..records.metrics import board_metrics, picture_axes, suite_metrics
@@ -34,8 +35,8 @@ def render_page(template: str, links: Links, **content: Any) -> str:
         Where the other pages are.
     content
         What the template shows, by name; it also gets the metrics of the season's suite:
-        ``metrics`` have columns beside the ``leading`` one, ``second`` is their first; ``goal`` is
-        the drawn series at which the robot's end should be, or none.
+        ``metrics`` have columns beside the ``leading`` one, ``second`` is their first;
+        ``error_words`` say what the drawn error is.
     """
     season = content.get("season") or getattr(content.get("view"), "season", None)
     if season is not None:
@@ -45,7 +46,7 @@ def render_page(template: str, links: Links, **content: Any) -> str:
             "metrics": board_metrics(season.suite),
             "leading": leading,
             "second": second,
-            "goal": next((each for each in drawn_series(metrics) if each.goal), None),
+            "error_words": error_words(drawn_series(metrics)),
         }
     return _environment().get_template(template).render(links=links, **content)
 

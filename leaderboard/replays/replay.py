@@ -23,7 +23,8 @@ events                   what the human meant to do, and from which frame on
 drawn                    only of tasks that add some: the series of :class:`.DrawnSeries`, each
                          with ``name``, ``label``, ``where``, ``goal`` and ``values``, packed as
                          heights are
-ghost                    ``human`` and ``robot`` as above, and ``rmse_mm``, of two people instead
+ghost                    ``human``, ``robot`` and ``drawn`` as above, and ``rmse_mm``, of two people
+                         instead
 ======================== =========================================================================
 
 Heights are within int16: 3.2 m. A number that a policy did not report is null.
@@ -143,6 +144,7 @@ def replay_content(
         "ghost": {
             "human": changes(human_human.trace.human_end),
             "robot": changes(human_human.trace.robot_end),
+            **_drawn(scenario, human_human.trace),
             "rmse_mm": _score(human_human.scores["rmse_mm"]),
         },
     }

@@ -76,7 +76,7 @@
     }));
     for (const [i, each] of [a, b].entries()) document.querySelector("#same b." + ["first", "second"][i]).textContent = each.name;
     const most = both.map((curve) => Math.max(...curve.map(Math.abs)).toFixed(0));
-    svg.setAttribute("aria-label", `Height difference over time: at most ${most[0]} mm with ${a.name}, ${most[1]} mm with ${b.name}.`);
+    svg.setAttribute("aria-label", `Error over time: at most ${most[0]} mm with ${a.name}, ${most[1]} mm with ${b.name}.`);
   }
 
   function draw(a, b) {

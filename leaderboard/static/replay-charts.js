@@ -8,11 +8,8 @@
     const times = (values) => values.map((_, i) => (i + 1) * now.frame_s);
     const steps = (values) => values.map((_, i) => i * now.period_s);
     const mm = (values) => values.map((value) => (value === null ? null : 1000 * value));
-    const both = (a, b) => a.map((value, i) => 1000 * (value - b[i]));
-    const [goal, goalWords] = colift.goalOf(now);
-    const error = both(now.robot, goal);
-    const ghostGoal = goal === now.human ? now.ghost.human : goal;
-    const humanHuman = both(now.ghost.robot.slice(0, ghostGoal.length), ghostGoal);
+    const error = mm(now.error.values);
+    const humanHuman = mm(now.error.ghost);
     const series = (kind, style, when, values, dot) => ({ kind, style, times: when(values), values, dot });
     const span = (...lists) => {
       const all = lists.flat().filter((value) => value !== null);
@@ -63,8 +60,8 @@
       },
       {
         name: "error",
-        title: `Error: robot's end above ${goalWords} [mm]`,
-        summary: `${goal === now.human ? "Height difference" : "Error"}, RMSE ${colift.number(now.scores.rmse_mm, 1)} mm`,
+        title: `${now.error.scored ? "Error" : "Height difference"}: ${now.error.words} [mm]`,
+        summary: `${now.drawn.length ? "Error" : "Height difference"}, RMSE ${colift.number(now.scores.rmse_mm, 1)} mm`,
         keys: [["robot", "with the robot"], ["human-human", "with a second human"]],
         low: -reach,
         high: reach,
@@ -74,17 +71,18 @@
       },
     ];
     const places = now.drawn.filter((each) => each.where === "place");
+    const placed = (each) => (each.goal ? "added-aim" : "added-place");
     if (places.length) {
       const reach = Math.max(50, ...places.flatMap((each) => mm(each.values).map(Math.abs))) * 1.1;
       charts.push({
         name: "place",
-        title: "Place on the table, from its middle towards the human [mm]",
+        title: "Place on the table, from its middle towards the robot [mm]",
         summary: `Places on the table: ${places.map((each) => each.label).join(", ")}`,
-        keys: places.map((each) => ["added-place", each.label]),
+        keys: places.map((each) => [placed(each), each.label]),
         low: -reach,
         high: reach,
         height: 130,
-        series: places.map((each) => series("added-place", "line", times, mm(each.values), true)),
+        series: places.map((each) => series(placed(each), "line", times, mm(each.values), !each.goal)),
         last: !(now.confidence || now.role),
       });
     }

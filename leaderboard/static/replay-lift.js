@@ -13,7 +13,8 @@
 
   colift.decoded = function (replay) {
     const scaled = (values, unit) => values && values.map((v) => (v === null ? null : v * unit));
-    return {
+    const series = (drawn) => (drawn || []).map((each) => ({ ...each, values: heights(each.values) }));
+    const now = {
       ...replay,
       human: heights(replay.human),
       robot: heights(replay.robot),
@@ -22,16 +23,37 @@
       prediction: scaled(replay.prediction, UNIT),
       confidence: scaled(replay.confidence, 1e-3),
       role: scaled(replay.role, 1e-3),
-      drawn: (replay.drawn || []).map((each) => ({ ...each, values: heights(each.values) })),
-      ghost: { ...replay.ghost, human: heights(replay.ghost.human), robot: heights(replay.ghost.robot) },
+      drawn: series(replay.drawn),
+      ghost: {
+        ...replay.ghost,
+        human: heights(replay.ghost.human),
+        robot: heights(replay.ghost.robot),
+        drawn: series(replay.ghost.drawn),
+      },
     };
+    return { ...now, error: errorOf(now) };
   };
 
-  // Where the robot's end should be, and what that is called: the human's end, or what the task says.
-  colift.goalOf = function (now) {
-    const goal = now.drawn.find((each) => each.goal);
-    return goal ? [goal.values, `the ${goal.label}`] : [now.human, "the human's"];
-  };
+  // The height that the robot's end should have; and the place of a ball, with that where it should be.
+  const farGoal = (colift.farGoal = (drawn) => drawn.find((each) => each.goal && each.where !== "place"));
+  const places = (colift.places = (drawn) =>
+    [false, true].map((goal) => drawn.find((each) => each.where === "place" && each.goal === goal)));
+
+  // The error over time, of the robot and of two people, in m, and what it is (episode/drawn.py).
+  function errorOf(now) {
+    const less = (a, b) => a.slice(0, b.length).map((value, i) => value - b[i]);
+    const goal = farGoal(now.drawn);
+    const [ball, target] = places(now.drawn);
+    const missed = (lift) => {
+      if (ball && target) return less(lift.drawn.find((each) => each.name === ball.name).values, target.values);
+      return less(lift.robot, goal ? goal.values : lift.human);
+    };
+    const words =
+      ball && target ? `${ball.label} from the ${target.label}, towards the robot` : `robot's end above ${goal ? "the " + goal.label : "the human's"}`;
+    // Where several things count, the height difference is not the error.
+    const scored = Boolean(goal || (ball && target)) || !now.drawn.length;
+    return { values: missed(now), ghost: missed(now.ghost), words, scored };
+  }
 
   // A lift's state at a time; a height between two frames is on the line between them.
   colift.stateAt = function (now, time) {
@@ -55,6 +77,9 @@
       role: reported(now.role),
       command: reported(now.command),
       drawn: now.drawn.map((each) => ({ ...each, value: at(each.values) })),
+      ghostDrawn: now.ghost.drawn.map((each) => ({ ...each, value: at(each.values) })),
+      error: at(now.error.values),
+      ghostError: at(now.error.ghost),
       over: now.human.length < now.horizon && time > now.human.length * now.frame_s,
     };
   };

@@ -102,7 +102,14 @@
       this.intention = make("path", { d: "M0 0h.13", class: "intention" }, svg);
       this.intended = make("line", { class: "intended-pose none" }, svg);
       this.meant = make("path", { d: "M0 0h-.13", class: "intention none" }, svg);
-      this.ball = make("circle", { r: 0.03, class: "ball none" }, this.table.group);
+      this.marks = {
+        human: make("path", { d: "M0 0h.13", class: "hurdle human none" }, svg),
+        robot: make("path", { d: "M0 0h-.13", class: "hurdle robot none" }, svg),
+      };
+      this.aim = make("path", { d: "M-.03-.11h.06l-.03.05z", class: "aim none" }, this.table.group);
+      const ball = (group) => make("circle", { r: 0.03, cy: -0.041, class: "ball none" }, group);
+      this.ghostBall = ball(this.ghostTable.group);
+      this.ball = ball(this.table.group);
       this.prediction = make("circle", { r: 0.017, class: "prediction" }, svg);
       this.level = new Level(svg);
       this.rest = grip[1];
@@ -167,19 +174,26 @@
         node.setAttribute("transform", `translate(${x} ${-(this.rest + height)})`);
       put(this.intention, this.humanX + 0.035, now.target);
       const drawn = now.drawn || [];
-      const goal = drawn.find((each) => each.goal);
-      const place = drawn.find((each) => each.where === "place");
+      const goal = colift.farGoal(drawn);
+      const [place, aim] = colift.places(drawn);
+      const [ghostPlace] = colift.places(now.ghostDrawn || []);
       for (const node of [this.meant, this.intended]) node.classList.toggle("none", !goal);
       if (goal) {
         put(this.meant, this.robotX - 0.035, goal.value);
         const ends = { x1: this.robotX, y1: -(this.rest + goal.value), x2: this.humanX, y2: -(this.rest + now.target) };
         for (const [name, value] of Object.entries(ends)) this.intended.setAttribute(name, value);
       }
-      this.level.group.classList.toggle("none", Boolean(goal));
-      this.ball.classList.toggle("none", !place);
-      if (place) {
-        this.ball.setAttribute("cx", place.value - this.table.length / 2);
-        this.ball.setAttribute("cy", -0.041);
+      this.level.group.classList.toggle("none", Boolean(goal || aim));
+      for (const [node, there] of [[this.ball, place], [this.ghostBall, ghostPlace]]) {
+        node.classList.toggle("none", !there);
+        if (there) node.setAttribute("cx", -this.table.length / 2 - there.value);
+      }
+      this.aim.classList.toggle("none", !aim);
+      if (aim) this.aim.setAttribute("transform", `translate(${-this.table.length / 2 - aim.value} 0)`);
+      for (const [end, x] of [["human", this.humanX + 0.035], ["robot", this.robotX - 0.035]]) {
+        const mark = drawn.find((each) => each.where === end && !each.goal);
+        this.marks[end].classList.toggle("none", !mark);
+        if (mark) put(this.marks[end], x, mark.value);
       }
       this.prediction.classList.toggle("none", now.prediction === null);
       if (now.prediction !== null) put(this.prediction, this.humanX - 0.07, now.prediction);

@@ -14,6 +14,16 @@
     pivot: "moves the own end alone, as to pour",
     counter: "turns the table about its middle",
     switching: "changes the intent half-way",
+    abreast: "has a hurdle to pass while the robot has another",
+    ahead: "has a hurdle to pass a little before the robot's",
+    behind: "has a hurdle to pass a little after the robot's",
+    own_hurdle: "has a hurdle to pass, while the robot has none",
+    other_hurdle: "has no hurdle, while the robot has one",
+    no_hurdle: "has no hurdle to pass, as the robot",
+    ball_smooth: "lifts smoothly, and alone knows where the ball should be",
+    ball_pause: "stops on the way, and alone knows where the ball should be",
+    ball_smooth_shared: "lifts smoothly, and knows as the robot does where the ball should be",
+    ball_pause_shared: "stops on the way, and knows as the robot does where the ball should be",
     recorded: "repeats a recorded lift",
     cued: "follows cues",
     played: "lifted live",
@@ -31,6 +41,7 @@
     hold: "holds",
     lower: "lowers",
     rest: "rests",
+    target: "new target",
   };
 
   colift.words = (text) => text.replaceAll("_", " ");

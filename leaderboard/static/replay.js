@@ -178,9 +178,9 @@
       this.clock.textContent = `${this.time.toFixed(2)} / ${this.duration.toFixed(1)} s`;
       const event = now.events.filter(([, frame]) => frame * now.frame_s <= this.time + 1e-9).pop();
       const { over } = state;
-      const goal = state.drawn.find((each) => each.goal);
-      const difference = 1000 * (state.robot - (goal ? goal.value : state.human));
-      const ghostGap = 1000 * (state.ghostRobot - (goal ? goal.value : state.ghostHuman));
+      const goal = now.error.scored && now.drawn.length;
+      const difference = 1000 * state.error;
+      const ghostGap = 1000 * state.ghostError;
       const rows = [
         ["human", "the human", over ? "the lift is over" : event ? eventWords(event[0]) : "waits"],
         ["human", "human's end", `${number(1000 * state.human, 0)} mm`],
@@ -200,7 +200,7 @@
       }
       this.showRows(rows);
       if (!this.playing) {
-        this.slider.setAttribute("aria-valuetext", `${this.time.toFixed(2)} s, ${colift.differenceWords(difference, goal ? "right" : "level")}`);
+        this.slider.setAttribute("aria-valuetext", `${this.time.toFixed(2)} s, ${goal ? `error ${number(difference, 0)} mm` : colift.differenceWords(difference)}`);
       }
       const shown = this.playing ? "Pause" : "Play";
       if (this.button.dataset.shows !== shown) {

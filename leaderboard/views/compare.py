@@ -76,8 +76,8 @@ class CompareView:
     lift_rmse_mm: tuple[tuple[float, ...], ...]
     """RMSE [mm] of each column on each lift; nothing where its single lifts are not there."""
     curves: tuple[Mapping[str, Sequence[int]], ...]
-    """Of each column the lifts that another one has too, by what they are called: the robot's end
-    above the human's, every :data:`EVERY` frames [0.1 mm]."""
+    """Of each column the lifts that another one has too, by what they are called: the error that is
+    shown, every :data:`EVERY` frames [0.1 mm]."""
 
     @property
     def data(self) -> dict[str, Any]:
@@ -168,17 +168,20 @@ def _errors(bundle: Path) -> dict[str, list[int]]:
     """Return the errors over time of a bundle's replays, as far as they have been made."""
     return {
         f"{each['behaviour']} {each['subject']} {each['seed']}": list(
-            itertools.accumulate(map(operator.sub, each["robot"], _goal(each)))
+            itertools.accumulate(map(operator.sub, *_compared(each)))
         )[::EVERY]
         for each in made_replays(bundle)
     }
 
 
-def _goal(replay: Mapping[str, Any]) -> Sequence[int]:
-    """Return where the robot's end should be: what the task says, else the human's end."""
-    goals = [each["values"] for each in replay.get("drawn", ()) if each["goal"]]
-    found: Sequence[int] = goals[0] if goals else replay["human"]
-    return found
+def _compared(replay: Mapping[str, Any]) -> tuple[Sequence[int], Sequence[int]]:
+    """Return the two series whose difference is the error; see :func:`.shown_error`."""
+    drawn = replay.get("drawn", ())
+    places = {each["goal"]: each["values"] for each in drawn if each["where"] == "place"}
+    if len(places) == 2:
+        return places[False], places[True]
+    goals = [each["values"] for each in drawn if each["goal"]]
+    return replay["robot"], goals[0] if goals else replay["human"]
 
 
 def _parts(strata: Sequence[StratumScore]) -> tuple[Part, ...]:

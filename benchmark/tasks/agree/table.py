@@ -2,7 +2,8 @@
 
 from typing import Final
 
-from ...episode.metric import DrawnSeries, Metric, MetricWords, metric_table
+from ...episode.drawn import DrawnSeries
+from ...episode.metric import Metric, MetricWords, metric_table
 
 AGREE_METRICS: Final = metric_table(
     (

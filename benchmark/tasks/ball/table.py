@@ -2,6 +2,7 @@
 
 from typing import Final
 
+from ...episode.drawn import DrawnSeries
 from ...episode.metric import Metric, MetricWords, metric_table
 
 BALL_METRICS: Final = metric_table(
@@ -94,6 +95,10 @@ BALL_METRICS: Final = metric_table(
             meaning="share of the robot's actions that exceeded the speed of its hands (0.04 m in "
             "100 ms) and were clipped",
         ),
-    )
+    ),
+    drawn=(
+        DrawnSeries(name="ball", label="ball", where="place"),
+        DrawnSeries(name="ball_target", label="target", where="place", goal=True),
+    ),
 )
 """One entry for each score of :meth:`.BallSteering.score`, in the same order."""

@@ -59,6 +59,25 @@ def test_everybody_is_seen_whole(scene: Scene, size: tuple[int, int]) -> None:
         assert np.array_equal(picture[0], np.broadcast_to(ImageColor.getrgb(SKY), (size[0], 3)))
 
 
+def test_a_ball_is_seen_where_it_lies() -> None:
+    scene = Scene("nao", ball=True)
+    scene.roll(0.0, 0.3)
+    middle = scene.picture(320, 200)
+    scene.roll(0.2, 0.3)
+    towards_robot = scene.picture(320, 200)
+    scene.close()
+    changed = np.argwhere((middle != towards_robot).any(axis=-1))
+    assert len(changed) > 20
+    # The robot is on the left.
+    left, right = (
+        changed[(towards_robot if here else middle)[tuple(changed.T)].max(axis=-1) < 90][
+            :, 1
+        ].mean()
+        for here in (True, False)
+    )
+    assert left < right
+
+
 def test_who_holds_an_end_wears_its_colour() -> None:
     robot, person = Scene("nao"), Scene("human")
     with_robot, with_person = robot.picture(160, 100), person.picture(160, 100)

@@ -234,23 +234,69 @@ def test_nothing_is_wider_than_the_screen(open_page, width):
     assert page.evaluate("document.documentElement.scrollWidth") <= width
 
 
-def test_the_intended_pose_is_drawn_and_the_error_is_the_distance_to_it(chromium, tmp_path):
-    scenario = make_scenario("counter", "S3", task="intent")
-    episode = next(play(PolicySpec(text="pose_wrist"), scenario, (0,)))
-    content = replay_content(episode, scenario, play_ghost(scenario, 0), policy="pose_wrist")
-    path = tmp_path / "pose.html"
-    path.write_text(replay_page([content]), encoding="utf-8")
-    page = chromium.new_page(reduced_motion="reduce")
-    troubles = []
-    page.on("pageerror", lambda error: troubles.append(str(error)))
-    page.goto(path.as_uri())
-    for _ in range(50):
-        page.keyboard.press("ArrowRight")
+@pytest.fixture
+def page_of_lift(chromium, tmp_path):
+    """Return what opens the replay of a lift 5 s after its beginning, and returns its episode."""
+    pages, troubles = [], []
+
+    def opened(policy, scenario, **options):
+        episode = next(play(PolicySpec(text=policy), scenario, (0,)))
+        content = replay_content(episode, scenario, play_ghost(scenario, 0), policy=policy)
+        path = tmp_path / "lift.html"
+        path.write_text(replay_page([content]), encoding="utf-8")
+        page = chromium.new_page(reduced_motion="reduce", **options)
+        pages.append(page)
+        page.on("pageerror", lambda error: troubles.append(str(error)))
+        page.goto(path.as_uri())
+        for _ in range(50):
+            page.keyboard.press("ArrowRight")
+        return page, episode
+
+    yield opened
+    for page in pages:
+        page.close()
+    assert not troubles
+
+
+def test_the_intended_pose_is_drawn_and_the_error_is_the_distance_to_it(page_of_lift):
+    page, episode = page_of_lift("pose_wrist", make_scenario("counter", "S3", task="intent"))
     expect(page.locator(".replay-key", has_text="intended far end")).to_be_visible()
     expect(page.locator("line.intended-pose")).not_to_have_class("none")
     expect(page.locator(".replay-level")).to_be_hidden()
     trace = episode.trace
     missed = 1000 * (trace.robot_end[499] - trace.added["far_target"][499])
     assert difference(page) == pytest.approx(missed, abs=0.15)
-    page.close()
-    assert not troubles
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+def test_a_ball_lies_on_the_table_and_the_error_is_its_distance_from_the_target(
+    page_of_lift, width
+):
+    scenario = make_scenario("ball_smooth", "S3", task="ball")
+    page, episode = page_of_lift("ball_game", scenario, viewport={"width": width, "height": 800})
+    place, target = (episode.trace.added[name][499] for name in ("ball", "ball_target"))
+    assert difference(page) == pytest.approx(1000 * (place - target), abs=0.15)
+    # The middle of the table is 0.4 m from the human's end, where x is 0; the robot is on the left.
+    ball = page.locator(".replay-table.real .ball")
+    assert float(ball.get_attribute("cx")) == pytest.approx(-0.4 - place, abs=2e-4)
+    expect(page.locator(".replay-table.ghost .ball")).to_be_visible()
+    aim = page.locator(".replay-table.real .aim").get_attribute("transform")
+    moved = float(re.search(r"translate\((\S+) 0\)", aim)[1])
+    assert moved == pytest.approx(-0.4 - target, abs=2e-4)
+    expect(page.locator(".replay-level")).to_be_hidden()
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_hurdles_are_marked_at_their_ends(page_of_lift):
+    page, episode = page_of_lift("agree_game", make_scenario("abreast", "S3", task="agree"))
+    for end in ("human", "robot"):
+        mark = page.locator(f"path.hurdle.{end}").get_attribute("transform")
+        shown = float(re.search(r" (\S+)\)", mark)[1])
+        rest = float(
+            re.search(r" (\S+)\)", page.locator("path.intention").first.get_attribute("transform"))[
+                1
+            ]
+        )
+        height = episode.trace.added[f"{end}_hurdle"][499] - episode.trace.target[499]
+        assert rest - shown == pytest.approx(height, abs=2e-4)
+    expect(page.locator("figcaption", has_text="Height difference")).to_be_visible()
