@@ -11,7 +11,7 @@ from rich.table import Column, Table
 from ..agents.errors import InputError
 from ..benchmark.admission.admission import Admission, admission_of, players
 from ..benchmark.admission.criteria import Criterion
-from ..benchmark.bounds.causal import suite_bounds
+from ..benchmark.bounds.bounds import suite_bounds
 from ..benchmark.training.apg_settings import pair_settings
 from ..benchmark.twin.libraries import require_jax
 from .completion import suites

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from ..agents.registry import SUITES, own_entries
-from ..benchmark.bounds.causal import suite_bounds
+from ..benchmark.bounds.bounds import suite_bounds
 from ..benchmark.comparison.playing import play_bounds
 from ..benchmark.results.baselines import (
     BASELINES,

@@ -10,7 +10,7 @@ from ..agents.errors import InputError
 from ..agents.loading.loading import PolicySpec
 from ..benchmark.bounds import ablation, sweep
 from ..benchmark.bounds.ablation import VARIANTS, Ablation, variants
-from ..benchmark.bounds.causal import BOUNDS
+from ..benchmark.bounds.bounds import BOUNDS
 from ..benchmark.bounds.claims import POLICY, RIVALS, PolicyClaim, claims
 from ..benchmark.bounds.held_out import FIRST_SEED, held_out_suite
 from ..benchmark.bounds.sweep import NAMES, Swept, human_human_rmse, lifts_to_play, timings

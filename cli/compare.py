@@ -12,7 +12,7 @@ import typer
 from ..agents.errors import InputError
 from ..agents.registry import POLICIES, check_plays, entries, playing
 from ..agents.spec import AgentSpec
-from ..benchmark.bounds.causal import suite_bounds
+from ..benchmark.bounds.bounds import suite_bounds
 from ..benchmark.channels import Channel
 from ..benchmark.comparison.captions import failures, unit_warnings, verdict
 from ..benchmark.comparison.comparison import Comparison

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ...agents.errors import InputError
 from ...agents.loading.loading import PolicySpec
 from ...agents.registry import own_policies, policies_by_task
-from ..bounds.causal import suite_bounds
+from ..bounds.bounds import suite_bounds
 from ..bounds.oracle import ORACLE
 from ..execution.runner import Run, run_suite
 from ..results.baselines import HUMAN_HUMAN_LABEL, human_human_run

@@ -1,7 +1,7 @@
-"""The causal bound, learned from all that can be seen, and the bounds by name."""
+"""The causal bound, learned from all that can be seen."""
 
 import hashlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import cache
@@ -16,12 +16,10 @@ from ...agents.errors import InputError
 from ...agents.spec import InProcess
 from ...agents.touch.touch_controller import TouchController, read_touch
 from ...agents.touch.touch_law import TASK_SENSES, TouchNetwork
-from ..comparison.playing import Bound
 from ..episode.level import LEVEL
 from ..episode.scenario import CONTROL_PERIOD, LATENCY
 from ..execution.runner import Run, run_suite
 from ..suites.suite import Suite
-from .oracle import ORACLE, ORACLES, oracle_run
 
 CAUSAL_BOUND: Final = "causal_bound"
 
@@ -101,14 +99,3 @@ def causal_run(
                 f"{scenario.name} has {found} s"
             )
     return run_suite(CausalBound(task=task), suite, executor=executor, progress=progress)
-
-
-BOUNDS: Final[Mapping[str, Bound]] = {CAUSAL_BOUND: causal_run, ORACLE: oracle_run}
-"""The bounds by name. They are in no registry: no board can take them."""
-
-
-def suite_bounds(suite: Suite) -> Mapping[str, Bound]:
-    """Return the bounds of a suite's task by name; none if it has none."""
-    task = suite.scenarios[0].task.name
-    known = {CAUSAL_BOUND: task in BOUNDED, ORACLE: task in ORACLES}
-    return {name: BOUNDS[name] for name, has in known.items() if has}

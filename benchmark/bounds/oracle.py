@@ -7,7 +7,7 @@ from typing import Final
 
 from ...agents.errors import InputError
 from ...agents.loading.loading import source_digest
-from ..episode.episode import Episode
+from ..episode.episode import Episode, run_episode
 from ..episode.level import Level
 from ..episode.lift import Lift
 from ..episode.scenario import Scenario
@@ -20,7 +20,8 @@ from ..tasks.ball.oracle import foresee
 from ..tasks.ball.task import BallSteering
 from ..tasks.intent.oracle import foreknow_pose
 from ..tasks.intent.task import Intent
-from ..tasks.rehearsal import Foreknowing, rehearse_lift
+from ..tasks.rehearsal import Foreknowing, refine, rehearse_lift
+from .causal import CausalBound
 
 ORACLE: Final = "oracle"
 
@@ -36,9 +37,20 @@ def foreknow(lift: Lift, seed: int) -> Episode:
     )
 
 
+def foreknow_hurdles(lift: Lift, seed: int) -> Episode:
+    """Return the episode of a seed with hurdles, played by the oracle.
+
+    It has tried its own ways (:func:`.foreknow_agreement`), and what a policy would do that knows
+    no secret; the better of these it has rehearsed further (:func:`.refine`).
+    """
+    causal = run_episode(lift, CausalBound(task=Agree.name).make(), seed)
+    known = foreknow_agreement(lift, seed)
+    return refine(lift, seed, min(known, causal, key=lambda each: each.scores["rmse_mm"]))
+
+
 ORACLES: Final[Mapping[str, Callable[[Lift, int], Episode]]] = {
     Level.name: foreknow,
-    Agree.name: foreknow_agreement,
+    Agree.name: foreknow_hurdles,
     Intent.name: foreknow_pose,
     BallSteering.name: foresee,
 }

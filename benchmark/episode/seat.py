@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Final, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ...agents.actions import action_limit
 from ...agents.agent import Observation
@@ -54,6 +54,24 @@ def limited_command(command: float, change: float, limit: float) -> float:
     """
     low, high = STROKE
     return min(max(command + min(max(change, -limit), limit), low), high)
+
+
+def hand_commands(actions: ArrayLike, control_period: float) -> NDArray[np.float64]:
+    """Return the hand command at the end of each step [m], shape (m,).
+
+    Parameters
+    ----------
+    actions
+        Changes of the command [m] as the policy gave them, shape (m, 1); they are held to the
+        hand's speed and stroke, as in the episode.
+    control_period
+        Time of a step [s].
+    """
+    limit, command, found = action_limit(control_period), 0.0, []
+    for change in np.asarray(actions, dtype=np.float64).ravel().tolist():
+        command = limited_command(command, change, limit)
+        found.append(command)
+    return np.array(found)
 
 
 class Seat(Protocol):

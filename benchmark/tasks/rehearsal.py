@@ -11,10 +11,20 @@ from ...agents.control.anticipation import ARM_LAG
 from ...agents.control.preview import preview_gains
 from ..episode.episode import Episode, run_episode
 from ..episode.lift import Lift
+from ..episode.seat import hand_commands
 from ..episode.trace import Trace
 
 REHEARSALS: Final = 5
 """How often an episode is played; the best time counts. It changes little after the third."""
+
+BUMPS: Final = (0.012, 0.005)
+"""Heights of the bumps that :func:`refine` tries [m]."""
+
+BUMP: Final = 35
+"""Half of a bump's length, in frames."""
+
+BUMP_SPACING: Final = 25
+"""Frames between two bumps."""
 
 FORESIGHT: Final = 0.6
 """How far ahead commands are planned [s]: farther ones do not change the next."""
@@ -86,6 +96,51 @@ def rehearse_lift(
     return best
 
 
+def refine(lift: Lift, seed: int, episode: Episode) -> Episode:
+    """Return the best of many rehearsals, each with a bump more in the commands of the best so far.
+
+    It is a descent by coordinates, which are the heights of bumps all along the lift, up and down,
+    from large ones to small ones.
+
+    Parameters
+    ----------
+    lift
+        The lift; it is reset here.
+    seed
+        The episode's seed.
+    episode
+        The one to begin with.
+    """
+    frames = lift.frames_per_step
+    best, path = episode, commanded(episode.trace, frames)
+    times = np.arange(len(path))
+    for size in BUMPS:
+        for centre in range(0, len(path), BUMP_SPACING):
+            away = np.abs(times - centre)
+            bump = size * np.where(away < BUMP, 0.5 + 0.5 * np.cos(np.pi * away / BUMP), 0.0)
+            for bent in (path + bump, path - bump):
+                tried = run_episode(lift, Foreknowing(bent, frames), seed)
+                if tried.scores["rmse_mm"] < best.scores["rmse_mm"]:
+                    best, path = tried, bent
+                    break
+    return best
+
+
+def commanded(trace: Trace, frames: int) -> NDArray[np.float64]:
+    """Return the hand's command in each frame of a trace [m], as its actions were carried out.
+
+    Parameters
+    ----------
+    trace
+        The trace.
+    frames
+        Frames in a control period.
+    """
+    ends = np.concatenate(([0.0], hand_commands(trace.action, frames * FRAME)))
+    steps = np.arange(1, len(trace.human_end) + 1) / frames
+    return np.asarray(np.interp(steps, np.arange(len(ends)), ends))
+
+
 def raised(trace: Trace, missed: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
     """Return the commands of a trace, raised by what was missed an arm's lag later [m].
 
@@ -98,10 +153,7 @@ def raised(trace: Trace, missed: NDArray[np.float64], frames: int) -> NDArray[np
     frames
         Frames in a control period.
     """
-    ends = np.concatenate(([0.0], np.cumsum(trace.action[:, 0])))
-    steps = np.arange(1, len(missed) + 1) / frames
-    command = np.interp(steps, np.arange(len(ends)), ends)
-    return np.asarray(command + _earlier(missed, round(ARM_LAG / FRAME)))
+    return commanded(trace, frames) + _earlier(missed, round(ARM_LAG / FRAME))
 
 
 def _earlier(series: NDArray[np.float64], frames: int) -> NDArray[np.float64]:

@@ -38,9 +38,8 @@ from dataclasses import dataclass
 from typing import Any, Final, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from ...agents.actions import action_limit
 from ...agents.agent import FRAME
 from ...agents.humans import Plan
 from ...benchmark.bundle import one_line
@@ -48,7 +47,7 @@ from ...benchmark.episode.episode import Episode, run_episode
 from ...benchmark.episode.lift import make_lift
 from ...benchmark.episode.metric import drawn_series
 from ...benchmark.episode.scenario import Scenario
-from ...benchmark.episode.seat import limited_command
+from ...benchmark.episode.seat import hand_commands
 from ...benchmark.episode.trace import Trace
 from ...benchmark.results.baselines import partner_spec
 
@@ -157,24 +156,6 @@ def _drawn(scenario: Scenario, trace: Trace) -> dict[str, Any]:
         for each in drawn_series(scenario.task.metrics)
     ]
     return {"drawn": shown} if shown else {}
-
-
-def hand_commands(actions: ArrayLike, control_period: float) -> NDArray[np.float64]:
-    """Return the hand command at the end of each step [m], shape (m,).
-
-    Parameters
-    ----------
-    actions
-        Changes of the command [m] as the policy gave them, shape (m, 1); they are held to the
-        hand's speed and stroke, as in the episode.
-    control_period
-        Time of a step [s].
-    """
-    limit, command, found = action_limit(control_period), 0.0, []
-    for change in np.asarray(actions, dtype=np.float64).ravel().tolist():
-        command = limited_command(command, change, limit)
-        found.append(command)
-    return np.array(found)
 
 
 def changes(heights: ArrayLike) -> list[int]:

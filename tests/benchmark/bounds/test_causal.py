@@ -1,10 +1,16 @@
+import dataclasses
 import pickle
+from typing import ClassVar
 
 import numpy as np
+import pytest
 from colift.agents.control.recurrent import shipped_network
+from colift.agents.errors import InputError
 from colift.agents.loading.loading import PolicySpec
-from colift.benchmark.bounds.causal import BOUNDS, CAUSAL_BOUND, CausalBound, causal_bound
+from colift.benchmark.bounds.bounds import BOUNDS, suite_bounds
+from colift.benchmark.bounds.causal import CAUSAL_BOUND, CausalBound, causal_bound, causal_run
 from colift.benchmark.comparison.playing import play_policies
+from colift.benchmark.episode.level import Level
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
 
@@ -30,3 +36,33 @@ def test_the_bounds_stand_in_the_right_order():
     errors = [np.mean([each["rmse_mm"] for each in found.scores]) for found in paired.policies]
     bound = paired.bounds[CAUSAL_BOUND]
     assert 10 * paired.bounds["oracle"].mean < bound.mean < min(errors)
+
+
+@pytest.mark.parametrize(
+    ("behaviours", "policy"),
+    [
+        (("pivot", "counter", "together"), "pose_learned"),
+        (("abreast", "behind", "other_hurdle"), "agree_learned"),
+        (("ball_smooth", "ball_pause"), "ball_learned"),
+    ],
+)
+def test_each_task_with_touch_has_a_bound_below_its_policies(behaviours, policy):
+    task = policy.partition("_")[0].replace("pose", "intent")
+    people = ("draw-200003", "draw-200004")
+    scenarios = [make_scenario(each, person, task=task) for each in behaviours for person in people]
+    suite = Suite(name="few", scenarios=tuple(scenarios), seeds=(200_000,))
+    paired = play_policies({policy: PolicySpec(text=policy)}, suite, bounds=suite_bounds(suite))
+    error = np.mean([each["rmse_mm"] for each in paired.policies[0].scores])
+    assert paired.bounds["oracle"].mean < paired.bounds[CAUSAL_BOUND].mean < error
+
+
+def test_a_task_without_a_bound_is_named():
+    @dataclasses.dataclass(frozen=True, kw_only=True)
+    class Other(Level):
+        name: ClassVar[str] = "other"
+
+    scenario = dataclasses.replace(make_scenario("smooth"), task=Other())
+    suite = Suite(name="one", scenarios=(scenario,), seeds=(0,))
+    assert suite_bounds(suite) == {}
+    with pytest.raises(InputError, match="no causal_bound was learned for the task 'other'"):
+        causal_run(suite)

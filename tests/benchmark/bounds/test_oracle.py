@@ -3,7 +3,7 @@ import pytest
 from colift.agents.agent import FRAME
 from colift.agents.errors import InputError
 from colift.agents.loading.loading import PolicySpec
-from colift.benchmark.bounds.causal import BOUNDS
+from colift.benchmark.bounds.bounds import BOUNDS
 from colift.benchmark.bounds.oracle import Foreknowing, foreknow, oracle_run
 from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift

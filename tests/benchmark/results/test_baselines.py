@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.registry import SUITES, own_entries
-from colift.benchmark.bounds.causal import suite_bounds
+from colift.benchmark.bounds.bounds import suite_bounds
 from colift.benchmark.bundle import results
 from colift.benchmark.comparison.playing import play_bounds
+from colift.benchmark.episode.metric import on_boards
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.paper.table_one import HUMAN_HUMAN_RMSE
 from colift.benchmark.results.baselines import (
@@ -43,6 +44,7 @@ def test_every_suite_has_its_baselines_shipped(name):
     assert set(bounds) == set(suite_bounds(suite)) >= {"oracle"}
     for baseline in (*shipped.values(), *bounds.values()):
         assert len(baseline.rmse_mm) == len(baseline.strata) == suite.size
+        assert baseline.means.keys() == {metric.name for metric in on_boards(suite.metrics)}
 
 
 def test_the_shipped_ones_are_what_the_code_gives(quick, played):

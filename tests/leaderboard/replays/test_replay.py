@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.seat import hand_commands
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.execution.batches import play
 from colift.benchmark.results.baselines import human_human_run
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite
-from colift.leaderboard.replays.replay import changes, hand_commands, play_ghost, replay_content
+from colift.leaderboard.replays.replay import changes, play_ghost, replay_content
 
 SCENARIO = make_scenario("pause", "S2")
 
