@@ -11,6 +11,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
     "Use": {
         "run": "run:run",
         "compare": "compare:compare_policies",
+        "summary": "summary:summarise_bundles",
         "channels": "channels:measure_channels",
         "validity": "validity:validity",
         "list": "listing:list_all",

@@ -1,14 +1,18 @@
 """Results of policies that are stored in bundles."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from ...agents.errors import InputError, Remedy
 from ..bundle import FILES, read_bundle
+from ..bundle.files import RESULTS
+from ..bundle.json_text import pick
 from ..channels import Channel, channel_name
 from ..episode.metric import SCORING
+from ..statistics import Estimate
 from ..suites.suite import Suite
 from .paired_results import PolicyResults
 
@@ -22,6 +26,8 @@ class Stored:
     suite: Suite
     channel: Channel | None
     """The channel between the robot and the policy; None if there was none."""
+    vs_human: Estimate | None
+    """RMSE divided by that of the human-human baseline; None without this baseline."""
 
 
 def is_bundle(folder: Path) -> bool:
@@ -63,7 +69,23 @@ def read_stored(folder: Path) -> Stored:
     policy = PolicyResults.of(run.policy, run)
     if step["p50"] is not None and step["p99"] is not None:
         policy = dataclasses.replace(policy, step_ms=(step["p50"], step["p99"]))
-    return Stored(folder=folder, policy=policy, suite=run.suite, channel=run.channel)
+    return Stored(
+        folder=folder,
+        policy=policy,
+        suite=run.suite,
+        channel=run.channel,
+        vs_human=_vs_human(content),
+    )
+
+
+def _vs_human(content: Mapping[str, Any]) -> Estimate | None:
+    if pick(content, "summary.vs_human", (dict, type(None)), RESULTS) is None:
+        return None
+    mean = pick(content, "summary.vs_human.mean", float, RESULTS)
+    match pick(content, "summary.vs_human.ci95", list, RESULTS):
+        case [float(low), float(high)]:
+            return Estimate(mean=mean, ci95=(low, high))
+    raise InputError(f"{RESULTS}: summary.vs_human.ci95 must be two numbers")
 
 
 def check_same_lifts(stored: Sequence[Stored], suite: Suite, channel: Channel | None) -> None:
