@@ -34,7 +34,7 @@ def intended_far_end(drawn: Sequence[DrawnSeries]) -> DrawnSeries | None:
     return next((each for each in drawn if each.goal and each.where != "place"), None)
 
 
-def places(drawn: Sequence[DrawnSeries]) -> tuple[DrawnSeries, DrawnSeries] | None:
+def ball_and_target(drawn: Sequence[DrawnSeries]) -> tuple[DrawnSeries, DrawnSeries] | None:
     """Return the place of what lies on the table, and the one where it should be, if both are."""
     there = {each.goal: each for each in drawn if each.where == "place"}
     return (there[False], there[True]) if len(there) == 2 else None
@@ -46,7 +46,7 @@ def shown_error(drawn: Sequence[DrawnSeries], trace: Trace) -> NDArray[np.float6
     It is the distance of what lies on the table from where it should be, or that of the robot's end
     from its goal, or, in a task that has neither, the height difference of the ends.
     """
-    both, goal = places(drawn), intended_far_end(drawn)
+    both, goal = ball_and_target(drawn), intended_far_end(drawn)
     if both is not None:
         return np.asarray(trace.added[both[0].name] - trace.added[both[1].name])
     meant = trace.human_end if goal is None else trace.added[goal.name]
@@ -55,7 +55,7 @@ def shown_error(drawn: Sequence[DrawnSeries], trace: Trace) -> NDArray[np.float6
 
 def error_words(drawn: Sequence[DrawnSeries]) -> str:
     """Return what :func:`shown_error` is, in words."""
-    both, goal = places(drawn), intended_far_end(drawn)
+    both, goal = ball_and_target(drawn), intended_far_end(drawn)
     if both is not None:
         return f"{both[0].label} from the {both[1].label}, towards the robot"
     return "robot's end above the " + ("human's" if goal is None else goal.label)

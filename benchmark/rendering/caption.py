@@ -8,7 +8,7 @@ import matplotlib
 from PIL import Image, ImageDraw, ImageFont
 
 from ...agents.agent import FRAME
-from ..episode.drawn import DrawnSeries, intended_far_end, places, shown_error
+from ..episode.drawn import DrawnSeries, ball_and_target, intended_far_end, shown_error
 from ..episode.episode import Episode
 from ..episode.seat import SEATS
 from ..episode.trace import Trace
@@ -73,7 +73,7 @@ def readout(
         (f"{SEATS[partner].label}'s end", _millimetres(robot), ROBOT, False),
         *((each.label, _millimetres(_at(trace, each, frame)), INK, False) for each in drawn),
     ]
-    level = intended_far_end(drawn) is None and places(drawn) is None
+    level = intended_far_end(drawn) is None and ball_and_target(drawn) is None
     error = 1000 * abs(float(shown_error(drawn, trace)[frame]))
     rows.append(("difference" if level else "error", _millimetres(error), INK, True))
     pen = ImageDraw.Draw(picture)

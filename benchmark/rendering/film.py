@@ -10,7 +10,7 @@ from PIL import Image
 
 from ...agents.agent import FRAME
 from ...agents.errors import InputError
-from ..episode.drawn import DrawnSeries, intended_far_end, places, shown_error
+from ..episode.drawn import DrawnSeries, ball_and_target, intended_far_end, shown_error
 from ..episode.episode import Episode
 from ..episode.metric import drawn_series
 from ..episode.scenario import Scenario
@@ -174,7 +174,9 @@ def _counted(pictures: Iterator[Picture], drawn: Callable[[int], None] | None) -
 def _scene(partner: str, drawn: Sequence[DrawnSeries]) -> Scene:
     """Return a scene with what the task adds to it."""
     return Scene(
-        partner, intended=intended_far_end(drawn) is not None, ball=places(drawn) is not None
+        partner,
+        intended=intended_far_end(drawn) is not None,
+        ball=ball_and_target(drawn) is not None,
     )
 
 
@@ -186,7 +188,7 @@ def _view(
     height: int,
     drawn: Sequence[DrawnSeries],
 ) -> Image.Image:
-    trace, goal, both = episode.trace, intended_far_end(drawn), places(drawn)
+    trace, goal, both = episode.trace, intended_far_end(drawn), ball_and_target(drawn)
     scene.pose(float(trace.human_end[frame]), float(trace.robot_end[frame]))
     if goal is not None:
         scene.intend(float(trace.target[frame]), float(trace.added[goal.name][frame]))

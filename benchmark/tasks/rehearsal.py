@@ -112,7 +112,7 @@ def refine(lift: Lift, seed: int, episode: Episode) -> Episode:
         The one to begin with.
     """
     frames = lift.frames_per_step
-    best, path = episode, commanded(episode.trace, frames)
+    best, path = episode, frame_commands(episode.trace, frames)
     times = np.arange(len(path))
     for size in BUMPS:
         for centre in range(0, len(path), BUMP_SPACING):
@@ -126,7 +126,7 @@ def refine(lift: Lift, seed: int, episode: Episode) -> Episode:
     return best
 
 
-def commanded(trace: Trace, frames: int) -> NDArray[np.float64]:
+def frame_commands(trace: Trace, frames: int) -> NDArray[np.float64]:
     """Return the hand's command in each frame of a trace [m], as its actions were carried out.
 
     Parameters
@@ -153,7 +153,7 @@ def raised(trace: Trace, missed: NDArray[np.float64], frames: int) -> NDArray[np
     frames
         Frames in a control period.
     """
-    return commanded(trace, frames) + _earlier(missed, round(ARM_LAG / FRAME))
+    return frame_commands(trace, frames) + _earlier(missed, round(ARM_LAG / FRAME))
 
 
 def _earlier(series: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
