@@ -33,7 +33,8 @@ class PoseFilterParameters:
     patience: float = 0.05
     """Distance of the far end from its intended height [m] from which on a person slows down."""
     moves: float = 0.003
-    """Movement of the near end in a step [m] that is none of a person who waits."""
+    """Movement of the near end in a step [m] that is as likely of a person who waits as of one who
+    goes on."""
     haste: float = 0.1
     """Probability that a person moves on although the far end is more than twice as far off."""
 
@@ -55,7 +56,7 @@ class PoseFilter:
     probability, as in an interacting multiple model (H. A. P. Blom, Y. Bar-Shalom, IEEE
     Transactions on Automatic Control 33, 1988), and g never does.
 
-    A person waits for a far end that is not where it should be: whether the near end moves tells
+    A person waits for a far end that is not where it should be: how much the near end moves tells
     how likely each f is, given where the far end has been.
 
     The wrists' pitch follows from statics of the table, with the measured force F beyond the own
@@ -113,10 +114,15 @@ class PoseFilter:
         self._weight = weight / weight.sum()
 
     def _waiting(self, moved: float) -> NDArray[np.float64]:
-        """Return the likelihood of a movement of the near end [m], or of none."""
+        """Return the likelihood of a movement of the near end [m].
+
+        It passes without a step from that of no movement to that of a clear one: a threshold would
+        turn small differences of the movement into other decisions.
+        """
         away = np.abs(self._far - self._mean)
         goes = np.minimum(np.maximum(2.0 - away / self._p.patience, self._p.haste), 1.0)
-        return goes if moved > self._p.moves else 1.0 - goes / 2
+        clear = moved / (moved + self._p.moves)
+        return clear * goes + (1.0 - clear) * (1.0 - goes / 2)
 
     def _mix(self) -> None:
         """Let the ratio change, for each share of the wrists by itself."""

@@ -14,11 +14,10 @@ from ...agents.humans.agree import Hurdle, HurdlePlan, agreeing_manner
 from ...agents.humans.agree.negotiator import LIFTED, RESTING
 from ...agents.humans.agree.precedence import EARLY, NEEDED
 from ..episode.scenario import Scenario
-from ..episode.seat import body_parameters
 from ..episode.seeding import derive_seed
 from ..tasks.agree.task import Agree
-from .body import Body, bodies
-from .haptic_lifts import Sensed, common_size, draw_sensed, joined, lengthened
+from .body import Body
+from .haptic_lifts import Sensed, bodies_in_touch, common_size, draw_sensed, joined, lengthened
 
 Array = NDArray[np.float64]
 
@@ -197,7 +196,7 @@ def stack_agree(drawn: Sequence[DrawnAgree]) -> AgreeLifts:
         human=obstacle([lift.human for lift in drawn]),
         robot=obstacle([lift.robot for lift in drawn]),
         agreeing=jnp.asarray([lift.agreeing for lift in drawn]).T,
-        body=bodies([body_parameters(person) for person in people]),
+        body=bodies_in_touch(people),
         patience=column([manner.patience for manner in manners]),
         trust=column([manner.trust for manner in manners]),
         stiffness=column([manner.stiffness for manner in manners]),

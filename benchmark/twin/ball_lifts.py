@@ -13,12 +13,19 @@ from ...agents.errors import InputError
 from ...agents.humans.ball import BallPlan, steering_manner
 from ..episode.lift import MOCAP_NOISE
 from ..episode.scenario import Scenario
-from ..episode.seat import body_parameters
 from ..episode.seeding import derive_seed
-from ..tasks.ball.task import BALL, FINER, BallSteering
+from ..tasks.ball.task import BALL, BallSteering
 from ..world.world import HISTORY_FRAMES
-from .body import Body, bodies
-from .haptic_lifts import Sensed, common_size, draw_sensed, joined, lengthened, sampled_frames
+from .body import Body
+from .haptic_lifts import (
+    Sensed,
+    bodies_in_touch,
+    common_size,
+    draw_sensed,
+    joined,
+    lengthened,
+    sampled_frames,
+)
 
 Array = NDArray[np.float64]
 
@@ -140,6 +147,6 @@ def stack_ball(drawn: Sequence[DrawnBall]) -> BallLifts:
         latency=jnp.asarray([lift.scenario.latency_frames for lift in drawn]),
         steps=jnp.asarray(steps),
         shown=jnp.asarray([lift.shown for lift in drawn], jnp.float32),
-        body=bodies([body_parameters(person) for person in people], FINER.step),
+        body=bodies_in_touch(people),
         manner=Manner(*map(manner, Manner._fields)),
     )

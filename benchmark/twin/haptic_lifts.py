@@ -11,13 +11,15 @@ from numpy.typing import NDArray
 
 from ...agents.agent import FRAME
 from ...agents.errors import InputError
-from ...agents.humans import ScriptedHuman
+from ...agents.humans import ScriptedHuman, Subject
 from ...agents.humans.scripted import LEAK
 from ..episode.lift import MOCAP_NOISE
 from ..episode.scenario import Scenario
+from ..episode.seat import body_parameters
 from ..episode.seeding import derive_seed
-from ..tasks.haptic import FORCE_NOISE, TORQUE_NOISE
+from ..tasks.haptic import FINER, FORCE_NOISE, TORQUE_NOISE
 from ..world.world import HISTORY_FRAMES
+from .body import Body, bodies
 from .lifts import hand_references
 
 Array = NDArray[np.float64]
@@ -107,3 +109,8 @@ def common_size(sizes: Sequence[int]) -> int:
     if len(set(sizes)) != 1:
         raise InputError(f"the twin needs lifts of one control period, got {len(set(sizes))}")
     return sizes[0]
+
+
+def bodies_in_touch(people: Sequence[Subject]) -> Body:
+    """Return the bodies of people as arrays, for the physics steps of the tasks with touch."""
+    return bodies([body_parameters(person) for person in people], FINER.step)

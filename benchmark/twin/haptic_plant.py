@@ -6,15 +6,18 @@ import jax
 import jax.numpy as jnp
 
 from ...agents.agent import FRAME
-from ..tasks.haptic import SENSED_FRAMES
+from ..tasks.haptic import FINER, SENSED_FRAMES
 from ..world.haptic_world import FAR_GRIP_DAMPING, FAR_GRIP_STIFFNESS
 from ..world.table import GRIP_DAMPING, GRIP_STIFFNESS, TABLE_INERTIA, WEIGHT_SHARE
-from .arm import ArmVariation
+from .arm import ArmVariation, followed, prepared
 from .body import DEPTH, Body, activated, delayed, pushed, wanted_shift
 from .lifts import chunk
-from .plant import Moving, Plant, after_frame, plant_at_rest
+from .plant import Moving, Plant, after_physics_step, plant_at_rest
+from .rolling import Rolling, pressed_by, rolled, shared_load
 
-_IMPLICIT: Final = 1 + FRAME * (GRIP_DAMPING + FAR_GRIP_DAMPING) / TABLE_INERTIA / 2
+_STEPS: Final = FINER.steps_per_frame
+_STEP: Final = FINER.step
+_IMPLICIT: Final = 1 + _STEP * (GRIP_DAMPING + FAR_GRIP_DAMPING) / TABLE_INERTIA / 2
 
 
 class HapticPlant(NamedTuple):
@@ -86,13 +89,18 @@ def shifts_of_reflex(state: HapticPlant, body: Body, count: int) -> jax.Array:
     )
 
 
+Held = tuple[Moving, jax.Array, Rolling | None]
+"""How lifts move, the pitch that the wrists turn towards, and the balls, if there are any."""
+
+
 def advance_haptic_plant(
     state: HapticPlant,
     body: Body,
     meant: Meant,
     commands: jax.Array,
     variation: ArmVariation | None = None,
-) -> HapticPlant:
+    ball: Rolling | None = None,
+) -> tuple[HapticPlant, Rolling | None, jax.Array | None]:
     """Return the lifts some frames later, at most :data:`.CHUNK`; see :class:`.HapticWorld`.
 
     Parameters
@@ -100,36 +108,65 @@ def advance_haptic_plant(
     state
         The lifts.
     body
-        The people.
+        The people, for the steps of :data:`.FINER`.
     meant
         Their intention.
     commands
         (frames, n) commanded height of the far hands at the end of each frame [m].
     variation
         Arms that differ from the benchmark's; none: its own.
+    ball
+        The balls on the tables, if there are any.
+
+    Returns
+    -------
+    The lifts, the balls, and their places (frames, n) [m].
     """
     shifts = shifts_of_reflex(state, body, len(commands))
 
     def frame(
-        held: tuple[Moving, jax.Array], due: tuple[Meant, jax.Array, jax.Array]
-    ) -> tuple[tuple[Moving, jax.Array], Felt]:
-        (now, wrist), (wanted, shift, command) = held, due
+        held: Held, due: tuple[Meant, jax.Array, jax.Array]
+    ) -> tuple[Held, tuple[Felt, jax.Array | None]]:
+        (now, wrist, ball), (wanted, shift, command) = held, due
         reflex = activated(now.reflex, shift)
+        first, last = now.reference, wanted.reference + reflex
         turn = (wanted.wrist - wrist) / FRAME
-        own = GRIP_STIFFNESS * (now.pitch - wrist) + GRIP_DAMPING * (now.pitch_rate - turn)
-        far = FAR_GRIP_STIFFNESS * now.pitch + FAR_GRIP_DAMPING * now.pitch_rate
-        grip = (own + far) / _IMPLICIT
-        after, force = after_frame(now, wanted.reference + reflex, body, command, grip, variation)
-        after = after._replace(reflex=reflex)
-        difference = after.far_height - after.height
-        touch = jnp.stack((after.far_force - WEIGHT_SHARE, -far / _IMPLICIT))
-        felt = Felt(after.height, difference, force, difference - wanted.difference, touch)
-        return (after, wanted.wrist), felt
+        load, target = prepared(now.arm, command, now.far_force, variation)
 
-    (moving, wrist), felt = jax.lax.scan(
-        frame, (state.plant.moving, state.wrist), (meant, shifts, commands)
+        def physics_step(held: Held, begin: jax.Array) -> tuple[Held, tuple[jax.Array, ...]]:
+            now, _, ball = held
+            meant_now = wrist + (wanted.wrist - wrist) * begin
+            own = GRIP_STIFFNESS * (now.pitch - meant_now) + GRIP_DAMPING * (now.pitch_rate - turn)
+            far = (FAR_GRIP_STIFFNESS * now.pitch + FAR_GRIP_DAMPING * now.pitch_rate) / _IMPLICIT
+            after, hands = after_physics_step(
+                now,
+                first + (last - first) * (begin + 1 / _STEPS),
+                body,
+                followed(now.arm, target, begin, _STEP, variation),
+                own / _IMPLICIT + far,
+                pressed=0.0 if ball is None else pressed_by(ball, now.pitch),
+                step=_STEP,
+            )
+            ball = None if ball is None else rolled(ball, now, after)
+            return (after, wrist, ball), (hands, after.far_force, -far)
+
+        (now, _, ball), found = jax.lax.scan(
+            physics_step, (now, wrist, ball), jnp.arange(_STEPS) / _STEPS
+        )
+        force, far_force, torque = (each.mean(axis=0) for each in found)
+        if ball is not None:
+            far_force = far_force + shared_load(now.pitch)
+        arm = now.arm._replace(target=target, load=load)
+        now = now._replace(far_force=far_force, reflex=reflex, arm=arm)
+        difference = now.far_height - now.height
+        touch = jnp.stack((far_force - WEIGHT_SHARE, torque))
+        felt = Felt(now.height, difference, force, difference - wanted.difference, touch)
+        return (now, wanted.wrist, ball), (felt, None if ball is None else ball.place)
+
+    (moving, wrist, ball), (felt, places) = jax.lax.scan(
+        frame, (state.plant.moving, state.wrist, ball), (meant, shifts, commands)
     )
-    return remembered(state, moving, wrist, felt)
+    return remembered(state, moving, wrist, felt), ball, places
 
 
 def advance_haptic_step(
@@ -151,7 +188,7 @@ def advance_haptic_step(
     for first in range(0, size, many):
         frames = slice(first, first + many)
         some = Meant(*(each[frames] for each in meant))
-        state = advance_haptic_plant(state, body, some, commands[frames], variation)
+        state, _, _ = advance_haptic_plant(state, body, some, commands[frames], variation)
         heights = state.plant.heights[:many][::-1]
         near.append(heights)
         far.append(heights + state.plant.differences[:many][::-1])

@@ -12,11 +12,10 @@ from ...agents.agent import FRAME
 from ...agents.errors import InputError
 from ...agents.humans.intent import PosePlan, leading_manner
 from ..episode.scenario import Scenario
-from ..episode.seat import body_parameters
 from ..episode.seeding import derive_seed
 from ..tasks.intent.task import Intent
-from .body import Body, bodies
-from .haptic_lifts import Sensed, common_size, draw_sensed, joined, lengthened
+from .body import Body
+from .haptic_lifts import Sensed, bodies_in_touch, common_size, draw_sensed, joined, lengthened
 
 Array = NDArray[np.float64]
 
@@ -108,7 +107,7 @@ def stack_intent(drawn: Sequence[DrawnIntent]) -> IntentLifts:
         noise=joined([lift.sensed.noise for lift in drawn], longest),
         latency=jnp.asarray([lift.scenario.latency_frames for lift in drawn]),
         steps=jnp.asarray(steps),
-        body=bodies([body_parameters(person) for person in people]),
+        body=bodies_in_touch(people),
         wrist=jnp.asarray([manner.wrist for manner in manners], jnp.float32),
         lead=jnp.asarray([manner.lead / FRAME for manner in manners], jnp.float32),
         patience=jnp.asarray([manner.patience for manner in manners], jnp.float32),

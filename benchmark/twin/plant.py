@@ -121,7 +121,8 @@ def advance_plant(
         wanted, shift, command = due
         reflex = activated(now.reflex, shift)
         grip = _PITCH_GAIN * now.pitch + _RATE_GAIN * now.pitch_rate
-        after, force = after_frame(now, wanted + reflex, body, command, grip, variation)
+        arm = drive(now.arm, command, now.far_force, variation)
+        after, force = after_physics_step(now, wanted + reflex, body, arm, grip)
         after = after._replace(reflex=reflex)
         return after, (after.height, after.far_height - after.height, force)
 
@@ -136,30 +137,6 @@ def advance_plant(
     )
 
 
-def after_frame(
-    now: Moving,
-    reference: jax.Array,
-    body: Body,
-    command: jax.Array,
-    grip: jax.Array,
-    variation: ArmVariation | None,
-) -> tuple[Moving, jax.Array]:
-    """Return the lifts a frame later, and the force of the person's hands beyond the weight [N].
-
-    Parameters
-    ----------
-    now, body, variation
-        As of :func:`advance_plant`.
-    reference, command
-        (n,) what the person's arms pull towards, with the reflex, and the commanded height of the
-        far hands at the end of the frame [m].
-    grip
-        (n,) torque with which the grips resist the pitch [Nm].
-    """
-    arm = drive(now.arm, command, now.far_force, variation)
-    return after_physics_step(now, reference, body, arm, grip)
-
-
 def after_physics_step(
     now: Moving,
     reference: jax.Array,
@@ -170,12 +147,16 @@ def after_physics_step(
     pressed: jax.Array | float = 0.0,
     step: float = FRAME,
 ) -> tuple[Moving, jax.Array]:
-    """Return the lifts a physics step later, and the force of the person's hands as `after_frame`.
+    """Return the lifts a physics step later, and the hands' force beyond the weight [N].
 
     Parameters
     ----------
-    now, body, grip
-        As of :func:`after_frame`; the body is one for steps of this duration.
+    now
+        The lifts.
+    body
+        The people, for steps of this duration.
+    grip
+        (n,) torque with which the grips resist the pitch [Nm].
     reference
         (n,) what the person's arms pull towards at the end of the step, with the reflex [m].
     arm

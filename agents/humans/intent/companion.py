@@ -19,8 +19,9 @@ VELOCITY_MEMORY: Final = 0.1
 SUPPORT: Final = 1.717
 """Half of the table's weight [N], which the hands feel when nothing else pulls."""
 
-FEELING: Final = PoseFilterParameters(pitch_noise=0.03, path_noise=0.25)
-"""A person's touch and sight are coarser than a robot's sensors: chosen."""
+FEELING: Final = PoseFilterParameters(switch=0.015, pitch_noise=0.05, path_noise=0.1, haste=0.5)
+"""A person's touch is coarser than a robot's sensors, and a person changes an opinion of the
+partner more slowly: chosen, such that a lift does not depend on the step of the physics."""
 
 
 class Companion:

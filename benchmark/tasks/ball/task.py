@@ -20,9 +20,9 @@ from ...episode.task import Bounds, Playing
 from ...episode.trace import Trace
 from ...suites.catalogue import make_scenario
 from ...suites.suite import Suite
-from ...world import Ball, BodyParameters, FarEnd, HapticWorld, Physics
+from ...world import Ball, BodyParameters, FarEnd, HapticWorld
 from ...world.table import GRAVITY, TABLE_LENGTH, WEIGHT_SHARE
-from ..haptic import Haptic
+from ..haptic import FINER, Haptic
 from .lift import BallLift
 from .scores import ball_settling_ms, missed_rmse_mm, velocity_peaks
 from .table import BALL_METRICS
@@ -31,10 +31,6 @@ BEHAVIOURS: Final = ("ball_smooth", "ball_pause", "ball_smooth_shared", "ball_pa
 
 BALL: Final = Ball()
 """The ball of the suite."""
-
-FINER: Final = Physics(step=0.0025)
-"""The physics of the task. A person and a robot who steer one ball amplify small differences: the
-usual step is too coarse (``colift bench --convergence --suite ball-v1``)."""
 
 FELL: Final = "the ball rolled off the table"
 """Why a lift without the ball ends."""
