@@ -9,7 +9,7 @@ import pytest
 from colift.benchmark.bundle import read_bundle
 from playwright.async_api import Page, async_playwright, expect
 
-from ..browser import chromium_path
+from ..browser import OPTIONS, chromium_path
 from .browsing import WAIT_MS, Hand
 
 EVERY_S = 0.004
@@ -45,7 +45,7 @@ async def lifted(url: str) -> Hand:
     """Lift once, and look at what the page shows afterwards; return what it has sent."""
     async with async_playwright() as playwright:
         browser = await playwright.chromium.launch(
-            executable_path=chromium_path(playwright.chromium), args=["--no-sandbox"]
+            executable_path=chromium_path(playwright.chromium), args=list(OPTIONS)
         )
         page = await browser.new_page(viewport={"width": 1280, "height": 800})
         hand = Hand(page)
