@@ -23,7 +23,7 @@ PATIENT = Limits(
 )
 """Small, but with all the time that a busy machine may need."""
 
-SPARING = replace(PATIENT, cpu_seconds=3, file_size=100 * MIB)
+SPARING = replace(PATIENT, cpu_seconds=1, file_size=100 * MIB)
 """For policies that a budget of all their processes or files must stop."""
 
 HURRIED = replace(PATIENT, start_seconds=2.0, step_periods=3.0, pace_periods=0.2)

@@ -67,7 +67,7 @@ RESOURCES = [
                 while True: pass
         while True: time.sleep(1)
         """,
-        reason=r"used more than 3 s of processor time",
+        reason=r"used more than 1 s of processor time",
         sparing=True,
     ),
     Hostile(
