@@ -10,11 +10,12 @@ from colift.benchmark.suites.suite import make_suite
 
 
 @pytest.fixture(scope="session")
-def bundle_folder(tmp_path_factory) -> Path:
-    run = run_suite(PolicySpec(text="blend"), make_suite("quick-v1"))
-    folder = tmp_path_factory.mktemp("entry") / "bundle"
-    write_bundle(folder, run, results(run, {}).plain())
-    return folder
+def bundle_folder(once) -> Path:
+    def make(place: Path) -> None:
+        run = run_suite(PolicySpec(text="blend"), make_suite("quick-v1"))
+        write_bundle(place / "bundle", run, results(run, {}).plain())
+
+    return once("replayed", make) / "bundle"
 
 
 @pytest.fixture(scope="session")
