@@ -12,6 +12,7 @@ from ..agents.errors import InputError
 from ..benchmark.admission.admission import Admission, admission_of, players
 from ..benchmark.admission.criteria import Criterion
 from ..benchmark.bounds.bounds import suite_bounds
+from ..benchmark.results.baselines import shipped_bounds
 from ..benchmark.training.apg_settings import pair_settings
 from ..benchmark.twin.libraries import require_jax
 from .completion import suites
@@ -41,7 +42,8 @@ def admit_suite(
     episodes = chosen_suite(suite, None, None, None)
     played = _cross_play(episodes.scenarios[0].task.name, pairs) if pairs else None
     names = players(episodes.scenarios[0].task.name)
-    total = (2 + len(suite_bounds(episodes)) + len(names)) * episodes.size
+    bounds = 0 if shipped_bounds(episodes) else len(suite_bounds(episodes))
+    total = (2 + bounds + len(names)) * episodes.size
     with (
         reported_interrupt("a suite is tested with all policies or not at all"),
         workers("admit", total, jobs) as (pool, progress),

@@ -13,15 +13,20 @@ from ...agents.loading.loading import PolicySpec
 from ...agents.registry import own_policies, policies_by_task
 from ..bounds.bounds import suite_bounds
 from ..bounds.oracle import ORACLE
+from ..comparison.playing import play_bounds
 from ..execution.runner import Run, run_suite
-from ..results.baselines import HUMAN_HUMAN_LABEL, human_human_run
+from ..results.baselines import (
+    HUMAN_HUMAN_LABEL,
+    Baseline,
+    human_human_run,
+    shipped_bounds,
+)
 from ..suites.suite import Suite
 from .criteria import (
     Criterion,
     conventions,
     interaction,
     like_people,
-    mean_mm,
     no_free_ride,
     person_means_mm,
     rank_changes,
@@ -71,7 +76,7 @@ def admission_of(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> Admission:
-    """Test a suite.
+    """Test a suite; bounds that are shipped are not played again.
 
     Parameters
     ----------
@@ -96,21 +101,22 @@ def admission_of(
     limits = suite_bounds(suite)
     if ORACLE not in limits:
         raise InputError(f"{suite.name} has lifts of a task without an oracle")
-    bounds = {
-        name: bound(suite, executor=executor, progress=progress) for name, bound in limits.items()
-    }
+    bounds = shipped_bounds(suite) or play_bounds(
+        limits, suite, executor=executor, progress=progress
+    )
     human_human = human_human_run(suite, executor=executor, progress=progress)
     hold = played(HOLD)
     runs = {name: played(name) for name in names}
     published = PUBLISHED.get(suite.scenarios[0].task.name)
-    everybody = {**bounds, HUMAN_HUMAN_LABEL: human_human, HOLD: hold, **runs}
+    playing = {HUMAN_HUMAN_LABEL: human_human, HOLD: hold, **runs}
+    everybody = bounds | {name: Baseline.of(run) for name, run in playing.items()}
     return Admission(
         suite=suite.name,
         digest=suite.digest,
-        means={name: mean_mm(run) for name, run in everybody.items()},
-        by_person={name: person_means_mm(run) for name, run in everybody.items()},
+        means={name: each.mean for name, each in everybody.items()},
+        by_person={name: person_means_mm(each) for name, each in everybody.items()},
         criteria=(
-            room(bounds[ORACLE], {name: run for name, run in runs.items() if name in KEEPERS}),
+            room(bounds[ORACLE].mean, {name: run for name, run in runs.items() if name in KEEPERS}),
             interaction(
                 {name: run for name, run in runs.items() if name not in TRAINED},
                 {name: run for name, run in runs.items() if name in TRAINED},

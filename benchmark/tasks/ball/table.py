@@ -59,7 +59,7 @@ BALL_METRICS: Final = metric_table(
         Metric(
             name="fallen",
             symbol="fallen",
-            label="Balls lost",
+            label="Share of balls lost",
             missing="never",
             shown="board",
             meaning="1 if the ball rolled off the table, which ends the lift; its mean is the "
