@@ -75,6 +75,8 @@ def _own_leaks(request):
     """Charge what is left open, and the memory of the process, to the module that took it."""
     before = peak_memory()
     yield
+    if "jax" in sys.modules:
+        sys.modules["jax"].clear_caches()
     gc.collect()
     give_back()
     peak = peak_memory()
@@ -92,7 +94,7 @@ def _no_jax(request):
 
 @pytest.fixture
 def in_own_process(once):
-    """Run the tests of a module ``jax_*.py`` in a process of its own; skip if JAX is missing.
+    """Run the tests of modules ``jax_*.py`` in a process of their own; skip if JAX is missing.
 
     It computes on one thread, as the commands do. Compiling takes longer than computing there: it
     is quick rather than good, and is done once.
@@ -107,13 +109,13 @@ def in_own_process(once):
         "JAX_PERSISTENT_CACHE_MIN_ENTRY_SIZE_BYTES": "-1",
     }
 
-    def run(module: Path):
+    def run(*modules: Path):
         environment = {
             name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")
         } | compiling
         command = [sys.executable, "-m", "pytest", "-n", "0", "-q", "-p", "no:cacheprovider"]
         done = subprocess.run(
-            [*command, str(module)], env=environment, capture_output=True, text=True
+            [*command, *map(str, modules)], env=environment, capture_output=True, text=True
         )
         assert done.returncode == 0, done.stdout[-10_000:] + done.stderr[-2000:]
 

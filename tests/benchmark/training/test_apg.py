@@ -7,9 +7,9 @@ from colift.agents.errors import InputError
 from colift.benchmark.training.apg_settings import ApgSettings
 
 
-@pytest.mark.parametrize("module", ["jax_apg.py", "jax_touch.py", "jax_pairs.py"])
-def test_training(in_own_process, module):
-    in_own_process(Path(__file__).with_name(module))
+def test_training(in_own_process):
+    modules = ("jax_apg.py", "jax_touch.py", "jax_pairs.py")
+    in_own_process(*map(Path(__file__).with_name, modules))
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,9 @@ from colift.agents.errors import InputError
 from colift.benchmark.training.ppo_settings import CoPlaySettings, SelfPlaySettings
 
 
-@pytest.mark.parametrize("module", ["jax_self_play.py", "jax_co_play.py"])
-def test_learned_people(in_own_process, module):
-    in_own_process(Path(__file__).with_name(module))
+def test_learned_people(in_own_process):
+    modules = ("jax_self_play.py", "jax_co_play.py")
+    in_own_process(*map(Path(__file__).with_name, modules))
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,7 @@
 """The twin of two hurdles: the lifts of the engine, and the beliefs of its people."""
 
+from functools import cache
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -51,6 +53,12 @@ def in_engine(make):
     return np.array([each["rmse_mm"] for each in engine_scores(make, LIFTS)])
 
 
+@cache
+def played(policy):
+    """Return the errors in the engine: two tests have the same policy."""
+    return in_engine(lambda: Played(policy))
+
+
 def in_twin(policy, lifts):
     return np.asarray(touch_rmse_mm(AGREE_STEPS, policy, jnp.zeros(lifts.size), lifts))
 
@@ -62,7 +70,7 @@ def drawn():
 
 @pytest.mark.parametrize("policy", [leading(0.6), yielding], ids=["leading", "yielding"])
 def test_each_lift_with_hurdles_is_that_of_the_engine(drawn, policy):
-    engine, twin = in_engine(lambda: Played(policy)), in_twin(policy, drawn)
+    engine, twin = played(policy), in_twin(policy, drawn)
     assert abs(twin.mean() / engine.mean() - 1) < 0.003
     # In lifts of 2 mm, rounding to single precision alone makes a difference of 0.04 mm.
     assert (np.abs(twin - engine) / np.maximum(engine, 5.0)).max() < 0.015
@@ -100,7 +108,7 @@ def test_the_gradient_is_the_slope_where_nobody_decides_otherwise(drawn):
 
 
 def test_people_who_go_slower_are_found(drawn, monkeypatch):
-    engine = in_engine(lambda: Played(yielding))
+    engine = played(yielding)
     monkeypatch.setattr(agree_people, "PACE", 7.0)
     assert np.abs(in_twin(yielding, drawn) / engine - 1).max() > 0.015
 

@@ -1,5 +1,7 @@
 """The twin of the ball: the lifts of the engine, with policies that steer and that do not."""
 
+from functools import cache
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -64,6 +66,12 @@ def in_engine(make, lifts=FEW):
     return np.array([(each["rmse_mm"], each["fallen"]) for each in scores]).T
 
 
+@cache
+def played(policy):
+    """Return the same of a policy: two tests have the same one."""
+    return in_engine(lambda: Played(policy))
+
+
 def in_twin(policy, lifts):
     return np.asarray(touch_rmse_mm(BALL_STEPS, policy, jnp.zeros(lifts.size), lifts))
 
@@ -75,7 +83,7 @@ def drawn():
 
 @pytest.mark.parametrize("policy", [steering(0.15), yielding], ids=["steering", "yielding"])
 def test_each_lift_with_a_ball_is_that_of_the_engine(drawn, policy):
-    (engine, fallen), twin = in_engine(lambda: Played(policy)), in_twin(policy, drawn)
+    (engine, fallen), twin = played(policy), in_twin(policy, drawn)
     assert not fallen.any()
     assert abs(twin.mean() / engine.mean() - 1) < 0.003
     assert np.abs(twin / engine - 1).max() < 0.015
@@ -88,7 +96,7 @@ def test_an_agent_that_amplifies_differences_has_the_same_mean():
 
 
 def test_a_ball_that_falls_counts_as_in_the_engine(drawn):
-    (engine, fallen), twin = in_engine(lambda: Played(idle)), in_twin(idle, drawn)
+    (engine, fallen), twin = played(idle), in_twin(idle, drawn)
     assert fallen.all()
     assert np.abs(twin / engine - 1).max() < 0.015
 
@@ -109,7 +117,7 @@ def test_the_gradient_is_the_slope_and_finite_where_the_ball_falls(drawn):
 
 
 def test_people_who_steer_otherwise_are_found(drawn, monkeypatch):
-    engine, _ = in_engine(lambda: Played(yielding))
+    engine, _ = played(yielding)
     monkeypatch.setattr(ball_people, "HAND_TIME", 0.3)
     assert np.abs(in_twin(yielding, drawn) / engine - 1).max() > 0.015
 

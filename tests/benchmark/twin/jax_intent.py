@@ -1,5 +1,7 @@
 """The twin of intended poses: the lifts of the engine, with policies that touch and that do not."""
 
+from functools import cache
+
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -33,7 +35,9 @@ def level(memory, seen):
     return near, 2 * near - memory - seen[Seen.HAND_COMMAND]
 
 
+@cache
 def in_engine(policy):
+    """Return the errors in the engine: two tests have the same policy."""
     return np.array([each["rmse_mm"] for each in engine_scores(lambda: Played(policy), LIFTS)])
 
 

@@ -8,12 +8,8 @@ from colift.benchmark.twin import libraries
 HERE = Path(__file__).parent
 
 
-@pytest.mark.parametrize(
-    "module",
-    ["jax_agree.py", "jax_ball.py", "jax_deviation.py", "jax_intent.py", "jax_lifts.py"],
-)
-def test_the_twin(in_own_process, module):
-    in_own_process(HERE / module)
+def test_the_twin(in_own_process):
+    in_own_process(*sorted(HERE.glob("jax_*.py")))
 
 
 def test_a_missing_library_names_the_extra(monkeypatch):
