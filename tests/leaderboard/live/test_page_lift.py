@@ -5,6 +5,7 @@ import itertools
 import pytest
 from playwright.sync_api import expect
 
+from ..browser import browser
 from .browsing import (
     WAIT_MS,
     Hand,
@@ -18,6 +19,13 @@ from .browsing import (
 from .network import Network
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    """A browser that locks the mouse."""
+    with browser(locks=True) as opened:
+        yield opened
 
 
 def begin(page):

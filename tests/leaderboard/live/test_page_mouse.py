@@ -45,7 +45,7 @@ async def lifted(url: str) -> Hand:
     """Lift once, and look at what the page shows afterwards; return what it has sent."""
     async with async_playwright() as playwright:
         browser = await playwright.chromium.launch(
-            executable_path=chromium_path(playwright.chromium), args=list(OPTIONS)
+            executable_path=chromium_path(playwright.chromium, locks=True), args=list(OPTIONS)
         )
         page = await browser.new_page(viewport={"width": 1280, "height": 800})
         hand = Hand(page)
