@@ -21,7 +21,7 @@ from colift.benchmark.world.table import TABLE_LENGTH
 
 from .played import Played, agents_in_twin, engine_scores
 
-PEOPLE = range(210_000, 210_003)
+PEOPLE = range(210_000, 210_002)
 """Seeds of people and lifts outside all suites."""
 LIFTS = [
     (make_scenario(behaviour, f"draw-{seed}", task="agree"), seed)

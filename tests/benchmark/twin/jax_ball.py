@@ -20,7 +20,7 @@ from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH
 
 from .played import Played, agents_in_twin, engine_scores
 
-PEOPLE = range(210_000, 210_006)
+PEOPLE = range(210_000, 210_004)
 """Seeds of people and lifts outside all suites."""
 
 
