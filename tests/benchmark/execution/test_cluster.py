@@ -28,7 +28,7 @@ from colift.benchmark.suites.suite import make_suite
 
 distributed = pytest.importorskip("distributed", reason="needs Dask: uv sync --all-extras")
 
-SUITE = make_suite("quick-v1").with_seeds(0, 2)
+SUITE = make_suite("quick-v1").with_seeds(0, 1)
 LONGER = make_suite("quick-v1").with_seeds(0, 3)
 COPY = PolicySpec(text="copy")
 SANDBOXED = SandboxedPolicy(name="copy", place="colift.agents.policies.copy:Copy")
