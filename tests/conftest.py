@@ -26,6 +26,24 @@ from colift.benchmark.profiling.loopback import loopback_cluster
 MOST_MEMORY = 1 << 30
 """Memory that no process of the tests may reach [bytes]."""
 
+LONGEST = (
+    "benchmark/twin/test_twin.py",
+    "leaderboard/queue/test_worker_processes.py",
+    "agents/sandbox/test_hostile.py",
+    "benchmark/training/test_apg.py",
+    "benchmark/execution/test_cluster.py",
+    "cli/test_nao.py",
+    "benchmark/training/test_self_play.py",
+    "benchmark/execution/test_kernels.py",
+    "leaderboard/pages/test_accessibility.py",
+    "cli/test_submit.py",
+    "leaderboard/backup/test_backup.py",
+    "cli/test_serve.py",
+    "leaderboard/service/test_kills.py",
+    "test_packaging.py",
+)
+"""Files that take the longest, and the longest of those that would be the last."""
+
 # The tests start hundreds of processes: each would compile all it imports if nobody kept it.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
@@ -44,6 +62,13 @@ def pytest_ignore_collect(collection_path, config):
     """Leave out what has no smoke test when only these are asked for: importing it takes longer."""
     asked = config.getoption("markexpr") == "smoke" and collection_path.name.startswith("test_")
     return True if asked and "mark.smoke" not in collection_path.read_text() else None
+
+
+def pytest_collection_modifyitems(items):
+    """Hand out the longest files first: at the end no process waits for another's long one."""
+    here = Path(__file__).parent
+    places = {here / name: place for place, name in enumerate(LONGEST)}
+    items.sort(key=lambda item: places.get(item.path, len(LONGEST)))
 
 
 @pytest.hookimpl(wrapper=True)
