@@ -34,7 +34,8 @@ def running(
 
 @contextmanager
 def opened(folder: Path) -> Iterator[Board]:
-    board = Board.open(folder, "quick-v1")
+    """Yield a board; a new one is of quick-v1."""
+    board = Board.open(folder, None if folder.exists() else "quick-v1")
     try:
         yield board
     finally:

@@ -14,16 +14,35 @@ from pathlib import Path
 
 import httpx
 import pytest
+from colift.leaderboard.board.board import Board
 from colift.leaderboard.queue import Queue
 from colift.leaderboard.records.job import HELD
 from colift.leaderboard.views.job import STAGES
 
+from ..tiny import ENTRY
+
+ROOT = Path(__file__).parents[3]
 KILLS = int(os.environ.get("COLIFT_TEST_KILLS", "2"))
 SUBMISSIONS = 1 + KILLS // 5
 
 COLIFT = (sys.executable, "-m", "colift.cli")
 TIMES = ("step_ms_p50", "step_ms_p99", "real_time")
 """What no two runs have in common."""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory, tiny_suite):
+    """A board of two lifts, whose suite the processes of the service find as an installed one."""
+    place = tmp_path_factory.mktemp("kills")
+    told = place / "installed" / "tiny-1.dist-info"
+    told.mkdir(parents=True)
+    (told / "METADATA").write_text("Metadata-Version: 2.1\nName: tiny\nVersion: 1\n")
+    (told / "entry_points.txt").write_text(f"[{ENTRY.group}]\n{ENTRY.name} = {ENTRY.value}\n")
+    with pytest.MonkeyPatch.context() as patched:
+        for path in (ROOT, told.parent):
+            patched.setenv("PYTHONPATH", str(path), prepend=os.pathsep)
+        Board.open(place / "board", "tiny").close()
+        yield place / "board"
 
 
 def children(process):
