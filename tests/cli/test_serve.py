@@ -128,24 +128,22 @@ def test_what_an_upload_has_left_when_the_service_is_killed_is_gone_after_the_ne
     assert list((folder / "submissions").iterdir()) == []
 
 
-def test_a_port_that_is_taken_is_named(serve):
+def test_a_port_that_is_taken_is_named(colift, folder):
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
-        process, line = serve("--port", str(port), "--workers", "0")
-        _, err = process.communicate(timeout=60)
-    assert (process.returncode, line) == (2, "")
-    assert f"cannot listen on 127.0.0.1:{port}: port {port} is taken" in err
-    assert "--port" in err
+        done = colift("serve", "--board", folder, "--port", port, "--workers", "0")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert f"cannot listen on 127.0.0.1:{port}: port {port} is taken" in done.stderr
+    assert "--port" in done.stderr
 
 
-def test_an_address_that_is_not_here_is_named(serve):
-    process, _ = serve("--host", "192.0.2.1", "--workers", "0")
-    _, err = process.communicate(timeout=60)
-    assert process.returncode == 2
-    assert err.startswith(
+def test_an_address_that_is_not_here_is_named(colift, folder):
+    done = colift("serve", "--board", folder, "--host", "192.0.2.1", "--workers", "0")
+    assert done.returncode == 2
+    assert done.stderr.startswith(
         "error: cannot listen on 192.0.2.1:8000: this machine has no such address"
     )
-    assert len(err.splitlines()) == 1
+    assert len(done.stderr.splitlines()) == 1
 
 
 def test_it_serves_a_folder_of_documentation_below_its_root(serve, tmp_path):
@@ -165,11 +163,10 @@ def test_it_links_to_documentation_elsewhere(serve):
     assert httpx.get(f"{url}/docs/").status_code == 404
 
 
-def test_documentation_that_is_not_there_is_named(serve):
-    process, _ = serve("--workers", "0", "--docs", "nowhere")
-    _, err = process.communicate(timeout=60)
-    assert process.returncode == 2
-    assert "got 'nowhere'" in err
+def test_documentation_that_is_not_there_is_named(colift, folder):
+    done = colift("serve", "--board", folder, "--workers", "0", "--docs", "nowhere")
+    assert done.returncode == 2
+    assert "got 'nowhere'" in done.stderr
 
 
 def test_without_its_libraries_it_says_how_to_get_them(folder):
