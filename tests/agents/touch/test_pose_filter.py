@@ -29,10 +29,10 @@ def test_wrists_that_show_all_tell_the_intent(share):
     assert made.height == pytest.approx(share * 0.1, abs=0.03)
 
 
-def test_wrists_that_show_little_leave_it_open():
-    """A quarter shown of a turn is the same as half shown of a pivot."""
-    made = fed(-1.0, 0.25, follows=False)
-    assert made.intents.max() < 0.9
+def test_a_quarter_shown_of_a_turn_is_not_told_from_half_shown_of_a_pivot():
+    turn, pivot = fed(-1.0, 0.25, follows=False), fed(0.0, 0.5, follows=False)
+    assert turn.intents == pytest.approx(pivot.intents, abs=0.01)
+    assert turn.height == pytest.approx(pivot.height, abs=0.005)
 
 
 def test_at_first_every_intent_is_as_likely():
