@@ -48,9 +48,8 @@ def test_the_bounds_stand_in_the_right_order():
 )
 def test_each_task_with_touch_has_a_bound_below_its_policies(behaviours, policy):
     task = policy.partition("_")[0].replace("pose", "intent")
-    people = ("draw-200003", "draw-200004")
-    scenarios = [make_scenario(each, person, task=task) for each in behaviours for person in people]
-    suite = Suite(name="few", scenarios=tuple(scenarios), seeds=(200_000,))
+    scenarios = tuple(make_scenario(each, "draw-200003", task=task) for each in behaviours)
+    suite = Suite(name="few", scenarios=scenarios, seeds=(200_000,))
     paired = play_policies({policy: PolicySpec(text=policy)}, suite, bounds=suite_bounds(suite))
     error = np.mean([each["rmse_mm"] for each in paired.policies[0].scores])
     assert paired.bounds["oracle"].mean < paired.bounds[CAUSAL_BOUND].mean < error
