@@ -13,14 +13,9 @@ from ...agents.loading.loading import PolicySpec
 from ...agents.registry import own_policies, policies_by_task
 from ..bounds.bounds import suite_bounds
 from ..bounds.oracle import ORACLE
-from ..comparison.playing import play_bounds
+from ..comparison.playing import known_bounds
 from ..execution.runner import Run, run_suite
-from ..results.baselines import (
-    HUMAN_HUMAN_LABEL,
-    Baseline,
-    human_human_run,
-    shipped_bounds,
-)
+from ..results.baselines import HUMAN_HUMAN_LABEL, Baseline, human_human_run
 from ..suites.suite import Suite
 from .criteria import (
     Criterion,
@@ -101,9 +96,7 @@ def admission_of(
     limits = suite_bounds(suite)
     if ORACLE not in limits:
         raise InputError(f"{suite.name} has lifts of a task without an oracle")
-    bounds = shipped_bounds(suite) or play_bounds(
-        limits, suite, executor=executor, progress=progress
-    )
+    bounds = known_bounds(limits, suite, executor=executor, progress=progress)
     human_human = human_human_run(suite, executor=executor, progress=progress)
     hold = played(HOLD)
     runs = {name: played(name) for name in names}

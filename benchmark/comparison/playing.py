@@ -69,9 +69,7 @@ def play_policies(
     """
     play = partial(run_suite, executor=executor, progress=progress, channel=channel)
     played = [PolicyResults.of(name, play(spec, suite)) for name, spec in policies.items()]
-    bounding = shipped_bounds(suite)
-    if bounding is None:
-        bounding = play_bounds(bounds or {}, suite, executor=executor, progress=progress)
+    bounding = known_bounds(bounds or {}, suite, executor=executor, progress=progress)
     shipped = shipped_baselines(suite)
     if shipped is None:
         human_human = Baseline.of(human_human_run(suite, executor=executor, progress=progress))
@@ -84,6 +82,20 @@ def play_policies(
         bounds=bounding,
         channel=channel,
     )
+
+
+def known_bounds(
+    bounds: Mapping[str, Bound],
+    suite: Suite,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> dict[str, Baseline]:
+    """Return the bounds that are shipped for a suite or, without these, what is played of each."""
+    shipped = shipped_bounds(suite)
+    if shipped is not None:
+        return shipped
+    return play_bounds(bounds, suite, executor=executor, progress=progress)
 
 
 def play_bounds(

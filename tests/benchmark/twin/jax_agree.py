@@ -63,6 +63,15 @@ def in_twin(policy, lifts):
     return np.asarray(touch_rmse_mm(AGREE_STEPS, policy, jnp.zeros(lifts.size), lifts))
 
 
+def worst(twin, engine):
+    """Return the largest relative error of a lift.
+
+    Below 5 mm it is relative to these: rounding to single precision alone changes a lift of 2 mm
+    by 0.04 mm.
+    """
+    return (np.abs(twin - engine) / np.maximum(engine, 5.0)).max()
+
+
 @pytest.fixture(scope="module")
 def drawn():
     return stack_agree([draw_agree(scenario, seed) for scenario, seed in LIFTS])
@@ -72,8 +81,7 @@ def drawn():
 def test_each_lift_with_hurdles_is_that_of_the_engine(drawn, policy):
     engine, twin = played(policy), in_twin(policy, drawn)
     assert abs(twin.mean() / engine.mean() - 1) < 0.003
-    # In lifts of 2 mm, rounding to single precision alone makes a difference of 0.04 mm.
-    assert (np.abs(twin - engine) / np.maximum(engine, 5.0)).max() < 0.015
+    assert worst(twin, engine) < 0.015
 
 
 def test_the_agent_that_infers_the_goal_plays_as_in_the_engine(drawn):
@@ -110,7 +118,7 @@ def test_the_gradient_is_the_slope_where_nobody_decides_otherwise(drawn):
 def test_people_who_go_slower_are_found(drawn, monkeypatch):
     engine = played(yielding)
     monkeypatch.setattr(agree_people, "PACE", 7.0)
-    assert np.abs(in_twin(yielding, drawn) / engine - 1).max() > 0.015
+    assert worst(in_twin(yielding, drawn), engine) > 0.015
 
 
 @pytest.mark.parametrize("settings", [{"task": "level"}, {"task": "agree", "partner": "human"}])
