@@ -1,10 +1,9 @@
 """The convergence study behind the physics step and its solver."""
 
-import contextlib
-import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from contextlib import closing
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Final
 
@@ -16,24 +15,26 @@ from ...agents.loading.loading import PolicySpec
 from ..episode.episode import run_episode
 from ..episode.lift import Lift, MakeWorld, make_lift
 from ..episode.scenario import Scenario
+from ..episode.task import Task
+from ..episode.trace import Trace
 from ..execution.pool import default_jobs, process_pool
 from ..results.baselines import partner_spec
 from ..suites.suite import Suite, make_suite
 from ..tasks.ball.task import BallSteering
-from ..tasks.haptic import Haptic
+from ..tasks.haptic import FINER, Haptic
 from ..world import PHYSICS, BulletWorld, HapticWorld, Physics
 
 FINE: Final = Physics(step=0.0005)
 """The reference for the step."""
 
-CONVERGED: Final = Physics(iterations=3000)
-"""The reference for the solver: another one, at the same step, with iterations to spare."""
+STEPS: Final = (Physics(step=0.0025), Physics(step=0.005), PHYSICS)
+"""The settings compared with it."""
 
-STUDIED: Final = {
-    FINE: (Physics(step=0.0025), Physics(step=0.005), PHYSICS),
-    CONVERGED: (Physics(iterations=35), Physics(iterations=200), PHYSICS),
-}
-"""Each reference with the settings compared with it."""
+CONVERGED: Final = 3000
+"""Iterations of the reference for the solver: another one, at the task's step."""
+
+ITERATIONS: Final = (35, 200, 0)
+"""Those of the settings compared with it; 0 is the direct solver."""
 
 POLICIES: Final = ("anticipate", "blend", "copy", "random")
 """Two that predict, one that follows, and one that jerks the table."""
@@ -76,9 +77,7 @@ class PhysicsDeviation:
 def study(name: str = USUAL) -> Iterator[PhysicsDeviation]:
     """Play the lifts of a suite with each policy and setting, and yield the errors.
 
-    Of :data:`USUAL` one seed is played, and the solver is studied on it alone. A suite with
-    decisions is played whole: there a small difference can change a lift much, and what has to
-    converge is the mean.
+    The step is studied on all lifts, the solver at the step of the task on those of one seed.
 
     Raises
     ------
@@ -90,21 +89,25 @@ def study(name: str = USUAL) -> Iterator[PhysicsDeviation]:
     if task.name not in PLAYERS:
         known = ", ".join(PLAYERS)
         raise InputError(f"{name} has the task {task.name!r}; convergence is studied for {known}")
-    if name == USUAL:
-        suite = _one_seed(suite)
     with process_pool(default_jobs()) as pool:
-        for reference, settings in STUDIED.items():
-            if reference is CONVERGED and name != USUAL:
-                continue
-            for policy in PLAYERS[task.name]:
-                yield from physics_errors(suite, policy, reference, *settings, pool=pool)
+        for policy in PLAYERS[task.name]:
+            yield from physics_errors(suite, policy, FINE, *STEPS, pool=pool)
+        own = physics_of(task)
+        reference, *others = (replace(own, iterations=n) for n in (CONVERGED, *ITERATIONS))
+        for policy in PLAYERS[task.name]:
+            yield from physics_errors(_one_seed(suite), policy, reference, *others, pool=pool)
 
 
 def solver_error() -> float:
     """Return the worst relative RMSE error of a lift against a converged solver."""
-    suite = _one_seed(make_suite(USUAL))
-    rows = [row for policy in POLICIES for row in physics_errors(suite, policy, CONVERGED, PHYSICS)]
+    suite, reference = _one_seed(make_suite(USUAL)), replace(PHYSICS, iterations=CONVERGED)
+    rows = [row for policy in POLICIES for row in physics_errors(suite, policy, reference, PHYSICS)]
     return max(row.worst_error for row in rows)
+
+
+def physics_of(task: Task) -> Physics:
+    """Return the physics that a task is played with."""
+    return FINER if isinstance(task, Haptic) else PHYSICS
 
 
 def physics_errors(
@@ -118,13 +121,15 @@ def physics_errors(
 
     The lifts are played by ``pool``, or here if there is none.
     """
-    exact_rmse, exact_heights = _play(suite, policy, reference, pool)
+    lifts = [(scenario, seed) for seed in suite.seeds for scenario in suite.scenarios]
+    play = map if pool is None else pool.map
+    exact = list(play(partial(_play, policy, reference), lifts))
+    expected = _rmse(exact)
     for physics in settings:
-        rmse, heights = _play(suite, policy, physics, pool)
-        count = min(len(heights), len(exact_heights))
-        change = (rmse - exact_rmse) / exact_rmse.mean()
+        played = list(play(partial(_play, policy, physics), lifts))
+        change = (_rmse(played) - expected) / expected.mean()
         spread = change.std(ddof=1) / np.sqrt(len(change)) if len(change) > 1 else np.nan
-        errors = np.abs(rmse / exact_rmse - 1)
+        errors = np.abs(_rmse(played) / expected - 1)
         yield PhysicsDeviation(
             physics=physics,
             reference=reference,
@@ -133,37 +138,40 @@ def physics_errors(
             median_error=float(np.median(errors)),
             mean_error=float(change.mean()),
             mean_spread=float(spread),
-            height_error_mm=1000
-            * float(np.sqrt(np.mean((heights[:count] - exact_heights[:count]) ** 2))),
+            height_error_mm=1000 * _height_error(played, exact),
         )
 
 
 def _one_seed(suite: Suite) -> Suite:
-    return dataclasses.replace(suite, seeds=suite.seeds[:1])
+    return replace(suite, seeds=suite.seeds[:1])
 
 
-def _play(
-    suite: Suite, policy: str, physics: Physics, pool: Executor | None
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the RMSE of each lift and all heights, joined."""
-    scenarios = [scenario for _ in suite.seeds for scenario in suite.scenarios]
-    seeds = [seed for seed in suite.seeds for _ in suite.scenarios]
-    play = map if pool is None else pool.map
-    played = list(play(partial(_play_lift, policy, physics), scenarios, seeds))
-    return np.array([rmse for rmse, _ in played]), np.concatenate([seen for _, seen in played])
+def _rmse(played: Sequence[tuple[float, Trace]]) -> NDArray[np.float64]:
+    """Return the RMSE of each lift [mm]."""
+    return np.array([rmse for rmse, _ in played])
 
 
-def _play_lift(
-    policy: str, physics: Physics, scenario: Scenario, seed: int
-) -> tuple[float, NDArray[np.float64]]:
-    """Return the RMSE [mm] of a lift, and the heights of both ends, joined [m]."""
+def _height_error(
+    played: Sequence[tuple[float, Trace]], exact: Sequence[tuple[float, Trace]]
+) -> float:
+    """Return the root mean square difference of the ends' heights, over all frames [m]."""
+    squares = []
+    for (_, trace), (_, other) in zip(played, exact, strict=True):
+        count = min(len(trace.human_end), len(other.human_end))
+        squares.append((trace.human_end[:count] - other.human_end[:count]) ** 2)
+        squares.append((trace.robot_end[:count] - other.robot_end[:count]) ** 2)
+    return float(np.sqrt(np.mean(np.concatenate(squares))))
+
+
+def _play(policy: str, physics: Physics, drawn: tuple[Scenario, int]) -> tuple[float, Trace]:
+    """Return the RMSE [mm] of a lift, and its trace."""
+    scenario, seed = drawn
     if policy == PAIR:
-        scenario = dataclasses.replace(scenario, partner="human")
+        scenario = replace(scenario, partner="human")
     spec = partner_spec(scenario.task) if policy == PAIR else PolicySpec(text=policy)
-    with contextlib.closing(_lift(scenario, physics)) as lift, spec.agent() as agent:
+    with closing(_lift(scenario, physics)) as lift, spec.agent() as agent:
         episode = run_episode(lift, agent, seed)
-    trace = episode.trace
-    return episode.scores["rmse_mm"], np.concatenate((trace.human_end, trace.robot_end))
+    return episode.scores["rmse_mm"], episode.trace
 
 
 def _lift(scenario: Scenario, physics: Physics) -> Lift:
@@ -174,5 +182,5 @@ def _lift(scenario: Scenario, physics: Physics) -> Lift:
         world = partial(HapticWorld, physics=physics, ball=task.ball)
     elif isinstance(task, Haptic):
         world = partial(HapticWorld, physics=physics)
-    with contextlib.closing(make_lift(scenario)) as usual:
+    with closing(make_lift(scenario)) as usual:
         return type(usual)(scenario, world=world)
