@@ -136,10 +136,13 @@ class _Worker:
         context = multiprocessing.get_context("forkserver")
         context.set_forkserver_preload(["colift.benchmark.execution.runner"])
         self._pipe, theirs = context.Pipe()
-        self.process = context.Process(target=_serve, args=(theirs,))
-        self.process.start()
+        process = context.Process(target=_serve, args=(theirs,))
+        process.start()
+        self.process = process
         theirs.close()
-        return self.process
+        if self._ended:
+            process.kill()
+        return process
 
     def kill(self) -> None:
         """Kill the process, whose results are no longer needed; from any thread."""

@@ -23,6 +23,13 @@ print(*pool.processes(), flush=True)
 os.kill(os.getpid(), signal.SIGKILL)
 """
 
+UNGUARDED = """
+from colift.benchmark.execution.pool import process_pool
+
+with process_pool(1) as pool:
+    pool.submit(abs, -1).result()
+"""
+
 
 @pytest.fixture(scope="module")
 def pool():
@@ -152,6 +159,15 @@ def test_workers_end_when_their_parent_is_killed():
     assert done.returncode == -signal.SIGKILL
     assert pids
     wait_for(lambda: all(gone(pid) for pid in pids))
+
+
+def test_a_script_without_the_guard_of_its_main_module_is_told_so(tmp_path):
+    path = tmp_path / "unguarded.py"
+    path.write_text(UNGUARDED)
+    done = subprocess.run([sys.executable, path], capture_output=True, text=True)
+    assert done.returncode == 1
+    assert "if __name__ == '__main__':" in done.stderr
+    assert "AttributeError" not in done.stderr
 
 
 def test_one_job_needs_no_pool_and_none_is_refused():
