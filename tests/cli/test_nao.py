@@ -211,6 +211,15 @@ class Running:
         for line in self.process.stderr:
             self.told.append((time.monotonic(), line.strip()))
 
+    def comes_to(self, line, laboratory, seconds=60):
+        """Return whether the laboratory has a line that begins so before the run is over."""
+        end = time.monotonic() + seconds
+        while not any(each.startswith(line) for each in laboratory.lines):
+            if self.process.poll() is not None or time.monotonic() > end:
+                return False
+            time.sleep(0.02)
+        return True
+
     def await_end(self):
         """Return the exit code and what went to the standard output."""
         output = self.process.stdout.read()
@@ -231,11 +240,21 @@ class Running:
         raise AssertionError(f"{text!r} is not told, but {self.told}")
 
 
+def running(emulate, line, *options, tries=3):
+    """Return a laboratory, and a run in it that has come to a line; tried again as `answered`."""
+    for _ in range(tries):
+        laboratory = emulate()
+        run = Running("blend", *laboratory.place, "--yes", "--json", *options)
+        if run.comes_to(line, laboratory):
+            return laboratory, run
+        run.process.kill()
+        run.await_end()
+    pytest.fail(f"no run came to {line!r}; the last one: {run.told}")
+
+
 @pytest.mark.parametrize("during", ["lift 1 seed", "motion angleInterpolation"])
 def test_a_robot_that_hangs_is_told_at_once_and_nothing_is_claimed_of_its_arms(emulate, during):
-    hanging = emulate()
-    run = Running("blend", *hanging.place, "--yes", "--json")
-    hanging.await_line(during)
+    hanging, run = running(emulate, during)
     # In the middle of a lift, or while the arms go to the rest posture: the call that moves them
     # is waited for, as long as the robot answers others.
     time.sleep(1.0 if during.startswith("lift") else 0.0)
@@ -253,9 +272,7 @@ def test_a_robot_that_hangs_is_told_at_once_and_nothing_is_claimed_of_its_arms(e
 
 def test_a_second_client_is_refused_before_it_moves_anything(colift, emulate):
     for _ in range(3):
-        taken = emulate()
-        first = Running("blend", *taken.place, "--yes", "--json", "--trials", 1, "--duration", 6)
-        taken.await_line("lift 1 seed")
+        taken, first = running(emulate, "lift 1 seed", "--trials", 1, "--duration", 6)
         second = colift("nao", "run", "copy", *taken.place, "--yes")
         code, output = first.await_end()
         # As for `answered`: a robot that a busy machine keeps from answering counts as lost, and a
