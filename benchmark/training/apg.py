@@ -2,7 +2,7 @@
 
 The loss is that of a :class:`.GradientLesson`, such as :mod:`.level_lesson`.
 In the last updates, which are optional, the rate rises and falls once more (warm restart, I.
-Loshchilov and F. Hutter, "SGDR", ICLR 2017), with fewer people of wide habits.
+Loshchilov and F. Hutter, "SGDR", ICLR 2017).
 Nothing is estimated: the gradient is that of the lifts themselves (compare J. Freeman et al.,
 "Brax", NeurIPS 2021, on short-horizon actor-critic and analytic gradients).
 """
@@ -84,17 +84,17 @@ def updates(
     learner = learner or first_learner(settings, seed, lesson)
     lifts = lesson.draw(settings) if pool is None else pool
     network, state = learner.network, learner.optimiser
+    gradient = _gradient(settings.of_loss(), lesson)
     now = settings if learner.update < settings.updates else settings.of_last()
     with ThreadPoolExecutor(PARTS) as threads:
         for update in range(learner.update, settings.total):
             if update == settings.updates:
                 now = settings.of_last()
                 state = optimiser(now).init(network)
-            gradient, descend = _functions(now, lesson)
             key = jax.random.fold_in(jax.random.key(seed), update)
             keys = [jax.random.fold_in(key, part) for part in range(PARTS)]
             parts = list(threads.map(partial(_finished, gradient, network, lifts), keys))
-            network, state, rmse = descend(network, state, parts)
+            network, state, rmse = _descent(now)(network, state, parts)
             yield Update(Learner(network, state, update + 1), float(rmse))
 
 
@@ -107,9 +107,8 @@ def _finished(function: Any, *arguments: Any) -> Any:
 
 
 @cache
-def _functions(settings: ApgSettings, lesson: GradientLesson) -> tuple[Any, Any]:
-    """Return the gradient of a part of a batch, and the step of the optimiser, to be compiled."""
-    descent = optimiser(settings)
+def _gradient(settings: ApgSettings, lesson: GradientLesson) -> Any:
+    """Return the gradient of a part of a batch, to be compiled."""
 
     @jax.jit
     def gradient(network: Any, lifts: Any, key: jax.Array) -> tuple[Any, Any]:
@@ -117,6 +116,14 @@ def _functions(settings: ApgSettings, lesson: GradientLesson) -> tuple[Any, Any]
             lesson.loss, pool=lifts, settings=settings, size=settings.batch // PARTS, key=key
         )
         return jax.value_and_grad(of_batch, has_aux=True)(network)
+
+    return gradient
+
+
+@cache
+def _descent(settings: ApgSettings) -> Any:
+    """Return the step of the optimiser, to be compiled."""
+    descent = optimiser(settings)
 
     @jax.jit
     def descend(
@@ -127,4 +134,4 @@ def _functions(settings: ApgSettings, lesson: GradientLesson) -> tuple[Any, Any]
         rmse = sum(rmse for (_, rmse), _ in parts) / PARTS
         return optax.apply_updates(network, steps), state, rmse
 
-    return gradient, descend
+    return descend
