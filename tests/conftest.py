@@ -103,6 +103,7 @@ def _own_leaks(request):
     if "jax" in sys.modules:
         sys.modules["jax"].clear_caches()
     gc.collect()
+    gc.freeze()
     give_back()
     peak = peak_memory()
     if before < MOST_MEMORY <= peak:
