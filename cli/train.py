@@ -105,7 +105,7 @@ def apg(
         int, typer.Option(metavar="N", help="Steps of the optimiser.")
     ] = ApgSettings.updates,
     last: Annotated[
-        int, typer.Option(metavar="N", help="Further steps, from a new optimiser.")
+        int, typer.Option(metavar="N", help="Further steps, with fewer people from wide ranges.")
     ] = ApgSettings.last,
     lifts: Annotated[
         int, typer.Option(metavar="N", help="Lifts drawn in the beginning.")

@@ -2,7 +2,7 @@
 
 The loss is that of a :class:`.GradientLesson`, such as :mod:`.level_lesson`.
 In the last updates, which are optional, the rate rises and falls once more (warm restart, I.
-Loshchilov and F. Hutter, "SGDR", ICLR 2017).
+Loshchilov and F. Hutter, "SGDR", ICLR 2017), with fewer people of wide habits.
 Nothing is estimated: the gradient is that of the lifts themselves (compare J. Freeman et al.,
 "Brax", NeurIPS 2021, on short-horizon actor-critic and analytic gradients).
 """
@@ -84,13 +84,13 @@ def updates(
     learner = learner or first_learner(settings, seed, lesson)
     lifts = lesson.draw(settings) if pool is None else pool
     network, state = learner.network, learner.optimiser
-    gradient = _gradient(settings.of_loss(), lesson)
     now = settings if learner.update < settings.updates else settings.of_last()
     with ThreadPoolExecutor(PARTS) as threads:
         for update in range(learner.update, settings.total):
             if update == settings.updates:
                 now = settings.of_last()
                 state = optimiser(now).init(network)
+            gradient = _gradient(now.of_loss(), lesson)
             key = jax.random.fold_in(jax.random.key(seed), update)
             keys = [jax.random.fold_in(key, part) for part in range(PARTS)]
             parts = list(threads.map(partial(_finished, gradient, network, lifts), keys))

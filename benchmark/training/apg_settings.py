@@ -14,6 +14,9 @@ PARTS: Final = 2
 TASKS: Final = ("level", "intent", "agree", "ball")
 """Tasks with a twin."""
 
+LAST_WIDE: Final = 0.1
+"""Largest share of wide lifts in the last updates: enough to keep what was learned of them."""
+
 LAST_RATE: Final = 0.6
 """Learning rate of the last updates, relative to that of the others."""
 
@@ -33,7 +36,7 @@ class ApgSettings:
     updates: int = 800
     """Steps of the optimiser."""
     last: int = 0
-    """Further steps, from a new optimiser."""
+    """Further steps, from a new optimiser, with fewer wide lifts."""
     lifts: int = 4000
     """Lifts that batches are drawn from."""
     batch: int = 256
@@ -81,7 +84,13 @@ class ApgSettings:
 
     def of_last(self) -> "ApgSettings":
         """Return the settings of the last updates."""
-        return replace(self, updates=self.last, last=0, rate=LAST_RATE * self.rate)
+        return replace(
+            self,
+            updates=self.last,
+            last=0,
+            rate=LAST_RATE * self.rate,
+            wide=min(self.wide, LAST_WIDE),
+        )
 
     def of_loss(self) -> "ApgSettings":
         """Return the settings that the loss of a batch depends on, with the defaults of others."""

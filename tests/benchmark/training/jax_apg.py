@@ -11,7 +11,7 @@ from colift.agents.control.portable import PORTABLE
 from colift.agents.control.recurrent import GatedNetwork, act, memory_at_rest
 from colift.agents.errors import InputError
 from colift.benchmark.training import apg, apg_course, level_lesson
-from colift.benchmark.training.apg_settings import LAST_RATE, NAME, ApgSettings
+from colift.benchmark.training.apg_settings import LAST_RATE, LAST_WIDE, NAME, ApgSettings
 from colift.benchmark.training.course import open_course
 from colift.benchmark.training.pool import draw_pool
 from colift.benchmark.twin.rollout import recurrent
@@ -76,14 +76,15 @@ def test_the_last_updates_begin_with_a_new_optimiser_and_go_on_from_an_interrupt
         assert same(end.learner.network, found[-1].learner.network)
 
 
-def test_the_last_updates_have_another_rate_and_no_other_difference():
+def test_the_last_updates_have_fewer_wide_lifts_and_no_other_difference():
     settings = replace(TINY, last=2, wide=0.5)
     last = settings.of_last()
     assert settings.total == 6
-    assert (last.updates, last.total) == (2, 2)
+    assert (last.updates, last.total, last.wide) == (2, 2, LAST_WIDE)
     assert last.rate == pytest.approx(LAST_RATE * settings.rate)
-    assert replace(last, updates=4, last=2, rate=settings.rate) == settings
-    assert last.of_loss() == settings.of_loss() != TINY.of_loss()
+    assert replace(last, updates=4, last=2, wide=0.5, rate=settings.rate) == settings
+    assert replace(settings, wide=0.0).of_last().wide == 0.0
+    assert replace(last, wide=0.5).of_loss() == settings.of_loss() != last.of_loss()
 
 
 def test_the_network_acts_the_same_in_numpy(whole):
