@@ -154,9 +154,12 @@ def _evaluate(
             done = play() if journal is None else play(done=journal.done, keep=journal.keep)
             if ready is None:
                 ready = play_baselines(suite, executor=workers, progress=progress)
-        except InterruptedRunError as interrupted:
-            stopped = done or interrupted.run
-            return stopped, (ready or {}) if stopped.complete else {}
+        except KeyboardInterrupt as interrupted:
+            if done is None:
+                if not isinstance(interrupted, InterruptedRunError):
+                    raise
+                done = interrupted.run
+            return done, (ready or {}) if done.complete else {}
         except EvaluatorFault as fault:
             if journal is None:
                 raise
