@@ -1,6 +1,7 @@
 """The twin of two hurdles: the lifts of the engine, and the beliefs of its people."""
 
 from functools import cache
+from itertools import cycle
 
 import jax
 import jax.numpy as jnp
@@ -25,8 +26,7 @@ PEOPLE = range(210_000, 210_002)
 """Seeds of people and lifts outside all suites."""
 LIFTS = [
     (make_scenario(behaviour, f"draw-{seed}", task="agree"), seed)
-    for behaviour in (*BEHAVIOURS, "smooth")
-    for seed in PEOPLE
+    for behaviour, seed in zip((*BEHAVIOURS, "smooth"), cycle(PEOPLE), strict=False)
 ]
 
 

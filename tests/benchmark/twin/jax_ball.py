@@ -1,6 +1,7 @@
 """The twin of the ball: the lifts of the engine, with policies that steer and that do not."""
 
 from functools import cache
+from itertools import product
 
 import jax
 import jax.numpy as jnp
@@ -23,16 +24,15 @@ from .played import Played, agents_in_twin, engine_scores
 PEOPLE = range(210_000, 210_004)
 """Seeds of people and lifts outside all suites."""
 
-
-def lifts_with(people):
-    return [
-        (make_scenario(behaviour, f"draw-{seed}", task="ball"), seed)
-        for behaviour in ("ball_smooth", "ball_pause", "ball_smooth_shared", "ball_pause_shared")
-        for seed in people
-    ]
+BEHAVIOURS = ("ball_smooth", "ball_pause", "ball_smooth_shared", "ball_pause_shared")
 
 
-FEW, MANY = lifts_with(PEOPLE[:2]), lifts_with(PEOPLE)
+def lifts_of(names):
+    return [(make_scenario(each, f"draw-{seed}", task="ball"), seed) for each, seed in names]
+
+
+FEW = lifts_of(zip(BEHAVIOURS, PEOPLE, strict=True))
+MANY = lifts_of(product(BEHAVIOURS, PEOPLE))
 
 
 def steering(gain, following=1.0):

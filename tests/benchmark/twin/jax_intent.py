@@ -1,6 +1,7 @@
 """The twin of intended poses: the lifts of the engine, with policies that touch and that do not."""
 
 from functools import cache
+from itertools import cycle
 
 import jax.numpy as jnp
 import numpy as np
@@ -20,8 +21,9 @@ PEOPLE = (210_000, 210_001)
 """Seeds of people and lifts outside all suites."""
 LIFTS = [
     (make_scenario(behaviour, f"draw-{seed}", task="intent"), seed)
-    for behaviour in ("together", "pivot", "counter", "switching")
-    for seed in PEOPLE
+    for behaviour, seed in zip(
+        ("together", "pivot", "counter", "switching"), cycle(PEOPLE), strict=False
+    )
 ]
 
 
