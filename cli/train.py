@@ -104,9 +104,6 @@ def apg(
     updates: Annotated[
         int, typer.Option(metavar="N", help="Steps of the optimiser.")
     ] = ApgSettings.updates,
-    last: Annotated[
-        int, typer.Option(metavar="N", help="Further steps, with fewer people from wide ranges.")
-    ] = ApgSettings.last,
     lifts: Annotated[
         int, typer.Option(metavar="N", help="Lifts drawn in the beginning.")
     ] = ApgSettings.lifts,
@@ -124,7 +121,7 @@ def apg(
         typer.Option(metavar="X", help="Share of people from wide ranges; with touch: how wide."),
     ] = ApgSettings.wide,
     varied: Annotated[
-        float, typer.Option(metavar="X", help="Variation of the robot's arms.")
+        float, typer.Option(metavar="X", help="Variation of the robot's arms at the end.")
     ] = ApgSettings.varied,
     smoothness: Annotated[
         float, typer.Option(metavar="X", help="Cost of bends, relative to the RMSE.")
@@ -137,7 +134,6 @@ def apg(
     settings = ApgSettings(
         task=task,
         updates=updates,
-        last=last,
         lifts=lifts,
         batch=batch,
         units=units,
@@ -153,7 +149,7 @@ def apg(
     def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
         train_apg(settings, course, progress)
 
-    _train_all(APG, settings, seeds, out, settings.total, 1, train)
+    _train_all(APG, settings, seeds, out, settings.updates, 1, train)
 
 
 @app.command()

@@ -21,7 +21,7 @@ class Learned(RecurrentController):
     128 gated recurrent units remember the lift so far: how fast and how evenly this person moves,
     how noisy and how late the samples are, and how far the predictions have been off. The network
     was trained on the score itself, by gradients through whole lifts of the twin, with people of
-    the benchmark's population and, for half of the lifts, of much wider ranges. See
+    the benchmark's population and, for some lifts, of much wider ranges. See
     :func:`.recurrent.act` for the equations and ``docs/background/learned.md`` for the training.
     """
 

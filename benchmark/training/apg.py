@@ -1,8 +1,8 @@
 """Analytic policy gradients: a recurrent policy by gradients through whole lifts of the twin.
 
 The loss is that of a :class:`.GradientLesson`, such as :mod:`.level_lesson`.
-In the last updates, which are optional, the rate rises and falls once more (warm restart, I.
-Loshchilov and F. Hutter, "SGDR", ICLR 2017), with fewer people of wide habits.
+The variation of the arms grows from the first update to the last: arms that vary from the
+beginning lead to a policy that is less exact with all of them.
 Nothing is estimated: the gradient is that of the lifts themselves (compare J. Freeman et al.,
 "Brax", NeurIPS 2021, on short-horizon actor-critic and analytic gradients).
 """
@@ -13,10 +13,11 @@ from functools import cache, partial
 from typing import Any, Final, NamedTuple
 
 import jax
+import jax.numpy as jnp
 import optax
 
 from .apg_settings import PARTS, ApgSettings
-from .lesson import GradientLesson
+from .lesson import BatchDraw, GradientLesson
 from .lessons import lesson_of
 
 LARGEST_GRADIENT: Final = 5.0
@@ -84,17 +85,15 @@ def updates(
     learner = learner or first_learner(settings, seed, lesson)
     lifts = lesson.draw(settings) if pool is None else pool
     network, state = learner.network, learner.optimiser
-    now = settings if learner.update < settings.updates else settings.of_last()
+    gradient = _gradient(settings.of_loss(), lesson)
+    descend = _descent(settings)
     with ThreadPoolExecutor(PARTS) as threads:
-        for update in range(learner.update, settings.total):
-            if update == settings.updates:
-                now = settings.of_last()
-                state = optimiser(now).init(network)
-            gradient = _gradient(now.of_loss(), lesson)
+        for update in range(learner.update, settings.updates):
             key = jax.random.fold_in(jax.random.key(seed), update)
             keys = [jax.random.fold_in(key, part) for part in range(PARTS)]
-            parts = list(threads.map(partial(_finished, gradient, network, lifts), keys))
-            network, state, rmse = _descent(now)(network, state, parts)
+            done = jnp.asarray((update + 1) / settings.updates, jnp.float32)
+            parts = list(threads.map(partial(_finished, gradient, network, lifts, done), keys))
+            network, state, rmse = descend(network, state, parts)
             yield Update(Learner(network, state, update + 1), float(rmse))
 
 
@@ -111,10 +110,9 @@ def _gradient(settings: ApgSettings, lesson: GradientLesson) -> Any:
     """Return the gradient of a part of a batch, to be compiled."""
 
     @jax.jit
-    def gradient(network: Any, lifts: Any, key: jax.Array) -> tuple[Any, Any]:
-        of_batch = partial(
-            lesson.loss, pool=lifts, settings=settings, size=settings.batch // PARTS, key=key
-        )
+    def gradient(network: Any, lifts: Any, done: jax.Array, key: jax.Array) -> tuple[Any, Any]:
+        draw = BatchDraw(settings.batch // PARTS, key, done)
+        of_batch = partial(lesson.loss, pool=lifts, settings=settings, draw=draw)
         return jax.value_and_grad(of_batch, has_aux=True)(network)
 
     return gradient

@@ -48,13 +48,13 @@ def train_apg(
         progress(learner.update)
     start = time.perf_counter() - course.seconds
     pool = lesson.draw(settings)
-    every = max(EVERY, settings.total // POINTS)
+    every = max(EVERY, settings.updates // POINTS)
     steps_of_update = settings.batch * lesson.steps(pool)
     for update in updates(settings, course.seed, learner, pool):
         learner = update.learner
         check_finite(f"the RMSE of update {learner.update}", np.array(update.rmse_mm))
         progress(1)
-        if learner.update % every == 0 or learner.update == settings.total:
+        if learner.update % every == 0 or learner.update == settings.updates:
             error = lesson.error(lesson.weights(learner.network))
             steps = round(learner.update * steps_of_update)
             point = Point(steps, time.perf_counter() - start, error)

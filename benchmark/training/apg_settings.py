@@ -14,12 +14,6 @@ PARTS: Final = 2
 TASKS: Final = ("level", "intent", "agree", "ball")
 """Tasks with a twin."""
 
-LAST_WIDE: Final = 0.1
-"""Largest share of wide lifts in the last updates: enough to keep what was learned of them."""
-
-LAST_RATE: Final = 0.6
-"""Learning rate of the last updates, relative to that of the others."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class ApgSettings:
@@ -35,8 +29,6 @@ class ApgSettings:
     """Name of the task."""
     updates: int = 800
     """Steps of the optimiser."""
-    last: int = 0
-    """Further steps, from a new optimiser, with fewer wide lifts."""
     lifts: int = 4000
     """Lifts that batches are drawn from."""
     batch: int = 256
@@ -48,8 +40,8 @@ class ApgSettings:
     wide: float = 0.2
     """Of a level table: share of lifts with people, bodies and sensors from wide ranges. Of tasks
     with touch: how much longer the ranges of people's manners are than the population's."""
-    varied: float = 0.3
-    """Variation of the arms."""
+    varied: float = 0.2
+    """Variation of the arms in the last update: it grows from none."""
     smoothness: float = 0.05
     """Cost of bends, relative to the RMSE; of a level table alone."""
     gentleness: float = 0.0
@@ -65,8 +57,6 @@ class ApgSettings:
         for name in ("updates", "units"):
             if getattr(self, name) < 1:
                 raise InputError(f"--{name} must be at least 1, got {getattr(self, name)}")
-        if self.last < 0:
-            raise InputError(f"--last must be at least 0, got {self.last}")
         if self.batch < PARTS or self.batch % PARTS:
             raise InputError(f"--batch must be a multiple of {PARTS}, got {self.batch}")
         if not 0 <= self.wide < 1:
@@ -77,24 +67,9 @@ class ApgSettings:
         if not 0 < self.rate < 1:
             raise InputError(f"--rate must be between 0 and 1, got {self.rate}")
 
-    @property
-    def total(self) -> int:
-        """Steps of both optimisers."""
-        return self.updates + self.last
-
-    def of_last(self) -> "ApgSettings":
-        """Return the settings of the last updates."""
-        return replace(
-            self,
-            updates=self.last,
-            last=0,
-            rate=LAST_RATE * self.rate,
-            wide=min(self.wide, LAST_WIDE),
-        )
-
     def of_loss(self) -> "ApgSettings":
         """Return the settings that the loss of a batch depends on, with the defaults of others."""
-        others = ("updates", "last", "rate")
+        others = ("updates", "rate")
         return replace(self, **{name: getattr(ApgSettings, name) for name in others})
 
 

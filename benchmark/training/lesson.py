@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from types import ModuleType
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import jax
 import numpy as np
@@ -12,6 +12,16 @@ from ...agents.control.recurrent import GatedNetwork
 from .apg_settings import ApgSettings
 
 Weights = Mapping[str, NDArray[Any]]
+
+
+class BatchDraw(NamedTuple):
+    """The draw of a batch."""
+
+    size: int
+    """Lifts of the batch."""
+    key: jax.Array
+    done: jax.Array
+    """Share of the updates that are done: the variation of the arms grows with it."""
 
 
 class GradientLesson(Protocol):
@@ -26,7 +36,7 @@ class GradientLesson(Protocol):
         """Return the lifts to learn from, as arrays."""
 
     def loss(
-        self, network: Any, pool: Any, settings: ApgSettings, size: int, key: jax.Array
+        self, network: Any, pool: Any, settings: ApgSettings, draw: BatchDraw
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm] and the mean RMSE [mm] of a batch.
 
@@ -38,10 +48,8 @@ class GradientLesson(Protocol):
             The drawn lifts.
         settings
             Of the training.
-        size
-            Lifts of the batch.
-        key
-            Of its draw.
+        draw
+            Of the batch.
         """
 
 

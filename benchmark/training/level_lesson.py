@@ -22,7 +22,7 @@ from ...agents.submissions import recurrent as submission
 from ..twin.rollout import recurrent, rollout
 from .anticipation import FIRST_SEED
 from .apg_settings import ApgSettings
-from .lesson import Weights, first_network
+from .lesson import BatchDraw, Weights, first_network
 from .pool import LearningBatch, Pool, draw_batch, draw_pool
 from .validation import validation_error
 
@@ -45,10 +45,11 @@ class LevelLesson:
         return float(pool.lifts.steps.mean())
 
     def loss(
-        self, network: GatedNetwork, pool: Pool, settings: ApgSettings, size: int, key: jax.Array
+        self, network: GatedNetwork, pool: Pool, settings: ApgSettings, draw: BatchDraw
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm] and the mean RMSE [mm] of a batch."""
-        batch = draw_batch(pool, size, settings.wide, settings.varied, key)
+        varied = draw.done * settings.varied
+        batch = draw_batch(pool, draw.size, settings.wide, varied, draw.key)
         return batch_loss(network, batch, settings.smoothness, settings.gentleness)
 
     def error(self, weights: Weights) -> float:
@@ -78,7 +79,7 @@ def batch_loss(
 ) -> tuple[jax.Array, jax.Array]:
     """Return the loss [mm] and the mean RMSE [mm] of a batch."""
     policy, memory = recurrent(network, batch.lifts.size)
-    found = rollout(policy, memory, batch.lifts, batch.variation, batch.sensing)
+    found = rollout(policy, memory, batch.lifts, batch.variation, batch.lost)
     force = batch.common * found.force_n
     cost = found.rmse_mm + smoothness * found.bend_mm + gentleness * force
     return (batch.weight * cost).mean(), found.rmse_mm.mean()

@@ -21,7 +21,7 @@ from ..twin.rollout import JAX
 from ..twin.touch_rollout import touch_rmse_mm
 from .apg import updates
 from .apg_settings import ApgSettings
-from .lesson import first_network
+from .lesson import BatchDraw, first_network
 from .touch_lesson import TouchLesson, touch_policy
 from .validation import VALIDATION_SEEDS
 
@@ -50,10 +50,10 @@ class PairLesson:
         return self.of_robot.twin.quiet(self.of_robot.draw(settings))
 
     def loss(
-        self, network: TrainedPair, pool: Any, settings: ApgSettings, size: int, key: jax.Array
+        self, network: TrainedPair, pool: Any, settings: ApgSettings, draw: BatchDraw
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
-        lifts, variation = self.of_robot.batch(pool, settings, size, key)
+        lifts, variation = self.of_robot.batch(pool, settings, draw)
         mean = self.errors(network, self.of_robot.twin.quiet(lifts), variation).mean()
         return mean, mean
 

@@ -18,7 +18,7 @@ from ..episode.seeding import derive_seed
 from ..suites.suite import BEHAVIOURS
 from ..twin.arm import ArmVariation
 from ..twin.lifts import DrawnLift, Lifts, carried_out, some, stack
-from ..twin.rollout import Sensing, rollout
+from ..twin.rollout import rollout
 from .anticipation import CURRICULUM, FIRST_SEED
 from .data import Timing, scenario
 from .validation import learning_seeds
@@ -37,7 +37,7 @@ LATENCY_OFF: Final = 0.01
 """Most by which the sensors of a wide lift are earlier or later than the benchmark's [s]."""
 
 NOISE: Final = (0.1, 2.0)
-"""Least and most noise of their samples, over that of the benchmark."""
+"""Least and most further noise of their samples, over that of the benchmark."""
 
 LOST: Final = 0.05
 """Most of their samples that are lost."""
@@ -50,10 +50,6 @@ MOST_WEIGHT: Final = 4.0
 
 CHUNK: Final = 1000
 """Most lifts that are weighed at a time."""
-
-SAG: Final = 1.0
-LAG: Final = 0.3
-"""Spread of the arms' sag and gain, relative, for a variation of 1."""
 
 
 class Pool(NamedTuple):
@@ -172,15 +168,21 @@ class LearningBatch(NamedTuple):
 
     lifts: Lifts
     variation: ArmVariation
-    sensing: Sensing
+    lost: jax.Array
+    """(s, n) 1 where a sample is lost, else 0."""
     weight: jax.Array
     """(n,) weight of each lift in the loss."""
     common: jax.Array
     """(n,) 1 with people of the benchmark's population, else 0."""
 
 
-def draw_batch(pool: Pool, size: int, wide: float, varied: float, key: jax.Array) -> LearningBatch:
-    """Return a batch of the pool's lifts, with arms and sensors drawn anew.
+def draw_batch(
+    pool: Pool, size: int, wide: float, varied: float | jax.Array, key: jax.Array
+) -> LearningBatch:
+    """Return a batch of the pool's lifts, with arms and the noise of sensors drawn anew.
+
+    A lift comes again many times in a training, and a network learns by heart what is always the
+    same in it.
 
     Parameters
     ----------
@@ -191,27 +193,45 @@ def draw_batch(pool: Pool, size: int, wide: float, varied: float, key: jax.Array
     wide
         Share of these with wide habits, which have wide sensors too.
     varied
-        Variation of the arms, relative to :data:`SAG` and :data:`LAG`.
+        Variation of the arms; see :func:`draw_arms`.
     key
         Of the draw.
     """
-    keys = jax.random.split(key, 7)
+    keys = jax.random.split(key, 8)
     many = round(wide * size)
     common, total = pool.common, pool.lifts.size
     taken = jax.random.randint(keys[0], (size - many,), 0, common)
     rest = jax.random.randint(keys[1], (many,), common, jnp.maximum(total, common + 1))
     chosen = jnp.concatenate((taken, rest))
     lifts = some(pool.lifts, chosen)
-    variation = ArmVariation(
-        sag=jnp.exp(varied * SAG * jax.random.normal(keys[2], (size,))),
-        lag=jnp.exp(varied * LAG * jax.random.normal(keys[3], (size,))),
-    )
+    variation = draw_arms(varied, size, keys[2:4])
     is_wide = (jnp.arange(size) >= size - many).astype(jnp.float32)
-    longest = lifts.longest()
     low, high = (math.log(factor) for factor in NOISE)
-    level = jnp.exp(jax.random.uniform(keys[4], (size,), minval=low, maxval=high))
-    noise = MOCAP_NOISE * level * is_wide * jax.random.normal(keys[5], (longest, 2, size))
+    more = is_wide * jnp.exp(jax.random.uniform(keys[4], (size,), minval=low, maxval=high))
+    deviation = MOCAP_NOISE * jnp.sqrt(1 + more**2)
+    noise = deviation * jax.random.normal(keys[5], lifts.noise.shape)
     chance = LOST * is_wide * jax.random.uniform(keys[6], (size,))
-    lost = jax.random.uniform(jax.random.fold_in(key, 1), (longest, size)) < chance
-    sensing = Sensing(noise, lost.astype(jnp.float32))
-    return LearningBatch(lifts, variation, sensing, pool.weight[chosen], 1.0 - is_wide)
+    lost = jax.random.uniform(keys[7], (lifts.longest(), size)) < chance
+    return LearningBatch(
+        lifts=lifts._replace(noise=noise),
+        variation=variation,
+        lost=lost.astype(jnp.float32),
+        weight=pool.weight[chosen],
+        common=1.0 - is_wide,
+    )
+
+
+def draw_arms(varied: float | jax.Array, size: int, keys: jax.Array) -> ArmVariation:
+    """Return arms whose sag and gain are the benchmark's times exp(varied N(0, 1)).
+
+    Parameters
+    ----------
+    varied
+        Standard deviation of the logarithms.
+    size
+        How many.
+    keys
+        (2,) of the sag and of the gain.
+    """
+    sag, lag = (jnp.exp(varied * jax.random.normal(key, (size,))) for key in keys)
+    return ArmVariation(sag=sag, lag=lag)

@@ -19,8 +19,8 @@ from ..twin.lifts import some
 from ..twin.rollout import JAX
 from ..twin.touch_rollout import touch_rmse_mm
 from .apg_settings import ApgSettings
-from .lesson import Weights, first_network
-from .pool import LAG, SAG
+from .lesson import BatchDraw, Weights, first_network
+from .pool import draw_arms
 from .touch_twins import TWINS
 from .validation import LEARNING_SEEDS, learning_seeds, task_error
 
@@ -59,24 +59,20 @@ class TouchLesson:
         return float(pool.steps.mean())
 
     def loss(
-        self, network: Any, pool: Any, settings: ApgSettings, size: int, key: jax.Array
+        self, network: Any, pool: Any, settings: ApgSettings, draw: BatchDraw
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
-        lifts, variation = self.batch(pool, settings, size, key)
-        policy, memory = touch_policy(TouchNetwork(self.task, network), size)
+        lifts, variation = self.batch(pool, settings, draw)
+        policy, memory = touch_policy(TouchNetwork(self.task, network), draw.size)
         mean = touch_rmse_mm(self.twin.steps, policy, memory, lifts, variation).mean()
         return mean, mean
 
-    def batch(
-        self, pool: Any, settings: ApgSettings, size: int, key: jax.Array
-    ) -> tuple[Any, ArmVariation]:
+    def batch(self, pool: Any, settings: ApgSettings, draw: BatchDraw) -> tuple[Any, ArmVariation]:
         """Return some of the lifts, with people and arms drawn anew."""
-        keys = jax.random.split(key, 4)
-        lifts = some(pool, jax.random.randint(keys[0], (size,), 0, pool.size))
-        sag, lag = (jax.random.normal(each, (size,)) for each in keys[2:])
-        varied = settings.varied
-        variation = ArmVariation(sag=jnp.exp(varied * SAG * sag), lag=jnp.exp(varied * LAG * lag))
-        return self.twin.manners(lifts, keys[1], settings.wide), variation
+        keys = jax.random.split(draw.key, 4)
+        lifts = some(pool, jax.random.randint(keys[0], (draw.size,), 0, pool.size))
+        arms = draw_arms(draw.done * settings.varied, draw.size, keys[2:])
+        return self.twin.manners(lifts, keys[1], settings.wide), arms
 
     def error(self, weights: Weights) -> float:
         """Return the policy's mean RMSE on validation lifts in the engine [mm]."""

@@ -37,15 +37,6 @@ class JaxFunctions:
 JAX: Final = JaxFunctions()
 
 
-class Sensing(NamedTuple):
-    """How the sensors of n lifts differ from the benchmark's."""
-
-    noise: jax.Array
-    """(s, 2, n) added error of the heights [m]."""
-    lost: jax.Array
-    """(s, n) 1 where a sample is lost and the last one is seen again, else 0."""
-
-
 class Outcome(NamedTuple):
     """Figures of n lifts."""
 
@@ -76,7 +67,7 @@ def rollout(
     memory: Any,
     lifts: Lifts,
     variation: ArmVariation | None = None,
-    sensing: Sensing | None = None,
+    lost: jax.Array | None = None,
 ) -> Outcome:
     """Return the outcome of lifts with a policy; differentiable in all that it depends on.
 
@@ -86,21 +77,22 @@ def rollout(
         The policy, and its memory at the beginning.
     lifts
         People, plans and noise.
-    variation, sensing
-        What differs from the benchmark's; none: its own arms and sensors.
+    variation
+        How the arms differ from the benchmark's; none: not at all.
+    lost
+        (s, n) 1 where a sample is lost and the last one is seen again, else 0; none: 0.
     """
     size, period = lifts.reference.shape[1], lifts.reference.shape[1] * FRAME
-    count, longest = lifts.size, lifts.longest()
-    extra = sensing or Sensing(jnp.zeros((longest, 2, count)), jnp.zeros((longest, count)))
+    lost = jnp.zeros((lifts.longest(), lifts.size)) if lost is None else lost
 
     def step(
-        state: tuple[LiftState, Any, jax.Array], now: tuple[lifting.Due, jax.Array, jax.Array]
+        state: tuple[LiftState, Any, jax.Array], now: tuple[lifting.Due, jax.Array]
     ) -> tuple[tuple[LiftState, Any, jax.Array], tuple[jax.Array, jax.Array, jax.Array]]:
         playing, memory, last = state
-        share, added, lost = now
-        view = lifting.observe(playing, share.noise + added, lifts.latency, period)
+        share, is_lost = now
+        view = lifting.observe(playing, share.noise, lifts.latency, period)
         seen = view[: RobotObservation.HAND_HEIGHT]
-        seen = jnp.where((lost > 0) & (playing.step > 0), last, seen)
+        seen = jnp.where((is_lost > 0) & (playing.step > 0), last, seen)
         view = jnp.concatenate((seen, view[RobotObservation.HAND_HEIGHT :]))
         memory, action = policy(memory, view)
         valid = (playing.step < lifts.steps).astype(jnp.float32)
@@ -112,11 +104,9 @@ def rollout(
             (playing.command - before) * valid,
         )
 
-    start = (lifting.at_rest(lifts.size), memory, jnp.zeros((2, count)))
+    start = (lifting.at_rest(lifts.size), memory, jnp.zeros((2, lifts.size)))
     shares = lifting.Due(lifts.reference, lifts.seen_target, lifts.noise)
-    _, (squares, forces, changes) = jax.lax.scan(
-        jax.checkpoint(step), start, (shares, extra.noise, extra.lost)
-    )
+    _, (squares, forces, changes) = jax.lax.scan(jax.checkpoint(step), start, (shares, lost))
     frames = lifts.steps * size
     bends = (jnp.diff(changes, axis=0) ** 2).sum(axis=0) / lifts.steps
     return Outcome(

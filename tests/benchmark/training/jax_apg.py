@@ -1,19 +1,18 @@
 """A small training: reproducible, resumable, and a submission at its end."""
 
-from dataclasses import replace
-
 import colift
+import jax
 import numpy as np
-import optax
 import pytest
 from colift.agents.agent import RobotObservation
 from colift.agents.control.portable import PORTABLE
 from colift.agents.control.recurrent import GatedNetwork, act, memory_at_rest
 from colift.agents.errors import InputError
+from colift.benchmark.episode.lift import MOCAP_NOISE
 from colift.benchmark.training import apg, apg_course, level_lesson
-from colift.benchmark.training.apg_settings import LAST_RATE, LAST_WIDE, NAME, ApgSettings
+from colift.benchmark.training.apg_settings import NAME, ApgSettings
 from colift.benchmark.training.course import open_course
-from colift.benchmark.training.pool import draw_pool
+from colift.benchmark.training.pool import draw_batch, draw_pool
 from colift.benchmark.twin.rollout import recurrent
 
 TINY = ApgSettings(updates=4, lifts=10, batch=4, units=3, wide=0.4)
@@ -62,29 +61,20 @@ def test_the_same_seed_gives_the_same_weights_and_another_others(whole, pool):
     assert not same(other.learner.network, whole[0].learner.network)
 
 
-def test_the_last_updates_begin_with_a_new_optimiser_and_go_on_from_an_interruption(whole, pool):
-    longer = replace(TINY, last=2)
-    found = list(apg.updates(longer, 0, pool=pool))
-    assert [update.learner.update for update in found] == [1, 2, 3, 4, 5, 6]
-    for before, after in zip(whole, found, strict=False):
-        assert same(before.learner.network, after.learner.network)
-    counted = [optax.tree_utils.tree_get_all_with_path(u.learner.optimiser, "count") for u in found]
-    assert [{int(count) for _, count in each} for each in counted] == [{1}, {2}, {3}, {4}, {1}, {2}]
-    assert not same(found[3].learner.network, found[4].learner.network)
-    for interrupted in (3, 4):
-        *_, end = apg.updates(longer, 0, found[interrupted].learner, pool)
-        assert same(end.learner.network, found[-1].learner.network)
+def test_arms_vary_more_from_update_to_update_and_sensors_have_other_noise(pool):
+    """The arms' sag and gain are the benchmark's at first, and vary by ``varied`` at the end."""
 
+    def batch(done, seed=0):
+        return draw_batch(pool, 8, 0.0, done * 0.2, jax.random.key(seed))
 
-def test_the_last_updates_have_fewer_wide_lifts_and_no_other_difference():
-    settings = replace(TINY, last=2, wide=0.5)
-    last = settings.of_last()
-    assert settings.total == 6
-    assert (last.updates, last.total, last.wide) == (2, 2, LAST_WIDE)
-    assert last.rate == pytest.approx(LAST_RATE * settings.rate)
-    assert replace(last, updates=4, last=2, wide=0.5, rate=settings.rate) == settings
-    assert replace(settings, wide=0.0).of_last().wide == 0.0
-    assert replace(last, wide=0.5).of_loss() == settings.of_loss() != last.of_loss()
+    first, half, last = (batch(done) for done in (0.0, 0.5, 1.0))
+    for part in range(2):
+        assert np.allclose(first.variation[part], 1.0)
+        assert np.log(half.variation[part]) == pytest.approx(np.log(last.variation[part]) / 2)
+    assert same(first.lifts.noise, last.lifts.noise)
+    other = batch(1.0, seed=1).lifts.noise
+    assert not np.isin(other, last.lifts.noise).any()
+    assert float(other.std()) == pytest.approx(MOCAP_NOISE, rel=0.05)
 
 
 def test_the_network_acts_the_same_in_numpy(whole):

@@ -18,7 +18,6 @@ def test_training(in_own_process):
         ({"task": "tea"}, "--task must be one of level, intent, .*got 'tea'"),
         ({"task": "ball", "smoothness": 0.1}, "--smoothness is of the task level, not of ball"),
         ({"updates": 0}, "--updates must be at least 1, got 0"),
-        ({"last": -1}, "--last must be at least 0, got -1"),
         ({"batch": 5}, "--batch must be a multiple of 2, got 5"),
         ({"wide": 1.0}, r"--wide must be at least 0 and below 1, got 1\.0"),
         ({"smoothness": -1.0}, r"--smoothness must be at least 0, got -1\.0"),

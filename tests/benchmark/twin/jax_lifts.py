@@ -12,7 +12,7 @@ from colift.benchmark.episode.level import Level
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.twin.agents import play_agents
 from colift.benchmark.twin.lifts import draw_lifts
-from colift.benchmark.twin.rollout import Sensing, rollout
+from colift.benchmark.twin.rollout import rollout
 
 LIFTS = [(make_scenario(behaviour, "S2"), 7) for behaviour in ("smooth", "pause")]
 
@@ -88,6 +88,5 @@ def test_the_gradient_is_that_of_differences():
 def test_a_lost_sample_is_the_last_one_again():
     lifts = draw_lifts(LIFTS[:1])
     steps = lifts.longest()
-    all_lost = Sensing(jnp.zeros((steps, 2, 1)), jnp.ones((steps, 1)))
-    held = rollout(copying, None, lifts, sensing=all_lost).rmse_mm
+    held = rollout(copying, None, lifts, lost=jnp.ones((steps, 1))).rmse_mm
     assert float(held[0]) > 3 * float(rollout(copying, None, lifts).rmse_mm[0])
