@@ -33,7 +33,7 @@ LONGEST = (
     "benchmark/training/test_apg.py",
     "benchmark/execution/test_cluster.py",
     "cli/test_nao.py",
-    "benchmark/training/test_self_play.py",
+    "benchmark/training/test_ppo.py",
     "benchmark/execution/test_kernels.py",
     "leaderboard/pages/test_accessibility.py",
     "cli/test_submit.py",
@@ -56,6 +56,12 @@ def pytest_xdist_auto_num_workers(config: pytest.Config) -> int:
     """One more than there are processors: many tests wait. The smoke tests are in one file."""
     smoke = config.getoption("markexpr") == "smoke"
     return 0 if smoke else len(os.sched_getaffinity(0)) + 1
+
+
+def pytest_xdist_setupnodes():
+    """Compile colift once; else each of the processes does, all at the same time."""
+    folder = Path(colift.__path__[0])
+    subprocess.run([sys.executable, "-m", "compileall", "-qq", "-j", "0", folder], check=False)
 
 
 def pytest_ignore_collect(collection_path, config):

@@ -1,4 +1,4 @@
-"""Co-play on the twin; run by test_self_play.py in a process of its own."""
+"""Co-play on the twin; run by test_ppo.py in a process of its own."""
 
 import colift
 import numpy as np

@@ -1,4 +1,4 @@
-"""Self-play on the twin; run by test_self_play.py in a process of its own."""
+"""Self-play on the twin; run by test_ppo.py in a process of its own."""
 
 from functools import partial
 
