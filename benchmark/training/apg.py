@@ -1,7 +1,7 @@
 """Analytic policy gradients: a recurrent policy by gradients through whole lifts of the twin.
 
 The loss is that of a :class:`.GradientLesson`, such as :mod:`.level_lesson`.
-The variation of the arms grows from the first update to the last: arms that vary from the
+The variation of the arms grows from the first update to the last: arms that vary much from the
 beginning lead to a policy that is less exact with all of them.
 Nothing is estimated: the gradient is that of the lifts themselves (compare J. Freeman et al.,
 "Brax", NeurIPS 2021, on short-horizon actor-critic and analytic gradients).
@@ -91,8 +91,9 @@ def updates(
         for update in range(learner.update, settings.updates):
             key = jax.random.fold_in(jax.random.key(seed), update)
             keys = [jax.random.fold_in(key, part) for part in range(PARTS)]
-            done = jnp.asarray((update + 1) / settings.updates, jnp.float32)
-            parts = list(threads.map(partial(_finished, gradient, network, lifts, done), keys))
+            varied = jnp.float32(settings.varied_in(update))
+            of_part = partial(_finished, gradient, network, lifts, varied)
+            parts = list(threads.map(of_part, keys))
             network, state, rmse = descend(network, state, parts)
             yield Update(Learner(network, state, update + 1), float(rmse))
 
@@ -110,8 +111,8 @@ def _gradient(settings: ApgSettings, lesson: GradientLesson) -> Any:
     """Return the gradient of a part of a batch, to be compiled."""
 
     @jax.jit
-    def gradient(network: Any, lifts: Any, done: jax.Array, key: jax.Array) -> tuple[Any, Any]:
-        draw = BatchDraw(settings.batch // PARTS, key, done)
+    def gradient(network: Any, lifts: Any, varied: jax.Array, key: jax.Array) -> tuple[Any, Any]:
+        draw = BatchDraw(settings.batch // PARTS, key, varied)
         of_batch = partial(lesson.loss, pool=lifts, settings=settings, draw=draw)
         return jax.value_and_grad(of_batch, has_aux=True)(network)
 

@@ -14,6 +14,9 @@ PARTS: Final = 2
 TASKS: Final = ("level", "intent", "agree", "ball")
 """Tasks with a twin."""
 
+GROWTH: Final = 3
+"""Power of the share of updates that are done, with which the variation of the arms grows."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class ApgSettings:
@@ -41,7 +44,7 @@ class ApgSettings:
     """Of a level table: share of lifts with people, bodies and sensors from wide ranges. Of tasks
     with touch: how much longer the ranges of people's manners are than the population's."""
     varied: float = 0.2
-    """Variation of the arms in the last update: it grows from none."""
+    """Variation of the arms in the last update; see :meth:`varied_in`."""
     smoothness: float = 0.05
     """Cost of bends, relative to the RMSE; of a level table alone."""
     gentleness: float = 0.0
@@ -67,9 +70,13 @@ class ApgSettings:
         if not 0 < self.rate < 1:
             raise InputError(f"--rate must be between 0 and 1, got {self.rate}")
 
+    def varied_in(self, update: int) -> float:
+        """Return the variation of the arms in an update, of which 0 is the first."""
+        return self.varied * ((update + 1) / self.updates) ** GROWTH
+
     def of_loss(self) -> "ApgSettings":
         """Return the settings that the loss of a batch depends on, with the defaults of others."""
-        others = ("updates", "rate")
+        others = ("updates", "rate", "varied")
         return replace(self, **{name: getattr(ApgSettings, name) for name in others})
 
 

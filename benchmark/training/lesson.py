@@ -20,8 +20,8 @@ class BatchDraw(NamedTuple):
     size: int
     """Lifts of the batch."""
     key: jax.Array
-    done: jax.Array
-    """Share of the updates that are done: the variation of the arms grows with it."""
+    varied: jax.Array
+    """Variation of the arms."""
 
 
 class GradientLesson(Protocol):

@@ -48,8 +48,7 @@ class LevelLesson:
         self, network: GatedNetwork, pool: Pool, settings: ApgSettings, draw: BatchDraw
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm] and the mean RMSE [mm] of a batch."""
-        varied = draw.done * settings.varied
-        batch = draw_batch(pool, draw.size, settings.wide, varied, draw.key)
+        batch = draw_batch(pool, draw.size, settings.wide, draw.varied, draw.key)
         return batch_loss(network, batch, settings.smoothness, settings.gentleness)
 
     def error(self, weights: Weights) -> float:

@@ -177,7 +177,7 @@ class LearningBatch(NamedTuple):
 
 
 def draw_batch(
-    pool: Pool, size: int, wide: float, varied: float | jax.Array, key: jax.Array
+    pool: Pool, size: int, wide: float, varied: jax.Array, key: jax.Array
 ) -> LearningBatch:
     """Return a batch of the pool's lifts, with arms and the noise of sensors drawn anew.
 
@@ -221,7 +221,7 @@ def draw_batch(
     )
 
 
-def draw_arms(varied: float | jax.Array, size: int, keys: jax.Array) -> ArmVariation:
+def draw_arms(varied: jax.Array, size: int, keys: jax.Array) -> ArmVariation:
     """Return arms whose sag and gain are the benchmark's times exp(varied N(0, 1)).
 
     Parameters

@@ -71,7 +71,7 @@ class TouchLesson:
         """Return some of the lifts, with people and arms drawn anew."""
         keys = jax.random.split(draw.key, 4)
         lifts = some(pool, jax.random.randint(keys[0], (draw.size,), 0, pool.size))
-        arms = draw_arms(draw.done * settings.varied, draw.size, keys[2:])
+        arms = draw_arms(draw.varied, draw.size, keys[2:])
         return self.twin.manners(lifts, keys[1], settings.wide), arms
 
     def error(self, weights: Weights) -> float:
