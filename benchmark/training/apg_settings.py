@@ -14,9 +14,6 @@ PARTS: Final = 2
 TASKS: Final = ("level", "intent", "agree", "ball")
 """Tasks with a twin."""
 
-GROWTH: Final = 3
-"""Power of the share of updates that are done, with which the variation of the arms grows."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class ApgSettings:
@@ -72,7 +69,7 @@ class ApgSettings:
 
     def varied_in(self, update: int) -> float:
         """Return the variation of the arms in an update, of which 0 is the first."""
-        return self.varied * ((update + 1) / self.updates) ** GROWTH
+        return self.varied * (update + 1) / self.updates
 
     def of_loss(self) -> "ApgSettings":
         """Return the settings that the loss of a batch depends on, with the defaults of others."""
