@@ -123,6 +123,9 @@ def apg(
     varied: Annotated[
         float, typer.Option(metavar="X", help="Variation of the robot's arms at the end.")
     ] = ApgSettings.varied,
+    encoders: Annotated[
+        float, typer.Option(metavar="X", help="Noise of the hand's encoders, in m.")
+    ] = ApgSettings.encoders,
     smoothness: Annotated[
         float, typer.Option(metavar="X", help="Cost of bends, relative to the RMSE.")
     ] = ApgSettings.smoothness,
@@ -140,6 +143,7 @@ def apg(
         rate=rate,
         wide=wide,
         varied=varied,
+        encoders=encoders,
         smoothness=smoothness,
         gentleness=gentleness,
     )

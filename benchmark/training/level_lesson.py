@@ -48,7 +48,7 @@ class LevelLesson:
         self, network: GatedNetwork, pool: Pool, settings: ApgSettings, draw: BatchDraw
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm] and the mean RMSE [mm] of a batch."""
-        batch = draw_batch(pool, draw.size, settings.wide, draw.varied, draw.key)
+        batch = draw_batch(pool, settings, draw)
         return batch_loss(network, batch, settings.smoothness, settings.gentleness)
 
     def error(self, weights: Weights) -> float:
@@ -78,7 +78,7 @@ def batch_loss(
 ) -> tuple[jax.Array, jax.Array]:
     """Return the loss [mm] and the mean RMSE [mm] of a batch."""
     policy, memory = recurrent(network, batch.lifts.size)
-    found = rollout(policy, memory, batch.lifts, batch.variation, batch.lost)
+    found = rollout(policy, memory, batch.lifts, batch.variation, batch.sensing)
     force = batch.common * found.force_n
     cost = found.rmse_mm + smoothness * found.bend_mm + gentleness * force
     return (batch.weight * cost).mean(), found.rmse_mm.mean()

@@ -18,9 +18,11 @@ from ..episode.seeding import derive_seed
 from ..suites.suite import BEHAVIOURS
 from ..twin.arm import ArmVariation
 from ..twin.lifts import DrawnLift, Lifts, carried_out, some, stack
-from ..twin.rollout import rollout
+from ..twin.rollout import Sensing, rollout
 from .anticipation import CURRICULUM, FIRST_SEED
+from .apg_settings import ApgSettings
 from .data import Timing, scenario
+from .lesson import BatchDraw
 from .validation import learning_seeds
 from .wandering import Wandering
 
@@ -168,17 +170,14 @@ class LearningBatch(NamedTuple):
 
     lifts: Lifts
     variation: ArmVariation
-    lost: jax.Array
-    """(s, n) 1 where a sample is lost, else 0."""
+    sensing: Sensing
     weight: jax.Array
     """(n,) weight of each lift in the loss."""
     common: jax.Array
     """(n,) 1 with people of the benchmark's population, else 0."""
 
 
-def draw_batch(
-    pool: Pool, size: int, wide: float, varied: jax.Array, key: jax.Array
-) -> LearningBatch:
+def draw_batch(pool: Pool, settings: ApgSettings, draw: BatchDraw) -> LearningBatch:
     """Return a batch of the pool's lifts, with arms and the noise of sensors drawn anew.
 
     A lift comes again many times in a training, and a network learns by heart what is always the
@@ -188,23 +187,19 @@ def draw_batch(
     ----------
     pool
         The lifts.
-    size
-        How many to take.
-    wide
-        Share of these with wide habits, which have wide sensors too.
-    varied
-        Variation of the arms; see :func:`draw_arms`.
-    key
-        Of the draw.
+    settings
+        Of the training. Of the lifts, the share ``wide`` has wide habits and wide sensors.
+    draw
+        Of the batch.
     """
-    keys = jax.random.split(key, 8)
-    many = round(wide * size)
+    size, keys = draw.size, jax.random.split(draw.key, 9)
+    many = round(settings.wide * size)
     common, total = pool.common, pool.lifts.size
     taken = jax.random.randint(keys[0], (size - many,), 0, common)
     rest = jax.random.randint(keys[1], (many,), common, jnp.maximum(total, common + 1))
     chosen = jnp.concatenate((taken, rest))
     lifts = some(pool.lifts, chosen)
-    variation = draw_arms(varied, size, keys[2:4])
+    variation = draw_arms(draw.varied, size, keys[2:4])
     is_wide = (jnp.arange(size) >= size - many).astype(jnp.float32)
     low, high = (math.log(factor) for factor in NOISE)
     more = is_wide * jnp.exp(jax.random.uniform(keys[4], (size,), minval=low, maxval=high))
@@ -212,10 +207,11 @@ def draw_batch(
     noise = deviation * jax.random.normal(keys[5], lifts.noise.shape)
     chance = LOST * is_wide * jax.random.uniform(keys[6], (size,))
     lost = jax.random.uniform(keys[7], (lifts.longest(), size)) < chance
+    own = settings.encoders * jax.random.normal(keys[8], lifts.noise.shape)
     return LearningBatch(
         lifts=lifts._replace(noise=noise),
         variation=variation,
-        lost=lost.astype(jnp.float32),
+        sensing=Sensing(lost.astype(jnp.float32), own),
         weight=pool.weight[chosen],
         common=1.0 - is_wide,
     )

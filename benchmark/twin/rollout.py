@@ -37,6 +37,15 @@ class JaxFunctions:
 JAX: Final = JaxFunctions()
 
 
+class Sensing(NamedTuple):
+    """How the sensors of n lifts differ from the benchmark's."""
+
+    lost: jax.Array
+    """(s, n) 1 where a sample is lost and the last one is seen again, else 0."""
+    own: jax.Array
+    """(s, 2, n) error of the own hand's height and command, as the policy sees them [m]."""
+
+
 class Outcome(NamedTuple):
     """Figures of n lifts."""
 
@@ -67,7 +76,7 @@ def rollout(
     memory: Any,
     lifts: Lifts,
     variation: ArmVariation | None = None,
-    lost: jax.Array | None = None,
+    sensing: Sensing | None = None,
 ) -> Outcome:
     """Return the outcome of lifts with a policy; differentiable in all that it depends on.
 
@@ -77,23 +86,23 @@ def rollout(
         The policy, and its memory at the beginning.
     lifts
         People, plans and noise.
-    variation
-        How the arms differ from the benchmark's; none: not at all.
-    lost
-        (s, n) 1 where a sample is lost and the last one is seen again, else 0; none: 0.
+    variation, sensing
+        How arms and sensors differ from the benchmark's; none: not at all.
     """
     size, period = lifts.reference.shape[1], lifts.reference.shape[1] * FRAME
-    lost = jnp.zeros((lifts.longest(), lifts.size)) if lost is None else lost
+    count, longest = lifts.size, lifts.longest()
+    differs = sensing or Sensing(jnp.zeros((longest, count)), jnp.zeros((longest, 2, count)))
 
     def step(
-        state: tuple[LiftState, Any, jax.Array], now: tuple[lifting.Due, jax.Array]
+        state: tuple[LiftState, Any, jax.Array], now: tuple[lifting.Due, Sensing]
     ) -> tuple[tuple[LiftState, Any, jax.Array], tuple[jax.Array, jax.Array, jax.Array]]:
         playing, memory, last = state
-        share, is_lost = now
+        share, differs = now
         view = lifting.observe(playing, share.noise, lifts.latency, period)
         seen = view[: RobotObservation.HAND_HEIGHT]
-        seen = jnp.where((is_lost > 0) & (playing.step > 0), last, seen)
-        view = jnp.concatenate((seen, view[RobotObservation.HAND_HEIGHT :]))
+        seen = jnp.where((differs.lost > 0) & (playing.step > 0), last, seen)
+        own = view[RobotObservation.HAND_HEIGHT : RobotObservation.TIME] + differs.own
+        view = jnp.concatenate((seen, own, view[RobotObservation.TIME :]))
         memory, action = policy(memory, view)
         valid = (playing.step < lifts.steps).astype(jnp.float32)
         before = playing.command
@@ -104,9 +113,9 @@ def rollout(
             (playing.command - before) * valid,
         )
 
-    start = (lifting.at_rest(lifts.size), memory, jnp.zeros((2, lifts.size)))
+    start = (lifting.at_rest(lifts.size), memory, jnp.zeros((2, count)))
     shares = lifting.Due(lifts.reference, lifts.seen_target, lifts.noise)
-    _, (squares, forces, changes) = jax.lax.scan(jax.checkpoint(step), start, (shares, lost))
+    _, (squares, forces, changes) = jax.lax.scan(jax.checkpoint(step), start, (shares, differs))
     frames = lifts.steps * size
     bends = (jnp.diff(changes, axis=0) ** 2).sum(axis=0) / lifts.steps
     return Outcome(

@@ -1,5 +1,7 @@
 """A small training: reproducible, resumable, and a submission at its end."""
 
+from dataclasses import replace
+
 import colift
 import jax
 import numpy as np
@@ -12,6 +14,7 @@ from colift.benchmark.episode.lift import MOCAP_NOISE
 from colift.benchmark.training import apg, apg_course, level_lesson
 from colift.benchmark.training.apg_settings import NAME, ApgSettings
 from colift.benchmark.training.course import open_course
+from colift.benchmark.training.lesson import BatchDraw
 from colift.benchmark.training.pool import draw_batch, draw_pool
 from colift.benchmark.twin.rollout import recurrent
 
@@ -63,7 +66,8 @@ def test_the_same_seed_gives_the_same_weights_and_another_others(whole, pool):
 
 def test_a_batch_has_arms_as_varied_as_asked_for_and_noise_of_its_own(pool):
     def batch(varied, seed=0):
-        return draw_batch(pool, 8, 0.0, varied, jax.random.key(seed))
+        draw = BatchDraw(8, jax.random.key(seed), varied)
+        return draw_batch(pool, replace(TINY, wide=0.0), draw)
 
     first, half, last = (batch(varied) for varied in (0.0, 0.1, 0.2))
     for part in range(2):
@@ -75,6 +79,7 @@ def test_a_batch_has_arms_as_varied_as_asked_for_and_noise_of_its_own(pool):
     of_lifts = [set(map(bytes, np.asarray(each).T.copy())) for each in (last.lifts.noise, other)]
     assert of_lifts[0].isdisjoint(of_lifts[1])
     assert float(other.std()) == pytest.approx(MOCAP_NOISE, rel=0.05)
+    assert float(last.sensing.own.std()) == pytest.approx(TINY.encoders, rel=0.05)
 
 
 def test_the_network_acts_the_same_in_numpy(whole):

@@ -12,7 +12,7 @@ from colift.benchmark.episode.level import Level
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.twin.agents import play_agents
 from colift.benchmark.twin.lifts import draw_lifts
-from colift.benchmark.twin.rollout import rollout
+from colift.benchmark.twin.rollout import Sensing, rollout
 
 LIFTS = [(make_scenario(behaviour, "S2"), 7) for behaviour in ("smooth", "pause")]
 
@@ -88,5 +88,19 @@ def test_the_gradient_is_that_of_differences():
 def test_a_lost_sample_is_the_last_one_again():
     lifts = draw_lifts(LIFTS[:1])
     steps = lifts.longest()
-    held = rollout(copying, None, lifts, lost=jnp.ones((steps, 1))).rmse_mm
+    all_lost = Sensing(jnp.ones((steps, 1)), jnp.zeros((steps, 2, 1)))
+    held = rollout(copying, None, lifts, sensing=all_lost).rmse_mm
     assert float(held[0]) > 3 * float(rollout(copying, None, lifts).rmse_mm[0])
+
+
+def test_a_policy_sees_the_error_of_its_own_command():
+    """It brings its command to nought; with an error of a centimetre it is off by less."""
+    lifts = draw_lifts(LIFTS[:1])
+
+    def holding(memory, view):
+        return memory, -view[3]
+
+    error = jnp.zeros((lifts.longest(), 2, 1)).at[:, 1].set(-0.01)
+    sensing = Sensing(jnp.zeros((lifts.longest(), 1)), error)
+    low, higher = (rollout(holding, None, lifts, sensing=each).rmse_mm for each in (None, sensing))
+    assert 5 < float(low[0] - higher[0]) < 10
