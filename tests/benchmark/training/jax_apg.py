@@ -82,6 +82,18 @@ def test_a_batch_has_arms_as_varied_as_asked_for_and_noise_of_its_own(pool):
     assert float(last.sensing.own.std()) == pytest.approx(TINY.encoders, rel=0.05)
 
 
+class Telling(level_lesson.LevelLesson):
+    """Tells how the arms vary, as its RMSE."""
+
+    def loss(self, network, pool, settings, draw):
+        return sum(array.sum() for array in network), draw.varied
+
+
+def test_the_arms_vary_more_in_every_update(pool):
+    found = [update.rmse_mm for update in apg.updates(TINY, 0, pool=pool, lesson=Telling())]
+    assert found == pytest.approx([TINY.varied_in(update) for update in range(TINY.updates)])
+
+
 def test_the_network_acts_the_same_in_numpy(whole):
     network = whole[-1].learner.network
     rng = np.random.default_rng(0)
