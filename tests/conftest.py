@@ -19,6 +19,7 @@ from pathlib import Path
 
 import colift
 import pytest
+from colift.agents.hardware.nao.session import quiet
 from colift.agents.sandbox.host import levels
 from colift.benchmark.execution.pool import JOBS
 from colift.benchmark.profiling.loopback import loopback_cluster
@@ -32,6 +33,7 @@ LONGEST = (
     "agents/sandbox/test_hostile.py",
     "benchmark/training/test_apg.py",
     "benchmark/execution/test_cluster.py",
+    "cli/test_nao_stops.py",
     "cli/test_nao.py",
     "benchmark/training/test_ppo.py",
     "benchmark/execution/test_kernels.py",
@@ -271,6 +273,10 @@ class EmulatedLaboratory:
             assert time.monotonic() < end, f"the emulator does not say {start!r}"
             time.sleep(0.02)
 
+    def happened_since(self, before):
+        """Return the lines since so many, but for what is said of a lack of time."""
+        return [line for line in self.lines[before:] if not line.startswith("behind the clock")]
+
     def close(self):
         """End it as an operator does."""
         self.process.send_signal(signal.SIGINT)
@@ -308,6 +314,7 @@ def lsl_on_loopback(tmp_path_factory):
 @contextmanager
 def emulators():
     """Yield what starts an emulated laboratory in a process of its own; all end with the body."""
+    quiet()
     for package in ("qi", "pylsl"):
         # Where there is no library for this machine, pylsl says so by a RuntimeError.
         try:
