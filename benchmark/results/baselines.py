@@ -201,6 +201,8 @@ class ToShip:
 def baselines_json(played: Sequence[ToShip], kept: Mapping[str, Any] | None = None) -> str:
     """Return the content of the shipped file: baselines and bounds by suite digest.
 
+    Suites are in the order of their names.
+
     Parameters
     ----------
     played
@@ -218,4 +220,5 @@ def baselines_json(played: Sequence[ToShip], kept: Mapping[str, Any] | None = No
         }
         for each in played
     }
-    return json.dumps(content, indent=1) + "\n"
+    in_order = dict(sorted(content.items(), key=lambda entry: str(entry[1]["suite"])))
+    return json.dumps(in_order, indent=1) + "\n"
