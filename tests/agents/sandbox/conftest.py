@@ -1,6 +1,7 @@
 import gc
 import os
 import sys
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -101,6 +102,15 @@ def children():
 
 
 def handles():
-    """Return how many files this process has open, without those of what nobody refers to."""
+    """Return what files this process has open: (number, file)."""
+    found = set()
+    for entry in Path("/proc/self/fd").iterdir():
+        with suppress(FileNotFoundError):  # that of the listing itself
+            found.add((entry.name, entry.readlink()))
+    return found
+
+
+def opened_since(before):
+    """Return what files were opened and not closed, without those of what nobody refers to."""
     gc.collect()
-    return len(list(Path("/proc/self/fd").iterdir()))
+    return handles() - before

@@ -14,7 +14,7 @@ from colift.agents.sandbox.host.levels import strongest
 from colift.agents.sandbox.host.policy import SandboxedPolicy
 from colift.benchmark.suites.suite import Suite
 
-from .conftest import HURRIED, PATIENT, SPARING, children, handles
+from .conftest import HURRIED, PATIENT, SPARING, children, handles, opened_since
 from .hostile.actions import ACTIONS
 from .hostile.ends import ENDS
 from .hostile.frames import FRAMES
@@ -179,7 +179,7 @@ def contained(board, expected, level, policy):
     assert drive_in(good) == (expected, None)
     assert content(board) == files
     assert settled(before)
-    assert handles() == opened
+    assert not opened_since(opened)
 
 
 def ended(bad, policy):
