@@ -14,6 +14,14 @@ PARTS: Final = 2
 TASKS: Final = ("level", "intent", "agree", "ball")
 """Tasks with a twin."""
 
+SOME_TASKS: Final = {
+    "wide": TASKS[:3],
+    "encoders": TASKS[:1],
+    "smoothness": TASKS[:1],
+    "gentleness": TASKS[:1],
+}
+"""Settings that the training of some tasks alone uses, with these tasks."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class ApgSettings:
@@ -39,7 +47,8 @@ class ApgSettings:
     """Learning rate at its highest; it rises for 5 % of the updates, then falls as a cosine."""
     wide: float = 0.2
     """Of a level table: share of lifts with people, bodies and sensors from wide ranges. Of tasks
-    with touch: how much longer the ranges of people's manners are than the population's."""
+    with hurdles and poses: how much longer the ranges of people's manners are than the
+    population's. A ball's people always have the population's, since others fling it about."""
     varied: float = 0.2
     """Variation of the arms in the last update; see :meth:`varied_in`."""
     encoders: float = 1e-4
@@ -55,9 +64,11 @@ class ApgSettings:
         """Check the ranges."""
         if self.task not in TASKS:
             raise InputError(f"--task must be one of {', '.join(TASKS)}, got {self.task!r}")
-        for name in ("encoders", "smoothness", "gentleness"):
-            if self.task != TASKS[0] and getattr(self, name) != getattr(ApgSettings, name):
-                raise InputError(f"--{name} is of the task {TASKS[0]}, not of {self.task}")
+        for name, tasks in SOME_TASKS.items():
+            if self.task not in tasks and getattr(self, name) != getattr(ApgSettings, name):
+                raise InputError(
+                    f"--{name} has no effect on {self.task}, only on {', '.join(tasks)}"
+                )
         for name in ("updates", "units"):
             if getattr(self, name) < 1:
                 raise InputError(f"--{name} must be at least 1, got {getattr(self, name)}")
