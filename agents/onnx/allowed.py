@@ -18,6 +18,9 @@ IR_VERSIONS: Final = range(7, 11)
 MOST_NODES: Final = 2000
 """Most operators of a network."""
 
+MOST_OBSERVATION: Final = 64
+"""Most numbers of an observation; those of colift's own tasks have 5 to 11."""
+
 MOST_STATE: Final = 65_536
 """Most numbers in a network's state."""
 

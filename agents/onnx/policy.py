@@ -45,9 +45,25 @@ class OnnxPolicy:
         self._state = None if state is None else np.zeros(state.shape, state.dtype)
 
     def act(self, observation: Observation) -> float:
-        """Return the change of the hands' height [m]; the state goes on."""
+        """Return the change of the hands' height [m]; the state goes on.
+
+        The network sees the first numbers of the observation, as many as it takes: those of other
+        tasks begin with the five of a level table.
+
+        Raises
+        ------
+        InputError
+            If the task observes fewer numbers than the network takes.
+        """
         seen, state = self._network.observation, self._network.state
-        fed: dict[str, Any] = {seen.name: np.asarray(observation, seen.dtype).reshape(seen.shape)}
+        size = seen.shape[-1]
+        if len(observation) < size:
+            raise InputError(
+                f"{self._network.name} takes an observation of {size} numbers, and this task's has "
+                f"{len(observation)}: evaluate it on a suite of the task that it was trained for"
+            )
+        first = np.asarray(observation[:size], seen.dtype)
+        fed: dict[str, Any] = {seen.name: first.reshape(seen.shape)}
         if state is not None:
             fed[state.name] = self._state
         action, *after = self._session.run(self._network.outputs, fed)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..agent import RobotObservation
 from ..errors import InputError
-from .allowed import MOST_STATE
+from .allowed import MOST_OBSERVATION, MOST_STATE
 from .libraries import import_library
 
 onnx = import_library("onnx")
@@ -75,11 +75,13 @@ def observation_of(inputs: Sequence[Any]) -> Port:
     if not 1 <= len(inputs) <= 2:
         names = ", ".join(quoted(value.name) for value in inputs[:5]) or "none"
         raise InputError(f"has the inputs {names}; it must have the observation, and may a state")
-    found, size = port(inputs[0]), len(RobotObservation)
-    if found.shape not in ((size,), (1, size)):
+    found, least = port(inputs[0]), len(RobotObservation)
+    size = found.shape[-1] if found.shape else 0
+    if found.shape not in ((size,), (1, size)) or not least <= size <= MOST_OBSERVATION:
         raise InputError(
             f"has the observation {quoted(found.name)} with the shape {list(found.shape)}; it must "
-            f"be [{size}] or [1, {size}]"
+            f"be [n] or [1, n], with n = {least} for a level table, and {least} to "
+            f"{MOST_OBSERVATION} for other tasks"
         )
     return found
 

@@ -37,7 +37,7 @@ def proportional(kind=DOUBLE, shape=(1, 5)):
         [("MatMul", "seen gains", "action")],
         [value("seen", shape, kind)],
         [value("action", [*shape[:-1], 1], kind)],
-        [weights("gains", [[GAIN], [0], [-GAIN], [0], [0]], number)],
+        [weights("gains", [[GAIN], [0], [-GAIN], *([0],) * (shape[-1] - 3)], number)],
     )
 
 

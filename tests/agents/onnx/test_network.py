@@ -207,9 +207,21 @@ REFUSED = {
         picked(inputs=[value("seen", ["batch", 5])]),
         r"'seen' with the shape \[batch, 5\]: every size must be a number",
     ),
-    "another observation": (
-        picked(inputs=[value("seen", [6])]),
-        r"observation 'seen' with the shape \[6\]; it must be \[5\] or \[1, 5\]",
+    "a short observation": (
+        picked(inputs=[value("seen", [4])]),
+        r"observation 'seen' with the shape \[4\]; it must be \[n\] or \[1, n\], with n = 5 for",
+    ),
+    "a long observation": (
+        picked(inputs=[value("seen", [1, 65])]),
+        r"observation 'seen' with the shape \[1, 65\]; it must be .*, and 5 to 64 for other tasks",
+    ),
+    "a batch of observations": (
+        picked(inputs=[value("seen", [2, 5])]),
+        r"observation 'seen' with the shape \[2, 5\]; it must be",
+    ),
+    "an observation without a shape": (
+        picked(inputs=[value("seen", [])]),
+        r"observation 'seen' with the shape \[\]; it must be",
     ),
     "whole numbers": (
         picked(inputs=[value("seen", [5], TensorProto.INT64)]),
@@ -267,6 +279,7 @@ GOOD = {
     "proportional": proportional(),
     "in single precision": proportional(FLOAT),
     "without a row": proportional(shape=(5,)),
+    "of a task with touch": proportional(shape=(1, 11)),
     "recurrent": recurrent(),
     "the newest opset": picked(opset=21, ir_version=10),
 }

@@ -64,6 +64,26 @@ def test_the_action_is_the_networks(tmp_path, kind, shape):
     assert actions(OnnxPolicy(str(folder / "policy.onnx"))) == pytest.approx(wanted, abs=1e-6)
 
 
+@pytest.mark.parametrize("size", [5, 7, 11])
+def test_it_sees_the_first_numbers_of_a_longer_observation(tmp_path, size):
+    folder = write_network(tmp_path / "net", proportional(shape=(1, size)))
+    policy = OnnxPolicy(str(folder / "policy.onnx"))
+    longer = np.random.default_rng(4).normal(0.0, 0.1, (20, 11))
+    policy.reset(0)
+    wanted = [GAIN * (seen[0] - seen[2]) for seen in longer]
+    assert [policy.act(seen) for seen in longer] == pytest.approx(wanted, abs=1e-12)
+
+
+def test_a_network_of_another_task_is_told_from_this_tasks_observation(tmp_path):
+    folder = write_network(tmp_path / "net", proportional(shape=(1, 7)))
+    policy = OnnxPolicy(str(folder / "policy.onnx"))
+    policy.reset(0)
+    with pytest.raises(
+        InputError, match=r"takes an observation of 7 numbers, and this task's has 5"
+    ):
+        policy.act(OBSERVATIONS[0])
+
+
 def test_the_state_goes_on_and_begins_as_zero(tmp_path):
     folder = write_network(tmp_path / "net", recurrent())
     policy, wanted = OnnxPolicy(str(folder / "policy.onnx")), actions(in_python())
