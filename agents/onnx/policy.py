@@ -62,7 +62,7 @@ class OnnxPolicy:
                 f"{self._network.name} takes an observation of {size} numbers, and this task's has "
                 f"{len(observation)}: evaluate it on a suite of the task that it was trained for"
             )
-        first = np.asarray(observation[:size], seen.dtype)
+        first: NDArray[Any] = np.asarray(observation[:size], seen.dtype)
         fed: dict[str, Any] = {seen.name: first.reshape(seen.shape)}
         if state is not None:
             fed[state.name] = self._state
