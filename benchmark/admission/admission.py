@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ...agents.errors import InputError
 from ...agents.loading.loading import PolicySpec
 from ...agents.registry import own_policies, policies_by_task
+from ...agents.touch.touch_controller import TouchController
 from ..bounds.bounds import suite_bounds
 from ..bounds.oracle import ORACLE
 from ..comparison.playing import known_bounds
@@ -31,9 +32,6 @@ from .published import PUBLISHED
 
 KEEPERS: Final = ("copy", "extrapolate", "anticipate")
 """Policies that keep the table level, from the simplest to the best."""
-
-TRAINED: Final = ("pose_learned", "agree_learned", "ball_learned")
-"""Policies that were trained with the population of a suite."""
 
 HOLD: Final = "hold"
 """The policy that stands still."""
@@ -61,6 +59,11 @@ def players(task: str) -> tuple[str, ...]:
     """Return the names of all policies that the test plays: level-keepers, and the task's own."""
     own = own_policies(task)
     return (*KEEPERS, *(name for name in policies_by_task().get(task, ()) if name in own))
+
+
+def trained(name: str) -> bool:
+    """Return whether a policy is a network that was trained with the population of a suite."""
+    return issubclass(PolicySpec(text=name).load(), TouchController)
 
 
 def admission_of(
@@ -111,8 +114,8 @@ def admission_of(
         criteria=(
             room(bounds[ORACLE].mean, {name: run for name, run in runs.items() if name in KEEPERS}),
             interaction(
-                {name: run for name, run in runs.items() if name not in TRAINED},
-                {name: run for name, run in runs.items() if name in TRAINED},
+                {name: run for name, run in runs.items() if not trained(name)},
+                {name: run for name, run in runs.items() if trained(name)},
             ),
             rank_changes(runs),
             conventions(pairs),
