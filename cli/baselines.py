@@ -27,21 +27,21 @@ from .progress import workers
 def baselines(
     out: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="File for the baselines, as shipped."),
+        typer.Option(metavar="FILE", help="File for what colift ships: these results as JSON."),
     ] = None,
     only: Annotated[
         list[str] | None,
         typer.Option(
             "--suite",
             metavar="NAME",
-            help="Suite to play, may be repeated; of the others the file has what is shipped. "
-            "Default: all.",
+            help="Suite to play, may be repeated; in the file, others stay as they are shipped. "
+            "Default: all of colift's own.",
             autocompletion=named,
         ),
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """Play the baselines and the bounds on all suites, and print their RMSE per behaviour."""
+    """Play the baselines and the bounds on suites, and print their RMSE per behaviour."""
     check_output(out)
     suites = [make_suite(name) for name in only or own_entries(SUITES)]
     total = sum((len(BASELINES) + len(suite_bounds(suite))) * suite.size for suite in suites)

@@ -71,7 +71,7 @@ def compare_policies(
         bool,
         typer.Option(
             "--bounds",
-            help="Include the bounds, such as the oracle; the named suites include them always.",
+            help="Play the bounds, such as the oracle, too; suites that ship them show them always.",
         ),
     ] = False,
     jobs: Jobs = None,

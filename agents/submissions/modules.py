@@ -27,8 +27,8 @@ def module_digest(name: str) -> str:
         if name.startswith("colift."):
             raise InputError(f"module {name!r} is colift's own, which a sandbox does not see")
         raise InputError(
-            f"module {name!r} is {source}, which a sandbox does not see: name the file, as in "
-            f"{source.name}:Class, make it a submission, or install it"
+            f"module {name!r} is {source}, which a sandbox does not see: install its package, not "
+            f"as editable, name the file, as in {source.name}:Class, or make it a submission"
         )
     return source_hash(source.read_bytes())
 

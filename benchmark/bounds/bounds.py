@@ -5,7 +5,7 @@ from typing import Final
 
 from ..comparison.playing import Bound
 from ..suites.suite import Suite
-from .causal import BOUNDED, CAUSAL_BOUND, causal_run
+from .causal import CAUSAL_BOUND, causal_run, has_causal_bound
 from .oracle import ORACLE, ORACLES, oracle_run
 
 BOUNDS: Final[Mapping[str, Bound]] = {CAUSAL_BOUND: causal_run, ORACLE: oracle_run}
@@ -13,7 +13,10 @@ BOUNDS: Final[Mapping[str, Bound]] = {CAUSAL_BOUND: causal_run, ORACLE: oracle_r
 
 
 def suite_bounds(suite: Suite) -> Mapping[str, Bound]:
-    """Return the bounds of a suite's task by name; none if it has none."""
-    task = suite.scenarios[0].task.name
-    known = {CAUSAL_BOUND: task in BOUNDED, ORACLE: task in ORACLES}
+    """Return the bounds of a suite by name, as far as its task has them.
+
+    The causal bound is left out if the suite's latency or control period is another than its own.
+    """
+    has_oracle = suite.scenarios[0].task.name in ORACLES
+    known = {CAUSAL_BOUND: has_causal_bound(suite), ORACLE: has_oracle}
     return {name: BOUNDS[name] for name, has in known.items() if has}

@@ -17,7 +17,7 @@ from ...agents.spec import InProcess
 from ...agents.touch.touch_controller import TouchController, read_touch
 from ...agents.touch.touch_law import TASK_SENSES, TouchNetwork
 from ..episode.level import LEVEL
-from ..episode.scenario import CONTROL_PERIOD, LATENCY
+from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..execution.runner import Run, run_suite
 from ..suites.suite import Suite
 
@@ -25,6 +25,9 @@ CAUSAL_BOUND: Final = "causal_bound"
 
 BOUNDED: Final = (LEVEL.name, *TASK_SENSES)
 """Names of the tasks for which a causal bound was learned."""
+
+LEARNED_TIMING: Final = (LATENCY, CONTROL_PERIOD)
+"""Latency and control period with which it was learned [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,6 +76,17 @@ def _weights(task: str) -> Traversable:
     return files(__package__).joinpath("data", f"causal_{task}.npz")
 
 
+def timing(scenario: Scenario) -> tuple[float, float]:
+    """Return latency and control period of a scenario [s]."""
+    return scenario.latency, scenario.control_period
+
+
+def has_causal_bound(suite: Suite) -> bool:
+    """Return whether a bound was learned for the task and the timing of a suite."""
+    known = suite.scenarios[0].task.name in BOUNDED
+    return known and all(timing(each) == LEARNED_TIMING for each in suite.scenarios)
+
+
 def causal_run(
     suite: Suite,
     *,
@@ -87,16 +101,15 @@ def causal_run(
         If no bound was learned for the suite's task, or it was learned with another latency or
         control period.
     """
-    learned, task = (LATENCY, CONTROL_PERIOD), suite.scenarios[0].task.name
+    task = suite.scenarios[0].task.name
     if task not in BOUNDED:
         raise InputError(
             f"no {CAUSAL_BOUND} was learned for the task {task!r}; known: {', '.join(BOUNDED)}"
         )
     for scenario in suite.scenarios:
-        found = scenario.latency, scenario.control_period
-        if found != learned:
+        if timing(scenario) != LEARNED_TIMING:
             raise InputError(
-                f"{CAUSAL_BOUND} was learned with a latency and a control period of {learned} s, "
-                f"{scenario.name} has {found} s"
+                f"{CAUSAL_BOUND} was learned with a latency and a control period of "
+                f"{LEARNED_TIMING} s, {scenario.name} has {timing(scenario)} s"
             )
     return run_suite(CausalBound(task=task), suite, executor=executor, progress=progress)

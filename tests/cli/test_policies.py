@@ -130,8 +130,9 @@ def test_a_module_beside_the_user_is_refused_with_what_to_do(here, monkeypatch):
     with pytest.raises(InputError) as caught:
         choose_policy("pack.inner:Mine")
     assert str(caught.value) == (
-        f"module 'pack.inner' is {here}/pack/inner.py, which a sandbox does not see: name the "
-        "file, as in inner.py:Class, make it a submission, or install it"
+        f"module 'pack.inner' is {here}/pack/inner.py, which a sandbox does not see: "
+        "install its package, not as editable, name the file, as in inner.py:Class, or make it a "
+        "submission"
     )
     assert "pack" not in sys.modules
 

@@ -62,6 +62,13 @@ def test_each_task_with_touch_has_a_bound_below_its_policies(behaviours, policy,
     assert paired.bounds["oracle"].mean < paired.bounds[CAUSAL_BOUND].mean < error
 
 
+def test_a_suite_of_another_timing_has_the_oracle_alone():
+    suite = Suite(name="one", scenarios=(make_scenario("smooth"),), seeds=(0,))
+    assert list(suite_bounds(suite)) == [CAUSAL_BOUND, "oracle"]
+    assert list(suite_bounds(suite.with_timing(0.2, None))) == ["oracle"]
+    assert list(suite_bounds(suite.with_timing(None, 0.05))) == ["oracle"]
+
+
 def test_a_task_without_a_bound_is_named():
     @dataclasses.dataclass(frozen=True, kw_only=True)
     class Other(Level):
