@@ -71,7 +71,7 @@ def compare_policies(
         bool,
         typer.Option(
             "--bounds",
-            help="Play the bounds, such as the oracle, too; suites that ship them show them always.",
+            help="Play the bounds, such as the oracle, too; shipped ones are always shown.",
         ),
     ] = False,
     jobs: Jobs = None,
