@@ -73,7 +73,8 @@ class Code:
         roots
             Where to begin; their order counts. One whose source is not known enters by its name.
         without
-            What is not followed: its value is stated elsewhere.
+            What is not followed: its value is stated elsewhere. One definition may be there under
+            several names.
         """
         return self._hash([self._root(root) for root in roots], without)[0]
 
@@ -103,7 +104,7 @@ class Code:
     def _hash(
         self, roots: Iterable[Piece], without: Iterable[Root] = ()
     ) -> tuple[str, tuple[Reference, ...]]:
-        stated = {self._root(each): i for i, each in enumerate(without)}
+        stated = {piece: i for i, piece in enumerate(dict.fromkeys(map(self._root, without)))}
         numbers: dict[Reference, int] = {}
         queue: list[Reference] = []
 

@@ -290,8 +290,10 @@ class _Encoder:
                 ours = any(isinstance(each, Reference) for each in self._pieces[before:])
                 if ours:
                     self._pieces[before:] = ["<own>"]
-            case ast.Constant(value=str()):
-                self.text("<forward>")
+            case ast.Subscript(value=ast.Name(id="Literal")):
+                self.text("<literal>")
+            case ast.Constant(value=str() as quoted):
+                self._annotation(_parsed(quoted))
             case ast.Constant() | ast.expr_context() | ast.operator():
                 self._generic(node)
             case _:
@@ -334,6 +336,11 @@ def _dotted(node: ast.expr) -> tuple[ast.expr, list[str]]:
         names.insert(0, node.attr)
         node = node.value
     return node, names
+
+
+def _parsed(quoted: str) -> ast.AST:
+    """Return a quoted annotation as it would be without quotes."""
+    return ast.parse(quoted, mode="eval").body
 
 
 def _ordered(body: Sequence[ast.stmt]) -> list[ast.stmt]:

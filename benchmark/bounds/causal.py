@@ -13,6 +13,7 @@ from ...agents.agent import Agent
 from ...agents.control.recurrent import GatedNetwork, read_gated
 from ...agents.control.recurrent_controller import RecurrentController
 from ...agents.errors import InputError
+from ...agents.identity import code_hash
 from ...agents.spec import InProcess
 from ...agents.touch.touch_controller import TouchController, read_touch
 from ...agents.touch.touch_law import TASK_SENSES, TouchNetwork
@@ -50,8 +51,10 @@ class CausalBound(InProcess):
         """Do nothing: the weights are shipped."""
 
     def digest(self) -> str:
-        """Return a hash of the weights."""
-        return hashlib.sha256(_weights(self.task).read_bytes()).hexdigest()[:16]
+        """Return a hash of the weights and of the equations."""
+        weights = _weights(self.task).read_bytes()
+        code = code_hash(RecurrentController if self.task == LEVEL.name else TouchController)
+        return hashlib.sha256(weights + code.encode()).hexdigest()[:16]
 
     def make(self) -> Agent:
         """Return a new robot."""

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from typing import Final
 
 from ...agents.errors import InputError
-from ...agents.loading.loading import source_digest
+from ...agents.identity import code_hash
 from ..episode.episode import Episode, run_episode
+from ..episode.kept_world import drop_kept_world, lift_in_kept_world
 from ..episode.level import Level
 from ..episode.lift import Lift
 from ..episode.scenario import Scenario
-from ..execution.kept_world import drop_kept_world, lift_in_kept_world
 from ..execution.runner import Run
 from ..suites.suite import Suite
 from ..tasks.agree.oracle import foreknow_agreement
@@ -20,7 +20,7 @@ from ..tasks.ball.oracle import foresee
 from ..tasks.ball.task import BallSteering
 from ..tasks.intent.oracle import foreknow_pose
 from ..tasks.intent.task import Intent
-from ..tasks.rehearsal import Foreknowing, refine, rehearse_lift
+from ..tasks.rehearsal import refine, rehearse_lift
 from .causal import CausalBound
 
 ORACLE: Final = "oracle"
@@ -103,7 +103,7 @@ def oracle_run(
         drop_kept_world()
     return Run(
         policy=ORACLE,
-        policy_digest=source_digest(Foreknowing),
+        policy_digest=code_hash(ORACLES[task]),
         suite=suite,
         episodes=tuple(episodes),
     )

@@ -24,15 +24,17 @@ from ...agents.humans import (
     Smooth,
 )
 from ...agents.identity import Root, code_hash
+from ...agents.registry import HUMANS, TASKS, lookup, own_entries
 from ...robots.nao.kinematics import STROKE
 from ..world import HISTORY_FRAMES, PHYSICS, SERVO, human_body, table
 from . import level, level_metrics, lift, metrics, seat, smoothness
 from .episode import run_episode
+from .kept_world import lift_in_kept_world
 from .lift import Lift
 from .recorder import Recorder
 
-SIMULATES: Final[tuple[Root, ...]] = (Lift, Recorder, Partner)
-"""The code from a plan and actions to a trace."""
+SIMULATES: Final[tuple[Root, ...]] = (Lift, Recorder, Partner, lift_in_kept_world)
+"""The code from a plan and actions to a trace; the last has the world of a level table."""
 
 PLANS: Final[tuple[Root, ...]] = (Smooth, Pause, Jerky, ChangingGoal, Recorded)
 """The code from a seed to a human's plan."""
@@ -92,8 +94,10 @@ def numbers() -> Mapping[str, Any]:
 
 @functools.cache
 def simulation_hash() -> str:
-    """Return the hash of the code that simulates: no policy and no score is in it."""
-    return code_hash(*SIMULATES, *PLANS)
+    """Return the hash of the code that simulates, with all tasks and behaviours of colift."""
+    tasks, humans = ([lookup(each, name) for name in own_entries(each)] for each in (TASKS, HUMANS))
+    stated = (*STATED, *(root for task in tasks for root in _metrics(task)))
+    return code_hash(*SIMULATES, *PLANS, *tasks, *humans, without=stated)
 
 
 @functools.cache
@@ -117,9 +121,20 @@ def plain(value: Any) -> Any:
     return value
 
 
-def _metrics(kind: type) -> list[Root]:
-    """Return the table of metrics of a task's class: how metrics are shown changes no score."""
-    module, found = sys.modules[kind.__module__], getattr(kind, "metrics", None)
+@functools.cache
+def _metrics(kind: type) -> tuple[Root, ...]:
+    """Return the table of metrics of a task's class: how metrics are shown changes no score.
+
+    It is a constant of any module of the package, under one name or several.
+    """
+    found = getattr(kind, "metrics", None)
     if found is None or found is level_metrics.LEVEL_METRICS:
-        return []
-    return [(module, name) for name, value in vars(module).items() if value is found]
+        return ()
+    package = kind.__module__.partition(".")[0]
+    return tuple(
+        (module, name)
+        for module_name, module in sorted(sys.modules.items())
+        if module_name.partition(".")[0] == package
+        for name, value in vars(module).items()
+        if value is found
+    )

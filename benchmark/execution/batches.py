@@ -13,10 +13,10 @@ from ...agents.errors import EvaluatorFault, InputError, error_text
 from ...agents.spec import AgentSpec, Paced
 from ..channels import Channel, teleoperated
 from ..episode.episode import Episode, run_episode
+from ..episode.kept_world import drop_kept_world, lift_in_kept_world
 from ..episode.scenario import Scenario
 from ..suites.hidden import keyed
 from ..suites.suite import Suite
-from .kept_world import drop_kept_world, lift_in_kept_world
 
 SEEDS_PER_BATCH: Final = 5
 """Seeds of one scenario that a worker plays at a time: few enough for visible progress."""

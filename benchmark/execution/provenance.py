@@ -17,7 +17,7 @@ from threadpoolctl import threadpool_info
 from ...agents.errors import InputError
 from ...agents.identity import Root, code_hash
 from ...agents.sandbox.guest import forkserver
-from ..episode.identity import simulation_hash
+from ..episode.identity import STATED, simulation_hash
 from .batches import Batch
 from .packaging import PackagedPolicy
 
@@ -144,4 +144,4 @@ def check_same_origin(
 
 @functools.cache
 def _code() -> str:
-    return code_hash(*PLAYS)
+    return code_hash(*PLAYS, without=STATED)

@@ -11,13 +11,13 @@ from ..bundle import Bundle, one_line
 from ..bundle.files import EPISODES, MANIFEST, TRACES
 from ..channels import Channel
 from ..episode.episode import Episode
+from ..episode.kept_world import drop_kept_world, lift_in_kept_world
 from ..episode.lift import Lift
 from ..episode.metric import Scores
 from ..episode.replay import ReplayError, replay
 from ..episode.scenario import Scenario
 from ..episode.trace import Trace
 from ..execution.batches import SEEDS_PER_BATCH
-from ..execution.kept_world import drop_kept_world, lift_in_kept_world
 from ..suites.suite import Suite
 from .channel_check import channel_fault
 from .deviation import Place, beyond_tolerance, first_difference

@@ -62,10 +62,13 @@ class GivenPolicy(InProcess):
     def digest(self) -> str:
         """Return the hash of the source of the class, or :data:`UNKNOWN`.
 
-        The arguments and the learned state of an object are not part of it.
+        It is that of ``file.py:Class``, over all that the file defines; of a class without a file,
+        as in a notebook, over the class alone. The arguments and the learned state of an object
+        are not part of it.
         """
         try:
-            if self.type.__module__.startswith("colift."):
+            file = inspect.getsourcefile(self.type)
+            if file is not None and Path(file).is_file():
                 return source_digest(self.type)
             source = inspect.getsource(self.type)
         except (OSError, TypeError):

@@ -5,11 +5,11 @@ import pickle
 import pytest
 from colift.agents.errors import EvaluatorFault
 from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.episode import kept_world
 from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.kept_world import drop_kept_world, lift_in_kept_world
 from colift.benchmark.episode.lift import Lift
-from colift.benchmark.execution import kept_world
 from colift.benchmark.execution.batches import play
-from colift.benchmark.execution.kept_world import drop_kept_world, lift_in_kept_world
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite

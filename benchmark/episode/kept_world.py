@@ -8,11 +8,11 @@ import contextlib
 from collections.abc import Iterator
 from typing import Final
 
-from ..episode.level import Level
-from ..episode.lift import Lift, Staging, make_lift
-from ..episode.scenario import Scenario
 from ..world import BodyParameters, FarEnd
 from ..world.shared_world import SharedWorld
+from .level import Level
+from .lift import Lift, Staging, make_lift
+from .scenario import Scenario
 
 _kept: Final[list[tuple[FarEnd, SharedWorld]]] = []
 """The world that the last lift has left, with the holder of its far end."""
