@@ -19,7 +19,7 @@ from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tasks.intent.oracle import foreknow_pose
 from colift.benchmark.tasks.intent.scores import peak_mm, pose_rmse_mm, settling_ms
 
-DIGEST = "372ce4e6950e9e64"
+DIGEST = "bfe09cb146133f77"
 SEED = 100_000
 
 
