@@ -2,7 +2,6 @@
 
 import csv
 import json
-import shutil
 
 import numpy as np
 import pytest
@@ -14,19 +13,9 @@ from . import sloping
 
 
 @pytest.fixture(autouse=True)
-def installed(tmp_path_factory, monkeypatch):
-    """Install the package for the time of a test, as pip would."""
-    site = tmp_path_factory.mktemp("site")
-    about = site / "sloping-1.0.dist-info"
-    about.mkdir()
-    about.joinpath("METADATA").write_text("Metadata-Version: 2.1\nName: sloping\nVersion: 1.0\n")
-    about.joinpath("entry_points.txt").write_text(sloping.ENTRY_POINTS)
-    shutil.copy(sloping.__file__, site)
-    monkeypatch.syspath_prepend(site)
-    entries.cache_clear()
-    yield
-    monkeypatch.undo()
-    entries.cache_clear()
+def installed(install):
+    """Install the package for the time of a test."""
+    install(sloping.__file__, sloping.ENTRY_POINTS)
 
 
 def test_it_conforms():
