@@ -298,7 +298,7 @@ def _followed(seed: int, task: Task) -> NDArray[np.float64]:
             return super().act(observation)
 
     scenario = dataclasses.replace(make_scenario("smooth", "S1"), task=task)
-    with contextlib.closing(make_lift(scenario)) as lift:
+    with blaming_plugins(scenario, seed), contextlib.closing(make_lift(scenario)) as lift:
         run_episode(lift, Noting(), seed)
     return np.array(seen[:OBSERVED])
 
