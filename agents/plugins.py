@@ -69,13 +69,27 @@ def blaming(title: str, source: Any) -> Iterator[None]:
 
 
 def class_fault(kind: Any) -> str | None:
-    """Return why something is no class of a plugin, or None: it must be a frozen dataclass."""
+    """Return why something is no class of a plugin, or None.
+
+    It must be a frozen dataclass; a subclass of one needs no decorator if it only changes methods.
+    """
     if not isinstance(kind, type):
         return f"must be a class, got {article(kind)}"
-    own = vars(kind).get("__dataclass_params__")
-    if own is None or not own.frozen:
+    frozen = dataclasses.is_dataclass(kind) and kind.__dataclass_params__.frozen  # type: ignore[attr-defined]
+    if not frozen or _has_own_state(kind):
         return "must itself be a frozen dataclass: its fields are in the digest of suites"
     return None
+
+
+def _has_own_state(kind: type) -> bool:
+    """Return whether a class adds state that is in no field, since the decorator is missing."""
+    own = vars(kind)
+    if "__dataclass_params__" in own:
+        return False
+    fields = [
+        each for each in own.get("__annotations__", {}).values() if "ClassVar" not in str(each)
+    ]
+    return bool(fields) or "__init__" in own
 
 
 def object_fault(made: Any, protocol: type) -> str | None:

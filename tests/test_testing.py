@@ -2,6 +2,7 @@
 
 import dataclasses
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -276,6 +277,18 @@ def test_a_policy_that_cannot_act_is_refused_in_words(policy, rule):
 class Undecorated(Smooth):
     """A dataclass by its parent alone."""
 
+    share: float = 0.5
+
+
+class Renamed(Smooth):
+    """The plans of its parent."""
+
+    kind: ClassVar[str] = "renamed"
+
+
+def test_a_subclass_without_fields_needs_no_decorator():
+    check_behaviour(Renamed())
+
 
 def raising(plan, seed):
     raise RuntimeError("no idea")
@@ -375,7 +388,10 @@ class Fragile(Level):
 
 
 class Inherits(Level):
-    """A dataclass by its parent alone."""
+    """A dataclass by its parent alone, with a state of its own."""
+
+    def __init__(self):
+        object.__setattr__(self, "memory", [])
 
 
 @pytest.mark.parametrize(

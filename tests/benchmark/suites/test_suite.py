@@ -35,6 +35,8 @@ class Planless:
 class Undecorated(Smooth):
     """A behaviour that is a dataclass by its parent alone."""
 
+    share: float = 0.5
+
 
 def replaced(**changes):
     return dataclasses.replace(make_scenario("smooth"), **changes)
