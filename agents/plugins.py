@@ -75,8 +75,8 @@ def class_fault(kind: Any) -> str | None:
     """
     if not isinstance(kind, type):
         return f"must be a class, got {article(kind)}"
-    frozen = dataclasses.is_dataclass(kind) and kind.__dataclass_params__.frozen  # type: ignore[attr-defined]
-    if not frozen or _has_own_state(kind):
+    parameters = getattr(kind, "__dataclass_params__", None)
+    if parameters is None or not parameters.frozen or _has_own_state(kind):
         return "must itself be a frozen dataclass: its fields are in the digest of suites"
     return None
 

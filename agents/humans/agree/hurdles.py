@@ -112,34 +112,34 @@ class Abreast:
 
 @dataclass(frozen=True, kw_only=True)
 class Ahead(Abreast):
-    """Two hurdles; the human's window opens 0.2 to 0.4 s before the other."""
+    """Both have a hurdle; the human's window opens 0.2 to 0.4 s before the other."""
 
     ahead: ClassVar[tuple[float, float]] = (0.2, 0.4)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Behind(Abreast):
-    """Two hurdles; the human's window opens 0.2 to 0.4 s after the other."""
+    """Both have a hurdle; the human's window opens 0.2 to 0.4 s after the other."""
 
     ahead: ClassVar[tuple[float, float]] = (-0.4, -0.2)
 
 
 @dataclass(frozen=True, kw_only=True)
 class OwnHurdle(Abreast):
-    """One hurdle, of the human."""
+    """The human alone has a hurdle."""
 
     has: ClassVar[tuple[bool, bool]] = (True, False)
 
 
 @dataclass(frozen=True, kw_only=True)
 class OtherHurdle(Abreast):
-    """One hurdle, of the holder of the far end."""
+    """The holder of the far end alone has a hurdle."""
 
     has: ClassVar[tuple[bool, bool]] = (False, True)
 
 
 @dataclass(frozen=True, kw_only=True)
 class NoHurdle(Abreast):
-    """No hurdle, and neither knows that the other has none."""
+    """Nobody has a hurdle, and nobody knows that of the other."""
 
     has: ClassVar[tuple[bool, bool]] = (False, False)
