@@ -14,7 +14,7 @@ from ..execution.runner import Run
 from .arrays import parse_arrays
 from .files import EPISODES, INPUTS, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, read_files
 from .json_text import dump_json, of_type, parse_json, pick
-from .recipe import Recipe
+from .recipe import FROM_NAMES, Recipe
 from .table import parse_table
 from .traces import LARGEST_LIFT, parse_traces
 from .writing import FORMAT, kept_logs
@@ -118,8 +118,8 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
         raise InputError(f"{MANIFEST}: the bundle has format {form}, must be {FORMAT}")
     if manifest.get("recipe", 0) is None:
         raise InputError(
-            f"{MANIFEST}: there is no recipe: the suite cannot be made again from names, since "
-            "its behaviours or subjects are not registered ones with their own parameters"
+            f"{MANIFEST}: there is no recipe, since the suite cannot be made again from names: "
+            f"{FROM_NAMES}"
         )
     recipe = Recipe.parse(
         pick(manifest, "recipe", dict, MANIFEST), files.get(RECORDINGS), files.get(INPUTS)
