@@ -14,6 +14,8 @@ class Remedy(Enum):
     """Start from the template of a submission."""
     SUBMISSION_FROM_FILE = auto()
     """Make a submission from a file; the target is ``file.py:Class``."""
+    LIST = auto()
+    """List the names of everything that is registered."""
 
 
 class InputError(ValueError):

@@ -10,7 +10,7 @@ import functools
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Final
 
-from .errors import InputError
+from .errors import InputError, Remedy
 from .near_names import did_you_mean
 
 POLICIES: Final = "colift.policies"
@@ -84,24 +84,39 @@ def own_entries(group: str) -> dict[str, EntryPoint]:
     return {name: entry for name, entry in entries(group).items() if entry.module.startswith(own)}
 
 
+class UnknownNameError(InputError):
+    """A name that no package registers."""
+
+
+def called(group: str, name: str) -> str:
+    """Return a registered name in words: its kind, and the class or function it stands for."""
+    return f"{_KIND[group]} {name!r} ({entries(group)[name].value})"
+
+
 def lookup(group: str, name: str) -> Any:
     """Return the class, or the function, that is registered under ``name``.
 
     Raises
     ------
+    UnknownNameError
+        If the name is unknown; the message has the nearest name, or all of them.
     InputError
-        If the name is unknown; the message lists all names.
+        If it cannot be loaded; the message names the package.
     """
     known = entries(group)
     if name not in known:
-        near = did_you_mean(name, known)
-        raise InputError(f"unknown {_KIND[group]} {name!r}; {near}known: {', '.join(known)}")
+        near = did_you_mean(name, known).rstrip()
+        raise UnknownNameError(
+            f"unknown {_KIND[group]} {name!r}; {near or 'known: ' + ', '.join(known)}",
+            remedy=Remedy.LIST if near else None,
+        )
     try:
         return known[name].load()
     except Exception as error:
-        message = f"{type(error).__name__}: {error}"
+        package = known[name].dist
+        of = "" if package is None else f" of the package {package.name}"
         raise InputError(
-            f"{_KIND[group]} {name!r} ({known[name].value}) cannot be loaded: {message}"
+            f"{called(group, name)}{of} cannot be loaded: {type(error).__name__}: {error}"
         ) from error
 
 

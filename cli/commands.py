@@ -1,6 +1,7 @@
 """The commands, each imported when it is called."""
 
 import importlib
+import inspect
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
@@ -85,6 +86,7 @@ class _Loaded(Mapping[str, Any]):
             app.command()(found)
             command = typer.main.get_command(app)
         _without_types(command)
+        _flowing(command)
         command.name = name
         command.rich_help_panel = next(panel for panel, names in PANELS.items() if name in names)
         return command
@@ -105,6 +107,14 @@ def _without_types(command: Any) -> None:
         _without_types(inner)
     every = command.get_params
     command.get_params = lambda context: _untyped(every(context))
+
+
+def _flowing(command: Any) -> None:
+    """Join the lines of each paragraph of a help: the terminal wraps them at its own width."""
+    for inner in getattr(command, "commands", {}).values():
+        _flowing(inner)
+    paragraphs = inspect.cleandoc(command.help or "").split("\n\n")
+    command.help = "\n\n".join(" ".join(each.split()) for each in paragraphs)
 
 
 def _untyped(parameters: list[Any]) -> list[Any]:

@@ -1,6 +1,6 @@
 """``colift list``: policies, behaviours, subjects, tasks, suites and channels."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 from pathlib import Path
 from typing import Annotated
@@ -11,6 +11,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from ..agents.errors import InputError
 from ..agents.humans import SUBJECTS, Subject
 from ..agents.loading.description import ParameterText, described
 from ..agents.loading.loading import PolicySpec
@@ -44,7 +45,10 @@ def list_all(
         ),
     ] = None,
 ) -> None:
-    """List policies, human behaviours, subjects, suites, tasks and channels, one line each."""
+    """List policies, human behaviours, subjects, suites, tasks and channels, one line each.
+
+    Exit code 1 if one of them cannot be loaded; its line has the reason.
+    """
     if policy is not None:
         show(*policy_parameters(policy))
         return
@@ -52,33 +56,36 @@ def list_all(
     table.add_column(style="bold", no_wrap=True)
     table.add_column()
     apart = policies_by_task()
-    _registered(table, "Robot policies", POLICIES, without={*chain.from_iterable(apart.values())})
+    broken: list[str] = []
+
+    def section(title: str, group: str, names: Iterable[str]) -> None:
+        """Add the named entries of a group with their summaries, or why they have none."""
+        table.add_row(f"[underline]{title}[/]")
+        for name in names:
+            try:
+                text = Text(summary(lookup(group, name)))
+            except InputError as error:
+                broken.append(name)
+                text = Text(str(error), "red")
+            table.add_row(f"  {name}", text)
+
+    own = {*chain.from_iterable(apart.values())}
+    section("Robot policies", POLICIES, [each for each in entries(POLICIES) if each not in own])
     for task, names in apart.items():
-        _named(table, f"Policies for the task {task}", POLICIES, names)
-    _registered(table, "Human behaviours", HUMANS)
+        section(f"Policies for the task {task}", POLICIES, names)
+    section("Human behaviours", HUMANS, entries(HUMANS))
     table.add_row("[underline]Subjects[/]")
     for name, subject in SUBJECTS.items():
         table.add_row(f"  {name}", _about(subject))
     table.add_row("  draw-N", "a new person of the same population, drawn with seed N")
-    _registered(table, "Suites", SUITES)
-    _registered(table, "Tasks", TASKS)
+    section("Suites", SUITES, entries(SUITES))
+    section("Tasks", TASKS, entries(TASKS))
     table.add_row("[underline]Channels[/]")
     for name, channel in CHANNELS.items():
         table.add_row(f"  {name}", str(channel))
     show(table)
-
-
-def _registered(
-    table: Table, title: str, group: str, without: Collection[str] = frozenset()
-) -> None:
-    _named(table, title, group, [name for name in entries(group) if name not in without])
-
-
-def _named(table: Table, title: str, group: str, names: Sequence[str]) -> None:
-    """Add a section to a table: the named entries of a group with their summaries."""
-    table.add_row(f"[underline]{title}[/]")
-    for name in names:
-        table.add_row(f"  {name}", summary(lookup(group, name)))
+    if broken:
+        raise typer.Exit(1)
 
 
 def _about(subject: Subject) -> str:

@@ -4,10 +4,11 @@ import json
 import shlex
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from rich import box
 from rich.console import Console, RenderableType
+from rich.measure import Measurement
 from rich.segment import Segment, Segments
 from rich.table import Column, Table
 from rich.text import Text
@@ -15,6 +16,12 @@ from rich.text import Text
 from ..agents.registry import POLICIES, entries
 
 Cell = str | Text
+
+WIDEST: Final = 10_000
+"""More columns than any table has [characters]."""
+
+UNBROKEN: Final = 18
+"""Longest word of a table that stays whole where the terminal is too narrow."""
 
 
 def table(
@@ -50,6 +57,9 @@ def table(
             made.add_section()
         else:
             made.add_row(*(Text(cell) if isinstance(cell, str) else cell for cell in row))
+    for column in made.columns:
+        if column.overflow == "fold":
+            column.min_width = max(column.min_width or 0, min(_longest_word(column), UNBROKEN))
     return made
 
 
@@ -71,6 +81,8 @@ def optional_number(value: float | None, digits: str) -> str:
 def show(*parts: RenderableType, console: Console | None = None) -> None:
     """Print tables and texts: no line ends with blanks, a caption is as wide as the terminal.
 
+    A table that does not fit is wider than the terminal: no column is left out.
+
     Parameters
     ----------
     parts
@@ -81,7 +93,10 @@ def show(*parts: RenderableType, console: Console | None = None) -> None:
     shown = console or Console()
     for part in parts:
         for each in _separate(part):
-            lines = map(_stripped, shown.render_lines(each, pad=False))
+            options = shown.options
+            if isinstance(each, Table):
+                options = options.update(width=max(options.max_width, _least_width(each, shown)))
+            lines = map(_stripped, shown.render_lines(each, options, pad=False))
             segments = [segment for line in lines for segment in (*line, Segment.line())]
             shown.print(Segments(segments), end="", soft_wrap=True)
 
@@ -103,6 +118,26 @@ def _column(column: str | Column, *, first: bool) -> Column:
     if isinstance(column, Column):
         return column
     return left(column) if first else Column(column, justify="right", no_wrap=True)
+
+
+def _lines(column: Column) -> list[str]:
+    """Return the lines of a column's cells, its title's among them."""
+    return [line for cell in (column.header, *column.cells) for line in str(cell).splitlines()]
+
+
+def _longest_word(column: Column) -> int:
+    return max((len(word) for line in _lines(column) for word in line.split()), default=0)
+
+
+def _least_width(made: Table, console: Console) -> int:
+    """Return the least width at which a table has all columns, those that wrap at their least."""
+    longest = [max(map(len, _lines(column)), default=0) for column in made.columns]
+    wide = console.options.update(width=WIDEST)
+    between = Measurement.get(console, wide, made).maximum - sum(longest)
+    return between + sum(
+        line if column.no_wrap else min(column.min_width or UNBROKEN, line)
+        for column, line in zip(made.columns, longest, strict=True)
+    )
 
 
 def _separate(part: RenderableType) -> Iterator[RenderableType]:

@@ -13,6 +13,7 @@ REMEDIES: Final[Mapping[Remedy, str]] = {
     Remedy.RESCORE: "'colift verify {target} --rescore DIR' writes a bundle with present scores",
     Remedy.NEW_SUBMISSION: "'colift new DIR' writes one",
     Remedy.SUBMISSION_FROM_FILE: "'colift new DIR --from {target}' makes one of it",
+    Remedy.LIST: "'colift list' lists all names",
 }
 """The option or command for each remedy."""
 

@@ -15,6 +15,7 @@ from ..agents.errors import EvaluatorFault, InputError
 from ..agents.registry import check_plays
 from ..agents.spec import AgentSpec
 from ..benchmark.bundle import Results, check_bundle_folder, check_unfinished, results, write_bundle
+from ..benchmark.bundle.recipe import FROM_NAMES, Recipe
 from ..benchmark.channels import Channel
 from ..benchmark.episode.metric import Metrics
 from ..benchmark.execution.cluster import Cluster
@@ -93,6 +94,13 @@ def run(
     check_plays(policy, episodes.scenarios[0].task.name)
     spec = choose_policy(policy, isolation)
     spec.check()
+    verifiable = out is None or Recipe.of(episodes, network) is not None
+    if not verifiable:
+        print(
+            f"note: the result bundle cannot be verified, since suite {episodes.name!r} cannot be "
+            f"made again from names: {FROM_NAMES}",
+            file=sys.stderr,
+        )
     with executor(jobs, dask) as workers:
         there = origin()
         if isinstance(workers, Cluster):
@@ -107,7 +115,7 @@ def run(
             if journal is not None and finished:
                 journal.remove()
     if content is not None:
-        _print_results(content, episodes.metrics, out, as_json=as_json)
+        _print_results(content, episodes.metrics, out, verifiable, as_json=as_json)
     if _complain(done, finished=finished, hint="" if out is None else GO_ON):
         raise typer.Exit(1)
 
@@ -167,7 +175,9 @@ def _evaluate(
     return done, ready
 
 
-def _print_results(content: Results, metrics: Metrics, out: Path | None, *, as_json: bool) -> None:
+def _print_results(
+    content: Results, metrics: Metrics, out: Path | None, verifiable: bool, *, as_json: bool
+) -> None:
     """Print the results, as tables and text or as JSON."""
     if as_json:
         print_json(content.plain())
@@ -175,7 +185,7 @@ def _print_results(content: Results, metrics: Metrics, out: Path | None, *, as_j
     show(results_table(content, metrics), results_text(content))
     if out is not None:
         print(f"Result bundle: {out}")
-        if content.complete:
+        if content.complete and verifiable:
             print(f"Next: colift verify {argument(out)}")
 
 

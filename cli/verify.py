@@ -100,17 +100,19 @@ def _checking(shown: Path, jobs: int) -> Iterator[Callable[[Path], Verdict]]:
 def _verify_session(session: Path, jobs: int, *, as_json: bool) -> None:
     """Verify each lift of a session of live lifts, and print a line for each."""
     with _checking(session, jobs) as check:
-        verdicts = {folder.name: check(folder) for folder in lift_folders(session)}
-    refused = [name for name, verdict in verdicts.items() if not verdict.ok]
+        verdicts = {folder: check(folder) for folder in lift_folders(session)}
+    refused = [folder for folder, verdict in verdicts.items() if not verdict.ok]
     if as_json:
-        print_json({name: verdict.plain() for name, verdict in verdicts.items()})
-    for name, verdict in {} if as_json else verdicts.items():
-        if verdict.ok and verdict.run is not None:
+        print_json({folder.name: verdict.plain() for folder, verdict in verdicts.items()})
+    for folder, verdict in {} if as_json else verdicts.items():
+        if not verdict.findings and verdict.run is not None:
             rmse = verdict.run.episodes[0].scores["rmse_mm"]
             how = "equal to the bit" if verdict.bit_equal else "within the tolerance"
-            print(f"{name}: {rmse:.2f} mm, {how}")
+            print(f"{folder.name}: {rmse:.2f} mm, {how}")
         for finding in verdict.findings:
-            print(f"{name}: {finding}", file=sys.stderr)
+            print(f"{folder.name}: {finding}", file=sys.stderr)
+        if not verdict.findings and verdict.scoring is not None:
+            print(_outdated(folder, *verdict.scoring), file=sys.stderr)
     if not as_json:
         print(f"{len(verdicts) - len(refused)} of {len(verdicts)} live lifts are verified.")
     if refused:

@@ -2,14 +2,14 @@
 
 import dataclasses
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.humans import Smooth
 from colift.agents.registry import SUITES, TASKS, entries, lookup
 from colift.benchmark.episode.level import LEVEL, Level
-from colift.benchmark.suites.suite import Suite, make_suite
+from colift.benchmark.suites.suite import make_suite
 from colift.testing import check_behaviour, check_policy, check_suite, check_task
 
 
@@ -86,7 +86,7 @@ BAD_POLICIES = {
     Writes: "leave the observation unchanged",
     Remembers: "reset must clear",
     Shares: "must not share state",
-    TwoNumbers: "must be one number",
+    TwoNumbers: "policy TwoNumbers: .* must be 1 number",
     Infinite: "must be finite",
     Reuses: "must not change after",
     Mumbles: "the same names",
@@ -193,8 +193,8 @@ class NoDataclass:
     ("task", "rule"),
     [
         (NoDataclass, "frozen dataclass"),
-        (Unmeasured, "scores must be"),
-        (Unbounded, "outside its bounds"),
+        (Unmeasured, "lacks sparc"),
+        (Unbounded, "robot_observation.. is .* outside its bounds"),
         (Short, "one number per frame"),
     ],
 )
@@ -214,9 +214,6 @@ def test_a_suite_that_breaks_a_rule_is_refused():
     heavier = dataclasses.replace(first.subject, mass=1.4)
     for changes, rule in (
         ({"name": "quick\n"}, "ASCII"),
-        ({"scenarios": (first, first)}, "distinct names"),
-        ({"seeds": (1, 1)}, "seeds must be distinct"),
-        ({"seeds": (-1,)}, "must not be negative"),
         (
             {"scenarios": (dataclasses.replace(first, subject=heavier),)},
             "does not rebuild it",
@@ -226,8 +223,191 @@ def test_a_suite_that_breaks_a_rule_is_refused():
             check_suite(dataclasses.replace(quick, **changes))
 
 
-def test_a_suite_has_one_task():
-    first, second, *_ = make_suite("quick-v1").scenarios
-    mixed = (first, dataclasses.replace(second, task=Unmeasured()))
-    with pytest.raises(InputError, match="suite 'mixed' must have one task, got 2"):
-        Suite(name="mixed", scenarios=mixed, seeds=(0,))
+class Silent(Follow):
+    def act(self, observation):
+        pass
+
+
+class Speaks(Follow):
+    def act(self, observation):
+        return "up"
+
+
+class Raises(Follow):
+    def act(self, observation):
+        return observation.nothing
+
+
+class Unmade(Follow):
+    def __init__(self):
+        raise ValueError("no weights")
+
+
+class Actless:
+    def reset(self, seed):
+        pass
+
+
+class Unpacks(Follow):
+    def act(self, observation):
+        *_, last, sixth = observation[4:]
+        return last + sixth
+
+
+@pytest.mark.parametrize(
+    ("policy", "rule"),
+    [
+        (Silent, "policy Silent: the robot's action must be 1 number, got None"),
+        (Speaks, "action must be 1 number, got 'up'"),
+        (Raises, r"policy Raises raised AttributeError: .*test_testing.py:\d+"),
+        (Unmade, "policy Unmade: its constructor raised ValueError: no weights"),
+        (Actless, r"policy Actless has no method act\(\)"),
+        (
+            Unpacks,
+            r"not enough values .*; if it plays another task, .*check_policy\(Policy, task\)",
+        ),
+        (Follow(), "a class, or a function that makes a policy, got an object of Follow"),
+    ],
+)
+def test_a_policy_that_cannot_act_is_refused_in_words(policy, rule):
+    with pytest.raises(AssertionError, match=rule):
+        check_policy(policy)
+
+
+class Undecorated(Smooth):
+    """A dataclass by its parent alone."""
+
+    share: float = 0.5
+
+
+class Renamed(Smooth):
+    """The plans of its parent."""
+
+    kind: ClassVar[str] = "renamed"
+
+
+def test_a_subclass_without_fields_needs_no_decorator():
+    check_behaviour(Renamed())
+
+
+def raising(plan, seed):
+    raise RuntimeError("no idea")
+
+
+def with_nan(plan, seed):
+    target = plan.target.copy()
+    target[7] = np.nan
+    return dataclasses.replace(plan, target=target)
+
+
+@pytest.mark.parametrize(
+    ("behaviour", "rule"),
+    [
+        (Undecorated(), "Undecorated must itself be a frozen dataclass"),
+        (Smooth, "must be an object, got the class Smooth"),
+        (
+            Altered(change=lambda plan, _: plan.target),
+            r"Altered: plan\(\) of draw-0 with seed 0 returned an array; it must return .*\.Plan",
+        ),
+        (Altered(change=lambda plan, _: None), "returned None; it must"),
+        (Altered(change=raising), r"raised RuntimeError: no idea \(.*test_testing.py:\d+\)"),
+        (Altered(change=with_nan), "whose target is nan in frame 7"),
+    ],
+)
+def test_a_behaviour_without_plans_is_refused_in_words(behaviour, rule):
+    with pytest.raises(AssertionError, match=rule):
+        check_behaviour(behaviour)
+
+
+@dataclass(frozen=True)
+class Unlike(Level):
+    """A level task with one method changed."""
+
+    method: str
+    returned: object
+
+    def _changed(self, method, value):
+        return self.returned(value) if self.method == method else value
+
+    def robot_observation(self, lift):
+        return self._changed("robot_observation", super().robot_observation(lift))
+
+    def partner_observation(self, lift):
+        return self._changed("partner_observation", super().partner_observation(lift))
+
+    def rewards(self, lift):
+        return self._changed("rewards", super().rewards(lift))
+
+    def failure(self, lift):
+        return self._changed("failure", super().failure(lift))
+
+    def score(self, lift, trace, *, failed):
+        return self._changed("score", dict(super().score(lift, trace, failed=failed)))
+
+
+def nan_first(view):
+    return np.concatenate(([np.nan], view[1:]))
+
+
+@pytest.mark.parametrize(
+    ("method", "returned", "rule"),
+    [
+        (
+            "robot_observation",
+            lambda view: np.append(view, (0.0, 1.0)),
+            r"robot_observation\(\) has 7 numbers, robot_bounds\(\) has 5",
+        ),
+        ("robot_observation", nan_first, r"robot_observation\(\) is nan at index 0"),
+        ("robot_observation", list, r"robot_observation\(\) returned a list; it must be an array"),
+        ("partner_observation", nan_first, r"partner_observation\(\) is nan at index 0"),
+        ("rewards", sum, r"rewards\(\) returned -.*; it must return two finite numbers"),
+        ("failure", lambda _: True, r"failure\(\) returned True; it must return a reason or None"),
+        ("score", lambda scores: {**scores, "more": 1.0}, "has the surplus more;"),
+        ("score", lambda scores: {**scores, "sparc": np.inf}, "returned sparc = inf; it must be"),
+        ("score", lambda scores: {**scores, "rmse_mm": np.nan}, "rmse_mm = nan, but it is stated"),
+        ("score", lambda scores: {**scores, "sparc": "good"}, "sparc as a str; it must be a float"),
+        (
+            "score",
+            lambda scores: scores.nothing,
+            r"score\(\) in smooth/S1, seed 0, raised Attribute",
+        ),
+    ],
+)
+def test_a_task_that_returns_something_else_is_refused_in_words(method, returned, rule):
+    with pytest.raises(AssertionError, match=f"Unlike.*{rule}"):
+        check_task(Unlike(method=method, returned=returned))
+
+
+@dataclass(frozen=True)
+class Fragile(Level):
+    """A task without an error for a lift that fails at once."""
+
+    def score(self, lift, trace, *, failed):
+        scores = dict(super().score(lift, trace, failed=failed))
+        return {**scores, "rmse_mm": np.nan} if failed else scores
+
+
+class Inherits(Level):
+    """A dataclass by its parent alone, with a state of its own."""
+
+    def __init__(self):
+        object.__setattr__(self, "memory", [])
+
+
+@pytest.mark.parametrize(
+    ("task", "rule"),
+    [
+        (Fragile(), "rmse_mm = nan"),
+        (Inherits(), "Inherits must itself be a frozen dataclass"),
+        (Level, "must be an object, got the class Level"),
+    ],
+)
+def test_a_task_is_an_object_that_scores_failures(task, rule):
+    with pytest.raises(AssertionError, match=rule):
+        check_task(task)
+
+
+@pytest.mark.parametrize("value", [[1], lambda: make_suite("quick-v1")])
+def test_a_suite_is_an_object(value):
+    with pytest.raises(AssertionError, match=r"check_suite takes a Suite, got a (list|function)"):
+        check_suite(value)

@@ -9,11 +9,12 @@ from typing import Any, Final
 
 from ...agents.errors import InputError
 from ..episode.episode import Episode
+from ..episode.metric import SCORING
 from ..execution.runner import Run
 from .arrays import parse_arrays
 from .files import EPISODES, INPUTS, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, read_files
 from .json_text import dump_json, of_type, parse_json, pick
-from .recipe import Recipe
+from .recipe import FROM_NAMES, Recipe
 from .table import parse_table
 from .traces import LARGEST_LIFT, parse_traces
 from .writing import FORMAT, kept_logs
@@ -35,7 +36,8 @@ class Bundle:
     results: dict[str, Any]
     """The content of ``results.json``."""
     episodes: tuple[Episode, ...]
-    """The episodes, without step times."""
+    """The episodes, without step times. If another version of the metrics computed their scores,
+    a metric that the version did not have is NaN."""
     places: tuple[int, ...]
     """The place of each episode in the suite, counted from 0."""
     recipe: Recipe
@@ -116,8 +118,8 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
         raise InputError(f"{MANIFEST}: the bundle has format {form}, must be {FORMAT}")
     if manifest.get("recipe", 0) is None:
         raise InputError(
-            f"{MANIFEST}: there is no recipe: the suite cannot be made again from names, since "
-            "its behaviours or subjects are not registered ones with their own parameters"
+            f"{MANIFEST}: there is no recipe, since the suite cannot be made again from names: "
+            f"{FROM_NAMES}"
         )
     recipe = Recipe.parse(
         pick(manifest, "recipe", dict, MANIFEST), files.get(RECORDINGS), files.get(INPUTS)
@@ -133,12 +135,14 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
     if places[-1] >= lifts:
         raise InputError(f"{TRACES}: the suite has no place {places[-1]}")
     logs = _logs(files[LOGS], len(traces)) if LOGS in files else [""] * len(traces)
-    episodes = parse_table(files[EPISODES], traces, logs, recipe.metrics())
+    results = _results(files[RESULTS], acted=any(len(trace.action) for trace in traces))
+    outdated = results["scoring"] != SCORING
+    episodes = parse_table(files[EPISODES], traces, logs, recipe.metrics(), outdated=outdated)
     kept = kept_logs(episodes)
     if LOGS in files and (not kept or files[LOGS] != dump_json(kept)):
         raise InputError(f"{LOGS}: must be the end of each failed lift's output, in order")
     return Bundle(
-        results=_results(files[RESULTS], acted=any(len(trace.action) for trace in traces)),
+        results=results,
         episodes=episodes,
         places=places,
         recipe=recipe,

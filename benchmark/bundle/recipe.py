@@ -3,7 +3,8 @@
 import csv
 import io
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Self
@@ -11,6 +12,7 @@ from typing import Any, Final, Self
 from ...agents.errors import InputError
 from ...agents.humans import Behaviour, Recorded, load_recordings
 from ...agents.humans.recordings import COLUMNS
+from ...agents.registry import UnknownNameError
 from ..channels import Channel
 from ..channels.reading import parse_channel
 from ..episode.level import LEVEL
@@ -29,6 +31,12 @@ SEED_BITS: Final = 128
 """Largest number of bits of a seed."""
 
 LONGEST_NAME: Final = 1000
+
+FROM_NAMES: Final = (
+    "its behaviours, subjects and task must be registered, with their own parameters, and its "
+    "scenarios must have the same partner and timing"
+)
+"""Which suites have a recipe."""
 
 FILES: Final = {RECORDED: RECORDINGS, PLAYED: INPUTS}
 """The file that a behaviour's trials come from."""
@@ -86,7 +94,8 @@ class Recipe:
         Raises
         ------
         InputError
-            If a name is unknown, a number out of range, or the recordings cannot be used.
+            If a name is unknown or given twice, a number out of range, or the recordings cannot be
+            used.
         """
         humans: dict[tuple[str, str], Behaviour] = {}
         if self.recordings is not None:
@@ -98,11 +107,9 @@ class Recipe:
             humans.update(
                 {(PLAYED, trial): human for trial, human in zip(trials, played, strict=True)}
             )
-        try:
+        with _in_manifest():
             scenarios = tuple(self._scenario(*names, humans) for names in self.scenarios)
-        except InputError as error:
-            raise InputError(f"{MANIFEST}: {error}") from None
-        return Suite(name=self.name, scenarios=scenarios, seeds=self.seeds)
+            return Suite(name=self.name, scenarios=scenarios, seeds=self.seeds)
 
     def metrics(self) -> Metrics:
         """Return the metrics of the task.
@@ -112,7 +119,8 @@ class Recipe:
         InputError
             If there is no task of that name.
         """
-        return make_task(self.task).metrics
+        with _in_manifest():
+            return make_task(self.task).metrics
 
     def _scenario(
         self,
@@ -201,6 +209,18 @@ class Recipe:
         if recipe.plain() != content:
             raise InputError(f"{MANIFEST}: the recipe is not as colift writes it")
         return recipe
+
+
+@contextmanager
+def _in_manifest() -> Iterator[None]:
+    """Put the manifest's name before the message of an InputError."""
+    try:
+        yield
+    except UnknownNameError as error:
+        hint = "or the package that registers it is not installed"
+        raise InputError(f"{MANIFEST}: {error}; {hint}") from None
+    except InputError as error:
+        raise InputError(f"{MANIFEST}: {error}") from None
 
 
 def _channel(content: dict[str, Any]) -> Channel | None:

@@ -3,14 +3,17 @@
 import csv
 import io
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 from ...agents.errors import InputError
 from ..episode.episode import Episode
-from ..episode.metric import Metrics, reached
+from ..episode.metric import LEADING, Metrics, Scores, reached
 from ..episode.trace import Trace
 from .files import EPISODES, TRACES
+
+NEEDED: Final = ("behaviour", "subject", "trial", "seed", LEADING, "failure")
+"""Columns of every table, whatever the version of its scores."""
 
 LONGEST_REASON: Final = 1000
 """Characters of a failure's reason that are kept."""
@@ -59,7 +62,12 @@ def _field(value: object) -> object:
 
 
 def parse_table(
-    data: bytes, traces: Sequence[Trace], logs: Sequence[str], metrics: Metrics
+    data: bytes,
+    traces: Sequence[Trace],
+    logs: Sequence[str],
+    metrics: Metrics,
+    *,
+    outdated: bool = False,
 ) -> tuple[Episode, ...]:
     """Return the episodes of a table.
 
@@ -71,41 +79,55 @@ def parse_table(
         The trace and the output of each row's episode.
     metrics
         The metrics of the task.
+    outdated
+        Whether another version of the metrics computed the scores. Then a table may have columns of
+        other metrics, which are left out, and lack some, whose scores are NaN.
 
     Raises
     ------
     InputError
-        If it is not a table that :func:`dump_table` could have written.
+        If it is not a table that :func:`dump_table`, of that version, could have written.
     """
     try:
         rows = list(csv.reader(io.StringIO(data.decode(), newline=""), strict=True))
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{EPISODES}: not a CSV file in UTF-8: {error}") from None
-    if not rows or tuple(rows[0]) != column_names(metrics):
+    names = tuple(rows[0]) if rows else ()
+    if outdated and not (len({*names}) == len(names) and {*NEEDED} <= {*names}):
+        raise InputError(
+            f"{EPISODES}: the first line must have {', '.join(NEEDED)}, and no name twice"
+        )
+    if not (outdated or names == column_names(metrics)):
         raise InputError(f"{EPISODES}: the first line must be {','.join(column_names(metrics))}")
     if len(rows) - 1 != len(traces):
         raise InputError(f"{EPISODES}: {len(rows) - 1} episodes, but {TRACES} has {len(traces)}")
-    episodes = tuple(
-        _episode(row, trace, log, metrics, f"{EPISODES}, row {number}")
-        for number, (row, trace, log) in enumerate(zip(rows[1:], traces, logs, strict=True), 1)
-    )
-    written = dump_table(episodes, metrics)
+    episodes = []
+    for number, (row, trace, log) in enumerate(zip(rows[1:], traces, logs, strict=True), 1):
+        where = f"{EPISODES}, row {number}"
+        if len(row) != len(names):
+            raise InputError(f"{where}: {len(row)} fields, must be {len(names)}")
+        values = dict(zip(names, row, strict=True))
+        scores = _scores(values, metrics, where, outdated=outdated)
+        episodes.append(_episode(values, scores, trace, log, where))
+    written = _dump_rows(rows) if outdated else dump_table(episodes, metrics)
     if written != data:
         lines = zip(written.split(b"\n"), data.split(b"\n"), strict=False)
         line = next((i for i, (a, b) in enumerate(lines, 1) if a != b), len(rows) + 1)
         raise InputError(f"{EPISODES}, line {line}: not as colift writes it")
-    return episodes
+    return tuple(episodes)
 
 
-def _episode(row: list[str], trace: Trace, log: str, metrics: Metrics, where: str) -> Episode:
-    names = column_names(metrics)
-    if len(row) != len(names):
-        raise InputError(f"{where}: {len(row)} fields, must be {len(names)}")
-    values = dict(zip(names, row, strict=True))
-    scores = {name: _number(values[name], f"{where}: {name}") for name in metrics}
-    for metric in metrics.values():
-        if metric.missing == "never" and math.isnan(scores[metric.name]):
-            raise InputError(f"{where}: {metric.name} is missing")
+def _dump_rows(rows: Sequence[Sequence[str]]) -> bytes:
+    """Return fields as a CSV file: what :func:`dump_table` writes, but for the form of numbers."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerows([one_line(field) for field in row] for row in rows)
+    return text.getvalue().encode()
+
+
+def _episode(
+    values: Mapping[str, str], scores: Scores, trace: Trace, log: str, where: str
+) -> Episode:
     return Episode(
         behaviour=values["behaviour"],
         subject=values["subject"],
@@ -117,6 +139,15 @@ def _episode(row: list[str], trace: Trace, log: str, metrics: Metrics, where: st
         step_times=(),
         log=log,
     )
+
+
+def _scores(values: Mapping[str, str], metrics: Metrics, where: str, *, outdated: bool) -> Scores:
+    """Return the scores in a row; NaN for a metric that an outdated table does not have."""
+    scores = {name: _number(values.get(name, ""), f"{where}: {name}") for name in metrics}
+    for metric in metrics.values():
+        if metric.missing == "never" and math.isnan(scores[metric.name]) and not outdated:
+            raise InputError(f"{where}: {metric.name} is missing")
+    return scores
 
 
 def _number(text: str, what: str) -> float:

@@ -12,6 +12,7 @@ from ...agents.agent import Action, Agent, Observation
 from ...agents.errors import EvaluatorFault, InputError, error_text
 from ...agents.spec import AgentSpec, Paced
 from ..channels import Channel, teleoperated
+from ..episode.blame import blaming_plugins, check_episode, check_start
 from ..episode.episode import Episode, run_episode
 from ..episode.kept_world import drop_kept_world, lift_in_kept_world
 from ..episode.scenario import Scenario
@@ -67,10 +68,15 @@ def play(
     ------
     EvaluatorFault
         If the machine failed.
+    InputError
+        If the task or the behaviour of another package failed, or broke one of its rules.
     """
     if isinstance(policy, Paced):
         policy = policy.paced(scenario.control_period)
-    with lift_in_kept_world(scenario) as lift:
+    with contextlib.ExitStack() as kept:
+        with blaming_plugins(scenario, seeds[0]):
+            lift = kept.enter_context(lift_in_kept_world(scenario))
+            check_start(lift, seeds[0])
         for seed in seeds:
             with contextlib.ExitStack() as stack:
                 begin = time.perf_counter()
@@ -78,7 +84,9 @@ def play(
                 made = time.perf_counter() - begin
                 if channel is not None:
                     agent = teleoperated(agent, channel, scenario, seed)
-                episode = run_episode(lift, agent, seed)
+                with blaming_plugins(scenario, seed):
+                    episode = run_episode(lift, agent, seed)
+                    check_episode(lift, episode)
                 taken = made + episode.policy_time
                 yield dataclasses.replace(episode, policy_time=taken)
 
@@ -208,7 +216,7 @@ def run_batches(
         If the machine failed in :data:`ATTEMPTS` attempts at a batch, or the executor accepts no
         more.
     InputError
-        If the origin of a worker is another; see :func:`.cluster.call`.
+        As :func:`play`, or if the origin of a worker is another; see :func:`.cluster.call`.
     """
     return _alone(batches, faults) if executor is None else _pooled(batches, executor, faults)
 

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
+from typing import Final
 
 import matplotlib
 from PIL import Image, ImageDraw, ImageFont
@@ -13,6 +14,9 @@ from ..episode.episode import Episode
 from ..episode.seat import SEATS
 from ..episode.trace import Trace
 from .style import FAINT, HUMAN, INK, PAPER, ROBOT
+
+VALUE: Final = 84
+"""Room for a value beside its label [pixels]."""
 
 
 @cache
@@ -78,6 +82,8 @@ def readout(
     rows.append(("difference" if level else "error", _millimetres(error), INK, True))
     pen = ImageDraw.Draw(picture)
     size, line, wide = 16, 24, 192 if not drawn else 216
+    labels = max(letters(size).getlength(label) for label, *_ in rows)
+    wide = max(wide, round(labels) + VALUE)
     top = 18
     left = top if partner == "nao" else (picture.width - wide) // 2
     for row, (label, value, colour, bold) in enumerate(rows):

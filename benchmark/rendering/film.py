@@ -33,6 +33,9 @@ STILL_TITLE, STILL_SCENE, STILL_CURVES = 64, 426, 400
 GUTTER: Final = 6
 """Between two scenes of a still [pixels]."""
 
+APART: Final = 60
+"""Least distance of a still's moments [frames], in lifts that are long enough."""
+
 
 def shown_frames(episode: Episode, fps: float = FPS) -> list[int]:
     """Return the frames of the trace that a film of the episode shows: evenly, and the last.
@@ -88,11 +91,29 @@ def frames(
             yield np.asarray(page).copy()
 
 
+def still_moments(episode: Episode, drawn: Sequence[DrawnSeries] = ()) -> list[int]:
+    """Return the three frames that a still shows.
+
+    They are the start, the human's highest, and the largest error at a distance from both; of a
+    failed lift the start, the middle and the end.
+
+    Raises
+    ------
+    InputError
+        If the episode ended before its first frame.
+    """
+    shown = shown_frames(episode)
+    if episode.failure is not None:
+        return [shown[0], shown[len(shown) // 2], shown[-1]]
+    highest = int(np.argmax(episode.trace.human_end))
+    error = np.abs(shown_error(drawn, episode.trace))
+    for moment in (shown[0], highest):
+        error[max(0, moment - APART) : moment + APART] = 0.0
+    return sorted((shown[0], highest, int(np.argmax(error))))
+
+
 def still_picture(episode: Episode, scenario: Scenario, policy: str) -> Picture:
     """Return one picture of a lift: three moments side by side, and the curves under them.
-
-    The moments are the start, the human's highest and that of the largest difference; of a failed
-    lift the start, the middle and the end.
 
     Raises
     ------
@@ -100,14 +121,8 @@ def still_picture(episode: Episode, scenario: Scenario, policy: str) -> Picture:
         If the episode ended before its first frame.
     """
     partner = scenario.partner
-    shown = shown_frames(episode)
     drawn = drawn_series(scenario.task.metrics)
-    if episode.failure is None:
-        highest = int(np.argmax(episode.trace.human_end))
-        worst = int(np.argmax(np.abs(shown_error(drawn, episode.trace))))
-        moments = sorted((shown[0], highest, worst))
-    else:
-        moments = [shown[0], shown[len(shown) // 2], shown[-1]]
+    moments = still_moments(episode, drawn)
     size = (STILL_WIDTH, STILL_TITLE + STILL_SCENE + STILL_CURVES)
     page = Image.new("RGB", size, PAPER)
     page.paste(title_strip(episode, policy, STILL_WIDTH, STILL_TITLE))

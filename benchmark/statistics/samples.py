@@ -20,16 +20,15 @@ def sample(name: str, values: ArrayLike) -> FloatArray:
     Raises
     ------
     InputError
-        If there are none, they are not one number an episode, or one is missing; the message
-        calls them ``name``.
+        If there are none, they are not one number an episode, or one is not finite; the
+        message calls them ``name``.
     """
     x = np.asarray(values, dtype=np.float64)
     if x.ndim != 1 or x.size == 0:
         raise InputError(f"{name} has shape {x.shape}; it must be one value an episode, (n,)")
     if not np.isfinite(x).all():
-        raise InputError(
-            f"{name} of episode {np.isfinite(x).argmin()} is missing; leave such episodes out"
-        )
+        index = int(np.isfinite(x).argmin())
+        raise InputError(f"{name}[{index}] is {x[index]}; it must be a number for each episode")
     return x
 
 

@@ -12,7 +12,9 @@ from ...agents.humans import (
     load_recordings,
 )
 from ...agents.near_names import did_you_mean
-from ...agents.registry import HUMANS, TASKS, lookup
+from ...agents.plugins import make
+from ...agents.registry import HUMANS, TASKS, called, entries
+from ..episode.conformance import task_fault
 from ..episode.level import LEVEL
 from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from ..episode.task import Task
@@ -48,9 +50,14 @@ def make_task(name: str) -> Task:
     Raises
     ------
     InputError
-        If the name is unknown; the message lists all names.
+        If the name is unknown, or there is no task of that name in its package.
     """
-    task: Task = lookup(TASKS, name)()
+    task: Task = make(TASKS, name, Task)
+    fault = task_fault(task)
+    if fault is None and task.name != name:
+        fault = f"has the name {task.name!r}; it must have its entry point's name"
+    if fault is not None:
+        raise InputError(f"{called(TASKS, name)} {fault}")
     return task
 
 
@@ -90,12 +97,19 @@ def make_scenario(
     Raises
     ------
     InputError
-        If a name is unknown, a time is out of range or a file cannot be used.
+        If a name is unknown or its package has no such object, a time is out of range, or a file
+        cannot be used.
     """
     kind, _, source = behaviour.partition(":")
-    made = lookup(HUMANS, kind)
+    plain, comma, parameters = kind.partition(",")
+    if comma and plain in entries(HUMANS):
+        raise InputError(
+            f"behaviours take no parameters here: {plain!r} has those of its class, got "
+            f"{parameters!r}"
+        )
     recording = _recording(source) if kind == RECORDED else None
-    human: Behaviour = made() if recording is None else made(recording=recording)
+    given = {} if recording is None else {"recording": recording}
+    human: Behaviour = make(HUMANS, kind, Behaviour, **given)
     return Scenario(
         behaviour=kind,
         human=human,

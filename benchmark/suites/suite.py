@@ -11,11 +11,13 @@ from typing import Any, Final
 
 from ...agents.errors import InputError
 from ...agents.humans import SUBJECTS, Recorded, load_recordings
-from ...agents.registry import SUITES, lookup
+from ...agents.plugins import article, blaming
+from ...agents.registry import SUITES, called, lookup
 from ..episode.identity import numbers, plain, scores_hash
 from ..episode.metric import Metrics
 from ..episode.scenario import Scenario
 from .catalogue import RECORDED, make_scenario
+from .rules import scenarios_fault, seeds_fault
 
 LONGEST_SUITE_NAME: Final = 200
 """Longest name of a suite [characters]."""
@@ -31,7 +33,8 @@ class Suite:
     Raises
     ------
     InputError
-        If there is no scenario, or they have different tasks.
+        If there is no scenario or no seed, the scenarios have different tasks or equal names, or
+        a seed is negative, no integer or given twice.
     """
 
     name: str
@@ -39,10 +42,10 @@ class Suite:
     seeds: tuple[int, ...]
 
     def __post_init__(self) -> None:
-        """Check that there is one task: its metrics are the columns of every table."""
-        tasks = {scenario.task for scenario in self.scenarios}
-        if len(tasks) != 1:
-            raise InputError(f"suite {self.name!r} must have one task, got {len(tasks)}")
+        """Check that episodes are distinct, and that one table can have all of them."""
+        fault = scenarios_fault(self.scenarios) or seeds_fault(self.seeds)
+        if fault is not None:
+            raise InputError(f"suite {self.name!r} {fault}")
 
     @property
     def size(self) -> int:
@@ -149,9 +152,18 @@ def make_suite(name: str) -> Suite:
     Raises
     ------
     InputError
-        If the name is unknown; the message lists all names.
+        If the name is unknown, or there is no suite of that name in its package.
     """
-    suite: Suite = lookup(SUITES, name)()
+    function = lookup(SUITES, name)
+    title = called(SUITES, name)
+    with blaming(title, function):
+        suite: object = function()
+    if not isinstance(suite, Suite):
+        raise InputError(f"{title} must return a Suite, got {article(suite)}")
+    if suite.name != name:
+        raise InputError(
+            f"{title} returned a suite named {suite.name!r}; it must have its entry point's name"
+        )
     return suite
 
 

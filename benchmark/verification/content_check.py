@@ -36,13 +36,21 @@ def suite_label(suite: Suite) -> str:
     """
     digest = suite.digest
     for name in entries(SUITES):
-        if make_suite(name).digest == digest:
+        if _registered(name) == digest:
             return name
     first = suite.scenarios[0]
     label = f"a suite of its own: {suite.size} lifts, latency {first.latency:g} s"
     if first.control_period != CONTROL_PERIOD:
         label += f", control period {first.control_period:g} s"
     return label
+
+
+def _registered(name: str) -> str | None:
+    """Return the digest of a registered suite; None if there is none, or it cannot be made."""
+    try:
+        return make_suite(name).digest if name in entries(SUITES) else None
+    except InputError:
+        return None  # Another package is broken, which is no fault of the bundle.
 
 
 def suite_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
@@ -58,7 +66,7 @@ def suite_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
     if bundle.results["suite"] != suite.name:
         message = f"suite is {bundle.results['suite']!r:.80}, in {MANIFEST} {suite.name!r:.80}"
         yield Finding(file=RESULTS, message=message)
-    if suite.name in entries(SUITES) and digest != make_suite(suite.name).digest:
+    if _registered(suite.name) not in (None, digest):
         message = f"the suite has the name {suite.name}, but other episodes"
         yield Finding(file=MANIFEST, message=message)
 

@@ -10,6 +10,7 @@ from ...agents.errors import EvaluatorFault, InputError, error_text
 from ..bundle import Bundle, one_line
 from ..bundle.files import EPISODES, MANIFEST, TRACES
 from ..channels import Channel
+from ..episode.blame import blaming_plugins
 from ..episode.episode import Episode
 from ..episode.kept_world import drop_kept_world, lift_in_kept_world
 from ..episode.lift import Lift
@@ -64,7 +65,9 @@ class EpisodeCheck:
         """Yield the result of each replay."""
         with lift_in_kept_world(self.scenario) as lift:
             for claim in zip(self.places, self.seeds, self.episodes, strict=True):
-                yield _check(lift, *claim, self.channel, same_platform=self.same_platform)
+                with blaming_plugins(self.scenario, claim[1]):
+                    checked = _check(lift, *claim, self.channel, same_platform=self.same_platform)
+                yield checked
 
 
 def _check(
@@ -146,6 +149,8 @@ def simulate(
     ------
     EvaluatorFault
         If a worker died.
+    InputError
+        If the task or the behaviour of another package failed.
     """
     found: list[Checked] = []
     for part in _parts(episode_checks(bundle, suite, same_platform), executor):
@@ -189,6 +194,8 @@ def _parts(
     try:
         for future in as_completed(futures):
             yield future.result()
+    except InputError:
+        raise
     except Exception as error:
         raise EvaluatorFault(f"a worker of the verification failed: {error_text(error)}") from error
     finally:

@@ -59,7 +59,7 @@ def verify(
     Raises
     ------
     InputError
-        If there is no such folder.
+        If there is no such folder, or the task or a behaviour of another package failed.
     EvaluatorFault
         If a worker died.
     """

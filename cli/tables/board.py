@@ -12,8 +12,8 @@ from ...leaderboard.records.row import BoardRow
 from ...leaderboard.records.season import SeasonInfo
 from ..printing import Cell, optional_number, styled, table
 
-NARROW = 100
-"""Below so many columns the table leaves out what is least asked for."""
+NAME = 12
+"""Columns that are kept for the policies' names, if they are as long: other columns make room."""
 
 
 def board_table(
@@ -31,27 +31,33 @@ def board_table(
     season, standings, human_human
         What the board says of them.
     width
-        Columns of the terminal.
+        Columns of the terminal. A narrow one has no room for what is least asked for, time and gap
+        and that rows are verified; then none for the last metrics.
     """
-    wide = width >= NARROW
-    metrics = board_metrics(season.suite)[: None if wide else 1]
-    titles = ["rank", "policy", "RMSE mm", "95 % interval", "vs human"]
-    titles += [metric.heading for metric in metrics]
-    titles += ["ms/step", "gap mm"] if wide else []
-    titles += ["verified"]
-    lines = list(_lines(standings, human_human, metrics, wide))
+    every = board_metrics(season.suite)
+    for wide, shown in [(True, len(every)), *((False, n) for n in range(len(every), 0, -1))]:
+        metrics = every[:shown]
+        titles = ["rank", "policy", "RMSE mm", "95 % interval", "vs human"]
+        titles += [metric.heading for metric in metrics]
+        titles += ["ms/step", "gap mm", "verified"] if wide else []
+        lines = list(_lines(standings, human_human, metrics, wide))
+        room, longest = _room(titles, lines, 1, width)
+        if room >= min(NAME, longest):
+            break
     columns: list[str | Column] = [Column("rank", justify="right", no_wrap=True), *titles[1:]]
-    most = _room(titles, lines, 1, width)
+    most = max(room, len("policy"))
     columns[1] = Column("policy", overflow="ellipsis", no_wrap=True, max_width=most)
     title = f"Season {season.name} on {season.suite}"
-    return table(title, columns, lines, caption=_caption(metrics, wide))
+    return table(title, columns, lines, caption=_caption(metrics, every[len(metrics) :], wide))
 
 
-def _room(titles: Sequence[str], lines: Sequence[Sequence[Cell]], place: int, width: int) -> int:
-    """Return how many columns of the terminal are left for one column of the table."""
+def _room(
+    titles: Sequence[str], lines: Sequence[Sequence[Cell]], place: int, width: int
+) -> tuple[int, int]:
+    """Return how many columns of the terminal are left for one column of the table; its width."""
     widths = [max(map(len, cells)) for cells in zip(titles, *lines, strict=True)]
     between = 2 * len(titles) + 1
-    return max(width - between - sum(widths) + widths[place], len(titles[place]))
+    return width - between - sum(widths) + widths[place], widths[place]
 
 
 def _lines(
@@ -84,8 +90,8 @@ def _cells(each: RankedRow, metrics: Sequence[Metric], wide: bool) -> list[str]:
         *(metric.text(row.public.metrics[metric.name].mean) for metric in metrics),
     ]
     if wide:
-        cells += [_step(row), f"{row.gap_mm.mean:+.2f}"]
-    return [*cells, "yes" if row.verified else "no"]
+        cells += [_step(row), f"{row.gap_mm.mean:+.2f}", "yes" if row.verified else "no"]
+    return cells
 
 
 def _rank(each: RankedRow) -> str:
@@ -105,21 +111,26 @@ def _human_human(baseline: HumanHumanScores, metrics: Sequence[Metric], wide: bo
         "1.00",
         *(metric.text(baseline.means[metric.name]) for metric in metrics),
     ]
-    return [*cells, *(["", ""] if wide else []), ""]
+    return [*cells, *([""] * 3 if wide else [])]
 
 
-def _caption(metrics: Sequence[Metric], wide: bool) -> str:
+def _caption(metrics: Sequence[Metric], left_out: Sequence[Metric], wide: bool) -> str:
     common = "One rank: no significant difference. RMSE: hidden lifts. vs human: 1 is two people"
-    if not wide:
-        return f"{common}. {metrics[0].symbol}: public lifts."
-    shown = ", ".join(
-        metric.symbol if metric.noun == metric.symbol else f"{metric.symbol} ({metric.noun})"
-        for metric in metrics
-    )
-    return (
-        f"{common}, less is better. {shown} and time per step: public lifts. "
-        "Gap: hidden minus public RMSE."
-    )
+    if wide:
+        shown = ", ".join(map(_named, metrics))
+        text = (
+            f"{common}, less is better. {shown} and time per step: public lifts. "
+            "Gap: hidden minus public RMSE."
+        )
+    else:
+        text = f"{common}. {', '.join(metric.symbol for metric in metrics)}: public lifts."
+    missing = ", ".join(metric.symbol for metric in left_out)
+    return f"{text} Only in a wider terminal: {missing}." if missing else text
+
+
+def _named(metric: Metric) -> str:
+    same = metric.noun == metric.symbol
+    return metric.symbol if same else f"{metric.symbol} ({metric.noun})"
 
 
 def _interval(estimate: Estimate) -> str:

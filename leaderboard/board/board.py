@@ -214,8 +214,9 @@ class Board:
 
     def human_human(self, season: str | None = None) -> HumanHumanScores | None:
         """Return a season's human-human baseline on hidden episodes; None before the first row."""
-        known = self.store.secrets(self.season_info(season).name).known_human_human()
-        return None if known is None else human_human_scores(known)
+        info = self.season_info(season)
+        known = self.store.secrets(info.name).known_human_human()
+        return None if known is None else human_human_scores(known, info.suite)
 
     def entry(self, season: str, digest: str) -> BoardEntry | None:
         """Return the entry of a submission, or None if it has not been evaluated."""

@@ -14,7 +14,7 @@ from ..database.database import Database
 from ..database.queries import read_entries, read_error_numbers, read_events
 from ..database.schema import entries, events
 from ..evaluation.scoring import PLACES
-from ..records.metrics import board_metrics
+from ..records.metrics import board_metrics, known_means
 from ..records.row import BoardRow
 from ..records.season import OUT, Event
 from .ranks import ranks
@@ -130,13 +130,13 @@ def _row_now(row: BoardRow, found_events: tuple[Event, ...]) -> BoardRow:
 
 
 @functools.lru_cache(maxsize=16)
-def human_human_scores(human_human: Baseline) -> HumanHumanScores:
-    """Return the published part of the baseline on hidden episodes: rounded, like a row."""
+def human_human_scores(human_human: Baseline, suite: str) -> HumanHumanScores:
+    """Return the published part of a suite's baseline on hidden episodes, rounded like a row."""
     return HumanHumanScores(
         rmse_mm=human_human.estimate.rounded(PLACES),
         means={
             name: None if mean is None else round(mean, PLACES)
-            for name, mean in human_human.means.items()
+            for name, mean in known_means(human_human.means, suite).items()
         },
     )
 

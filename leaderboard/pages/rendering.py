@@ -20,6 +20,7 @@ from ...benchmark.rendering.page import templates
 from ..records.metrics import board_metrics, picture_axes, suite_metrics
 from ..replays.html import script_json
 from ..storage.archive import pack_archive
+from ..views.task import task_view
 from .formats import FILTERS
 from .links import Links
 
@@ -36,7 +37,7 @@ def render_page(template: str, links: Links, **content: Any) -> str:
     content
         What the template shows, by name; it also gets the metrics of the season's suite:
         ``metrics`` have columns beside the ``leading`` one, ``second`` is their first;
-        ``error_words`` say what the drawn error is.
+        ``error_words`` say what the drawn error is; and ``task``, the :class:`.TaskView`.
     """
     season = content.get("season") or getattr(content.get("view"), "season", None)
     if season is not None:
@@ -47,6 +48,7 @@ def render_page(template: str, links: Links, **content: Any) -> str:
             "leading": leading,
             "second": second,
             "error_words": error_words(drawn_series(metrics)),
+            "task": task_view(season.suite),
         }
     return _environment().get_template(template).render(links=links, **content)
 

@@ -7,6 +7,7 @@ policy, with the parts of its public run that pages show.
 import dataclasses
 import io
 import json
+import logging
 import os
 import tempfile
 import zipfile
@@ -25,6 +26,8 @@ from ..records.season import BoardEntry, SeasonInfo
 from .practice import SUITES, PracticeRun, practice_season
 
 FORMAT: Final = 2
+
+log: Final = logging.getLogger(__name__)
 
 DATA: Final = Path(__file__).parents[1] / "data"
 """Folder of the practice seasons."""
@@ -163,7 +166,8 @@ def _files(folder: Path, suite: str) -> tuple[Path, Path]:
 def open_with_practice(folder: Path, suite: str | None = None, data: Path = DATA) -> Board:
     """Open the board in a folder; a new one begins with the practice season of its suite.
 
-    The practice seasons of other suites are imported as frozen seasons.
+    The practice seasons of other suites are imported as frozen seasons. A shipped one of another
+    digest, as after a change of the code, is left out, with a warning to the log.
 
     Parameters
     ----------
@@ -182,12 +186,25 @@ def open_with_practice(folder: Path, suite: str | None = None, data: Path = DATA
     wanted = suite or SUITE
     with practice_import(wanted, data) as practice:
         board = Board.open(folder, suite, practice=practice)
+    if practice is None and PlayedSeason.read(wanted, data) is not None:
+        log.warning(
+            "this board begins without rows: the shipped practice rows are of another digest of "
+            "%s; 'colift practice --out %s' makes them again, for new boards",
+            wanted,
+            _from_here(data),
+        )
     for other in SUITES:
         if practice is not None and other != wanted:
             with practice_import(other, data, current=False) as frozen:
                 if frozen is not None:
                     board.import_season(frozen)
     return board
+
+
+def _from_here(folder: Path) -> Path:
+    """Return a folder as it is named from the working directory, if it is in there."""
+    place, here = folder.resolve(), Path.cwd()
+    return place.relative_to(here) if place.is_relative_to(here) else place
 
 
 def open_to_read(folder: Path) -> Board:

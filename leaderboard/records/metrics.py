@@ -34,13 +34,21 @@ def picture_axes(suite: str) -> tuple[Metric, Metric]:
     return metrics[LEADING], second_axis(metrics)
 
 
-def read_means(content: Mapping[str, Any], suite: str) -> dict[str, MeanWithMissing]:
-    """Return the means of a suite's :func:`board_metrics` by name, from JSON with other entries."""
+def read_means(content: Mapping[str, Any], suite: str, episodes: int) -> dict[str, MeanWithMissing]:
+    """Return the means of a suite's :func:`board_metrics` by name, from JSON with other entries.
+
+    A metric that is newer than the content has a value in none of its ``episodes``.
+    """
+    newer = {"mean": None, "missing": episodes}
     return {
-        metric.name: MeanWithMissing(**content[metric.name])
+        metric.name: MeanWithMissing(**content.get(metric.name, newer))
         for metric in board_metrics(suite)
-        if metric.name in content
     }
+
+
+def known_means(means: Mapping[str, float | None], suite: str) -> dict[str, float | None]:
+    """Return a baseline's means of a suite's :func:`board_metrics`; None of one that is newer."""
+    return {metric.name: means.get(metric.name) for metric in board_metrics(suite)}
 
 
 def sort_key(metric: Metric, found: MeanWithMissing) -> float | None:

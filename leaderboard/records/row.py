@@ -128,7 +128,9 @@ class BoardRow:
                     **{
                         **public,
                         **_estimates(public),
-                        "metrics": read_means(public["metrics"], content["suite"]),
+                        "metrics": read_means(
+                            public["metrics"], content["suite"], public["episodes"]
+                        ),
                     }
                 ),
                 "hidden": HiddenScores(**{**hidden, **_estimates(hidden)}),

@@ -43,6 +43,7 @@ from numpy.typing import ArrayLike
 from ...agents.agent import FRAME
 from ...agents.humans import Plan
 from ...benchmark.bundle import one_line
+from ...benchmark.episode.blame import blaming_plugins
 from ...benchmark.episode.episode import Episode, run_episode
 from ...benchmark.episode.lift import make_lift
 from ...benchmark.episode.metric import drawn_series
@@ -64,9 +65,15 @@ class Ghost:
 
 
 def play_ghost(scenario: Scenario, seed: int) -> Ghost:
-    """Play an episode with a second human at the robot's end; about 0.1 s."""
+    """Play an episode with a second human at the robot's end; about 0.1 s.
+
+    Raises
+    ------
+    InputError
+        If the task or the behaviour of another package failed.
+    """
     with contextlib.closing(make_lift(dataclasses.replace(scenario, partner="human"))) as lift:
-        with partner_spec(scenario.task).agent() as partner:
+        with partner_spec(scenario.task).agent() as partner, blaming_plugins(scenario, seed):
             episode = run_episode(lift, partner, seed)
         return Ghost(episode=episode, plan=lift.plan, horizon=lift.horizon)
 

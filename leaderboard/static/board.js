@@ -95,10 +95,18 @@
     row.off.classList.toggle("away", rmse === null || rmse <= data.top);
   }
 
+  // Near an end of the scale the label stays within it, as the page has it.
+  function within(label, place) {
+    const [anchor, dx] = place > 85 ? ["end", 14] : place < 15 ? ["start", -14] : ["middle", 0];
+    label.setAttribute("text-anchor", anchor);
+    label.setAttribute("dx", dx);
+  }
+
   function move(moved, mm) {
     for (const { line, at: usual } of moved) {
       const x = mm === null ? usual : at(mm);
       for (const name of line.tagName === "text" ? ["x"] : ["x1", "x2"]) line.setAttribute(name, x);
+      if (line.matches("text.human-human")) within(line, parseFloat(x));
     }
   }
 

@@ -16,6 +16,7 @@ from ...benchmark.results.baselines import (
 from ...benchmark.results.summary import Stratum
 from ...benchmark.statistics import Estimate
 from ...benchmark.suites.suite import Suite
+from ..records.metrics import known_means
 from ..records.season import SeasonInfo
 from .suites import season_suite
 
@@ -63,15 +64,17 @@ def _bounds(suite: Suite) -> tuple[PublicBound, ...]:
     if baselines is None or found is None:
         return ()
     human_human = baselines[HUMAN_HUMAN]
-    return tuple(_bound(name, found[name], human_human) for name in MEANINGS if name in found)
+    return tuple(
+        _bound(name, found[name], human_human, suite.name) for name in MEANINGS if name in found
+    )
 
 
-def _bound(name: str, baseline: Baseline, human_human: Baseline) -> PublicBound:
+def _bound(name: str, baseline: Baseline, human_human: Baseline, suite: str) -> PublicBound:
     return PublicBound(
         name=name.replace("_", " "),
         meaning=MEANINGS[name],
         rmse_mm=baseline.estimate,
         vs_human=baseline.mean / human_human.mean,
-        means=baseline.means,
+        means=known_means(baseline.means, suite),
         strata=baseline.by_stratum(),
     )

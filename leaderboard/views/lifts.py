@@ -81,7 +81,7 @@ def _stratum(group: dict[str, Any], suite: str) -> StratumScore:
         failed=group["failed"],
         rmse_mm=group["rmse_mm"]["mean"],
         human_human_rmse_mm=group["human_human_rmse_mm"]["mean"],
-        metrics=read_means(group, suite),
+        metrics=read_means(group, suite, group["episodes"]),
     )
 
 

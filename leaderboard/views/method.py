@@ -22,7 +22,9 @@ class MethodView:
     """Public lifts of an evaluation; as many are hidden. None as long as there is no row."""
     human_human: HumanHumanScores | None
     causal: bool
-    """Whether the causal bound is known on the public lifts, beside the oracle."""
+    """Whether the causal bound is known on the public lifts."""
+    oracle: bool
+    """Whether the oracle is."""
     failed_frame_mm: float
     limits: Limits
     isolation: dict[str, str]
@@ -37,13 +39,14 @@ def method_view(board: Board) -> MethodView:
     info = find_season(seasons, None)
     if info is None:
         raise ValueError("a board has a season from the moment it is made")
-    standings = board.standings(info.name)
+    standings, bounds = board.standings(info.name), bounds_of(info)
     return MethodView(
         season=info,
         seasons=seasons,
         lifts=standings[0].row.public.episodes if standings else None,
         human_human=board.human_human(info.name),
-        causal=any(each.causal for each in bounds_of(info)),
+        causal=any(each.causal for each in bounds),
+        oracle=any(not each.causal for each in bounds),
         failed_frame_mm=FAILED_FRAME_MM,
         limits=LIMITS,
         isolation=dict(LEVELS),

@@ -6,20 +6,31 @@ passes them.
 
 import contextlib
 import dataclasses
-from collections.abc import Callable, Mapping
-from typing import Final
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .agents.actions import ActionError, checked_action
 from .agents.agent import FRAME, Agent, Explaining, RobotObservation
+from .agents.errors import InputError, PolicyError
 from .agents.humans import GOAL_RANGE, SUBJECTS, Behaviour, Plan, Subject
+from .agents.plugins import article, kind_of, raised
 from .agents.policies.copy import Copy
-from .benchmark.bundle.recipe import Recipe
-from .benchmark.episode.episode import Episode, run_episode
+from .agents.registry import TASKS, entries
+from .benchmark.bundle.recipe import FROM_NAMES, Recipe
+from .benchmark.episode.blame import blaming_plugins, check_episode
+from .benchmark.episode.conformance import (
+    behaviour_fault,
+    observation_fault,
+    plan_fault,
+    rewards_fault,
+    task_fault,
+)
+from .benchmark.episode.episode import run_episode
 from .benchmark.episode.level import LEVEL
 from .benchmark.episode.lift import Lift, make_lift
-from .benchmark.episode.metric import LEADING
 from .benchmark.episode.replay import replay
 from .benchmark.episode.task import Task
 from .benchmark.suites.catalogue import make_scenario
@@ -55,11 +66,31 @@ def check_policy(make: Callable[[], Agent], task: Task = LEVEL) -> None:
     task
         The task that it plays.
     """
+    _require_none(task_fault(task), f"task {kind_of(task)}")
+    if not callable(make):
+        raise AssertionError(
+            f"check_policy takes a class, or a function that makes a policy, got {article(make)}"
+        )
+    policy = _made(make)
+    title = f"policy {type(policy).__name__}"
+    for method in ("reset", "act"):
+        _require(callable(getattr(policy, method, None)), f"{title} has no method {method}()")
+    hint = "; if it plays another task, give that: check_policy(Policy, task)"
+    with _asserting(title, type(policy), hint if task == LEVEL else ""):
+        _check_policy(policy, make, task)
+
+
+def _made(make: Callable[[], Agent]) -> Agent:
+    with _asserting(f"policy {getattr(make, '__name__', make)}: its constructor", make):
+        return make()
+
+
+def _check_policy(policy: Agent, make: Callable[[], Agent], task: Task) -> None:
     seen, others = (_observations(seed, task) for seed in (0, 1))
     # A lift of a robot that follows may end early.
     seen, others = seen[: len(others)], others[: len(seen)]
     before = seen.copy()
-    alone = _actions(make(), seen)
+    alone = _actions(policy, seen)
     _require(np.array_equal(seen, before), "act must leave the observation unchanged")
     used = make()
     _actions(used, others[::-1])
@@ -99,17 +130,22 @@ def check_behaviour(behaviour: Behaviour) -> None:
     goal within ``GOAL_RANGE``, moves in its strokes only, depends on subject and seed alone, is
     read-only, and differs from seed to seed.
     """
+    title = f"behaviour {kind_of(behaviour)}"
+    _require_none(behaviour_fault(behaviour), title)
     known = list(SUBJECTS.values())
     targets = set()
     for seed in range(PLANS):
         person = Subject.draw(seed) if seed % 3 == 0 else known[seed % len(known)]
+        fault = plan_fault(behaviour, person, seed)
+        _require_none(fault, f"{title}: plan() of {person.name} with seed {seed}")
         plan = behaviour.plan(person, seed)
-        _check_plan(plan, f"{type(behaviour).__name__} of {person.name} with seed {seed}")
+        with _asserting(title, type(behaviour)):
+            _check_plan(plan, f"{title}, {person.name} with seed {seed}")
         again = behaviour.plan(person, seed)
         same = np.array_equal(plan.target, again.target) and plan.strokes == again.strokes
-        _require(same, "a plan must depend on the subject and the seed alone")
+        _require(same, f"{title}: a plan must depend on the subject and the seed alone")
         targets.add(plan.target.tobytes())
-    _require(len(targets) > 0.9 * PLANS, "plans must differ from seed to seed")
+    _require(len(targets) > 0.9 * PLANS, f"{title}: plans must differ from seed to seed")
 
 
 def _check_plan(plan: Plan, which: str) -> None:
@@ -140,82 +176,109 @@ def _check_plan(plan: Plan, which: str) -> None:
 
 
 def check_task(task: Task, behaviour: str = "smooth") -> None:
-    """Check a task by playing a lift with it, with a robot and with a second human.
+    """Check a task by playing lifts with it: with a robot, a second human, and a robot that fails.
 
-    It must be a frozen dataclass; its first metric is ``rmse_mm``; observations lie within the
-    stated bounds; there is one score for each metric, and no NaN where a score is never missing;
-    the series it adds have one number per frame; the same actions give the same scores.
+    It must be a frozen dataclass with all that a task has, and the name of its entry point, if it
+    has one; its first metric is ``rmse_mm``; observations lie within the stated bounds; there is
+    one score for each metric, finite or NaN, and no NaN where a score is never missing; the series
+    it adds have one number per frame; the same actions give the same scores.
     """
-    frozen = dataclasses.is_dataclass(task) and type(task).__dataclass_params__.frozen
-    _require(frozen, "a task must be a frozen dataclass: its fields are in the digest of suites")
-    first = next(iter(task.metrics), None)
-    _require(first == LEADING, f"the first metric must be {LEADING}, got {first}")
-    for partner in ("nao", "human"):
+    title = f"task {kind_of(task)}"
+    _require_none(task_fault(task), title)
+    names = [name for name, each in entries(TASKS).items() if each.value == kind_of(task)]
+    _require(
+        not names or task.name in names,
+        f"{title} has the name {task.name!r}; its entry point has the name {', '.join(names)}",
+    )
+    for partner, fails in (("nao", False), ("human", False), ("nao", True)):
         scenario = dataclasses.replace(make_scenario(behaviour, "S1", partner), task=task)
-        with contextlib.closing(make_lift(scenario)) as lift:
-            _check_played(task, lift)
+        with _asserting(title, type(task)), contextlib.closing(make_lift(scenario)) as lift:
+            _check_played(title, lift, fails=fails)
 
 
-def _check_played(task: Task, lift: Lift) -> None:
-    bounds = task.robot_bounds() if lift.seat.is_robot else task.human_bounds(lift.frames_per_step)
-    low, high = bounds
-    hold = [0.0] * lift.partner_size
+class Watching:
+    """A partner that checks what it is shown, and what it is paid.
 
-    class Watching(Copy):
-        """A policy that checks what it is shown."""
+    As a robot it follows the human's end, as a second human it stays at rest.
 
-        def act(self, observation: NDArray[np.float64]) -> NDArray[np.float64]:
-            inside = observation.shape == low.shape and bool(
-                ((low <= observation) & (observation <= high)).all()
-            )
-            _require(inside, f"an observation is outside its bounds: {observation}")
-            human, robot = task.rewards(lift) if lift.frame else (0.0, 0.0)
-            _require(bool(np.isfinite([human, robot]).all()), "rewards must be finite")
-            return super().act(observation) if lift.seat.is_robot else np.array(hold)
+    Parameters
+    ----------
+    lift
+        The lift that is played.
+    fails
+        Whether it fails at once.
+    """
 
-    episode = run_episode(lift, Watching(), 0)
-    if episode.failure is not None and episode.failure.startswith("step"):
-        raise AssertionError(episode.failure)
-    _check_scores(task, episode)
+    def __init__(self, lift: Lift, *, fails: bool) -> None:
+        self._lift, self._fails = lift, fails
+        self.fault: str | None = None
+        """The first broken rule."""
+
+    def reset(self, seed: int) -> None:
+        """Begin an episode."""
+
+    def act(self, observation: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the action, unless a rule is broken."""
+        lift = self._lift
+        try:
+            self.fault = observation_fault(lift) or (rewards_fault(lift) if lift.frame else None)
+        except Exception as error:
+            self.fault = f"raised {raised(error, type(lift.task))}"
+        if self._fails or self.fault is not None:
+            raise PolicyError("on purpose")
+        return Copy().act(observation) if lift.seat.is_robot else np.zeros(lift.partner_size)
+
+
+def _check_played(title: str, lift: Lift, *, fails: bool) -> None:
+    watching = Watching(lift, fails=fails)
+    with blaming_plugins(lift.scenario, 0):
+        episode = run_episode(lift, watching, 0)
+    _require_none(watching.fault, f"{title}:")
+    check_episode(lift, episode)
     trace = episode.trace
-    again = replay(lift, 0, trace.human_action, trace.action, episode.failure)
-    _require(repr(again.scores) == repr(episode.scores), "scores must follow from the actions")
-
-
-def _check_scores(task: Task, episode: Episode) -> None:
-    names, scored = list(task.metrics), list(episode.scores)
-    _require(names == scored, f"scores must be {', '.join(names)}, got {', '.join(scored)}")
-    for metric in task.metrics.values():
-        value = episode.scores[metric.name]
-        known = metric.missing != "never" or np.isfinite(value)
-        _require(bool(known), f"{metric.name} is {value}, but it is stated never to be missing")
-    frames = len(episode.trace.human_end)
-    for name, series in episode.trace.added.items():
-        _require(series.shape == (frames,), f"series {name} must have one number per frame")
+    with blaming_plugins(lift.scenario, 0):
+        again = replay(lift, 0, trace.human_action, trace.action, episode.failure)
+    same = repr(again.scores) == repr(episode.scores)
+    _require(same, f"{title}: scores must follow from the actions")
 
 
 def check_suite(suite: Suite) -> None:
-    """Check that a suite can be run, published and verified.
+    """Check that a suite can be published and verified; a suite that is made can be run.
 
-    Its name is plain ASCII, scenarios have distinct names, seeds are distinct, and its recipe,
-    which goes into result bundles, rebuilds it.
+    Its name is plain ASCII, and its recipe, which goes into result bundles, rebuilds it.
     """
+    if not isinstance(suite, Suite):
+        raise AssertionError(f"check_suite takes a Suite, got {article(suite)}")
     plain = bool(suite.name) and plain_name(suite.name) == suite.name
     _require(plain, f"the name {suite.name!r} must be plain ASCII")
-    names = [scenario.name for scenario in suite.scenarios]
-    _require(len(set(names)) == len(names) > 0, "scenarios must have distinct names")
-    _require(len(set(suite.seeds)) == len(suite.seeds) > 0, "seeds must be distinct")
-    _require(min(suite.seeds) >= 0, "seeds must not be negative")
     _require(
         Recipe.of(suite) is not None,
-        "its recipe does not rebuild it: behaviours, subjects and tasks must be registered, with "
-        "their default parameters",
+        f"suite {suite.name!r}: its recipe does not rebuild it: {FROM_NAMES}",
     )
 
 
 def _require(condition: bool, rule: str) -> None:
     if not condition:
         raise AssertionError(rule)
+
+
+def _require_none(fault: str | None, title: str) -> None:
+    _require(fault is None, f"{title} {fault}")
+
+
+@contextlib.contextmanager
+def _asserting(title: str, source: Any, hint: str = "") -> Iterator[None]:
+    """Turn any error into an AssertionError that names the plugin and the place in its code."""
+    try:
+        yield
+    except AssertionError:
+        raise
+    except InputError as error:
+        raise AssertionError(str(error)) from error
+    except ActionError as error:
+        raise AssertionError(f"{title}: {error}") from error
+    except Exception as error:
+        raise AssertionError(f"{title} raised {raised(error, source)}{hint}") from error
 
 
 def _observations(seed: int, task: Task) -> NDArray[np.float64]:
@@ -235,7 +298,7 @@ def _followed(seed: int, task: Task) -> NDArray[np.float64]:
             return super().act(observation)
 
     scenario = dataclasses.replace(make_scenario("smooth", "S1"), task=task)
-    with contextlib.closing(make_lift(scenario)) as lift:
+    with blaming_plugins(scenario, seed), contextlib.closing(make_lift(scenario)) as lift:
         run_episode(lift, Noting(), seed)
     return np.array(seen[:OBSERVED])
 
@@ -261,9 +324,8 @@ def _actions(policy: Agent, seen: NDArray[np.float64]) -> NDArray[np.float64]:
     kept = []
     for view in seen:
         action = policy.act(view)
+        checked_action("the robot", action, 1)
         array = np.asarray(action, dtype=np.float64)
-        _require(array.size == 1, f"an action must be one number, got {action!r:.80}")
-        _require(bool(np.isfinite(array).all()), f"an action must be finite, got {action!r:.80}")
         kept.append((array, array.copy()))
     _require(
         all(np.array_equal(now, then) for now, then in kept),

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from colift.agents.agent import Explaining
-from colift.agents.errors import InputError
+from colift.agents.errors import InputError, Remedy
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.registry import HUMANS, POLICIES, entries, lookup, summary
 from colift.benchmark.suites.catalogue import make_task
@@ -76,16 +76,25 @@ def test_the_same_entry_found_twice_is_one(install):
     assert tuple(entries(POLICIES)) == NAMES
 
 
-def test_an_unknown_name_is_told_all_names():
+def test_an_unknown_name_is_told_the_nearest_name_or_all():
     with pytest.raises(InputError) as error:
         lookup(POLICIES, "blnd")
-    assert str(error.value) == (
-        f"unknown policy 'blnd'; did you mean blend? known: {', '.join(NAMES)}"
-    )
+    assert str(error.value) == "unknown policy 'blnd'; did you mean blend?"
+    assert error.value.remedy == Remedy.LIST
     with pytest.raises(
         InputError, match=r"unknown human behaviour 'hold'; known: abreast, ahead, "
     ):
         lookup(HUMANS, "hold")
+
+
+def test_a_package_that_cannot_be_loaded_is_named(install):
+    install("otherlab", "lifter = no_such_module:Lifter")
+    with pytest.raises(
+        InputError,
+        match=r"policy 'lifter' \(no_such_module:Lifter\) of the package otherlab cannot be "
+        "loaded: ModuleNotFoundError",
+    ):
+        lookup(POLICIES, "lifter")
 
 
 def test_names_are_in_order():

@@ -13,7 +13,7 @@ from colift.leaderboard.board.tokens import Tokens
 from colift.leaderboard.queue import Queue
 from rich.console import Console
 
-from ..leaderboard.rows import add, digest
+from ..leaderboard.rows import add, digest, unverified
 from ..leaderboard.tiny import ENTRY
 
 LONG = "a-policy-with-a-rather-long-name-indeed-so-long-that-it-is-cut"
@@ -53,7 +53,28 @@ def test_the_table_fits_and_cuts_only_names(filled, width):
     assert rows[0][2:6] == ["9.80", "8.80", "to", "10.80"]
     assert rows[1][2:4] == ["10.55", "9.90"]
     assert ("0.200" in " ".join(rows[2])) == (width == 120)
-    assert rows[2][-1] == "yes"
+    assert (rows[2][-1] == "yes") == (width == 120)
+    assert all("0.30" in row for row in rows if row[0] != "two")
+    text = " ".join(" ".join(lines).split())
+    assert "SPARC" in text
+    assert "force N" in text
+    assert "wider terminal" not in text
+
+
+def test_a_terminal_without_room_leaves_out_the_last_metrics_and_says_so(filled):
+    lines = shown(filled, 70)
+    assert max(map(len, lines)) <= 70
+    assert [line for line in lines if "…" in line] == [line for line in lines if LONG[:8] in line]
+    text = " ".join(" ".join(lines).split())
+    assert "SPARC verified" not in text
+    assert "force N" not in text
+    assert "SPARC: public lifts. Only in a wider terminal: force." in text
+
+
+def test_a_row_that_is_not_verified_is_marked_at_any_width(board):
+    add(board, "free", 1.0, change=unverified)
+    for width in (60, 80, 120):
+        assert any(line.split()[:2] == ["unverified", "free"] for line in shown(board, width))
 
 
 def test_the_command_shows_what_happened_and_what_waits(filled, colift, tmp_path):

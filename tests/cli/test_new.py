@@ -140,7 +140,7 @@ def test_a_class_is_listed_without_being_run_here(colift, tmp_path):
 @pytest.mark.parametrize(
     ("policy", "code", "told"),
     [
-        ("bledn", 2, "error: unknown policy 'bledn'; did you mean blend? known: "),
+        ("bledn", 2, "error: unknown policy 'bledn'; did you mean blend? ('colift list' "),
         ("nowhere/mine", 2, "error: nowhere/mine: no such folder"),
         ("late.py:Late", 1, "nothing to draw: the policy failed: step 3: ZeroDivisionError"),
         ("late.py:Early", 1, "nothing to draw: the policy failed: start: ZeroDivisionError"),

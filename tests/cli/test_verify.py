@@ -3,6 +3,7 @@
 import dataclasses
 import hashlib
 import json
+import re
 import shutil
 
 import pytest
@@ -12,6 +13,8 @@ from colift.benchmark.bundle.json_text import dump_json
 from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
+
+from ..benchmark.verification.forging import outdate_metrics
 
 
 @pytest.fixture(scope="module")
@@ -120,6 +123,36 @@ def test_scores_of_an_older_version_are_computed_anew_on_demand(colift, folder):
     assert (code, errors) == (0, "")
     assert told.splitlines()[-1] == "Rescored bundle: new"
     assert colift("verify", "new")[0] == 0
+
+
+def test_scores_of_other_metrics_are_computed_anew_on_demand(colift, folder):
+    outdate_metrics(folder / "bundle", SCORING - 1)
+    older = f"scores of version {SCORING - 1}, this colift computes version {SCORING}"
+    for command in (("verify", "bundle"), ("compare", "bundle", "copy")):
+        code, _, errors = colift(*command)
+        assert code
+        assert older in errors
+        assert "colift verify bundle --rescore DIR" in errors
+    code, told, errors = colift("verify", "bundle", "--rescore", "new")
+    assert (code, errors) == (0, "")
+    assert told.splitlines()[-1] == "Rescored bundle: new"
+    code, told, _ = colift("verify", "new")
+    assert (code, "new is verified." in told) == (0, True)
+    rescored = json.loads((folder / "new" / "results.json").read_text())
+    assert rescored["summary"]["sparc"]["mean"] > -7
+    code, told, errors = colift("compare", "new", "copy")
+    assert (code, errors.count("error")) == (0, 0)
+
+
+def test_a_session_says_which_lifts_have_older_scores(colift, folder):
+    lift = shutil.copytree(folder / "bundle", folder / "session" / "lifts" / "001-copy")
+    outdate_metrics(lift, SCORING - 1)
+    code, told, errors = colift("verify", "session")
+    number, verdict = told.splitlines()
+    assert re.fullmatch(r"001-copy: \d+\.\d\d mm, equal to the bit", number)
+    assert (code, verdict) == (1, "0 of 1 live lifts are verified.")
+    assert errors.startswith(f"session/lifts/001-copy has scores of version {SCORING - 1}")
+    assert "colift verify session/lifts/001-copy --rescore DIR" in errors
 
 
 def test_scores_of_a_newer_version_are_for_a_newer_colift(colift, folder):

@@ -2,31 +2,22 @@
 
 import csv
 import json
-import shutil
 
 import numpy as np
 import pytest
+from colift.agents.errors import InputError
 from colift.agents.registry import HUMANS, SUITES, TASKS, entries, lookup
 from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.verification.verify import verify
 from colift.testing import check_behaviour, check_suite, check_task
 
 from . import sloping
 
 
 @pytest.fixture(autouse=True)
-def installed(tmp_path_factory, monkeypatch):
-    """Install the package for the time of a test, as pip would."""
-    site = tmp_path_factory.mktemp("site")
-    about = site / "sloping-1.0.dist-info"
-    about.mkdir()
-    about.joinpath("METADATA").write_text("Metadata-Version: 2.1\nName: sloping\nVersion: 1.0\n")
-    about.joinpath("entry_points.txt").write_text(sloping.ENTRY_POINTS)
-    shutil.copy(sloping.__file__, site)
-    monkeypatch.syspath_prepend(site)
-    entries.cache_clear()
-    yield
-    monkeypatch.undo()
-    entries.cache_clear()
+def installed(install):
+    """Install the package for the time of a test."""
+    install(sloping.__file__, sloping.ENTRY_POINTS)
 
 
 def test_it_conforms():
@@ -52,6 +43,29 @@ def test_its_metric_is_in_the_table_the_csv_and_the_json_and_its_bundle_verifies
     assert wanted.min() == pytest.approx(-0.04)
     verified = colift("verify", "mine")
     assert verified.returncode == 0, verified.stdout + verified.stderr
+
+
+def test_an_error_of_its_task_while_verifying_names_the_task(colift, tmp_path, monkeypatch):
+    options = ("--suite", "slope-v1", "--seeds", "0:1", "--out", "mine")
+    assert colift("run", "copy", *options).returncode == 0
+
+    def series(self, lift):
+        return {"wanted": lift.nothing}
+
+    monkeypatch.setattr(lookup(TASKS, "slope"), "series", series)
+    with pytest.raises(InputError, match=r"task 'slope' .sloping:Slope.: smooth/S1, seed 0"):
+        verify(tmp_path / "mine")
+
+
+def test_a_bundle_without_its_package_has_a_hint(colift, tmp_path, monkeypatch):
+    options = ("--suite", "slope-v1", "--seeds", "0:1", "--out", "mine")
+    assert colift("run", "copy", *options).returncode == 0
+    monkeypatch.undo()
+    entries.cache_clear()
+    done = colift("verify", tmp_path / "mine")
+    assert done.returncode == 1
+    assert "manifest.json: unknown task 'slope'" in done.stderr
+    assert "or the package that registers it is not installed" in done.stderr
 
 
 def test_policies_are_compared_by_its_metric(colift):

@@ -112,34 +112,34 @@ class Abreast:
 
 @dataclass(frozen=True, kw_only=True)
 class Ahead(Abreast):
-    """As :class:`Abreast`, but the human's window opens 0.2 to 0.4 s before the other."""
+    """Both have a hurdle; the human's window opens 0.2 to 0.4 s before the other."""
 
     ahead: ClassVar[tuple[float, float]] = (0.2, 0.4)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Behind(Abreast):
-    """As :class:`Abreast`, but the human's window opens 0.2 to 0.4 s after the other."""
+    """Both have a hurdle; the human's window opens 0.2 to 0.4 s after the other."""
 
     ahead: ClassVar[tuple[float, float]] = (-0.4, -0.2)
 
 
 @dataclass(frozen=True, kw_only=True)
 class OwnHurdle(Abreast):
-    """As :class:`Abreast`, but the human alone has a hurdle."""
+    """The human alone has a hurdle."""
 
     has: ClassVar[tuple[bool, bool]] = (True, False)
 
 
 @dataclass(frozen=True, kw_only=True)
 class OtherHurdle(Abreast):
-    """As :class:`Abreast`, but the holder of the far end alone has a hurdle."""
+    """The holder of the far end alone has a hurdle."""
 
     has: ClassVar[tuple[bool, bool]] = (False, True)
 
 
 @dataclass(frozen=True, kw_only=True)
 class NoHurdle(Abreast):
-    """As :class:`Abreast`, but nobody has a hurdle, and nobody knows that of the other."""
+    """Nobody has a hurdle, and nobody knows that of the other."""
 
     has: ClassVar[tuple[bool, bool]] = (False, False)

@@ -70,7 +70,7 @@ def test_what_has_no_name_has_no_recipe():
         ),
     ):
         assert Recipe.of(dataclasses.replace(plain, scenarios=(scenario,))) is None
-    mixed = (first, dataclasses.replace(first, latency=0.0))
+    mixed = (first, dataclasses.replace(plain.scenarios[1], latency=0.0))
     assert Recipe.of(dataclasses.replace(plain, scenarios=mixed)) is None
 
 
@@ -91,7 +91,10 @@ def plain(**changes):
         ({"seeds": "0"}, "must be a list"),
         ({"scenarios": ["x" * 1001]}, "too long"),
         ({"scenarios": [3]}, "must be a text"),
-        ({"scenarios": ["nonesuch/S1"]}, "known: "),
+        ({"scenarios": ["nonesuch/S1"]}, "; or the package that registers it is not installed"),
+        ({"task": "nonesuch"}, "; or the package that registers it is not installed"),
+        ({"seeds": [1, 1]}, "has the seed 1 twice"),
+        ({"scenarios": ["smooth/S1", "smooth/S1"]}, "has the scenario 'smooth/S1' twice"),
         ({"scenarios": ["smooth"]}, "unknown subject ''"),
         ({"scenarios": ["smooth/S9"]}, "unknown subject 'S9'"),
         ({"scenarios": ["smooth/S1/trial"]}, "no behaviour 'smooth' with trial 'trial'"),
@@ -109,6 +112,11 @@ def test_a_recipe_of_something_else_is_refused(changes, said):
     with pytest.raises(InputError, match=r"^(manifest\.json|recordings\.csv)") as caught:
         Recipe.parse(plain(**changes), None).suite()
     assert said in str(caught.value)
+
+
+def test_metrics_of_a_task_that_is_not_installed_are_refused():
+    with pytest.raises(InputError, match=r"^manifest\.json: unknown task 'far'.*not installed$"):
+        Recipe.parse(plain(task="far"), None).metrics()
 
 
 def test_a_recipe_opens_no_file_of_this_machine(tmp_path):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from colift.benchmark.comparison.comparison import Comparison, compare
 from colift.benchmark.comparison.paired_results import PairedResults, PolicyResults
+from colift.benchmark.episode.level_metrics import LEVEL_METRICS
 from colift.benchmark.results.baselines import Baseline
 from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
 
@@ -27,15 +28,12 @@ def policy_results(name: str, rmse: object, sparc: object, failed: int = 0) -> P
         strata=CELLS,
         scores=tuple(
             {
+                **dict.fromkeys(LEVEL_METRICS, 0.0),
                 "rmse_mm": float(error),
-                "abs_error_mm": 0.0,
-                "max_tilt_deg": 0.0,
                 "sparc": float(smooth),
                 "ldlj": -12.0,
                 "human_force_n": 0.25,
-                "human_work_j": 0.0,
                 "robot_lag_ms": 100.0,
-                "short_of_goal_mm": 0.0,
                 "clipped": math.nan,
             }
             for error, smooth in zip(errors, smoothness, strict=True)
@@ -53,9 +51,8 @@ def noise(seed: int, spread: float = 0.5) -> np.ndarray:
 
 def paired(*policies: PolicyResults) -> PairedResults:
     """Return results against a human-human baseline whose error is the difficulty of the lift."""
-    human_human = Baseline(
-        strata=CELLS, rmse_mm=tuple(DIFFICULTY), means={"sparc": -2.5, "human_force_n": 0.4}
-    )
+    means = {**dict.fromkeys(LEVEL_METRICS, 0.0), "sparc": -2.5, "human_force_n": 0.4}
+    human_human = Baseline(strata=CELLS, rmse_mm=tuple(DIFFICULTY), means=means)
     return PairedResults(suite=make_suite("quick-v1"), policies=policies, human_human=human_human)
 
 

@@ -3,6 +3,7 @@ import math
 import numpy as np
 import pytest
 from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.level_metrics import LEVEL_METRICS
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.suites.catalogue import make_scenario
@@ -18,15 +19,13 @@ def short_episode(frames: int, *, failure: str | None = None) -> Episode:
         trial="",
         seed=3,
         scores={
+            **dict.fromkeys(LEVEL_METRICS, 0.0),
             "rmse_mm": 20.0,
-            "abs_error_mm": 0.0,
             "max_tilt_deg": 1.4,
             "sparc": -1.5,
             "ldlj": -12.0,
             "human_force_n": 0.1,
-            "human_work_j": 0.0,
             "robot_lag_ms": 100.0,
-            "short_of_goal_mm": 0.0,
             "clipped": math.nan,
         },
         failure=failure,

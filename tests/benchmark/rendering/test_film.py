@@ -1,3 +1,4 @@
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -5,7 +6,13 @@ import pytest
 from colift.agents.errors import InputError
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.rendering.film import film_episode, frames, shown_frames, still_picture
+from colift.benchmark.rendering.film import (
+    film_episode,
+    frames,
+    shown_frames,
+    still_moments,
+    still_picture,
+)
 from colift.benchmark.suites.catalogue import make_scenario
 from PIL import Image
 
@@ -65,6 +72,15 @@ def test_still_has_three_moments_over_the_curves(episode: Episode, scenario: Sce
     first, second, third = (picture[64:490, x : x + 426] for x in (0, 432, 864))
     assert not np.array_equal(first, third)
     assert second.shape == first.shape
+
+
+def test_a_still_shows_moments_that_differ(long_episode: Episode, dropped: Episode) -> None:
+    """Larger errors just behind the start, and beside the highest place, are not shown twice."""
+    robot = long_episode.trace.robot_end.copy()
+    robot[[3, 400, 670]] -= 0.1, 0.05, 0.1
+    trace = replace(long_episode.trace, robot_end=robot)
+    assert still_moments(replace(long_episode, trace=trace)) == [0, 400, 679]
+    assert still_moments(dropped)[::2] == [0, 9]
 
 
 def test_a_lift_that_never_began_cannot_be_shown(

@@ -66,7 +66,7 @@ class TestStratifiedBootstrap:
         assert np.subtract(and_one, many) == pytest.approx([9.0, 9.0])
 
     def test_rejects_what_it_cannot_resample(self) -> None:
-        with pytest.raises(InputError, match="values of episode 1 is missing"):
+        with pytest.raises(InputError, match=r"values\[1\] is nan; it must be a number for each"):
             stratified_bootstrap([1.0, math.nan], ["a", "a"], np.mean)
         with pytest.raises(InputError, match="strata has 3 labels"):
             stratified_bootstrap([1.0, 2.0], ["a", "a", "b"], np.mean)
@@ -174,5 +174,5 @@ class TestDifferenceOfMeans:
         assert 0.93 <= hits / 1000 <= 0.97
 
     def test_refuses_a_missing_value(self) -> None:
-        with pytest.raises(InputError, match="b of episode 0"):
+        with pytest.raises(InputError, match=r"b\[0\] is nan"):
             difference_of_means([1.0], ["x"], [math.nan], ["x"])

@@ -36,5 +36,5 @@ def test_p_is_uniform_when_there_is_nothing_to_find():
 
 
 def test_a_missing_value_is_refused():
-    with pytest.raises(InputError, match="episode 1"):
+    with pytest.raises(InputError, match=r"a\[1\] is nan"):
         paired_permutation_p([1.0, np.nan], [1.0, 2.0])

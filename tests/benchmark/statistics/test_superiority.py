@@ -85,5 +85,5 @@ class TestShareBetter:
         assert share_better(a, b) == pytest.approx(0.7602, abs=0.01)
 
     def test_refuses_a_missing_value(self) -> None:
-        with pytest.raises(InputError, match="a of episode 0"):
+        with pytest.raises(InputError, match=r"a\[0\] is nan"):
             share_better([math.nan], [1.0])

@@ -1,13 +1,45 @@
 """Suites: what is in them, and what their digest stands for."""
 
 import dataclasses
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
+from colift.agents.humans import Smooth
 from colift.agents.registry import SUITES, own_entries
+from colift.benchmark.episode.level import Level
+from colift.benchmark.episode.metric import metric_table
+from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite, recorded_suite
 from colift.benchmark.world import table
+
+
+@dataclass(frozen=True)
+class Other(Level):
+    """Another task that has the name of its parent."""
+
+
+@dataclass(frozen=True)
+class Disordered(Level):
+    """A task that leads with another metric."""
+
+    metrics = metric_table(reversed([*Level.metrics.values()][:4]))
+
+
+@dataclass(frozen=True)
+class Planless:
+    """A behaviour without a plan."""
+
+
+class Undecorated(Smooth):
+    """A behaviour that is a dataclass by its parent alone."""
+
+    share: float = 0.5
+
+
+def replaced(**changes):
+    return dataclasses.replace(make_scenario("smooth"), **changes)
 
 
 def test_the_suites_have_the_sizes_that_their_descriptions_say():
@@ -63,9 +95,38 @@ def test_a_digest_changes_with_the_constants_of_the_world(monkeypatch):
     assert make_suite("quick-v1").digest != before
 
 
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"seeds": (1, 1)}, "has the seed 1 twice"),
+        ({"seeds": (0, -1)}, "whole numbers from 0 as seeds, got -1"),
+        ({"seeds": (0.5,)}, "whole numbers from 0 as seeds, got 0.5"),
+        ({"seeds": ()}, "has no seed"),
+        ({"seeds": range(3)}, "seeds in a tuple, got a range"),
+        ({"scenarios": ()}, "has no scenario"),
+        ({"scenarios": 2 * (make_scenario("pause", "S3"),)}, "has the scenario 'pause/S3' twice"),
+        ({"scenarios": ("pause",)}, "must have scenarios, got a str"),
+        (
+            {"scenarios": (make_scenario("smooth"), make_scenario("pivot", task="intent"))},
+            "must have one task, got level, intent",
+        ),
+        (
+            {"scenarios": (make_scenario("smooth"), replaced(task=Other()))},
+            r"must have one task, got Level\(\), Other\(\)",
+        ),
+        ({"scenarios": (replaced(human=Undecorated()),)}, "Undecorated.*must itself be a frozen"),
+        ({"scenarios": (replaced(human=Planless()),)}, r"Planless.*has no method plan\(\)"),
+        ({"scenarios": (replaced(task=Disordered()),)}, "rmse_mm as its first metric, got sparc"),
+    ],
+)
+def test_a_suite_that_no_table_can_show_is_refused(change, told):
+    with pytest.raises(InputError, match=told):
+        dataclasses.replace(make_suite("quick-v1"), **change)
+
+
 def test_an_unknown_suite_is_refused_with_the_names():
     with pytest.raises(InputError, match="paper-v1, quick-v1, standard-v1"):
-        make_suite("best-v1")
+        make_suite("nonesuch")
 
 
 def test_another_timing_is_told_in_the_name_and_in_the_digest():

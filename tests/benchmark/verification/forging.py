@@ -15,6 +15,9 @@ from colift.benchmark.verification import verify
 
 SUITE = make_suite("quick-v1").with_seeds(3, 5)
 
+NEW, GONE = "clipped", "wobble_mm"
+"""A metric that the other version did not have yet, and one that it had."""
+
 
 def mend(folder):
     """Do as a clever forger does: put the files' true hashes into the manifest."""
@@ -77,3 +80,39 @@ def first_row(folder, place):
     """Return the row of the arrays with the first step of the episode at a place."""
     bundle = read_bundle(folder)
     return sum(len(episode.trace.action) for episode in bundle.episodes[:place])
+
+
+def edit_table(folder, change):
+    """Change the rows of episodes.csv, each a list of texts; the first is that of the names."""
+    path = folder / "episodes.csv"
+    with path.open(newline="") as file:
+        rows = list(csv.reader(file))
+    change(rows)
+    with path.open("w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows(rows)
+
+
+def with_other_metrics(scores):
+    """Return a part of results.json as a colift with other metrics writes it."""
+    others = {name: value for name, value in scores.items() if name != NEW}
+    return {**others, GONE: {"mean": 3.5, "missing": 0}}
+
+
+def outdate_metrics(folder, scoring):
+    """Make a bundle that of a colift with other metrics: files, order of columns and numbers."""
+
+    def change_results(content):
+        content.update(scoring=scoring, suite_digest="0" * 16)
+        content["summary"] = with_other_metrics(content["summary"])
+        content["groups"] = [with_other_metrics(each) for each in content["groups"]]
+        content["summary"]["sparc"]["mean"] = -7.0
+
+    def change_rows(rows):
+        place = rows[0].index(NEW)
+        for number, row in enumerate(rows):
+            del row[place]
+            row.insert(4, "3.5" if number else GONE)
+
+    edit_json(folder, "results.json", change_results)
+    edit_table(folder, change_rows)
+    mend(folder)

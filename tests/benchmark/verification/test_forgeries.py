@@ -125,6 +125,11 @@ FORGERIES = {
     "a seed of text": (recipe(seeds=[3, "4"]), {"file": "manifest.json"}, "whole number"),
     "the same lift in all places": (
         recipe(scenarios=["smooth/S1"] * 4),
+        {"file": "manifest.json"},
+        "the scenario 'smooth/S1' twice",
+    ),
+    "other people in all places": (
+        recipe(scenarios=[f"smooth/S{person}" for person in (1, 2, 3, 4)]),
         {"file": "results.json"},
         "other episodes",
     ),

@@ -63,10 +63,11 @@ def opened(tmp_path, data, monkeypatch):
     return look
 
 
-def test_a_new_board_shows_the_shipped_rows_and_takes_submissions_beside_them(opened):
+def test_a_new_board_shows_the_shipped_rows_and_takes_submissions_beside_them(opened, caplog):
     expected = ([(SEASON, True)], ["blend"])
     assert opened() == expected
     assert opened() == expected
+    assert caplog.messages == []
 
 
 def test_a_board_that_is_there_is_left_as_it_is(tmp_path, opened):
@@ -74,13 +75,22 @@ def test_a_board_that_is_there_is_left_as_it_is(tmp_path, opened):
     assert opened() == ([("1", True)], [])
 
 
-def test_what_was_shipped_under_other_rules_is_not_shown(data, opened, human_human):
+def test_what_was_shipped_under_other_rules_is_not_shown_and_that_is_said_once(
+    data, opened, caplog, monkeypatch
+):
     shipped = PlayedSeason.read(SUITE.name, data)
     dataclasses.replace(shipped, suite_digest="0" * 16).write(data)
+    monkeypatch.chdir(data.parent)
     assert opened() == ([("1", True)], [])
+    assert opened() == ([("1", True)], [])
+    (message,) = caplog.messages
+    assert "the shipped practice rows are of another digest of quick-v1" in message
+    assert "'colift practice --out data' makes them again" in message
+    assert "\n" not in message
 
 
-def test_nothing_shipped_is_nothing_shown(data, opened):
+def test_nothing_shipped_is_nothing_shown(data, opened, caplog):
     for path in data.iterdir():
         path.unlink()
     assert opened() == ([("1", True)], [])
+    assert caplog.messages == []

@@ -1,0 +1,185 @@
+"""Objects of registered classes: made, checked, and blamed for the errors of their code."""
+
+import dataclasses
+from collections.abc import Iterator
+from contextlib import contextmanager
+from traceback import walk_tb
+from typing import Any
+
+import numpy as np
+
+from .errors import InputError
+from .registry import called, lookup
+
+
+def make(group: str, name: str, protocol: type, **arguments: object) -> Any:
+    """Return a new object of the class that is registered under a name.
+
+    Parameters
+    ----------
+    group
+        A group of entry points.
+    name
+        The entry point's name.
+    protocol
+        The methods and attributes that the object must have.
+    arguments
+        Arguments of the class; all its other fields must have defaults.
+
+    Raises
+    ------
+    InputError
+        If the name is unknown, the class cannot be loaded or made, or :func:`class_fault` or
+        :func:`object_fault` finds a fault.
+    """
+    kind, title = lookup(group, name), called(group, name)
+    fault = class_fault(kind) or _undefined(kind, arguments)
+    if fault is not None:
+        raise InputError(f"{title} {fault}")
+    with blaming(title, kind):
+        made = kind(**arguments)
+    fault = object_fault(made, protocol)
+    if fault is not None:
+        raise InputError(f"{title} {fault}")
+    return made
+
+
+@contextmanager
+def blaming(title: str, source: Any) -> Iterator[None]:
+    """Turn errors into an InputError that begins with a title and has the place in the source.
+
+    Parameters
+    ----------
+    title
+        The plugin in words.
+    source
+        The plugin's class or function.
+
+    Raises
+    ------
+    InputError
+        Instead of any exception in the body.
+    """
+    try:
+        yield
+    except InputError as error:
+        raise InputError(f"{title}: {error}", remedy=error.remedy, target=error.target) from error
+    except Exception as error:
+        raise InputError(f"{title} raised {raised(error, source)}") from error
+
+
+def class_fault(kind: Any) -> str | None:
+    """Return why something is no class of a plugin, or None.
+
+    It must be a frozen dataclass; a subclass of one needs no decorator if it only changes methods.
+    """
+    if not isinstance(kind, type):
+        return f"must be a class, got {article(kind)}"
+    parameters = getattr(kind, "__dataclass_params__", None)
+    if parameters is None or not parameters.frozen or _has_own_state(kind):
+        return "must itself be a frozen dataclass: its fields are in the digest of suites"
+    return None
+
+
+def _has_own_state(kind: type) -> bool:
+    """Return whether a class adds state that is in no field, since the decorator is missing."""
+    own = vars(kind)
+    if "__dataclass_params__" in own:
+        return False
+    fields = [
+        each for each in own.get("__annotations__", {}).values() if "ClassVar" not in str(each)
+    ]
+    return bool(fields) or "__init__" in own
+
+
+def object_fault(made: Any, protocol: type) -> str | None:
+    """Return why an object is not one of a plugin, or None.
+
+    Its class must be a frozen dataclass, and it must have all that a protocol states.
+    """
+    if isinstance(made, type):
+        return f"must be an object, got the class {made.__name__}"
+    fault = class_fault(type(made))
+    if fault is not None:
+        return fault
+    for name, member in vars(protocol).items():
+        if name.startswith("_"):
+            continue
+        if isinstance(member, property):
+            if not hasattr(made, name):
+                return f"has no attribute {name}"
+        elif not callable(getattr(made, name, None)):
+            return f"has no method {name}()"
+    return None
+
+
+def kind_of(made: Any) -> str:
+    """Return the class of an object, or a class, as an entry point has it: ``module:Class``."""
+    kind = made if isinstance(made, type) else type(made)
+    return f"{kind.__module__}:{kind.__qualname__}"
+
+
+def article(value: Any) -> str:
+    """Return the kind of a value with its article: ``an object of Slope``, ``a function``."""
+    if value is None:
+        return "None"
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
+    if isinstance(value, np.ndarray):
+        return "an array"
+    name = type(value).__name__
+    if type(value).__module__ == "builtins":
+        return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
+    return f"an object of {name}"
+
+
+def frames(error: BaseException, source: Any) -> list[tuple[str, str]]:
+    """Return the calls of a plugin's code that an error passed, the last one last.
+
+    Parameters
+    ----------
+    error
+        The error, with its traceback.
+    source
+        The plugin's class or function: the code of its package counts.
+
+    Returns
+    -------
+    list
+        Name of the function, and the place as ``file:line``.
+    """
+    package = _package(source.__module__)
+    return [
+        (frame.f_code.co_name, f"{frame.f_code.co_filename}:{line}")
+        for frame, line in walk_tb(error.__traceback__)
+        if _package(frame.f_globals.get("__name__")) == package
+    ]
+
+
+def raised(error: BaseException, source: Any) -> str:
+    """Return an error in words, with the place in a plugin's code if it passed there."""
+    text = f"{type(error).__name__}: {error}".rstrip(": ")
+    passed = frames(error, source)
+    return f"{text} ({passed[-1][1]})" if passed else text
+
+
+def is_ours(source: Any) -> bool:
+    """Return whether a class or a function is of colift itself."""
+    return _package(source.__module__) == _package(__name__)
+
+
+def _package(module: object) -> str:
+    return str(module).partition(".")[0]
+
+
+def _undefined(kind: type, arguments: dict[str, object]) -> str | None:
+    """Return which fields of a dataclass have neither a default nor an argument, or None."""
+    missing = [
+        each.name
+        for each in dataclasses.fields(kind)
+        if each.init
+        and each.name not in arguments
+        and each.default is dataclasses.MISSING
+        and each.default_factory is dataclasses.MISSING
+    ]
+    return f"must have a default for each field: {', '.join(missing)}" if missing else None

@@ -1,0 +1,55 @@
+"""Rules of a suite's scenarios and seeds; the first broken one, in words."""
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from ...agents.plugins import article, kind_of
+from ..episode.conformance import behaviour_fault, task_fault
+from ..episode.scenario import Scenario
+
+
+def scenarios_fault(scenarios: Sequence[object]) -> str | None:
+    """Return why scenarios are not those of a suite, or None.
+
+    There must be one, with distinct names, and all must have the same task: its metrics are the
+    columns of every table.
+    """
+    if not scenarios:
+        return "has no scenario"
+    for each in scenarios:
+        if not isinstance(each, Scenario):
+            return f"must have scenarios, got {article(each)}"
+        fault = behaviour_fault(each.human)
+        if fault is not None:
+            return f"has the behaviour {each.behaviour!r} ({kind_of(each.human)}), which {fault}"
+        fault = task_fault(each.task)
+        if fault is not None:
+            return f"has a task ({kind_of(each.task)}) that {fault}"
+    known = [each for each in scenarios if isinstance(each, Scenario)]
+    tasks = list(dict.fromkeys(each.task for each in known))
+    if len(tasks) > 1:
+        names = [task.name for task in tasks]
+        equal = len({*names}) < len(names)
+        shown = map(repr, tasks) if equal else names
+        return f"must have one task, got {', '.join(shown)}"
+    name = _twice(each.name for each in known)
+    return None if name is None else f"has the scenario {name!r} twice: names must be distinct"
+
+
+def seeds_fault(seeds: Iterable[Any]) -> str | None:
+    """Return why seeds are not those of a suite, or None: distinct whole numbers from 0."""
+    if not isinstance(seeds, tuple | list):
+        return f"must have its seeds in a tuple, got {article(seeds)}"
+    if not seeds:
+        return "has no seed"
+    for seed in seeds:
+        if type(seed) is not int or seed < 0:
+            return f"must have whole numbers from 0 as seeds, got {seed!r:.80}"
+    seed = _twice(seeds)
+    return None if seed is None else f"has the seed {seed} twice: seeds must be distinct"
+
+
+def _twice(values: Iterable[Any]) -> Any:
+    """Return the first value that comes more than once, or None."""
+    return next((value for value, count in Counter(values).items() if count > 1), None)

@@ -1,0 +1,49 @@
+"""The task of a season: its words, and the options with which its lifts are played at home."""
+
+import functools
+import inspect
+from dataclasses import dataclass
+
+from ...agents.registry import SUITES, entries
+from ...benchmark.episode.level import LEVEL
+from ...benchmark.suites.suite import make_suite
+from ...benchmark.verification.checking import SUITE as CHECKED
+from ...benchmark.verification.checking import checked_with
+from ..board.board import SUITE as PLAYED
+
+
+@dataclass(frozen=True, kw_only=True)
+class TaskView:
+    """What pages say of a task, and of its suite."""
+
+    level: bool
+    """Whether it is the task ``level``, to which some paragraphs belong."""
+    words: str
+    """The task as the end of a sentence: the first paragraph of its class's docstring."""
+    run: str
+    """Option of ``colift run`` that names the suite; empty if that is the default."""
+    check: str
+    """The same of ``colift check``."""
+
+
+@functools.cache
+def task_view(suite: str) -> TaskView:
+    """Return the task of a suite; ``level`` with the options, if no suite of that name is there."""
+    if suite not in entries(SUITES):
+        named = f" --suite {suite}"
+        return TaskView(level=True, words=_words(LEVEL), run=named, check=named)
+    made = make_suite(suite)
+    task, checked = made.scenarios[0].task, checked_with(made).name
+    return TaskView(
+        level=task.name == LEVEL.name,
+        words=_words(task),
+        run="" if suite == PLAYED else f" --suite {suite}",
+        check="" if checked == CHECKED else f" --suite {checked}",
+    )
+
+
+def _words(task: object) -> str:
+    """Return the first paragraph of a docstring, as it stands behind a colon."""
+    paragraph = (inspect.getdoc(type(task)) or "").partition("\n\n")[0]
+    text = " ".join(paragraph.split())
+    return text and f"{text[0].lower()}{text[1:].removesuffix('.')}."
