@@ -4,12 +4,13 @@ from colift.agents.agent import FRAME
 from colift.agents.errors import InputError
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bounds.bounds import BOUNDS
-from colift.benchmark.bounds.oracle import Foreknowing, foreknow, oracle_run
+from colift.benchmark.bounds.oracle import foreknow, oracle_run
 from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite, make_suite
+from colift.benchmark.tasks.rehearsal import Foreknowing
 
 
 def commanded(path, frames, steps):
