@@ -12,7 +12,7 @@ from .errors import InputError
 from .registry import called, lookup
 
 
-def make(group: str, name: str, protocol: type, **arguments: object) -> Any:
+def make_registered(group: str, name: str, protocol: type, **arguments: object) -> Any:
     """Return a new object of the class that is registered under a name.
 
     Parameters
@@ -65,7 +65,7 @@ def blaming(title: str, source: Any) -> Iterator[None]:
     except InputError as error:
         raise InputError(f"{title}: {error}", remedy=error.remedy, target=error.target) from error
     except Exception as error:
-        raise InputError(f"{title} raised {raised(error, source)}") from error
+        raise InputError(f"{title} raised {error_at(error, source)}") from error
 
 
 def class_fault(kind: Any) -> str | None:
@@ -113,7 +113,7 @@ def object_fault(made: Any, protocol: type) -> str | None:
     return None
 
 
-def kind_of(made: Any) -> str:
+def place_of(made: Any) -> str:
     """Return the class of an object, or a class, as an entry point has it: ``module:Class``."""
     kind = made if isinstance(made, type) else type(made)
     return f"{kind.__module__}:{kind.__qualname__}"
@@ -133,7 +133,7 @@ def article(value: Any) -> str:
     return f"an object of {name}"
 
 
-def frames(error: BaseException, source: Any) -> list[tuple[str, str]]:
+def plugin_frames(error: BaseException, source: Any) -> list[tuple[str, str]]:
     """Return the calls of a plugin's code that an error passed, the last one last.
 
     Parameters
@@ -156,10 +156,10 @@ def frames(error: BaseException, source: Any) -> list[tuple[str, str]]:
     ]
 
 
-def raised(error: BaseException, source: Any) -> str:
+def error_at(error: BaseException, source: Any) -> str:
     """Return an error in words, with the place in a plugin's code if it passed there."""
     text = f"{type(error).__name__}: {error}".rstrip(": ")
-    passed = frames(error, source)
+    passed = plugin_frames(error, source)
     return f"{text} ({passed[-1][1]})" if passed else text
 
 

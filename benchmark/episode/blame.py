@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from ...agents.errors import EvaluatorFault, InputError
-from ...agents.plugins import frames, is_ours, kind_of, raised
+from ...agents.plugins import error_at, is_ours, place_of, plugin_frames
 from .conformance import episode_fault, observation_fault, plan_fault
 from .episode import Episode
 from .lift import Lift
@@ -14,12 +14,12 @@ from .seeding import derive_seed
 
 def behaviour_title(scenario: Scenario) -> str:
     """Return the behaviour of a scenario in words, with its class."""
-    return f"behaviour {scenario.behaviour!r} ({kind_of(scenario.human)})"
+    return f"behaviour {scenario.behaviour!r} ({place_of(scenario.human)})"
 
 
 def task_title(scenario: Scenario) -> str:
     """Return the task of a scenario in words, with its class."""
-    return f"task {scenario.task.name!r} ({kind_of(scenario.task)})"
+    return f"task {scenario.task.name!r} ({place_of(scenario.task)})"
 
 
 @contextmanager
@@ -61,9 +61,9 @@ def _cause(scenario: Scenario, seed: int, error: Exception) -> str | None:
         if not is_ours(type(each))
     ]
     for each, title in others:
-        passed = [name for name, _ in frames(error, type(each))]
+        passed = [name for name, _ in plugin_frames(error, type(each))]
         if passed and (hasattr(each, passed[0]) or len(others) == 1):
-            return f"{title}: {passed[0]}() in {lift}, raised {raised(error, type(each))}"
+            return f"{title}: {passed[0]}() in {lift}, raised {error_at(error, type(each))}"
     if not others:
         return None
     titles = " or ".join(title for _, title in others)

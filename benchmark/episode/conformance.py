@@ -8,7 +8,7 @@ import numpy as np
 
 from ...agents.agent import Observation
 from ...agents.humans import Behaviour, Plan, Subject
-from ...agents.plugins import article, object_fault, raised
+from ...agents.plugins import article, error_at, object_fault
 from .episode import Episode
 from .lift import Lift
 from .metric import LEADING, Metric, Metrics, Scores
@@ -25,7 +25,7 @@ def plan_fault(behaviour: Behaviour, subject: Subject, seed: int) -> str | None:
     try:
         plan: object = behaviour.plan(subject, seed)
     except Exception as error:
-        return f"raised {raised(error, type(behaviour))}"
+        return f"raised {error_at(error, type(behaviour))}"
     if not isinstance(plan, Plan):
         return f"returned {article(plan)}; it must return colift.agents.humans.Plan"
     if not isinstance(plan.target, np.ndarray) or plan.target.ndim != 1 or not len(plan.target):

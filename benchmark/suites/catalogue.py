@@ -12,7 +12,7 @@ from ...agents.humans import (
     load_recordings,
 )
 from ...agents.near_names import did_you_mean
-from ...agents.plugins import make
+from ...agents.plugins import make_registered
 from ...agents.registry import HUMANS, TASKS, called, entries
 from ..episode.conformance import task_fault
 from ..episode.level import LEVEL
@@ -52,7 +52,7 @@ def make_task(name: str) -> Task:
     InputError
         If the name is unknown, or there is no task of that name in its package.
     """
-    task: Task = make(TASKS, name, Task)
+    task: Task = make_registered(TASKS, name, Task)
     fault = task_fault(task)
     if fault is None and task.name != name:
         fault = f"has the name {task.name!r}; it must have its entry point's name"
@@ -109,7 +109,7 @@ def make_scenario(
         )
     recording = _recording(source) if kind == RECORDED else None
     given = {} if recording is None else {"recording": recording}
-    human: Behaviour = make(HUMANS, kind, Behaviour, **given)
+    human: Behaviour = make_registered(HUMANS, kind, Behaviour, **given)
     return Scenario(
         behaviour=kind,
         human=human,

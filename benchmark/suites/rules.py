@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from ...agents.plugins import article, kind_of
+from ...agents.plugins import article, place_of
 from ..episode.conformance import behaviour_fault, task_fault
 from ..episode.scenario import Scenario
 
@@ -22,10 +22,10 @@ def scenarios_fault(scenarios: Sequence[object]) -> str | None:
             return f"must have scenarios, got {article(each)}"
         fault = behaviour_fault(each.human)
         if fault is not None:
-            return f"has the behaviour {each.behaviour!r} ({kind_of(each.human)}), which {fault}"
+            return f"has the behaviour {each.behaviour!r} ({place_of(each.human)}), which {fault}"
         fault = task_fault(each.task)
         if fault is not None:
-            return f"has a task ({kind_of(each.task)}) that {fault}"
+            return f"has a task ({place_of(each.task)}) that {fault}"
     known = [each for each in scenarios if isinstance(each, Scenario)]
     tasks = list(dict.fromkeys(each.task for each in known))
     if len(tasks) > 1:

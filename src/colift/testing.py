@@ -16,7 +16,7 @@ from .agents.actions import ActionError, checked_action
 from .agents.agent import FRAME, Agent, Explaining, RobotObservation
 from .agents.errors import InputError, PolicyError
 from .agents.humans import GOAL_RANGE, SUBJECTS, Behaviour, Plan, Subject
-from .agents.plugins import article, kind_of, raised
+from .agents.plugins import article, error_at, place_of
 from .agents.policies.copy import Copy
 from .agents.registry import TASKS, entries
 from .benchmark.bundle.recipe import FROM_NAMES, Recipe
@@ -66,7 +66,7 @@ def check_policy(make: Callable[[], Agent], task: Task = LEVEL) -> None:
     task
         The task that it plays.
     """
-    _require_none(task_fault(task), f"task {kind_of(task)}")
+    _require_none(task_fault(task), f"task {place_of(task)}")
     if not callable(make):
         raise AssertionError(
             f"check_policy takes a class, or a function that makes a policy, got {article(make)}"
@@ -130,7 +130,7 @@ def check_behaviour(behaviour: Behaviour) -> None:
     goal within ``GOAL_RANGE``, moves in its strokes only, depends on subject and seed alone, is
     read-only, and differs from seed to seed.
     """
-    title = f"behaviour {kind_of(behaviour)}"
+    title = f"behaviour {place_of(behaviour)}"
     _require_none(behaviour_fault(behaviour), title)
     known = list(SUBJECTS.values())
     targets = set()
@@ -183,9 +183,9 @@ def check_task(task: Task, behaviour: str = "smooth") -> None:
     one score for each metric, finite or NaN, and no NaN where a score is never missing; the series
     it adds have one number per frame; the same actions give the same scores.
     """
-    title = f"task {kind_of(task)}"
+    title = f"task {place_of(task)}"
     _require_none(task_fault(task), title)
-    names = [name for name, each in entries(TASKS).items() if each.value == kind_of(task)]
+    names = [name for name, each in entries(TASKS).items() if each.value == place_of(task)]
     _require(
         not names or task.name in names,
         f"{title} has the name {task.name!r}; its entry point has the name {', '.join(names)}",
@@ -223,7 +223,7 @@ class Watching:
         try:
             self.fault = observation_fault(lift) or (rewards_fault(lift) if lift.frame else None)
         except Exception as error:
-            self.fault = f"raised {raised(error, type(lift.task))}"
+            self.fault = f"raised {error_at(error, type(lift.task))}"
         if self._fails or self.fault is not None:
             raise PolicyError("on purpose")
         return Copy().act(observation) if lift.seat.is_robot else np.zeros(lift.partner_size)
@@ -278,7 +278,7 @@ def _asserting(title: str, source: Any, hint: str = "") -> Iterator[None]:
     except ActionError as error:
         raise AssertionError(f"{title}: {error}") from error
     except Exception as error:
-        raise AssertionError(f"{title} raised {raised(error, source)}{hint}") from error
+        raise AssertionError(f"{title} raised {error_at(error, source)}{hint}") from error
 
 
 def _observations(seed: int, task: Task) -> NDArray[np.float64]:
