@@ -20,6 +20,9 @@ PATH = [RISE / 2 * (1 - math.cos(0.01 * math.pi * i)) for i in range(301)]
 COUNT = 2e-4
 """Metres in a count."""
 
+BUSY = "for (const end = performance.now() + 60; performance.now() < end; );"
+"""Work of a page's own, during which the events of the mouse gather."""
+
 
 def test_a_lift_by_mouse_from_the_click_to_the_replay(url, sessions):
     """Nothing of the mouse's way is lost, the table follows, and all is on disk in the end."""
@@ -62,14 +65,14 @@ async def lifted(url: str) -> Hand:
         while await page.evaluate("coliftPlay.page.lifting.frames.last") < 5:
             await asyncio.sleep(0.02)
         await move(page, box["y"] + box["height"] / 2)
-        assert len(hand.samples) > hand.packets > 50  # The browser coalesces; each sample is kept.
+        assert len(hand.samples) > hand.packets > 50  # What gathers is sent together, whole.
         await looked_at(page)
         await browser.close()
         return hand
 
 
 async def move(page: Page, begins: float) -> None:
-    """Move the mouse without waiting for what each event does: a real one does not wait, too."""
+    """Move the mouse, waiting for no event as a real one does; keep the page busy once."""
     session = await page.context.new_cdp_session(page)
     loop, pending = asyncio.get_running_loop(), []
     begin = loop.time()
@@ -77,6 +80,8 @@ async def move(page: Page, begins: float) -> None:
         await asyncio.sleep(max(begin + EVERY_S * i - loop.time(), 0))
         event = {"type": "mouseMoved", "x": 640, "y": begins - above}
         pending.append(asyncio.ensure_future(session.send("Input.dispatchMouseEvent", event)))
+        if i == len(PATH) // 3:
+            pending.append(asyncio.ensure_future(page.evaluate(BUSY)))
     await asyncio.gather(*pending)
 
 
