@@ -16,7 +16,7 @@ from ..agents.registry import check_plays
 from ..agents.spec import AgentSpec
 from ..benchmark.bundle import Results, check_bundle_folder, check_unfinished, results, write_bundle
 from ..benchmark.bundle.recipe import FROM_NAMES, Recipe
-from ..benchmark.channels import Channel
+from ..benchmark.channels import Channel, recorded
 from ..benchmark.episode.metric import Metrics
 from ..benchmark.execution.cluster import Cluster
 from ..benchmark.execution.journal import Journal, open_journal
@@ -130,7 +130,7 @@ def _identity(
         "suite": suite.name,
         "suite digest": suite.digest,
         "isolation": spec.isolation,
-        **({} if channel is None else {"channel": json.dumps(channel.plain())}),
+        **({} if channel is None else {"channel": json.dumps(recorded(channel))}),
         **there,
     }
 

@@ -121,9 +121,8 @@ class Code:
         texts = ["".join(numbered(root) for root in roots)]
         for reference in queue:  # It grows meanwhile.
             pieces = self._pieces(reference)
-            effects = Reference(reference.module, EFFECTS)
-            if reference.name not in (EFFECTS, WHOLE) and self._has(effects):
-                pieces = (*pieces, effects)
+            if reference.name not in (EFFECTS, WHOLE):
+                pieces = (*pieces, *self._effects(reference.module))
             texts.append("".join(numbered(piece) for piece in pieces))
         return _short("\n".join(texts)), tuple(queue)
 
@@ -154,9 +153,17 @@ class Code:
             }
         return sorted(signatures, key=lambda each: signatures[each])
 
-    def _has(self, reference: Reference) -> bool:
-        module = self._module(reference.module)
-        return module is not None and reference.name in module.definitions
+    def _effects(self, name: str) -> Iterator[Reference]:
+        """Yield the loose statements that importing a module runs: those of its packages, its own.
+
+        The ones of colift's top package enter colift's environments into Gymnasium's registry,
+        which changes no score.
+        """
+        parts = name.split(".")
+        for i in range(1, len(parts) + 1):
+            module = self._module(".".join(parts[:i]))
+            if module is not None and module.name != COLIFT and EFFECTS in module.definitions:
+                yield Reference(module.name, EFFECTS)
 
     def _resolved(self, target: Target) -> Piece:
         """Return the definition that a name in a module stands for, or a text."""

@@ -7,7 +7,7 @@ from importlib.metadata import version
 from typing import Any
 
 from ...agents.hardware.decisions import POLICY_SHARE
-from ..channels import Channel
+from ..channels import Channel, recorded
 from ..episode.metric import SCORING
 from ..execution.runner import Run
 from ..results.baselines import HUMAN_HUMAN, Baseline
@@ -62,7 +62,7 @@ class Results:
             "groups": [each.plain() for each in self.strata],
             "baselines": {name: _plain_baseline(each) for name, each in self.baselines.items()},
         }
-        return content if self.channel is None else {**content, "channel": self.channel.plain()}
+        return content if self.channel is None else {**content, "channel": recorded(self.channel)}
 
 
 def _plain_baseline(baseline: Baseline) -> dict[str, Any]:

@@ -13,8 +13,7 @@ from ...agents.errors import InputError
 from ...agents.humans import Behaviour, Recorded, load_recordings
 from ...agents.humans.recordings import COLUMNS
 from ...agents.registry import UnknownNameError
-from ..channels import Channel
-from ..channels.reading import parse_channel
+from ..channels import Channel, parse_recorded, recorded
 from ..episode.level import LEVEL
 from ..episode.metric import Metrics
 from ..episode.scenario import Scenario
@@ -161,7 +160,7 @@ class Recipe:
             "seeds": list(self.seeds),
             "scenarios": ["/".join(filter(None, names)) for names in self.scenarios],
         }
-        return content if self.channel is None else {**content, "channel": self.channel.plain()}
+        return content if self.channel is None else {**content, "channel": recorded(self.channel)}
 
     @classmethod
     def parse(
@@ -227,7 +226,7 @@ def _channel(content: dict[str, Any]) -> Channel | None:
     if "channel" not in content:
         return None
     channel = pick(content, "channel", dict, MANIFEST)
-    return parse_channel(channel, f"{MANIFEST}: channel", whole=True)
+    return parse_recorded(channel, f"{MANIFEST}: channel")
 
 
 def _names(name: str) -> tuple[str, str, str]:

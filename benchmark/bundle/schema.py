@@ -109,7 +109,8 @@ def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
     }
     schema = _object(content)
     schema["properties"]["channel"] = _object(
-        {"down": _link(), "up": _link()}, "The channel to the policy; only if there was one."
+        {"down": _link(), "up": _link(), "code": _of(TEXT, "Hash of what a channel does.")},
+        "The channel to the policy; only if there was one.",
     )
     return {"$schema": DIALECT, "title": "results.json of a colift bundle", **schema}
 

@@ -3,6 +3,7 @@
 from .channel import Channel, Link
 from .named import CHANNELS, channel_name, make_channel
 from .reading import read_channel
+from .recorded import parse_recorded, recorded
 from .schedule import Turn, channel_seed, schedule
 from .teleoperated import ANSWERED, Teleoperated, teleoperated
 
@@ -16,7 +17,9 @@ __all__ = [
     "channel_name",
     "channel_seed",
     "make_channel",
+    "parse_recorded",
     "read_channel",
+    "recorded",
     "schedule",
     "teleoperated",
 ]

@@ -9,6 +9,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from ..channels import recorded
 from ..results.baselines import HUMAN_HUMAN_LABEL
 from .captions import picture_axis, picture_title
 from .comparison import Comparison
@@ -42,7 +43,7 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
     channel = comparison.results.channel
     return {
         "colift": version("colift"),
-        **({} if channel is None else {"channel": channel.plain()}),
+        **({} if channel is None else {"channel": recorded(channel)}),
         "suite": suite.name,
         "suite_digest": suite.digest,
         "episodes": comparison.overall.episodes,

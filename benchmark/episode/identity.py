@@ -31,6 +31,7 @@ from . import level, level_metrics, lift, metrics, seat, smoothness
 from .episode import run_episode
 from .kept_world import lift_in_kept_world
 from .lift import Lift
+from .metric import Metrics
 from .recorder import Recorder
 
 SIMULATES: Final[tuple[Root, ...]] = (Lift, Recorder, Partner, lift_in_kept_world)
@@ -47,7 +48,7 @@ STATED: Final[tuple[Root, ...]] = (
     (level_metrics, "LEVEL_METRICS"),
 )
 """What the code uses and the digest states elsewhere, or not at all: subjects are in the scenarios;
-how metrics are shown changes no score."""
+how metrics are shown changes no score, and their limits are among the numbers."""
 
 
 def numbers() -> Mapping[str, Any]:
@@ -84,7 +85,7 @@ def numbers() -> Mapping[str, Any]:
                 "least_motion_m": metrics.MIN_MOTION,
                 "least_share": metrics.MIN_SHARE,
                 "lag_s": (metrics.MIN_LAG, metrics.MAX_LAG),
-                "reached_m": level_metrics.REACHED,
+                "reached_m": _limits(level_metrics.LEVEL_METRICS)["short_of_goal_mm"] / 1000,
                 "least_speed_m_s": smoothness.MIN_PEAK_SPEED,
                 "least_samples": smoothness.MIN_SAMPLES,
             },
@@ -111,7 +112,9 @@ def plain(value: Any) -> Any:
     if dataclasses.is_dataclass(value):
         fields = {each.name: plain(getattr(value, each.name)) for each in dataclasses.fields(value)}
         kind: type = type(value)
-        return {"": code_hash(kind, without=(*STATED, *_metrics(kind))), **fields}
+        limits = _limits(getattr(kind, "metrics", {})) if _metrics(kind) else {}
+        stated = {"limits of metrics": limits} if limits else {}
+        return {"": code_hash(kind, without=(*STATED, *_metrics(kind))), **stated, **fields}
     if isinstance(value, Mapping):
         return {name: plain(each) for name, each in value.items()}
     if isinstance(value, np.ndarray):
@@ -119,6 +122,11 @@ def plain(value: Any) -> Any:
     if isinstance(value, tuple | list):
         return [plain(each) for each in value]
     return value
+
+
+def _limits(metrics: Metrics) -> dict[str, float]:
+    """Return the values of metrics above which a lift has missed its goal."""
+    return {name: each.limit for name, each in metrics.items() if each.limit is not None}
 
 
 @functools.cache

@@ -155,6 +155,11 @@ def test_behaviour_changes_it(module, old, new):
     assert digest(changed) != digest(BEFORE)
 
 
+def test_what_the_package_runs_when_it_is_imported_counts():
+    assert digest({**BEFORE, "p": "VERSION = 1"}) == digest(BEFORE)
+    assert digest({**BEFORE, "p": "import os\nos.environ['X'] = '1'"}) != digest(BEFORE)
+
+
 @pytest.mark.parametrize(
     ("old", "new"),
     [

@@ -27,6 +27,16 @@ class Disordered(Level):
     metrics = metric_table(reversed([*Level.metrics.values()][:4]))
 
 
+OWN_METRICS = metric_table(Level.metrics.values())
+
+
+@dataclass(frozen=True)
+class Measured(Level):
+    """A task with a table of its own."""
+
+    metrics = OWN_METRICS
+
+
 @dataclass(frozen=True)
 class Planless:
     """A behaviour without a plan."""
@@ -93,6 +103,18 @@ def test_a_digest_changes_with_the_constants_of_the_world(monkeypatch):
     before = make_suite("quick-v1").digest
     monkeypatch.setattr(table, "TABLE_MASS", 0.36)
     assert make_suite("quick-v1").digest != before
+
+
+@pytest.mark.parametrize("task", [Level(), Measured()], ids=["level", "of another package"])
+def test_a_digest_changes_with_the_limit_of_a_metric_but_not_with_its_words(task, monkeypatch):
+    suite = make_suite("quick-v1")
+    scenarios = tuple(dataclasses.replace(each, task=task) for each in suite.scenarios)
+    suite = dataclasses.replace(suite, scenarios=scenarios)
+    before, metric = suite.digest, task.metrics["short_of_goal_mm"]
+    for changes, same in (({"label": "Missing"}, True), ({"limit": 25.0}, False)):
+        changed = dataclasses.replace(metric, **changes)
+        monkeypatch.setitem(task.metrics, metric.name, changed)
+        assert (suite.digest == before) is same
 
 
 @pytest.mark.parametrize(

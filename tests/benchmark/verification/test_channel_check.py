@@ -11,7 +11,7 @@ import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import read_bundle, results, write_bundle
 from colift.benchmark.bundle.schema import results_schema
-from colift.benchmark.channels import CHANNELS, Channel, Link
+from colift.benchmark.channels import CHANNELS, Channel, Link, recorded
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.verification import verify
 
@@ -37,7 +37,7 @@ def forged(home, tmp_path):
 
 def claim(folder, channel):
     """Claim another channel, in both files that have it."""
-    plain = channel.plain()
+    plain = recorded(channel)
     edit_json(folder, "manifest.json", lambda content: content["recipe"].update(channel=plain))
     edit_json(folder, "results.json", lambda content: content.update(channel=plain))
     mend(folder)
@@ -50,7 +50,7 @@ def test_a_bundle_with_a_channel_is_verified_and_names_it(home):
     assert verdict.suite.endswith(", over the channel home")
     assert read_bundle(home).recipe.channel == HOME
     content = json.loads((home / "results.json").read_text())
-    assert content["channel"] == HOME.plain()
+    assert content["channel"] == recorded(HOME)
     jsonschema.validate(content, results_schema())
     content["channel"]["up"].pop("loss")
     with pytest.raises(jsonschema.ValidationError, match="'loss' is a required property"):
@@ -84,7 +84,7 @@ def test_the_channel_cannot_be_left_out(forged):
     mend(forged)
     assert refused(forged, file="results.json").startswith("channel says {")
     edit_json(
-        forged, "manifest.json", lambda content: content["recipe"].update(channel=HOME.plain())
+        forged, "manifest.json", lambda content: content["recipe"].update(channel=recorded(HOME))
     )
     edit_json(forged, "results.json", lambda content: content.pop("channel"))
     mend(forged)
@@ -126,6 +126,11 @@ def test_the_answers_cannot_be_left_out(forged):
         (lambda channel: channel["up"].update(delay=-1.0), "up.delay must be from 0 to 10 s"),
         (lambda channel: channel["up"].update(speed=1.0), "up: unknown key 'speed'"),
         (lambda channel: channel.pop("up"), "up is missing"),
+        (lambda channel: channel.pop("code"), "channel: code is missing"),
+        (
+            lambda channel: channel.update(code="0" * 16),
+            "what a channel does has changed since; run the policy again",
+        ),
     ],
 )
 def test_a_recipe_with_a_malformed_channel_is_refused(forged, change, message):

@@ -1,0 +1,49 @@
+"""Channels as bundles have them: their numbers, and a hash of the code that follows from these."""
+
+from collections.abc import Mapping
+from typing import Any, Final
+
+from ...agents.errors import InputError
+from ...agents.identity import code_hash
+from .channel import Channel, Link
+from .reading import parse_channel
+from .teleoperated import teleoperated
+
+CODE: Final = "code"
+"""The key of the hash."""
+
+
+def recorded(channel: Channel) -> dict[str, Any]:
+    """Return all numbers of a channel, and the hash of the code from these to the policy's lift."""
+    return {**channel.plain(), CODE: _code()}
+
+
+def parse_recorded(content: Mapping[str, Any], where: str) -> Channel:
+    """Return the channel of what :func:`recorded` returns.
+
+    Parameters
+    ----------
+    content
+        Numbers and hash.
+    where
+        Their origin, for messages.
+
+    Raises
+    ------
+    InputError
+        If something is missing, of another type or out of range, or the code has changed since.
+    """
+    numbers = {name: value for name, value in content.items() if name != CODE}
+    channel = parse_channel(numbers, where, whole=True)
+    if CODE not in content:
+        raise InputError(f"{where}: {CODE} is missing")
+    if content[CODE] != _code():
+        raise InputError(
+            f"{where}.{CODE} is {content[CODE]!r:.80}, here it is {_code()!r}: what a channel does "
+            "has changed since; run the policy again"
+        )
+    return channel
+
+
+def _code() -> str:
+    return code_hash(teleoperated, Channel, Link)
