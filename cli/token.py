@@ -4,7 +4,6 @@ from typing import Annotated
 
 import typer
 
-from ..leaderboard.board.board import Board
 from ..leaderboard.board.tokens import Tokens
 from ..leaderboard.practice.season_import import open_to_read
 from .board_options import BOARD, BoardFolder, opened_board
@@ -20,14 +19,14 @@ Submitter = Annotated[str, typer.Argument(metavar="NAME", help="The submitter's 
 @app.command()
 def add(name: Submitter, board: BoardFolder = BOARD) -> None:
     """Create a submitter's token and print it; it cannot be shown again."""
-    with opened_board(board, Board.open) as place:
+    with opened_board(board) as place:
         print(Tokens(place).add(name))
 
 
 @app.command()
 def revoke(name: Submitter, board: BoardFolder = BOARD) -> None:
     """Revoke a submitter's token, at once."""
-    with opened_board(board, Board.open) as place:
+    with opened_board(board) as place:
         Tokens(place).revoke(name)
     print(f"the token of {name} is revoked")
 

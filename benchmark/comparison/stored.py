@@ -53,13 +53,12 @@ def read_stored(folder: Path) -> Stored:
         raise InputError(
             f"{folder} has {len(run.episodes)} of {run.suite.size} lifts: run the rest"
         )
-    if content["scoring"] != SCORING:
-        raise InputError(
-            f"{folder} has scores of version {content['scoring']}, this colift computes version "
-            f"{SCORING}",
-            remedy=Remedy.RESCORE,
-            target=str(folder),
-        )
+    scoring = content["scoring"]
+    if scoring != SCORING:
+        fault = f"{folder} has scores of version {scoring}, this colift computes version {SCORING}"
+        if scoring > SCORING:
+            raise InputError(f"{fault}: compare it with a newer colift")
+        raise InputError(fault, remedy=Remedy.RESCORE, target=str(folder))
     if content["suite_digest"] != run.suite.digest:
         raise InputError(
             f"{folder} was played on {content['suite']} with digest {content['suite_digest']}; "

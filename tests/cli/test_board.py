@@ -105,6 +105,14 @@ def test_a_token_is_made_listed_and_revoked(board, colift):
     assert Tokens(board).submitter(made.stdout.strip()) is None
 
 
+def test_a_board_that_begins_with_a_token_has_the_practice_rows(colift, tmp_path):
+    made = colift("token", "add", "ada", "--board", "new")
+    board = Board.open(tmp_path / "new")
+    assert Tokens(board).submitter(made.stdout.strip()) == "ada"
+    assert "blend" in {entry.row.name for entry in board.standings()}
+    board.close()
+
+
 def test_a_worker_does_what_waits_and_ends(colift, tmp_path, monkeypatch):
     monkeypatch.setitem(entries(SUITES), "tiny", ENTRY)
     board = Board.open(tmp_path / "board", "tiny")

@@ -157,10 +157,11 @@ def test_a_session_says_which_lifts_have_older_scores(colift, folder):
 
 def test_scores_of_a_newer_version_are_for_a_newer_colift(colift, folder):
     edit(folder, "results.json", lambda r: r.update(scoring=SCORING + 1))
-    code, _, errors = colift("verify", "bundle")
-    assert code == 1
-    assert "newer colift" in errors
-    assert "--rescore" not in errors
+    for command in (("verify", "bundle"), ("compare", "bundle", "copy")):
+        code, _, errors = colift(*command)
+        assert code
+        assert "newer colift" in errors
+        assert "--rescore" not in errors
 
 
 @pytest.mark.parametrize(
