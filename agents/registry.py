@@ -25,24 +25,42 @@ _KIND: Final = {POLICIES: "policy", HUMANS: "human behaviour", SUITES: "suite", 
 def entries(group: str) -> dict[str, EntryPoint]:
     """Return the entry points of a group by name, in the order of their names.
 
-    Policies for one task alone are among the policies.
+    Policies for one task alone are among the policies. Of a name that several packages register,
+    the first is here; :func:`entry_of` refuses it.
+    """
+    return {name: found[0] for name, found in _registered(group).items()}
+
+
+def entry_of(group: str, name: str) -> EntryPoint:
+    """Return the entry point of a name that :func:`entries` has.
 
     Raises
     ------
     InputError
-        If two packages register the same name.
+        If several packages register the name; the message names them.
     """
-    found: dict[str, EntryPoint] = {}
+    every = _contested(group).get(name)
+    if every is not None:
+        places = ", ".join(f"{each.value}{_package(each)}" for each in every)
+        raise InputError(f"{_KIND[group]} {name!r} is registered {len(every)} times: {places}")
+    return entries(group)[name]
+
+
+@functools.cache
+def _contested(group: str) -> dict[str, tuple[EntryPoint, ...]]:
+    """Return the entry points of the names that several packages register."""
+    return {name: found for name, found in _registered(group).items() if len(found) > 1}
+
+
+def _registered(group: str) -> dict[str, tuple[EntryPoint, ...]]:
+    """Return the different entry points of each name, colift's own first."""
     known = entry_points()
     groups = [each for each in known.groups if each == group or each.startswith(f"{group}.")]
     every = [entry for each in groups for entry in known.select(group=each)]
-    for entry in sorted(every, key=lambda entry: entry.name):
-        first = found.setdefault(entry.name, entry)
-        if first.value != entry.value:
-            raise InputError(
-                f"{_KIND[group]} {entry.name!r} is registered twice: {first.value}, {entry.value}"
-            )
-    return found
+    found: dict[str, dict[str, EntryPoint]] = {}
+    for entry in sorted(every, key=lambda entry: (entry.name, not _is_own(entry), entry.value)):
+        found.setdefault(entry.name, {}).setdefault(entry.value, entry)
+    return {name: tuple(each.values()) for name, each in found.items()}
 
 
 def playing(task: str) -> dict[str, EntryPoint]:
@@ -80,8 +98,16 @@ def check_plays(policy: str, task: str) -> None:
 
 def own_entries(group: str) -> dict[str, EntryPoint]:
     """Return the entry points of a group that are in colift itself."""
-    own = f"{__package__.partition('.')[0]}."
-    return {name: entry for name, entry in entries(group).items() if entry.module.startswith(own)}
+    return {name: entry for name, entry in entries(group).items() if _is_own(entry)}
+
+
+def _is_own(entry: EntryPoint) -> bool:
+    return entry.module.startswith(f"{__package__.partition('.')[0]}.")
+
+
+def _package(entry: EntryPoint) -> str:
+    """Return the package that an entry point is of, as words behind its value."""
+    return "" if entry.dist is None else f" of the package {entry.dist.name}"
 
 
 class UnknownNameError(InputError):
@@ -101,7 +127,7 @@ def lookup(group: str, name: str) -> Any:
     UnknownNameError
         If the name is unknown; the message has the nearest name, or all of them.
     InputError
-        If it cannot be loaded; the message names the package.
+        If it cannot be loaded, or several packages register it; the message names the package.
     """
     known = entries(group)
     if name not in known:
@@ -110,13 +136,13 @@ def lookup(group: str, name: str) -> Any:
             f"unknown {_KIND[group]} {name!r}; {near or 'known: ' + ', '.join(known)}",
             remedy=Remedy.LIST if near else None,
         )
+    entry = entry_of(group, name)
     try:
-        return known[name].load()
+        return entry.load()
     except Exception as error:
-        package = known[name].dist
-        of = "" if package is None else f" of the package {package.name}"
         raise InputError(
-            f"{called(group, name)}{of} cannot be loaded: {type(error).__name__}: {error}"
+            f"{called(group, name)}{_package(entry)} cannot be loaded: {type(error).__name__}: "
+            f"{error}"
         ) from error
 
 

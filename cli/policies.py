@@ -10,7 +10,7 @@ from ..agents.identity import source_hash
 from ..agents.loading.loading import PolicySpec
 from ..agents.loading.parameters import merged, split
 from ..agents.near_names import did_you_mean
-from ..agents.registry import POLICIES, entries, own_entries
+from ..agents.registry import POLICIES, entries, entry_of, own_entries
 from ..agents.sandbox.host.levels import LEVELS, choose, fault
 from ..agents.sandbox.host.policy import SandboxedPolicy
 from ..agents.spec import AgentSpec
@@ -54,7 +54,7 @@ def choose_policy(text: str, isolation: str = AUTO) -> AgentSpec:
         spec.load()
         return spec
     if own:
-        return _sandboxed(spec, entries(POLICIES)[place].value, spec.digest(), level)
+        return _sandboxed(spec, entry_of(POLICIES, place).value, spec.digest(), level)
     if place in entries(POLICIES) or ":" in place:
         return spec if isolation == NONE else _foreign(spec, level)
     if Path(text).is_dir():
@@ -106,7 +106,7 @@ def _foreign(spec: PolicySpec, level: str | None) -> SandboxedPolicy:
     """Return a third party's class in a sandbox, where it sees its own file and packages."""
     place, _, parameters = spec.parts
     if place in entries(POLICIES):
-        place = entries(POLICIES)[place].value
+        place = entry_of(POLICIES, place).value
     source, _, name = place.rpartition(":")
     if source.endswith(".py"):
         path = Path(source)

@@ -1,11 +1,22 @@
 """Finding policies by name, and what holds for every policy that is found."""
 
+import re
+
 import numpy as np
 import pytest
 from colift.agents.agent import Explaining
 from colift.agents.errors import InputError, Remedy
 from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import HUMANS, POLICIES, entries, lookup, summary
+from colift.agents.policies.hold import Hold
+from colift.agents.registry import (
+    HUMANS,
+    POLICIES,
+    _contested,
+    entries,
+    lookup,
+    own_entries,
+    summary,
+)
 from colift.benchmark.suites.catalogue import make_task
 from colift.testing import check_policy
 
@@ -28,6 +39,11 @@ def run(policy, seen, seed=3):
     return np.array([policy.act(view) for view in seen])
 
 
+def forget():
+    entries.cache_clear()
+    _contested.cache_clear()
+
+
 @pytest.fixture
 def install(tmp_path, monkeypatch):
     """Install a distribution that registers policies, for the time of a test."""
@@ -40,11 +56,11 @@ def install(tmp_path, monkeypatch):
         )
         about.joinpath("entry_points.txt").write_text(f"[{POLICIES}]\n{entry_points}\n")
         monkeypatch.syspath_prepend(tmp_path)
-        entries.cache_clear()
+        forget()
 
     yield put
     monkeypatch.undo()
-    entries.cache_clear()
+    forget()
 
 
 def test_another_labs_policy_is_found_like_ours(install, tmp_path):
@@ -65,10 +81,16 @@ def test_an_uninstalled_policy_is_gone():
     assert "lifter" not in tuple(entries(POLICIES))
 
 
-def test_a_name_is_registered_once(install):
+def test_a_name_that_two_packages_register_is_refused_and_no_other(install):
     install("otherlab", "blend = otherlab_lifting:Blend")
-    with pytest.raises(InputError, match=r"policy 'blend' is registered twice: .*otherlab_lifting"):
-        tuple(entries(POLICIES))
+    fault = (
+        "policy 'blend' is registered 2 times: colift.agents.policies.blend:Blend of the package "
+        "colift, otherlab_lifting:Blend of the package otherlab"
+    )
+    with pytest.raises(InputError, match=re.escape(fault)):
+        lookup(POLICIES, "blend")
+    assert isinstance(PolicySpec(text="hold").make(), Hold)
+    assert own_entries(POLICIES)["blend"].module == "colift.agents.policies.blend"
 
 
 def test_the_same_entry_found_twice_is_one(install):
