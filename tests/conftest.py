@@ -20,6 +20,7 @@ from pathlib import Path
 import colift
 import pytest
 from colift.agents.hardware.nao.session import quiet
+from colift.agents.onnx.libraries import NO_TELEMETRY
 from colift.agents.sandbox.host import levels
 from colift.benchmark.execution.pool import JOBS
 from colift.benchmark.profiling.loopback import loopback_cluster
@@ -49,6 +50,9 @@ LONGEST = (
 # The tests start hundreds of processes: each would compile all it imports if nobody kept it.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
+
+# Tests import onnxruntime by themselves, whose reports would open sockets at any time.
+os.environ[NO_TELEMETRY] = "1"
 
 # A shell lets what it starts in the background ignore Ctrl-C; so would all that the tests start.
 signal.signal(signal.SIGINT, signal.default_int_handler)

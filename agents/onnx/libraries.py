@@ -2,6 +2,7 @@
 
 import importlib
 import importlib.util
+import os
 from typing import Any, Final
 
 from ..errors import InputError
@@ -9,6 +10,11 @@ from ..extras import how_to_install
 
 NAMES: Final = ("onnx", "onnxruntime")
 """The libraries."""
+
+NO_TELEMETRY: Final = "ORT_DISABLE_TELEMETRY"
+"""The variable that keeps onnxruntime from reports to its maker: since 1.29, importing it starts a
+thread that sends them, and writes an identifier of the machine into the user's cache. Colift sets
+it to 1, unless it is set."""
 
 
 def require_libraries() -> None:
@@ -31,6 +37,7 @@ def import_library(name: str) -> Any:
     InputError
         If the library is not installed.
     """
+    os.environ.setdefault(NO_TELEMETRY, "1")
     try:
         return importlib.import_module(name)
     except ImportError as error:

@@ -1,5 +1,7 @@
 """A network as a policy: the actions of the same policy in Python, in a sandbox and without one."""
 
+import os
+import subprocess
 import sys
 
 import numpy as np
@@ -187,6 +189,23 @@ def test_the_file_is_named_where_it_is_refused(tmp_path):
     (folder / "policy.onnx").write_bytes(bytes(LARGEST + 1))
     with pytest.raises(InputError, match=r"net/policy\.onnx has 16777217 bytes"):
         open_submission(folder)
+
+
+def test_the_library_reports_nothing_to_its_maker(tmp_path):
+    """Where it does, it keeps what it sends in the user's cache."""
+    folder = write_network(tmp_path / "net", proportional())
+    home = tmp_path / "home"
+    home.mkdir()
+    load = "import colift.agents.onnx.policy as p, sys; p.OnnxPolicy(sys.argv[1]).reset(0)"
+    done = subprocess.run(
+        [sys.executable, "-c", load, folder / "policy.onnx"],
+        env={"HOME": str(home), "PATH": os.environ["PATH"]},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert list(home.rglob("*")) == []
 
 
 @pytest.mark.parametrize("library", ["onnx", "onnxruntime"])
