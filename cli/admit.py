@@ -1,4 +1,4 @@
-"""``colift admit``: whether the lifts of a suite need coordination."""
+"""``colift admit``: a test of whether the lifts of a suite need coordination."""
 
 import dataclasses
 from typing import Annotated
@@ -30,12 +30,15 @@ def admit_suite(
         str, typer.Argument(metavar="SUITE", help="The suite to test.", autocompletion=suites)
     ],
     pairs: Annotated[
-        int, typer.Option(metavar="N", help="Pairs to train in the twin, for (d); extra: train.")
+        int,
+        typer.Option(
+            metavar="N", help="Pairs to train in the twin, for criterion d (extra: train)."
+        ),
     ] = 0,
     jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
-    """Test whether a suite needs coordination: room, interaction, rank changes, people, idling.
+    """Test by six criteria whether the lifts of a suite need coordination.
 
     Exit code 1 if a criterion failed.
     """
@@ -72,7 +75,7 @@ def admit_suite(
 
 
 def _cross_play(task: str, count: int) -> NDArray[np.float64]:
-    """Train pairs, and return how each person does with each robot."""
+    """Train pairs, and return the error of each person with each robot."""
     if not 2 <= count <= MOST_PAIRS:
         raise InputError(f"--pairs must be 2 to {MOST_PAIRS}, or 0 for none; got {count}")
     settings = pair_settings(task)
@@ -84,7 +87,7 @@ def _cross_play(task: str, count: int) -> NDArray[np.float64]:
 
 
 def _means(found: Admission) -> Table:
-    """Return the errors of everybody, with all people and with each."""
+    """Return the mean errors of policies, baselines and bounds, with all people and with each."""
     people = dict.fromkeys(name for means in found.by_person.values() for name in means)
     means = sorted(found.means.items(), key=lambda each: each[1])
     rows = (

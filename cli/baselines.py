@@ -27,14 +27,14 @@ from .progress import workers
 def baselines(
     out: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="File for what colift ships: these results as JSON."),
+        typer.Option(metavar="FILE", help="JSON file for the results, in the form colift ships."),
     ] = None,
     only: Annotated[
         list[str] | None,
         typer.Option(
             "--suite",
             metavar="NAME",
-            help="Suite to play, may be repeated; in the file, others stay as they are shipped. "
+            help="Suite to play; repeatable. In the file, other suites keep their shipped results. "
             "Default: all of colift's own.",
             autocompletion=named,
         ),

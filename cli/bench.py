@@ -82,7 +82,7 @@ def bench(
     ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Measure the benchmark itself: speed as ratios within this run, memory, convergence."""
+    """Measure the benchmark itself: speed (as ratios within this run), memory, convergence."""
     check_exclusive(
         convergence=convergence, policies=policies, isolation=isolation, scale=scale, twin=twin
     )
@@ -212,7 +212,7 @@ def _endurance(episodes: int) -> dict[str, float]:
 
 
 def _policies() -> Report:
-    """Return the time of a step of each policy, and which exceed the limit."""
+    """Return the time of a step of each policy, and whether it exceeds the limit."""
     scenarios, names = default_scenarios(), list(playing(LEVEL.name))
     found: dict[str, StepTime | None] = {}
     with progress_bar("bench", len(names)) as progress:
@@ -247,7 +247,7 @@ def _policies() -> Report:
 
 
 def _convergence(suite: str) -> Report:
-    """Return the errors of coarser physics."""
+    """Return the errors that coarser physics cause."""
     errors = list(study(suite))
     content = [
         {
@@ -284,7 +284,7 @@ def _convergence(suite: str) -> Report:
 
 
 def _setting(physics: Physics, other: Physics) -> str:
-    """Return as a table cell what a setting has that another has not."""
+    """Return a table cell with the difference of a setting from another."""
     if physics.step != other.step:
         return f"{1000 * physics.step:g} ms"
     return f"{physics.iterations} iterations" if physics.iterations else "direct"

@@ -30,7 +30,7 @@ def board(
     ] = None,
     backup: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Write the whole board, in use or not, to one file."),
+        typer.Option(metavar="FILE", help="Write the whole board to one file, even while in use."),
     ] = None,
     from_backup: Annotated[
         Path | None,

@@ -60,8 +60,8 @@ def report_isolation(isolation: str) -> None:
     except NoSandboxError as error:
         print(
             f"submissions are not evaluated here: {error}\n"
-            "They wait, and it is tried again every minute. To evaluate them without a sandbox, "
-            "for rows that are not verified and have no rank: --isolation limits",
+            "They wait, and the sandboxes are tried again every minute. To evaluate them without a "
+            "sandbox, for rows that are not verified and have no rank: --isolation limits",
             file=sys.stderr,
             flush=True,
         )

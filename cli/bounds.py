@@ -1,4 +1,4 @@
-"""``colift bounds``, ``ablate`` and ``sweep``: studies of the best policies with drawn subjects."""
+"""``colift bounds``, ``ablate`` and ``sweep``: studies of the best policies on drawn subjects."""
 
 from pathlib import Path
 from typing import Annotated
@@ -49,7 +49,7 @@ def bounds(
     recordings: RecordedLifts = None,
     jobs: Jobs = None,
 ) -> None:
-    """Measure learned, its rivals and the bounds with drawn subjects."""
+    """Measure the policy 'learned', its rivals and the bounds with drawn subjects."""
     suite = held_out_suite(people, each, seed) if recordings is None else recorded_suite(recordings)
     specs = {name: PolicySpec(text=name) for name in (POLICY, *RIVALS)}
     total = episodes_to_play(len(specs), suite, bounds=len(BOUNDS))
@@ -90,12 +90,12 @@ def ablate_policies(
         Path | None,
         typer.Option(
             metavar="CSV",
-            help="Recorded human motion (columns trial,t_s,z_m), measured as well.",
+            help="Recorded human motion (columns trial,t_s,z_m) to measure as well.",
         ),
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """Measure what each part of anticipate contributes: learn and play it without the part."""
+    """Measure the effect of each part of 'anticipate': learn and play it without that part."""
     suites = [held_out_suite(people, each)]
     if recordings is not None:
         suites.append(recorded_suite(recordings))

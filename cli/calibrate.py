@@ -1,4 +1,4 @@
-"""``colift calibrate``: fit of the world's free parameters to the paper's results."""
+"""``colift calibrate``: fit of the simulated world's free parameters to the paper's results."""
 
 from pathlib import Path
 from typing import Annotated

@@ -29,7 +29,7 @@ from .progress import reported_interrupt, workers
 from .tables.comparison import policy_cell
 
 MEASURED: Final = ("copy", "extrapolate", "blend", "minimum_jerk", "anticipate", "learned")
-"""The policies that are measured by default: from none to the best prediction."""
+"""The policies that are measured by default: from no prediction to the best."""
 
 
 def measure_channels(
@@ -46,7 +46,7 @@ def measure_channels(
         typer.Option(
             "--channel",
             metavar="NAME|FILE",
-            help=f"Channel, or a file .toml; repeatable. Default: {', '.join(CHANNELS)}.",
+            help=f"Channel, or a .toml file; repeatable. Default: {', '.join(CHANNELS)}.",
             autocompletion=channel_names,
         ),
     ] = None,
@@ -57,7 +57,7 @@ def measure_channels(
     jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
-    """Measure policies behind a network that delays and loses messages, and without it."""
+    """Measure policies with and without a network that delays and loses messages."""
     episodes = chosen_suite(suite, seeds, recordings, behaviour)
     chosen = {text: chosen_channel(text) for text in channels or CHANNELS}
     networks = {text: channel for text, channel in chosen.items() if channel is not None}

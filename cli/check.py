@@ -46,7 +46,7 @@ def check(
         str,
         typer.Option(
             metavar="NAME",
-            help="Suite whose task the policy plays; of a large suite a part is played.",
+            help="Suite whose task the policy plays; only a part of a large suite is played.",
             autocompletion=suites,
         ),
     ] = SUITE,

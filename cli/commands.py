@@ -99,7 +99,7 @@ class _Loaded(Mapping[str, Any]):
 
 
 def _without_types(command: Any) -> None:
-    """Leave types out of a help: a flag takes no value, and an argument's name says what it takes.
+    """Leave types out of a help text: a flag takes no value, an argument's name shows its type.
 
     Typer would print ``<bool>`` beside each flag and ``<list[str]>`` beside arguments.
     """
@@ -110,7 +110,7 @@ def _without_types(command: Any) -> None:
 
 
 def _flowing(command: Any) -> None:
-    """Join the lines of each paragraph of a help: the terminal wraps them at its own width."""
+    """Join the lines of each paragraph of a help text: the terminal wraps them at its own width."""
     for inner in getattr(command, "commands", {}).values():
         _flowing(inner)
     paragraphs = inspect.cleandoc(command.help or "").split("\n\n")

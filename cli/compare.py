@@ -53,7 +53,7 @@ def compare_policies(
         ),
     ] = None,
     everything: Annotated[
-        bool, typer.Option("--all", help="All registered policies, and those that are named.")
+        bool, typer.Option("--all", help="All registered policies, besides the named ones.")
     ] = False,
     suite: Annotated[
         str | None,
@@ -71,7 +71,7 @@ def compare_policies(
         bool,
         typer.Option(
             "--bounds",
-            help="Play the bounds, such as the oracle, too; shipped ones are always shown.",
+            help="Also play the bounds, such as the oracle; shipped bounds are always shown.",
         ),
     ] = False,
     jobs: Jobs = None,
@@ -137,7 +137,7 @@ def _policies(
     Raises
     ------
     InputError
-        If there are fewer than two with the stored ones, one is named twice, or one is for another
+        If there are fewer than two, stored ones included, one is named twice, or one is for another
         task.
     """
     twice = [text for text, count in Counter(named).items() if count > 1]

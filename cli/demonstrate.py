@@ -23,7 +23,7 @@ def demonstrate_lifts(
     seed: Annotated[int, typer.Option(metavar="N", help="Seed of the first lift.")] = FIRST_SEED,
     jobs: Jobs = None,
 ) -> None:
-    """Record simulated human-human lifts: drawn subjects, all behaviours, seeds of no suite."""
+    """Record simulated human-human lifts: drawn subjects, all behaviours, seeds in no suite."""
     check_output(out)
     recorded = record(lifts, seed, jobs)
     write_demonstrations(out, recorded)

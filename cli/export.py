@@ -30,13 +30,15 @@ LICENCE: Final = "MIT"
 """Licence of simulated lifts: colift's own."""
 
 OWN_LICENCE: Final = "other"
-"""Licence of recorded people's lifts: it is the recordings'."""
+"""Licence of the lifts of recorded people: that of the recordings."""
 
 
 def export_lifts(
     bundle: Annotated[
         Path | None,
-        typer.Argument(metavar="BUNDLE", help="Folder of 'colift run --out'; none with --set."),
+        typer.Argument(
+            metavar="BUNDLE", help="Result bundle of 'colift run --out'; leave it out with --set."
+        ),
     ] = None,
     to: Annotated[
         str, typer.Option("--to", metavar="FORMAT", help=f"Format: {' or '.join(FORMATS)}.")
@@ -47,7 +49,7 @@ def export_lifts(
     view: Annotated[
         str,
         typer.Option(
-            "--view", metavar="VIEW", help=f"Whose part is kept: {' or '.join(VIEWS)} agents."
+            "--view", metavar="VIEW", help=f"Agents whose data are kept: {' or '.join(VIEWS)}."
         ),
     ] = VIEWS[0],
     fixed: Annotated[
@@ -69,16 +71,17 @@ def export_lifts(
     ),
     jobs: Jobs = None,
 ) -> None:
-    """Export lifts as a data set, each proved by its replay; or a fixed set for offline learning.
+    """Export the lifts of a run as a data set, or a fixed set for offline learning.
 
-    A bundle has no observations: each lift is replayed, and exported only if every bit is equal.
+    A result bundle has no observations: each lift is replayed, and exported only if its states are
+    equal to the bit.
     """
     if (bundle is None) == (fixed is None):
         raise InputError("name either a result bundle, or a fixed set by --set")
     if out is None:
         raise InputError("--out DIR is missing: the new folder for the data set")
     if fixed is None and not (recordings is None and lifts is None):
-        raise InputError("--lifts and --recordings belong to --set: a bundle has its own")
+        raise InputError("--lifts and --recordings need --set: a bundle has its own lifts")
     check_format(to, view)
     check_new(out, replace=force)
     jobs = checked_jobs(jobs)

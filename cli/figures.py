@@ -15,13 +15,13 @@ from .options import check_exclusive
 from .printing import left, show, table
 
 SHOWN: Final = 48
-"""Characters of a command in the list of all figures; the list of one figure has all of it."""
+"""Characters of a command in the list of figures; a single figure is listed with all of it."""
 
 
 def figures(
     names: Annotated[
         list[str] | None,
-        typer.Argument(metavar="NAME", help="Figures; default: all, or those that are due."),
+        typer.Argument(metavar="NAME", help="Figures; default: all, with --remake those due."),
     ] = None,
     again: Annotated[
         bool,
@@ -91,7 +91,7 @@ def _state(status: FigureStatus) -> str:
 
 
 def _remake(root: Path, wanted: Iterable[FigureStatus], recordings: Sequence[Path]) -> bool:
-    """Make figures again, print the changes of each, and return whether all could be made."""
+    """Make figures again, print the changes of each, and return whether all were made."""
     complete = True
     for status in wanted:
         name = status.figure.name

@@ -1,4 +1,4 @@
-"""``colift learn``: learning of policies in the world."""
+"""``colift learn``: learning of policies in the simulated world."""
 
 import dataclasses
 from pathlib import Path
@@ -48,7 +48,7 @@ class _Learnable(TyperGroup):
 
 app = typer.Typer(
     cls=_Learnable,
-    help="Learn a policy as the built-in one was learned.",
+    help="Learn a policy in the way in which the built-in one was learned.",
     no_args_is_help=True,
 )
 

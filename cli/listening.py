@@ -1,4 +1,4 @@
-"""The address and the end of commands that serve."""
+"""Address and shutdown of commands that serve pages."""
 
 import errno
 import signal
@@ -40,13 +40,13 @@ def listening_at(host: str, port: int) -> socket.socket:
         reason = {
             errno.EADDRINUSE: f"port {port} is taken; choose another by --port (0: any free one)",
             errno.EACCES: f"port {port} needs more rights; choose one above 1023 by --port",
-            errno.EADDRNOTAVAIL: "this machine has no such address; 127.0.0.1 and 0.0.0.0 are",
+            errno.EADDRNOTAVAIL: "this machine has no such address; try 127.0.0.1 or 0.0.0.0",
         }.get(error.errno or 0, error.strerror)
         raise InputError(f"cannot listen on {host}:{port}: {reason}") from error
 
 
 def url_of(listener: socket.socket) -> str:
-    """Return the address of a listening socket, as a browser on this machine takes it."""
+    """Return the address of a listening socket for a browser on this machine."""
     host, port = listener.getsockname()[:2]
     return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
 
@@ -59,5 +59,5 @@ def interrupted_by_signals() -> None:
 
 def _interrupt(number: int, frame: FrameType | None) -> None:
     for each in ENDING:
-        signal.signal(each, signal.SIG_IGN)  # A second one would cut the children's last seconds.
+        signal.signal(each, signal.SIG_IGN)  # A second one would cut short the children's cleanup.
     raise KeyboardInterrupt

@@ -47,7 +47,7 @@ def list_all(
 ) -> None:
     """List policies, human behaviours, subjects, suites, tasks and channels, one line each.
 
-    Exit code 1 if one of them cannot be loaded; its line has the reason.
+    Exit code 1 if one of them cannot be loaded; its line gives the reason.
     """
     if policy is not None:
         show(*policy_parameters(policy))
@@ -59,7 +59,7 @@ def list_all(
     broken: list[str] = []
 
     def section(title: str, group: str, names: Iterable[str]) -> None:
-        """Add the named entries of a group with their summaries, or why they have none."""
+        """Add the named entries of a group with their summaries, or the errors of loading them."""
         table.add_row(f"[underline]{title}[/]")
         for name in names:
             try:
@@ -98,7 +98,7 @@ def _about(subject: Subject) -> str:
 def policy_parameters(text: str) -> Iterator[RenderableType]:
     """Yield the description of a policy, and its parameters: names, defaults, kinds, meanings.
 
-    Colift's own is loaded here, any other in a sandbox.
+    A policy of colift is loaded in this process, any other in a sandbox.
 
     Raises
     ------

@@ -20,7 +20,7 @@ app = typer.Typer(
 )
 
 LONGEST: Final = 2000
-"""Longest error that is shown whole; names in it may have any length."""
+"""Longest error that is shown in full; names in it may have any length."""
 
 START: Final = """\
 A benchmark for human-robot cooperative lifting.
@@ -55,7 +55,7 @@ def colift(
         ),
     ] = False,
 ) -> None:
-    """Take the options before a command; without a command, print how to start."""
+    """Handle the options before a command; without a command, print how to start."""
     if context.invoked_subcommand is None:
         print(START)
 
@@ -82,7 +82,7 @@ def main() -> None:
 
 
 def _end(message: str, code: int) -> NoReturn:
-    """End with an error of one line and limited length."""
+    """Print an error as one line of limited length, and exit."""
     line = " ".join(message.split())
     shown = line if len(line) <= LONGEST else f"{line[: LONGEST // 2]}...{line[-LONGEST // 2 :]}"
     print(f"error: {shown}", file=sys.stderr)

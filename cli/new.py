@@ -25,7 +25,7 @@ def new(
     """Write a working submission: a proportional controller to start from.
 
     policy.py holds the policy, one class; policy.toml names its authors and requirements. With
-    --from, the submission is the policy of 'colift run FILE.py:Class,name=value'.
+    --from, the policy is an existing one, named as for 'colift run FILE.py:Class,name=value'.
     """
     files = write_template(folder) if source is None else write_from(folder, source)
     for name in files:

@@ -49,8 +49,8 @@ Recordings = Annotated[
     Path | None,
     typer.Option(
         metavar="CSV",
-        help="Recorded human motion (columns trial,t_s,z_m) instead of a suite; or the folder of "
-        "a session of 'colift play', whose people move as they did.",
+        help="Recorded human motion instead of a suite: a file with the columns trial,t_s,z_m, or "
+        "the folder of a session of 'colift play'.",
     ),
 ]
 Behaviours = Annotated[
@@ -68,7 +68,7 @@ ChannelName = Annotated[
         "--channel",
         metavar="NAME|FILE",
         help="Network between the robot and the policy, which delays, loses and reorders messages: "
-        f"{', '.join(CHANNELS)}, or a file .toml. Default: none.",
+        f"{', '.join(CHANNELS)}, or a .toml file. Default: none.",
         autocompletion=channels,
     ),
 ]
@@ -106,14 +106,14 @@ def seed_range(text: str) -> tuple[int, int]:
     if len(start) > DIGITS or len(stop) > DIGITS:
         raise InputError(f"--seeds must have at most {DIGITS} digits, got {text!r:.80}")
     if int(stop) - int(start) > MOST:
-        raise InputError(f"--seeds must be {MOST} seeds at most, got {text!r}")
+        raise InputError(f"--seeds must be at most {MOST} seeds, got {text!r}")
     return int(start), int(stop)
 
 
 def chosen_suite(
     name: str, seeds: str | None, recordings: Path | None, behaviours: Sequence[str] | None = None
 ) -> Suite:
-    """Return a suite by name, with other seeds or behaviours if given, or that of recordings.
+    """Return a suite by name, with the given seeds or behaviours, or the suite of recordings.
 
     Raises
     ------

@@ -20,7 +20,7 @@ Partners = tuple[dict[str, AgentSpec], dict[str, str]]
 def partners(first: str = FIRST, isolation: str = AUTO) -> Partners:
     """Return a policy, then all registered ones, with a line about each.
 
-    Those of other packages act in a sandbox; one that cannot is left out, and reported on stderr.
+    Policies of other packages act in a sandbox; one that cannot is left out and reported on stderr.
 
     Parameters
     ----------

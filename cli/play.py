@@ -19,16 +19,16 @@ from .partners import FIRST, partners
 from .policies import AUTO
 
 PORT: Final = 8100
-"""The default port: another than a board's, which may run beside it."""
+"""The default port: not a board's, which may run beside it."""
 
 SECURE: Final = (
     "Other machines reach this page without HTTPS: their browsers then give only 60 samples a "
-    "second, and no raw mouse movement. A reverse proxy with TLS in front of it gives both."
+    "second, and no raw mouse movement. A reverse proxy with TLS removes both limits."
 )
-"""Said if it is served to other machines."""
+"""Printed if the page is served to other machines."""
 
 HOSTS: Final = frozenset({"localhost", "127.0.0.1", "::1"})
-"""Names of this machine that reach it from nowhere else."""
+"""Names by which only this machine reaches itself."""
 
 
 def play(
@@ -42,15 +42,15 @@ def play(
         ),
     ] = FIRST,
     out: Annotated[
-        Path, typer.Option(metavar="DIR", help="Folder for the lifts, a folder per session.")
+        Path, typer.Option(metavar="DIR", help="Folder for the lifts, with a folder per session.")
     ] = Path("live"),
     host: Host = LOOPBACK,
     port: Port = PORT,
     no_browser: Annotated[
-        bool, typer.Option("--no-browser", help="Print the address, and open no browser.")
+        bool, typer.Option("--no-browser", help="Print the address without opening a browser.")
     ] = False,
     rooms: Annotated[
-        int, typer.Option(metavar="N", min=1, max=64, help="Most sessions at the same time.")
+        int, typer.Option(metavar="N", min=1, max=64, help="Largest number of sessions at a time.")
     ] = 8,
     isolation: PolicyIsolation = AUTO,
     root: Annotated[
@@ -60,9 +60,9 @@ def play(
 ) -> None:
     """Lift a table with a policy, or with another person, in the browser.
 
-    Your hand moves one end of a simulated table; a policy or a second person has the other.
+    Your hand moves one end of a simulated table; a policy or a second person holds the other.
 
-    'colift verify' proves the saved lifts, 'colift run POLICY --recordings' plays them again.
+    'colift verify' verifies the saved lifts, 'colift run POLICY --recordings' plays them again.
     """
     try:
         from ..leaderboard.live.keeper import PlayConfig
@@ -93,7 +93,7 @@ def play(
                 webbrowser.open(address.replace("//0.0.0.0:", "//127.0.0.1:"))
             keep_serving(config, listener, root.rstrip("/"))
     except KeyboardInterrupt:
-        pass  # Requested, and done.
+        pass  # The requested end.
 
 
 def _is_loopback(address: str) -> bool:

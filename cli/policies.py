@@ -68,7 +68,7 @@ def choose_policy(text: str, isolation: str = AUTO) -> AgentSpec:
 
 
 def usable_level(isolation: str) -> str | None:
-    """Return the level that an isolation names; None for ``auto`` and ``none``.
+    """Return the level of that name; None for ``auto`` and ``none``.
 
     Raises
     ------

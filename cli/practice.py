@@ -25,7 +25,7 @@ from .progress import job_bar, reported_interrupt
 def practice(
     out: Annotated[
         Path,
-        typer.Option(metavar="DIR", help="Folder of the files; leaderboard/data in a clone."),
+        typer.Option(metavar="DIR", help="Folder for the files; leaderboard/data in a clone."),
     ],
     suite: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="A suite; repeatable. Default: all.")
@@ -34,7 +34,9 @@ def practice(
         list[str] | None,
         typer.Option(metavar="NAME", help="A policy of colift; repeatable. Default: all."),
     ] = None,
-    fresh: Annotated[bool, typer.Option("--fresh", help="Evaluate current entries, too.")] = False,
+    fresh: Annotated[
+        bool, typer.Option("--fresh", help="Evaluate again even the entries that are current.")
+    ] = False,
     jobs: Jobs = None,
     dask: Dask = None,
 ) -> None:

@@ -1,4 +1,4 @@
-"""Tables, text and JSON on stdout, without blanks at the ends of lines."""
+"""Tables, text and JSON on stdout, without trailing blanks."""
 
 import json
 import shlex
@@ -38,8 +38,8 @@ def table(
     title, caption
         The lines above and below it; empty for none.
     columns
-        Titles: the first column is aligned left, the others right, on one line each. A column of
-        another kind is given as a Rich column.
+        Titles: the first column is aligned left, the others right, on one line each. Any other
+        column is given as a Rich column.
     rows
         The cells of each row, text without markup; None draws a line.
     """
@@ -64,7 +64,7 @@ def table(
 
 
 def left(title: str) -> Column:
-    """Return a column whose cells begin at its left, on as many lines as they need."""
+    """Return a column aligned left, whose cells take as many lines as they need."""
     return Column(title, overflow="fold")
 
 
@@ -79,14 +79,14 @@ def optional_number(value: float | None, digits: str) -> str:
 
 
 def show(*parts: RenderableType, console: Console | None = None) -> None:
-    """Print tables and texts: no line ends with blanks, a caption is as wide as the terminal.
+    """Print tables and texts without trailing blanks; a caption is as wide as the terminal.
 
     A table that does not fit is wider than the terminal: no column is left out.
 
     Parameters
     ----------
     parts
-        Each is printed on lines of its own. A string is text without markup.
+        Each begins on a new line. A string is text without markup.
     console
         Destination; None is stdout.
     """
@@ -102,7 +102,7 @@ def show(*parts: RenderableType, console: Console | None = None) -> None:
 
 
 def print_json(content: Any) -> None:
-    """Print JSON, which has no word for values that are not finite."""
+    """Print JSON; all numbers must be finite, since JSON has no others."""
     print(json.dumps(content, indent=2, allow_nan=False))
 
 
@@ -121,7 +121,7 @@ def _column(column: str | Column, *, first: bool) -> Column:
 
 
 def _lines(column: Column) -> list[str]:
-    """Return the lines of a column's cells, its title's among them."""
+    """Return the lines of a column's cells and of its title."""
     return [line for cell in (column.header, *column.cells) for line in str(cell).splitlines()]
 
 
@@ -130,7 +130,7 @@ def _longest_word(column: Column) -> int:
 
 
 def _least_width(made: Table, console: Console) -> int:
-    """Return the least width at which a table has all columns, those that wrap at their least."""
+    """Return the least width at which a table shows all columns, with those that wrap at theirs."""
     longest = [max(map(len, _lines(column)), default=0) for column in made.columns]
     wide = console.options.update(width=WIDEST)
     between = Measurement.get(console, wide, made).maximum - sum(longest)
@@ -141,7 +141,7 @@ def _least_width(made: Table, console: Console) -> int:
 
 
 def _separate(part: RenderableType) -> Iterator[RenderableType]:
-    """Yield a part, a table's caption by itself: Rich would wrap it at the table's width."""
+    """Yield a part; a table's caption separately, since Rich would wrap it at the table's width."""
     if isinstance(part, str):
         yield Text(part)
         return

@@ -49,7 +49,7 @@ def reported_interrupt(message: str) -> Iterator[None]:
 
 @contextmanager
 def progress_bar(description: str, total: int | None) -> Iterator[Callable[[int], None]]:
-    """Show a bar while the body runs; the yielded function advances it."""
+    """Show a bar while the body runs; yield the function that advances it."""
     with job_bar(description, total) as bar:
         yield bar.advance
 
@@ -66,7 +66,7 @@ class JobBar:
         self.progress.update(self.task, description=name)
 
     def advance(self, done: int) -> None:
-        """Add to the finished part."""
+        """Advance the bar."""
         self.progress.advance(self.task, done)
 
     def total(self, total: int) -> None:

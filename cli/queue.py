@@ -40,7 +40,7 @@ def list_jobs(
     ] = None,
     last: Annotated[int, typer.Option(metavar="N", min=1, help="Number of jobs.")] = 20,
 ) -> None:
-    """List the latest jobs, newest first: their progress, or why they have no row."""
+    """List the latest jobs, newest first, with their progress, or the reason for having no row."""
     known = {each: each for each in STATES}
     if state is not None and state not in known:
         raise InputError(f"--state {state!r} is none of {', '.join(STATES)}")
@@ -66,7 +66,7 @@ def log(job: JobNumber, board: BoardFolder = BOARD) -> None:
 
 @app.command()
 def retry(job: JobNumber, why: Why, board: BoardFolder = BOARD) -> None:
-    """Queue a job again that has ended without an entry, for example after an evaluator fault."""
+    """Queue again a job that ended without an entry, for example after an evaluator fault."""
     with _found(board, job) as (queue, found):
         queue.retry(found.id, LOCAL, why)
     print(f"{found.name} is queued again\nNext: colift worker --board {board} --once")

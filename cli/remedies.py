@@ -12,7 +12,7 @@ REMEDIES: Final[Mapping[Remedy, str]] = {
     Remedy.RESUME: "--resume continues it",
     Remedy.RESCORE: "'colift verify {target} --rescore DIR' writes a bundle with present scores",
     Remedy.NEW_SUBMISSION: "'colift new DIR' writes one",
-    Remedy.SUBMISSION_FROM_FILE: "'colift new DIR --from {target}' makes one of it",
+    Remedy.SUBMISSION_FROM_FILE: "'colift new DIR --from {target}' makes one from it",
     Remedy.LIST: "'colift list' lists all names",
 }
 """The option or command for each remedy."""
@@ -27,7 +27,7 @@ def explained(error: InputError) -> str:
 
 @contextmanager
 def naming(option: str, hint: str = "") -> Iterator[None]:
-    """Put an option before the message of an InputError, and a hint behind it, if there is one."""
+    """Put an option before the message of an InputError, and a hint, if given, after it."""
     try:
         yield
     except InputError as error:
@@ -37,7 +37,7 @@ def naming(option: str, hint: str = "") -> Iterator[None]:
 
 @contextmanager
 def opened(context: AbstractContextManager[T], option: str) -> Iterator[T]:
-    """Enter a context; an InputError while entering it names the option, one in the body not."""
+    """Enter a context; an InputError from entering it names the option, one from the body not."""
     with ExitStack() as stack:
         with naming(option):
             value = stack.enter_context(context)

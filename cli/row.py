@@ -26,11 +26,11 @@ app = typer.Typer(
 RowName = Annotated[
     str,
     typer.Argument(
-        metavar="ROW", help="The row's policy, or its submission's digest or the start of it."
+        metavar="ROW", help="The row's policy, or its submission's digest, or the digest's start."
     ),
 ]
 DecidedBy = Annotated[
-    str, typer.Option("--by", metavar="NAME", help="Who decided it; the name is public.")
+    str, typer.Option("--by", metavar="NAME", help="Person who decided; the name is public.")
 ]
 
 
@@ -57,10 +57,10 @@ def _decision(
     return decide
 
 
-app.command("withdraw", help="Take a row out of the ranking for its submitter; it stays visible.")(
-    _decision(Board.withdraw, "withdrawn", ranked=True)
-)
-app.command("remove", help="Take a row out of the ranking as maintainer; it stays visible.")(
+app.command(
+    "withdraw", help="Take a row out of the ranking at its submitter's request; it stays visible."
+)(_decision(Board.withdraw, "withdrawn", ranked=True))
+app.command("remove", help="Take a row out of the ranking as the maintainer; it stays visible.")(
     _decision(Board.remove, "removed from the ranking", ranked=True)
 )
 app.command("reinstate", help="Return a withdrawn or removed row to the ranking.")(
@@ -92,7 +92,7 @@ def rescore(
 
 @contextmanager
 def _row_of(folder: Path, text: str, season: str | None) -> Iterator[tuple[Board, RankedRow]]:
-    """Open a board and find one of its rows by name, digest or the beginning of a digest."""
+    """Open a board and find one of its rows by name, digest or the start of a digest."""
     with opened_board(folder) as board:
         info = board.season_info(season)
         rows = board.standings(info.name)

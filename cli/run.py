@@ -48,7 +48,7 @@ from .progress import progress_bar
 from .remedies import naming, opened
 from .tables.results import results_table, results_text
 
-GO_ON: Final = "the finished lifts are kept: resume by the same command with --resume"
+GO_ON: Final = "the finished lifts are kept: resume with the same command and --resume"
 
 
 def run(
@@ -71,7 +71,7 @@ def run(
     ] = False,
     resume: Annotated[
         bool,
-        typer.Option("--resume", help="Resume the interrupted run of the same --out."),
+        typer.Option("--resume", help="Resume the interrupted run in --out."),
     ] = False,
     as_json: AsJson = False,
 ) -> None:
@@ -194,7 +194,7 @@ def _mention_idle(cluster: Cluster) -> None:
     if cluster.idle_threads:
         print(
             f"{cluster.idle_threads} threads of the workers stay idle, since each worker plays one "
-            "lift at a time: start them by dask worker ... --nworkers auto --nthreads 1",
+            "lift at a time: start workers with dask worker ... --nworkers auto --nthreads 1",
             file=sys.stderr,
         )
 

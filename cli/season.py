@@ -24,7 +24,7 @@ def begin(
     ] = None,
     own: Annotated[bool, typer.Option(help="Queue colift's own policies, for comparison.")] = True,
 ) -> None:
-    """Begin a season with a new secret; earlier rows keep a table of their own."""
+    """Begin a season with a new secret; earlier rows stay in their own table."""
     with opened_board(board) as place:
         season = place.new_season(name, suite)
         print(f"season {name} on {season.suite.name} takes submissions from now on")

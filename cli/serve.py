@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 LIVE: Final = "live"
-"""Folder of the sessions of live lifts in that of a board."""
+"""Folder of the sessions of live lifts, inside the board's folder."""
 
 
 def serve_board(
@@ -84,7 +84,7 @@ def serve_board(
     documentation = Documentation.at(docs) if docs else None
     quota = Quota(rows=rows_a_day, size=kept * MIB)
     if isolation != AUTO:
-        check_level(isolation)  # Rather than by each worker, again and again.
+        check_level(isolation)  # Otherwise each worker would fail again and again.
     logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(levelname)s %(message)s")
     command = [sys.executable, "-m", "colift.cli", "worker", "--board", str(board.absolute())]
     command += ["--jobs", str(max(1, default_jobs() // max(1, workers)))]  # They share the cores.
@@ -101,7 +101,7 @@ def serve_board(
                 print(f"Board {board}: {url_of(listener)} (Ctrl-C ends it)", flush=True)
                 server.run(sockets=[listener])
     except KeyboardInterrupt:
-        pass  # Requested, and done.
+        pass  # The requested end.
 
 
 def _offer_rooms(app: "FastAPI", board: Path, rooms: int) -> "type[Protocol]":

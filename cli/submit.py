@@ -31,7 +31,7 @@ from .progress import job_bar
 from .tables.row import SectionRow, row_table, row_text
 
 POLL_S: Final = 0.5
-"""Time between two looks at a job that another process evaluates [s]."""
+"""Time between two queries of a job that another process evaluates [s]."""
 
 
 def submit_policy(
@@ -63,7 +63,7 @@ def submit_policy(
 ) -> None:
     """Submit a policy to a board: check, public and hidden lifts, audit, verification, row.
 
-    A board in a folder is evaluated here and now, a board on the web by its own workers.
+    For a board in a folder, this command evaluates it; a board on the web has its own workers.
     """
     count = checked_jobs(jobs)
     submission = open_submission(folder)
@@ -100,9 +100,9 @@ def _submit_to_folder(submission: Submission, folder: Path, board: Board, jobs: 
 
 
 def _evaluated(queue: Queue, job: Job, jobs: int) -> Job:
-    """Return the job at its end, or after a fault of this machine.
+    """Return the job when it has ended, or after a fault of this machine.
 
-    It is evaluated by this process, unless a worker has it.
+    This process evaluates it, unless a worker already does.
     """
     with local_pool(jobs) as pool, job_bar(job.name, job.total) as bar:
         watch = Callbacks(stage=bar.stage, progress=bar.advance, total=bar.total)
@@ -120,7 +120,7 @@ def _submit_to_web(submission: Submission, folder: Path, url: str, token: str, j
     """Upload a submission, follow its evaluation, and print its row."""
     if not token:
         raise InputError(
-            f"board {url} needs a token: --token or COLIFT_TOKEN; its maintainer makes one by: "
+            f"board {url} needs a token: --token or COLIFT_TOKEN; its maintainer makes one with: "
             "colift token add NAME"
         )
     board = RemoteBoard(url, token)
@@ -133,7 +133,7 @@ def _submit_to_web(submission: Submission, folder: Path, url: str, token: str, j
     try:
         job = _followed(board, job)
     except KeyboardInterrupt:
-        _refuse(f"the board continues without you: {page}")
+        _refuse(f"interrupted here; the board continues the evaluation: {page}")
     if job["state"] == "evaluator fault":
         _refuse(f"evaluator fault, not the policy's: {job['reason']}\nSubmit again.")
     if job["state"] == "cancelled":

@@ -10,7 +10,7 @@ from .board_options import BOARD, BoardFolder, opened_board
 from .printing import show, table
 
 app = typer.Typer(
-    help="Manage the tokens of those who submit to a board on the web.", no_args_is_help=True
+    help="Manage the tokens of the submitters of a board on the web.", no_args_is_help=True
 )
 
 Submitter = Annotated[str, typer.Argument(metavar="NAME", help="The submitter's name.")]
@@ -25,7 +25,7 @@ def add(name: Submitter, board: BoardFolder = BOARD) -> None:
 
 @app.command()
 def revoke(name: Submitter, board: BoardFolder = BOARD) -> None:
-    """Revoke a submitter's token, at once."""
+    """Revoke a submitter's token, effective at once."""
     with opened_board(board) as place:
         Tokens(place).revoke(name)
     print(f"the token of {name} is revoked")

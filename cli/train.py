@@ -1,4 +1,4 @@
-"""``colift train``: policies trained from nothing, as submissions."""
+"""``colift train``: policies trained from scratch, as submissions."""
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
@@ -35,20 +35,22 @@ from .tables.training import training_table
 
 MOST_SEEDS = 100
 
-Seeds = Annotated[int, typer.Option(metavar="N", help="Independent trainings, seeds 0 to N-1.")]
+Seeds = Annotated[
+    int, typer.Option(metavar="N", help="Number of trainings, with the seeds 0 to N-1.")
+]
 Out = Annotated[
-    Path, typer.Option(metavar="DIR", help="Folder for the policies; the same again resumes.")
+    Path, typer.Option(metavar="DIR", help="Folder for the policies; the same folder resumes.")
 ]
 Updates = Annotated[
-    int, typer.Option(metavar="N", help="Times that lifts are played and learned from.")
+    int, typer.Option(metavar="N", help="Number of updates, each from newly played lifts.")
 ]
-LiftsOfUpdate = Annotated[int, typer.Option(metavar="N", help="Lifts of an update.")]
+LiftsOfUpdate = Annotated[int, typer.Option(metavar="N", help="Lifts per update.")]
 Haste = Annotated[
-    float, typer.Option(metavar="X", help="Cost of distance from the goal for the person.")
+    float, typer.Option(metavar="X", help="Cost to the person of the distance from the goal.")
 ]
 
 Train = Callable[[Course, Executor | None, Callable[[int], None]], None]
-"""Trains a course, on an executor, and reports progress."""
+"""A function that trains a course on an executor and reports progress."""
 
 
 class _Trainers(TyperGroup):
@@ -62,7 +64,7 @@ class _Trainers(TyperGroup):
 
 app = typer.Typer(
     cls=_Trainers,
-    help="Train a policy from nothing; the result is a submission.",
+    help="Train a policy from scratch; the result is a submission.",
     no_args_is_help=True,
 )
 
@@ -72,20 +74,20 @@ def cem(
     out: Out,
     seeds: Seeds = 1,
     generations: Annotated[
-        int, typer.Option(metavar="N", help="Generations of candidates.")
+        int, typer.Option(metavar="N", help="Number of generations.")
     ] = CemSettings.generations,
     population: Annotated[
-        int, typer.Option(metavar="N", help="Candidates of a generation.")
+        int, typer.Option(metavar="N", help="Candidates per generation.")
     ] = CemSettings.population,
     elite: Annotated[
-        int, typer.Option(metavar="N", help="Best candidates, which the next resemble.")
+        int, typer.Option(metavar="N", help="Best candidates, on which the next are modelled.")
     ] = CemSettings.elite,
     lifts: Annotated[
-        int, typer.Option(metavar="N", help="Lifts of a generation.")
+        int, typer.Option(metavar="N", help="Lifts per generation.")
     ] = CemSettings.lifts,
     jobs: Jobs = None,
 ) -> None:
-    """Train a small network by the cross-entropy method, in the engine: minutes, with NumPy."""
+    """Train a small network by the cross-entropy method, in the engine, in minutes, with NumPy."""
     settings = CemSettings(generations=generations, population=population, elite=elite, lifts=lifts)
 
     def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
@@ -105,10 +107,10 @@ def apg(
         int, typer.Option(metavar="N", help="Steps of the optimiser.")
     ] = ApgSettings.updates,
     lifts: Annotated[
-        int, typer.Option(metavar="N", help="Lifts drawn in the beginning.")
+        int, typer.Option(metavar="N", help="Lifts drawn at the beginning.")
     ] = ApgSettings.lifts,
     batch: Annotated[
-        int, typer.Option(metavar="N", help="Lifts of an update, from those.")
+        int, typer.Option(metavar="N", help="Lifts per update, chosen from those drawn.")
     ] = ApgSettings.batch,
     units: Annotated[
         int, typer.Option(metavar="N", help="Gated recurrent units of the network.")
@@ -118,16 +120,18 @@ def apg(
     ] = ApgSettings.rate,
     wide: Annotated[
         float,
-        typer.Option(metavar="X", help="Share of people from wide ranges; with touch: how wide."),
+        typer.Option(
+            metavar="X", help="Share of people from wide ranges; in tasks with touch: their width."
+        ),
     ] = ApgSettings.wide,
     varied: Annotated[
-        float, typer.Option(metavar="X", help="Variation of the robot's arms at the end.")
+        float, typer.Option(metavar="X", help="Variation of the robot's arms in the last update.")
     ] = ApgSettings.varied,
     encoders: Annotated[
         float, typer.Option(metavar="X", help="Noise of the hand's encoders, in m.")
     ] = ApgSettings.encoders,
     smoothness: Annotated[
-        float, typer.Option(metavar="X", help="Cost of bends, relative to the RMSE.")
+        float, typer.Option(metavar="X", help="Weight of the cost of bends beside the RMSE.")
     ] = ApgSettings.smoothness,
     gentleness: Annotated[
         float, typer.Option(metavar="X", help="Cost of the force at the human's hands, in mm/N.")
@@ -162,7 +166,7 @@ def ppo(
     seeds: Seeds = 1,
     updates: Updates = PpoSettings.updates,
     pool: Annotated[
-        int, typer.Option(metavar="N", help="Lifts drawn in the beginning.")
+        int, typer.Option(metavar="N", help="Lifts drawn at the beginning.")
     ] = PpoSettings.pool,
     lifts: LiftsOfUpdate = PpoSettings.lifts,
     jobs: Jobs = None,
@@ -187,7 +191,7 @@ def self_play(
     haste: Haste = SelfPlaySettings.haste,
     jobs: Jobs = None,
 ) -> None:
-    """Train by the same with a person who learns, too: no behaviour of ours (extra: train)."""
+    """Train by PPO with a person who also learns, without colift's behaviours (extra: train)."""
     settings = SelfPlaySettings(updates=updates, lifts=lifts, haste=haste)
     require_jax()
     from ..benchmark.training.self_play import train_self_play
@@ -203,10 +207,10 @@ def co_play(
     out: Out,
     seeds: Seeds = 1,
     population: Annotated[
-        int, typer.Option(metavar="N", help="Trainings by self-play before; each gives 3 people.")
+        int, typer.Option(metavar="N", help="Trainings by self-play first; each gives 3 people.")
     ] = CoPlaySettings.population,
     updates: Annotated[
-        int, typer.Option(metavar="N", help="Updates of each training, and of the last.")
+        int, typer.Option(metavar="N", help="Updates per training, the last one included.")
     ] = CoPlaySettings.updates,
     lifts: LiftsOfUpdate = CoPlaySettings.lifts,
     haste: Haste = CoPlaySettings.haste,
@@ -226,7 +230,7 @@ def co_play(
 def _train_all(
     trainer: str, settings: Any, seeds: int, out: Path, total: int, jobs: int | None, train: Train
 ) -> None:
-    """Train all seeds and print their table; those that are finished are left alone."""
+    """Train all seeds and print their table; finished ones are not trained again."""
     if not 1 <= seeds <= MOST_SEEDS:
         raise InputError(f"--seeds must be 1 to {MOST_SEEDS}, got {seeds}")
     courses = []
@@ -246,7 +250,7 @@ def _train_all(
 
 
 def _suite_option(task: str) -> str:
-    """Return the option that names the first suite of a task; a level table needs none."""
+    """Return the option that names the first suite of a task; empty for ``level``."""
     if task == LEVEL.name:
         return ""
     suites = (make_suite(name) for name in own_entries(SUITES))
@@ -257,7 +261,7 @@ def _suite_option(task: str) -> str:
 def _shown(
     seed: int, total: int
 ) -> Iterator[tuple[Callable[[Point], None], Callable[[int], None]]]:
-    """Show the progress of a training; yield what takes the points of its curve, and its parts."""
+    """Show the progress of a training; yield the callbacks for points of its curve and progress."""
     with job_bar(f"seed {seed}", total) as bar:
 
         def report(point: Point) -> None:

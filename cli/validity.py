@@ -1,4 +1,4 @@
-"""``colift validity``: the suites' prediction of the scores of policies with real people."""
+"""``colift validity``: how well suites predict the scores of policies with real people."""
 
 import sys
 from collections import Counter
@@ -36,8 +36,8 @@ SUITES: Final = ("standard-v1", "paper-v1", "quick-v1")
 """The suites that are judged by default."""
 
 FLOORS: Final = ("hold", "random")
-"""Policies that are left out by default: any lifts put them last, by far, so they would raise a
-correlation without any merit of the suite."""
+"""Policies that are left out by default: they come last, by far, on any lifts, so they would raise
+a correlation without any merit of the suite."""
 
 
 def validity(
@@ -45,8 +45,8 @@ def validity(
         list[Path],
         typer.Argument(
             metavar="DATA",
-            help="Real lifts, each a source of its own: files of recordings (columns "
-            "trial,t_s,z_m) and sessions of 'colift play'.",
+            help="Real lifts: files of recordings (columns trial,t_s,z_m) and sessions of 'colift "
+            "play'; each is one source.",
         ),
     ],
     policies: Annotated[
@@ -54,7 +54,7 @@ def validity(
         typer.Option(
             metavar="A,B,...",
             help="Policies as for 'colift run', separated by commas; default: all registered ones "
-            f"but {' and '.join(FLOORS)}.",
+            f"except {' and '.join(FLOORS)}.",
         ),
     ] = None,
     suite: Annotated[
@@ -68,7 +68,7 @@ def validity(
     jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
-    """Judge suites by real lifts: how well they predict the order and size of scores there."""
+    """Judge how well suites predict the order and the size of scores on real lifts."""
     sources = sources_of(data)
     judged = [make_suite(name) for name in dict.fromkeys(suite or SUITES)]
     for each in judged:

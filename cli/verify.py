@@ -88,12 +88,12 @@ def verify_bundle(
 
 @contextmanager
 def _checking(shown: Path, jobs: int) -> Iterator[Callable[[Path], Verdict]]:
-    """Return the verification of a bundle by several processes, with its progress."""
+    """Yield a function that verifies a bundle in several processes and shows its progress."""
     try:
         with process_pool(jobs) as pool, progress_bar(f"verify {shown.name}", None) as progress:
             yield lambda folder: verify(folder, executor=pool, progress=progress)
     except EvaluatorFault as fault:
-        print(f"not verified: {fault}; this is no finding about the bundle", file=sys.stderr)
+        print(f"not verified: {fault}; this is not a fault of the bundle", file=sys.stderr)
         raise typer.Exit(1) from None
 
 

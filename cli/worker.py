@@ -31,7 +31,7 @@ def worker(
 ) -> None:
     """Evaluate the submissions in a board's queue, one after the other.
 
-    Any number of workers may share a board. If one is killed, another takes its job over.
+    Any number of workers may share a board. If one is killed, another takes over its job.
     """
     for number in ENDING:
         signal.signal(number, _stop)
@@ -46,7 +46,7 @@ def worker(
                 print(f"working for {place.folder}; Ctrl-C ends it", file=sys.stderr, flush=True)
                 here.run(ended=_report)
     except KeyboardInterrupt:
-        print("ended; an unfinished evaluation is in the queue again", file=sys.stderr)
+        print("ended; an unfinished evaluation is back in the queue", file=sys.stderr)
     except sa.exc.OperationalError as error:
         raise EvaluatorFault(f"the board's database does not work: {error.orig}") from error
 
@@ -58,5 +58,5 @@ def _report(job: Job) -> None:
 
 def _stop(number: int, frame: FrameType | None) -> None:
     for each in ENDING:
-        signal.signal(each, signal.SIG_IGN)  # A second one would interrupt the ending.
+        signal.signal(each, signal.SIG_IGN)  # A second one would interrupt the cleanup.
     raise KeyboardInterrupt

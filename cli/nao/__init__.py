@@ -5,7 +5,7 @@ import typer
 from . import calibrate, check, emulate, replay, run
 
 app = typer.Typer(
-    help="Take a policy to a real NAO and a motion-capture system, or to emulated ones.",
+    help="Use a policy with a real NAO and a motion-capture system, or with emulated ones.",
     no_args_is_help=True,
 )
 app.command("run")(run.run_on_robot)

@@ -1,4 +1,4 @@
-"""``colift nao check``: the state of a robot and a motion capture before trials."""
+"""``colift nao check``: the state of a robot and a motion-capture system before trials."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -30,10 +30,10 @@ from .connections import (
 )
 
 READINGS: Final = 50
-"""How often the robot is read to time it."""
+"""Number of readings by which reading the robot is timed."""
 
 Line = tuple[bool, str, str]
-"""Whether it is well, its name, and its state or what is missing."""
+"""Whether a part is ready, its name, and its state or its fault."""
 
 
 def check_setup(
@@ -43,7 +43,7 @@ def check_setup(
     robot_markers: RobotMarkers = "R1,R2",
     up: UpAxis = "Z",
 ) -> None:
-    """Check a robot and a motion capture, and list what is missing; nothing moves."""
+    """Check a robot and a motion-capture system, and list what is missing; nothing moves."""
     layout = layout_of(human_markers, robot_markers, up)
     console = Console()
     well = True
@@ -61,7 +61,7 @@ def check_setup(
 
 
 def _reported(part: str, lines: Callable[[], Iterator[Line]]) -> Iterator[Line]:
-    """Yield the lines of a part, and its failure if there is one."""
+    """Yield the lines of a part, and its error if there is one."""
     try:
         yield from lines()
     except (InputError, RobotLostError) as error:

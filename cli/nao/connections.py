@@ -1,4 +1,4 @@
-"""Options for a robot and a motion capture, and the connections to both."""
+"""Options for a robot and a motion-capture system, and the connections to both."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -29,10 +29,10 @@ MotionCapture = Annotated[
     str, typer.Option(metavar="lsl:NAME", help="Stream of the motion capture.")
 ]
 HumanMarkers = Annotated[
-    str, typer.Option(metavar="NAMES", help="Markers at the human's end, with commas.")
+    str, typer.Option(metavar="NAMES", help="Markers at the human's end, separated by commas.")
 ]
 RobotMarkers = Annotated[
-    str, typer.Option(metavar="NAMES", help="Markers at the robot's end, with commas.")
+    str, typer.Option(metavar="NAMES", help="Markers at the robot's end, separated by commas.")
 ]
 UpAxis = Annotated[str, typer.Option(metavar="AXIS", help="The stream's upward axis: X, Y or Z.")]
 
@@ -104,7 +104,7 @@ def open_robot(url: str) -> NaoqiArm:
 
 
 def layout_of(human: str, robot: str, up: str) -> Layout:
-    """Return a layout from lists of markers with commas between them.
+    """Return a layout from comma-separated lists of markers.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""``colift nao emulate``: an emulated NAO with a motion capture."""
+"""``colift nao emulate``: an emulated NAO with a motion-capture system."""
 
 import sys
 import time
@@ -64,7 +64,7 @@ def emulate(
     begin = time.monotonic()
 
     def log(line: str) -> None:
-        # In one piece: the services are called in threads of their own.
+        # One write per line: the services run in threads of their own.
         sys.stdout.write(f"{time.monotonic() - begin:9.3f} {line}\n")
         sys.stdout.flush()
 

@@ -1,4 +1,4 @@
-"""``colift nao replay``: a recorded trial through the same control loop."""
+"""``colift nao replay``: a recorded trial, played again through the same control loop."""
 
 import sys
 from pathlib import Path
@@ -24,8 +24,8 @@ def replay_recording(
 ) -> None:
     """Replay a recorded trial, and compare each command with the recorded one, bit for bit.
 
-    Exit code 1 if a command differs. Another policy is shown the recorded observations: its
-    commands do not change them.
+    Exit code 1 if a command differs. Another policy, too, observes the recording: its commands do
+    not change the observations.
     """
     recorded = read_trial(recording)
     spec = choose_policy(policy or recorded.policy, isolation)

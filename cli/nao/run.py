@@ -48,7 +48,7 @@ def run_on_robot(
         typer.Option(
             metavar="URL",
             help="Address of the robot's NAOqi; or 'world' or 'world:BEHAVIOUR/SUBJECT' for a "
-            "simulated laboratory with a motion capture of its own, faster than real time.",
+            "simulated laboratory with its own motion capture, faster than real time.",
         ),
     ] = URL,
     mocap: MotionCapture = "lsl:colift",
@@ -56,12 +56,14 @@ def run_on_robot(
     control_period: Annotated[float, PERIOD_OPTION] = 0.1,
     latency: Annotated[
         float,
-        typer.Option(metavar="S", help="Least time from a frame to the hands' move, in seconds."),
+        typer.Option(
+            metavar="S", help="Shortest time from a frame to the motion of the hands, in seconds."
+        ),
     ] = 0.1,
     duration: Annotated[
         float | None,
         typer.Option(
-            metavar="S", help="Length of a trial, in seconds; default: until the table is down."
+            metavar="S", help="Duration of a trial, in seconds; default: until the table is down."
         ),
     ] = None,
     person: Annotated[
@@ -140,7 +142,7 @@ def run_on_robot(
                 if not dry_run:
                     session.finish(_nothing if unattended else _enter)
     except Exception as error:
-        # Earlier lifts are reported all the same.
+        # The earlier lifts are still reported.
         ended = error
     finally:
         place.capture.close()
@@ -171,7 +173,7 @@ def _trials(
     settings: LoopSettings,
     duration: float | None,
 ) -> Iterator[TrialLog]:
-    """Set up, and yield one trial after the other; raise after one that was stopped."""
+    """Set up, and yield each trial; raise after one that was stopped."""
     session.set_up()
     for number in range(1, trials + 1):
         end = AfterLift() if duration is None else AfterDuration(duration=duration)
@@ -216,7 +218,7 @@ def _enter() -> None:
 
 
 def _nothing() -> None:
-    """Do not wait: nobody is asked."""
+    """Do not wait: there is no operator."""
 
 
 def _report_line(line: str) -> None:

@@ -1,1 +1,1 @@
-"""Tables of results as a person reads them in a terminal."""
+"""Tables of results for a terminal."""

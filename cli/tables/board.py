@@ -1,4 +1,4 @@
-"""A season's table as a person reads it in a terminal."""
+"""A season's table for a terminal."""
 
 from collections.abc import Iterator, Sequence
 
@@ -13,7 +13,7 @@ from ...leaderboard.records.season import SeasonInfo
 from ..printing import Cell, optional_number, styled, table
 
 NAME = 12
-"""Columns that are kept for the policies' names, if they are as long: other columns make room."""
+"""Width reserved for the policies' names, if they are that long: other columns make room."""
 
 
 def board_table(
@@ -24,15 +24,15 @@ def board_table(
 ) -> Table:
     """Return a season's table: policies that cannot be distinguished share a rank.
 
-    The human-human baseline stands where it would come by its mean.
+    The human-human baseline is placed by its mean.
 
     Parameters
     ----------
     season, standings, human_human
-        What the board says of them.
+        The season's content on the board.
     width
-        Columns of the terminal. A narrow one has no room for what is least asked for, time and gap
-        and that rows are verified; then none for the last metrics.
+        Columns of the terminal. In a narrow one, time, gap and verification are left out first,
+        then the last metrics.
     """
     every = board_metrics(season.suite)
     for wide, shown in [(True, len(every)), *((False, n) for n in range(len(every), 0, -1))]:
@@ -54,7 +54,7 @@ def board_table(
 def _room(
     titles: Sequence[str], lines: Sequence[Sequence[Cell]], place: int, width: int
 ) -> tuple[int, int]:
-    """Return how many columns of the terminal are left for one column of the table; its width."""
+    """Return the width that the terminal leaves for a column of the table, and the column's own."""
     widths = [max(map(len, cells)) for cells in zip(titles, *lines, strict=True)]
     between = 2 * len(titles) + 1
     return width - between - sum(widths) + widths[place], widths[place]

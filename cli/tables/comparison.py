@@ -1,4 +1,4 @@
-"""A comparison as a person reads it in a terminal."""
+"""A comparison as tables for a terminal."""
 
 from typing import Final
 
@@ -48,12 +48,12 @@ def ranks_table(comparison: Comparison) -> Table:
 
 
 def _columns(comparison: Comparison) -> str:
-    """Return units and meanings of the columns whose heading does not say them."""
+    """Return units and meanings of the columns whose headings lack them."""
     return "".join(f" {metric.caption}" for metric in comparison.results.metrics if metric.caption)
 
 
 def _no_policies(comparison: Comparison) -> str:
-    """Return which rows are bounds; empty if there are none."""
+    """Return a sentence that names the bounds; empty if there are none."""
     names = [f"the {name.replace('_', ' ')}" for name in reversed([*comparison.results.bounds])]
     are = "are not policies but limits" if len(names) > 1 else "is no policy but a limit"
     listed = " and ".join(names)
@@ -61,7 +61,7 @@ def _no_policies(comparison: Comparison) -> str:
 
 
 def _fewer(comparison: Comparison) -> str:
-    """Return what a dagger means; empty if there is none."""
+    """Return the meaning of a dagger; empty if there is none."""
     policies = comparison.overall.policies
     lifts = {
         metric.words.present: None
@@ -101,7 +101,7 @@ def _metric(metric: Metric, mean: MetricMean) -> str:
 
 
 def _partial(metric: Metric, mean: MetricMean) -> bool:
-    """Whether a mean leaves lifts out that count as the worst."""
+    """Return whether a mean leaves out lifts that count as the worst."""
     return metric.missing == "worst" and mean.estimate is not None and mean.missing > 0
 
 

@@ -13,7 +13,7 @@ from ...benchmark.training.q_learning import LearningTrial
 from ..printing import Cell, table
 
 SHOWN: Final = 2
-"""Every second lead is shown, so that the table fits a terminal."""
+"""Step between the leads that are shown, so that the table fits a terminal."""
 
 
 def task_table(task: LearnedTask) -> Table:
@@ -48,14 +48,14 @@ def q_table(trial: LearningTrial) -> Table:
         )
         rows.append((name, *cells))
     return table(
-        "Q-table (mm of tilt taken away); the greedy action is bold",
+        "Q-table (mm of tilt removed); the greedy action is bold",
         ("human - robot", *(f"{step:+.0f} mm" for step in steps)),
         rows,
     )
 
 
 def convergence_text(trials: list[LearningTrial]) -> str:
-    """Return how many iterations the trials took to converge."""
+    """Return the number of iterations to convergence, as text."""
     found = [trial.converged_at for trial in trials if trial.converged_at is not None]
     if len(trials) == 1:
         when = found[0] if found else None
@@ -73,7 +73,7 @@ def anticipation_table(models: list[Anticipation]) -> Table:
     """Return the error of the predicted height at each lead, after each round."""
     leads = models[-1].leads[::SHOWN]
     return table(
-        "Error of the foreseen height on what it was learned from, rms mm",
+        "Error of the predicted height on the training lifts, rms mm",
         ("round", "samples", *(f"{1000 * np.round(lead, 3):+.0f} ms" for lead in leads)),
         (
             (

@@ -1,4 +1,4 @@
-"""Results as a person reads them in a terminal."""
+"""Results as tables and text for a terminal."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any, Final
@@ -32,10 +32,10 @@ TIMES: Final = {
     "command_ms": "command",
     "period_error_ms": "error of the period",
 }
-"""What of a robot's step is timed."""
+"""The timed parts of a robot's step."""
 
 PEOPLE: Final = "two people: RMSE in mm of the human-human baseline on the same lifts."
-"""What the column beside the RMSE means."""
+"""Meaning of the column beside the RMSE."""
 
 
 def results_table(content: Results, metrics: Metrics) -> Table:
@@ -65,7 +65,7 @@ def results_text(content: Results) -> str:
     summary, step = content.summary, content.summary.step_ms
     lines = [error(summary)]
     if content.channel is not None:
-        lines.append(f"Channel to the policy: {content.channel}. The others below have none.")
+        lines.append(f"Channel to the policy: {content.channel}. The baselines have none.")
     if summary.vs_human is not None:
         lines.append(f"{versus_human(summary)}: 1 is as good as a human partner, less is better")
     for name, baseline in content.baselines.items():
@@ -84,7 +84,7 @@ def results_text(content: Results) -> str:
     if step.p50 is not None and step.p99 is not None:
         lines.append(f"Policy time per step: median {step.p50:.3f} ms, p99 {step.p99:.3f} ms")
     if content.isolation in LEVELS:
-        note = "" if content.isolation in VERIFIABLE else "; no board would call this verified"
+        note = "" if content.isolation in VERIFIABLE else "; not enough for a verified row"
         lines.append(f"Isolation: {content.isolation}{note}")
     return "\n".join(lines)
 
@@ -127,9 +127,9 @@ def timing_table(report: dict[str, Any]) -> Table:
     rate = report["lowest_rate_hz"]
     frames = "" if rate is None else f"frames a second: {rate:.0f} or more"
     if rate is not None and rate < LOWEST_RATE:
-        frames += f", fewer than the {LOWEST_RATE:.0f} that a set-up asks for"
+        frames += f", fewer than the {LOWEST_RATE:.0f} that a set-up needs"
     if report["misdated"]:
-        frames += f"; {report['misdated']} left out for their time stamps"
+        frames += f"; {report['misdated']} left out because of their time stamps"
     return table(
         "Times in ms",
         ("", "median", "p99", "largest"),

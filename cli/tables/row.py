@@ -22,7 +22,7 @@ SectionRow = tuple[Section, int, BoardRow]
 
 
 def row_table(row: BoardRow) -> Table:
-    """Return what a policy did on public and on hidden lifts, side by side."""
+    """Return the scores of a policy on public and on hidden lifts, side by side."""
     return table(
         f"{row.name} by {', '.join(row.authors)}",
         ("", "public lifts", "hidden lifts"),
@@ -32,15 +32,15 @@ def row_table(row: BoardRow) -> Table:
             ("failed", *(f"{each.failed} of {each.episodes}" for each in (row.public, row.hidden))),
             ("P(RMSE < two people's)", "", probability(row.hidden.better_than_human)),
         ),
-        caption=f"season {row.season}, {row.suite}, suite digest {row.suite_digest}. P: how sure "
-        "it is that the mean RMSE on such lifts is below the human-human baseline's.",
+        caption=f"season {row.season}, {row.suite}, suite digest {row.suite_digest}. "
+        "P: probability that the mean RMSE on such lifts is below the human-human baseline's.",
     )
 
 
 def row_text(
     row: BoardRow, ranking: Sequence[tuple[int, BoardRow]], section: Section = "ranking"
 ) -> str:
-    """Return the lines that say where the row stands, and what its numbers rest on."""
+    """Return the lines below the table: rank, gap, metrics, time per step, and isolation."""
     public = row.public
     metrics = (
         f"{metric.label} {metric.text(public.metrics[metric.name].mean)} {metric.unit}".rstrip()
@@ -48,7 +48,7 @@ def row_text(
     )
     lines = [
         UNRANKED.get(section) or _rank(row, ranking, section),
-        f"Gap {_estimate(row.gap_mm)} mm: hidden minus public RMSE; other people, other plans",
+        f"Gap {_estimate(row.gap_mm)} mm: hidden minus public RMSE, with other people and plans",
         ", ".join(metrics),
     ]
     if public.step_ms_p50 is not None and public.step_ms_p99 is not None:

@@ -24,7 +24,7 @@ MEANINGS: Final = (
     "best other policy, with the Holm-corrected p of the difference. In brackets: 95 % intervals, "
     "for other lifts of the same people."
 )
-"""What the lines of :func:`source_table` mean."""
+"""Meaning of the lines of :func:`source_table`."""
 
 
 def heading(each: SourceValidity) -> str:
@@ -38,7 +38,7 @@ def heading(each: SourceValidity) -> str:
 
 
 def source_table(each: SourceValidity) -> Table:
-    """Return how well each suite predicts a source: a column per suite."""
+    """Return the quality of each suite's prediction of a source: a column per suite."""
     return table(
         "",
         ("", *(suite.suite.name for suite in each.suites)),
@@ -47,7 +47,7 @@ def source_table(each: SourceValidity) -> Table:
 
 
 def _lines() -> Iterator[tuple[str, Callable[[SuiteOnSource], str]]]:
-    """Yield the lines of a source's table: name, and content for a suite."""
+    """Yield the lines of a source's table: name, and function that returns a suite's cell."""
     yield "Spearman", lambda suite: _quantity(suite.prediction.spearman)
     yield "Kendall", lambda suite: _quantity(suite.prediction.kendall)
     yield "of best half", lambda suite: _quantity(suite.prediction.kendall_best_half)

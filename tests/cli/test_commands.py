@@ -332,7 +332,7 @@ def test_an_option_that_is_spelt_wrong_is_guessed(colift):
     ("arguments", "told"),
     [
         (["run", "blend", "--seeds", "0:99999999999999999999"], "at most 12 digits"),
-        (["run", "blend", "--seeds", "0:999999999"], "100000 seeds at most"),
+        (["run", "blend", "--seeds", "0:999999999"], "at most 100000 seeds"),
         (["run", "blend", "--jobs", "100000000"], "jobs must be at most 1024"),
         (["run", "mine,"], "parameters must be name=value, separated by commas; got ''"),
         (["run", "x" * 5000], "..."),

@@ -58,7 +58,7 @@ def test_a_changed_bundle_is_refused_and_nothing_is_left(colift, bundle, tmp_pat
         (["/nowhere", "--out", "y"], "/nowhere: not a bundle's folder"),
         (["x", "--out", "y", "--to", "rlds"], "--to must be minari or lerobot, got 'rlds'"),
         (["x", "--out", "y", "--view", "all"], "--view must be robot or both, got 'all'"),
-        (["x", "--out", "y", "--lifts", "3"], "--lifts and --recordings belong to --set"),
+        (["x", "--out", "y", "--lifts", "3"], "--lifts and --recordings need --set"),
         (["x", "--out", "."], "is there already"),
         (["x", "--out", "/dev/null"], "is a file"),
         (["--set", "all", "--out", "y"], "unknown set 'all'; known: follow, human, mixed"),

@@ -106,7 +106,7 @@ def test_what_cannot_be_taken_is_one_line_and_nothing_is_written(colift, pd, tmp
 def test_check_says_how_a_file_becomes_a_folder(colift, pd):
     done = colift("check", "pd.py", COLUMNS="200")
     assert done.returncode == 1
-    assert "'colift new DIR --from pd.py:PD' makes one of it" in done.stdout
+    assert "'colift new DIR --from pd.py:PD' makes one from it" in done.stdout
 
 
 def test_a_folder_is_listed_and_drawn_as_a_name_is(colift, pd, tmp_path):

@@ -184,4 +184,4 @@ def test_a_run_says_what_kept_the_policy_apart(each_level, tmp_path, capsys):
     run(str(tmp_path / "mine"), suite="quick-v1", seeds="0:1", isolation=each_level, jobs=1)
     told = capsys.readouterr().out
     assert f"Isolation: {each_level}" in told
-    assert ("no board would call this verified" in told) == (each_level not in VERIFIABLE)
+    assert ("not enough for a verified row" in told) == (each_level not in VERIFIABLE)

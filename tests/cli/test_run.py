@@ -241,7 +241,7 @@ def test_a_run_whose_scheduler_dies_goes_on_elsewhere(slow, whole, tmp_path):
     assert process.returncode == 1
     assert told.startswith("error: ")
     assert f"lost the Dask scheduler {address}" in told
-    assert told.endswith("resume by the same command with --resume\n")
+    assert told.endswith("resume with the same command and --resume\n")
     assert told.count("\n") == 1
     assert run(*options, "--resume") == (0, "")
     assert timeless(bundle) == whole

@@ -126,7 +126,7 @@ def test_a_worker_that_is_asked_to_end_gives_its_job_back(
         os.kill(process, signal.SIGTERM)
     wait_for(lambda: not runs(process))
     told = (tmp_path / "stderr.txt").read_text()
-    assert "ended; an unfinished evaluation is in the queue again" in told
+    assert "ended; an unfinished evaluation is back in the queue" in told
     assert "Traceback" not in told
     assert queue.job(job.id).state == "queued"
     assert "interrupted; queued again" in queue.job(job.id).log
