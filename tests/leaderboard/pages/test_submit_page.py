@@ -141,7 +141,7 @@ def test_a_failure_is_told_with_its_reason_and_the_log(page, url, queue, token, 
     expect(page.locator(".notice.bad")).to_have_text(f"The submission failed: {job.reason}")
     assert page.locator("pre").text_content().strip() == job.log.strip()
     # It failed the check, before anything was entered: there is no page of it.
-    expect(page.get_by_role("link", name="What is known of it")).to_have_count(0)
+    expect(page.get_by_role("link", name="See its page")).to_have_count(0)
 
 
 def test_why_lifts_failed_is_told_in_the_policys_own_words(page, url, queue, token, zipped):
