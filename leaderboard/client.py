@@ -15,7 +15,7 @@ from .storage.archive import pack_archive
 API: Final = "/api/v1"
 
 TIMEOUT_S: Final = 120.0
-"""How long the board may take to answer [s]."""
+"""Longest time that the board may take to answer [s]."""
 
 PATIENCE: Final = 30
 """Number of attempts while the board is overloaded."""
@@ -29,10 +29,10 @@ QUOTA: Final = 429
 
 
 class _NoRedirect(urllib.request.HTTPRedirectHandler):
-    """Follows no redirect: the token is for this board alone."""
+    """A handler that follows no redirect: the token is for this board alone."""
 
     def redirect_request(self, *arguments: Any) -> None:
-        """Return nothing to go to."""
+        """Return no request, so that the redirect is not followed."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ class RemoteBoard:
         return answer
 
     def job(self, id: str) -> dict[str, Any]:  # noqa: A002
-        """Return how far a job is; :class:`.InputError` as :meth:`submit`."""
+        """Return the progress of a job; :class:`.InputError` as :meth:`submit`."""
         answer: dict[str, Any] = self._patiently(f"/jobs/{id}")
         return answer
 
@@ -98,7 +98,7 @@ class RemoteBoard:
     def _patiently(
         self, path: str, headers: dict[str, str] | None = None, body: IO[bytes] | None = None
     ) -> Any:
-        """Return an answer; wait a little while the board is overloaded."""
+        """Return an answer; if the board is overloaded, wait and ask again."""
         for _ in range(PATIENCE):
             try:
                 if body is not None:
@@ -138,7 +138,7 @@ class _BusyError(InputError):
 
 
 def _refusal(url: str, error: urllib.error.HTTPError) -> InputError:
-    """Return the error of a request that the board refused."""
+    """Return the error for a request that the board refused."""
     with error:
         body = error.read(100_000)
         wait = error.headers.get("Retry-After", "")

@@ -34,7 +34,7 @@ IMPORTED: Final = "imported practice season"
 """Default reason of a season import."""
 
 LOCAL: Final = "local"
-"""Default actor: anybody who can write to the folder."""
+"""Default actor: anyone who can write to the folder."""
 
 BUILTIN: Final = "colift"
 """Submitter of the built-in policies; no token has this name."""
@@ -78,7 +78,7 @@ class Board:
         Raises
         ------
         InputError
-            If the folder holds something else or cannot be written, the board has another suite, or
+            If the folder has other content or cannot be written to, the board has another suite, or
             its database does not answer.
         """
         store, place = Store(folder.absolute()), url or os.environ.get(URL) or None
@@ -134,11 +134,11 @@ class Board:
         return self._book.playable(name)
 
     def seasons(self) -> tuple[SeasonInfo, ...]:
-        """Return all seasons in the order in which they came."""
+        """Return all seasons, oldest first."""
         return self._book.read()
 
     def new_season(self, name: str, suite: str | None = None, who: str = LOCAL) -> Season:
-        """Begin a season, with a new secret; the rows so far stay, in their own table.
+        """Begin a season with a new secret; earlier rows stay in their own table.
 
         Parameters
         ----------
@@ -159,7 +159,7 @@ class Board:
         return self.season
 
     def reveal(self, season: str, who: str, why: str) -> None:
-        """Publish the secret of a season, for good.
+        """Publish the secret of a season; this cannot be undone.
 
         Raises
         ------
@@ -171,7 +171,7 @@ class Board:
     def import_season(
         self, practice: ImportedSeason, who: str = LOCAL, why: str = IMPORTED
     ) -> None:
-        """Import a season with its rows; without effect if the board has it.
+        """Import a season with its rows; do nothing if the board has it.
 
         Raises
         ------
@@ -294,7 +294,7 @@ class Board:
         return self.store.keep(folder)
 
     def _ready(self, suite: str | None, practice: ImportedSeason | None) -> None:
-        """Begin the first season, if there is none; refuse another suite than that of a board."""
+        """Begin the first season if there is none; refuse a suite that is not the board's."""
         if not self.seasons():
             wanted = suite or SUITE
             if practice and practice.info.current and practice.info.suite == wanted:
@@ -322,7 +322,7 @@ class Board:
         return SeasonBook(self.store, self.database, self.clock)
 
     def season_info(self, season: str | None = None) -> SeasonInfo:
-        """Return what is published of a season, by default of the current one.
+        """Return the published facts of a season, by default of the current one.
 
         Raises
         ------

@@ -15,15 +15,15 @@ from ..database.queries import read_errors
 from ..database.schema import rank_groups
 
 METHOD: Final = 2
-"""Number of the method; it is raised by every change that moves a rank."""
+"""Version of the method; every change that can move a rank raises it."""
 
 LEAST: Final = 10_000
-"""Sign flips of a test, at least."""
+"""Least number of sign flips of a test."""
 
 FLIPS: Final = 40
 """Sign flips for each policy. Corrected for n tests (Holm), the smallest p value that m flips can
-give is n / (m + 1): with m = 40 n that is half of the level, with fewer no two policies could be
-distinguished."""
+give is n / (m + 1). With m = 40 n that is half of the level; with fewer than 20 n flips, no two
+policies could be distinguished."""
 
 _computing: Final = threading.Lock()
 """Held while ranks are computed: other threads wait for the result."""
@@ -36,9 +36,9 @@ LEVEL: Final = 0.05
 def ranks(
     database: Database, season: str, scored: Mapping[str, Mapping[str, int]]
 ) -> dict[str, int]:
-    """Return the rank group of each submission, 1 the best, in their order; 0 is none.
+    """Return the rank group of each submission, in their order: 1 is the best, 0 is none.
 
-    Each section is ranked by itself, see :func:`.rank_groups`. What has been computed before is
+    Each section is ranked by itself, see :func:`.rank_groups`. Groups that were computed before are
     looked up.
 
     Parameters
@@ -48,7 +48,7 @@ def ranks(
     season
         Name of the season.
     scored
-        The submissions to rank, by section; of each the number of the ``hidden_errors`` that count.
+        The submissions to rank, by section, each with the number of its valid ``hidden_errors``.
     """
     if not any(scored.values()):
         return {}
@@ -71,8 +71,8 @@ def ranks(
 
 
 Ranked = tuple[int, RankGroups]
-"""The rank of the first group, and all groups; a single one of rank 0 if the lifts are too few for
-groups."""
+"""The rank of the first group, and all groups. If the lifts are too few for groups, there is one of
+rank 0."""
 
 
 def _ranked(database: Database, season: str, numbers: Mapping[str, int]) -> Ranked:
@@ -85,11 +85,11 @@ def _ranked(database: Database, season: str, numbers: Mapping[str, int]) -> Rank
 
 
 def can_distinguish(policies: int, lifts: int) -> bool:
-    """Return whether the test can distinguish the best of so many policies from any other.
+    """Return whether the test can distinguish the best of that many policies from any other.
 
-    The smallest p value that the signs of n differences can give is 2 / 2^n, corrected for k tests
-    (Holm) k times that. If it is above the level, all would share rank 1, however bad they are. One
-    policy alone is the best.
+    The smallest p value that the signs of n differences can give is 2 / 2^n; corrected for k tests
+    (Holm), it is k times that. If it is above the level, all would share rank 1, however bad they
+    are. A single policy is the best.
     """
     return (policies - 1) * 2.0 ** (1 - lifts) <= LEVEL
 

@@ -22,7 +22,7 @@ from ..storage.files import sync_tree
 from ..storage.store import Store
 
 Clock = Callable[[], datetime]
-"""Returns a time with its zone."""
+"""A function that returns a time with its zone."""
 
 
 def utc_now() -> datetime:
@@ -46,7 +46,7 @@ class ImportedSeason:
     """A season with a public secret, to be imported."""
 
     info: SeasonInfo
-    """With the secret. ``current``: whether submissions go there, too."""
+    """With the secret. ``current`` states whether it also takes submissions."""
     entries: Sequence[ImportedEntry]
     human_human: Baseline
     """The human-human baseline on the hidden episodes."""
@@ -65,7 +65,7 @@ class SeasonBook:
     clock: Clock
 
     def read(self) -> tuple[SeasonInfo, ...]:
-        """Return all seasons in the order in which they came."""
+        """Return all seasons, oldest first."""
         with self.database.reading() as connection:
             return read_seasons(connection)
 
@@ -74,7 +74,7 @@ class SeasonBook:
         return next(each for each in self.read() if each.current)
 
     def named(self, name: str) -> SeasonInfo:
-        """Return what is published of a season.
+        """Return the published facts of a season.
 
         Raises
         ------
@@ -99,7 +99,7 @@ class SeasonBook:
             )
         season = Season(name=name, suite=suite, secret=self.store.secrets(name).secret())
         if season.commitment != info.commitment:
-            raise InputError(f"the secret of season {name} is not the one that was committed to")
+            raise InputError(f"the secret of season {name} does not match its commitment")
         return season
 
     def begin(self, name: str, suite: str, who: str) -> None:
@@ -107,7 +107,7 @@ class SeasonBook:
         if not NAME.fullmatch(name):
             raise InputError(f"season {name!r} must be letters, digits, - and _, at most 40")
         if name in (each.name for each in self.read()):
-            raise InputError(f"{self.store.folder} has had a season {name}")
+            raise InputError(f"{self.store.folder} already has a season {name}")
         made, secrets, secret = make_suite(suite), self.store.secrets(name), new_secret()
         secrets.forget_secret()  # Left by a process that was killed.
         secrets.keep_secret(secret)
@@ -140,7 +140,7 @@ class SeasonBook:
             return
         secret = bytes.fromhex(info.revealed or "")
         if commitment(secret) != info.commitment:
-            raise InputError(f"season {info.name}: its secret is not the one it is committed to")
+            raise InputError(f"season {info.name}: its secret does not match its commitment")
         secrets = self.store.secrets(info.name)
         secrets.forget_secret()
         secrets.keep_secret(secret)

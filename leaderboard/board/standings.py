@@ -37,9 +37,9 @@ class RankedRow:
     row: BoardRow
     """The row of the last rescore, or of the entry if there was none."""
     at: datetime
-    """When it was put on the board."""
+    """Time at which it was put on the board."""
     events: tuple[Event, ...]
-    """Its events since, oldest first."""
+    """Its later events, oldest first."""
     submitter: str
 
     @property

@@ -14,15 +14,15 @@ from ..database.schema import tokens
 from .board import BUILTIN, LOCAL, Board
 
 NAME: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.@+-]{0,63}")
-"""What a submitter may be called."""
+"""Pattern of a submitter's name."""
 
 PREFIX: Final = "colift_"
-"""What a token begins with, so that one is recognised wherever it leaks to."""
+"""Prefix of a token, by which a leaked one is recognised."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TokenInfo:
-    """What is known of a token; not the token."""
+    """The facts about a token, without the token itself."""
 
     name: str
     added_at: datetime
@@ -36,12 +36,12 @@ class Tokens:
     board: Board
 
     def add(self, name: str) -> str:
-        """Return a new token of a submitter: 256 bits of chance, shown now and never again.
+        """Return a new token for a submitter: 256 random bits, which cannot be shown again.
 
         Raises
         ------
         InputError
-            If it is no name, or has a token that was not revoked.
+            If the name is malformed, or has a token that was not revoked.
         """
         if not NAME.fullmatch(name) or name in (LOCAL, BUILTIN):
             raise InputError(
@@ -59,12 +59,12 @@ class Tokens:
         return token
 
     def revoke(self, name: str) -> None:
-        """Make a submitter's token worthless, at once.
+        """Revoke a submitter's token, effective at once.
 
         Raises
         ------
         InputError
-            If there is none.
+            If the submitter has none.
         """
         with self.board.database.writing() as connection:
             done = connection.execute(
@@ -74,14 +74,14 @@ class Tokens:
                 raise InputError(f"{name!r} has no token on {self.board.folder}")
 
     def submitter(self, token: str) -> str | None:
-        """Return whose token it is, or None if it is nobody's."""
+        """Return the owner of a token, or None if it is not valid."""
         valid = (tokens.c.sha256 == _hash(token)) & tokens.c.revoked_at.is_(None)
         with self.board.database.reading() as connection:
             name: str | None = connection.scalar(sa.select(tokens.c.name).where(valid))
         return name
 
     def all(self) -> tuple[TokenInfo, ...]:
-        """Return what is known of all tokens, oldest first."""
+        """Return the facts about all tokens, oldest first."""
         table = tokens.c
         query = sa.select(table.name, table.added_at, table.revoked_at).order_by(table.number)
         with self.board.database.reading() as connection:

@@ -22,20 +22,20 @@ FILE: Final = "board.sqlite"
 """That file."""
 
 SERVERS: Final = ("postgresql", "postgres", "postgresql+psycopg")
-"""What may stand before ``://`` in the variable."""
+"""Schemes that the variable may have before ``://``."""
 
 
 @dataclass(frozen=True)
 class Database:
-    """An open database whose tables are as this colift needs them."""
+    """An open database with the tables of this version of colift."""
 
     engine: sa.Engine
     copy: "tempfile.TemporaryDirectory[str] | None" = None
-    """Holds the file, if it is a copy of a read-only board's."""
+    """Folder of the file, if it is a copy of a read-only board's."""
 
     @classmethod
     def open(cls, folder: Path, url: str | None = None) -> Self:
-        """Return the database of the board in a folder; its tables are made or brought up to date.
+        """Return the database of the board in a folder; create or update its tables.
 
         Parameters
         ----------
@@ -47,7 +47,7 @@ class Database:
         Raises
         ------
         InputError
-            If there is no such database, it does not answer, or is of a later colift.
+            If there is no such database, it does not answer, or a later colift made it.
         """
         place = _url(url) if url else sa.URL.create("sqlite", database=str(folder / FILE))
         shown = place.render_as_string(hide_password=True)
@@ -69,7 +69,7 @@ class Database:
 
     @classmethod
     def look(cls, folder: Path, url: str | None = None) -> Self:
-        """Return the database of a board in a folder that cannot be written.
+        """Return the database of a board in a folder that cannot be written to.
 
         SQLite needs to write beside the file in order to read it, so a copy is opened.
         """
@@ -95,7 +95,7 @@ class Database:
     def writing(self) -> Iterator[sa.Connection]:
         """Yield a connection whose changes are made as a whole, or not at all.
 
-        There is one writer at a time, as SQLite has it: so what it has read stays true.
+        There is only one writer at a time, as in SQLite, so what it has read stays true.
         """
         with writing(self.engine) as connection:
             yield connection

@@ -79,7 +79,7 @@ BEGIN SELECT RAISE(ABORT, '{table} is append-only'); END
 
 
 def protect(connection: sa.Connection, table: str) -> None:
-    """Make a table refuse every change and removal of a row."""
+    """Make a table refuse changes and removals of its rows."""
     if connection.dialect.name == "postgresql":
         connection.exec_driver_sql(_FUNCTION.replace("%", "%%"))
         connection.exec_driver_sql(_POSTGRESQL.format(table=table))

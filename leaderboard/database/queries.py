@@ -15,7 +15,7 @@ Errors = np.ndarray[tuple[int], np.dtype[np.float64]]
 
 
 def read_seasons(connection: sa.Connection) -> tuple[SeasonInfo, ...]:
-    """Return all seasons in the order in which they came."""
+    """Return all seasons, oldest first."""
     found = connection.execute(sa.select(seasons).order_by(seasons.c.number)).all()
     current = next((each.name for each in reversed(found) if each.taking), None)
     revealed = {
@@ -39,7 +39,7 @@ def read_seasons(connection: sa.Connection) -> tuple[SeasonInfo, ...]:
 def read_entries(
     connection: sa.Connection, *conditions: sa.ColumnElement[bool]
 ) -> tuple[BoardEntry, ...]:
-    """Return the entries for which all conditions hold, in the order in which they came."""
+    """Return the entries for which all conditions hold, oldest first."""
     columns = [column for column in entries.c if column.name != "number"]
     query = sa.select(*columns).where(*conditions).order_by(entries.c.number)
     return tuple(
@@ -60,7 +60,7 @@ def read_events(
 
 
 def read_error_numbers(connection: sa.Connection, season: str) -> dict[str, int]:
-    """Return the number of the errors that count, by submission."""
+    """Return the number of the valid errors, by submission."""
     table = hidden_errors.c
     query = (
         sa.select(table.submission, sa.func.max(table.number).label("number"))
@@ -73,7 +73,7 @@ def read_error_numbers(connection: sa.Connection, season: str) -> dict[str, int]
 def read_errors(
     connection: sa.Connection, season: str, numbers: Mapping[str, int]
 ) -> dict[str, Errors]:
-    """Return the errors of those numbers, by submission."""
+    """Return the errors with those numbers, by submission."""
     wanted = {number: submission for submission, number in numbers.items()}
     table = hidden_errors.c
     query = sa.select(table.number, table.rmse_mm).where(table.season == season)
@@ -85,7 +85,7 @@ def read_errors(
 
 
 ERRORS = "<f8"
-"""How the errors of hidden episodes are kept."""
+"""Stored form of the errors of hidden episodes."""
 
 
 def record_entry(connection: sa.Connection, entry: BoardEntry, rmse_mm: Sequence[float]) -> None:
@@ -99,7 +99,7 @@ def record_entry(connection: sa.Connection, entry: BoardEntry, rmse_mm: Sequence
 def record_errors(
     connection: sa.Connection, season: str, submission: str, rmse_mm: Sequence[float]
 ) -> None:
-    """Add the RMSE of a submission's hidden episodes [mm]; the last ones count."""
+    """Add the RMSE of a submission's hidden episodes [mm]; the last added ones are valid."""
     content = np.asarray(rmse_mm, ERRORS).tobytes()
     connection.execute(
         sa.insert(hidden_errors).values(season=season, submission=submission, rmse_mm=content)
@@ -107,13 +107,13 @@ def record_errors(
 
 
 def record_event(connection: sa.Connection, event: Event) -> None:
-    """Add what has happened."""
+    """Add an event."""
     content: dict[str, Any] = dict(vars(event))
     connection.execute(sa.insert(events).values(**content))
 
 
 ROWS: Final = 500
-"""So many are copied at a time."""
+"""Number of rows that are copied at a time."""
 
 
 def copy_tables(source: sa.Connection, target: sa.Connection) -> None:
@@ -124,7 +124,7 @@ def copy_tables(source: sa.Connection, target: sa.Connection) -> None:
     source
         A connection that sees one state of its database.
     target
-        A connection to one whose tables are there and empty.
+        A connection to a database whose tables are empty.
     """
     for table in metadata.sorted_tables:
         found = source.execute(sa.select(table).execution_options(yield_per=ROWS)).mappings()

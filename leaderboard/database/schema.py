@@ -43,7 +43,7 @@ seasons: Final = sa.Table(
     sa.Column("suite_digest", sa.Text, nullable=False),
     sa.Column("commitment", sa.String(64), nullable=False),
     sa.Column("began_at", Time, nullable=False),
-    # Whether it ever took submissions here; the last of those is the current one.
+    # Whether it ever took submissions here; the last such season is the current one.
     sa.Column("taking", sa.Boolean, nullable=False),
 )
 
@@ -102,7 +102,7 @@ jobs: Final = sa.Table(
     sa.Column("started_at", Time),
     sa.Column("heartbeat_at", Time),
     sa.Column("ended_at", Time),
-    # Not before then is it taken (again).
+    # The job is not taken before this time.
     sa.Column("ready_at", Time, nullable=False),
     sa.Column("worker", sa.Text),
     sa.Column("attempt", sa.Integer, nullable=False),

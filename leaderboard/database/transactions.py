@@ -7,10 +7,10 @@ from typing import Any, Final
 import sqlalchemy as sa
 
 WAIT_S: Final = 60
-"""How long a writer waits for the others [s], and how long one may do nothing."""
+"""Longest time that a writer waits for the others, and that one may be idle [s]."""
 
 CONNECT_S: Final = 5
-"""How long a server may take to be connected to [s]."""
+"""Longest time that connecting to a server may take [s]."""
 
 _LOCK: Final = 0x636F6C696674
 """Key of the lock that PostgreSQL's writers hold."""
@@ -30,7 +30,7 @@ _POSTGRESQL: Final = (
 
 
 def make_engine(url: sa.URL) -> sa.Engine:
-    """Return the engine of a database; nothing is connected yet."""
+    """Return the engine of a database, without connecting to it."""
     if url.get_backend_name() == "sqlite":
         engine = sa.create_engine(url, connect_args={"timeout": WAIT_S})
         sa.event.listen(engine, "connect", _prepare_sqlite)
@@ -63,13 +63,13 @@ def writing(engine: sa.Engine) -> Iterator[sa.Connection]:
 
 
 def _prepare_sqlite(connection: Any, record: object) -> None:
-    connection.isolation_level = None  # The driver would begin transactions when it likes.
+    connection.isolation_level = None  # Otherwise the driver begins transactions by itself.
     for pragma in _SQLITE:
         connection.execute(pragma).close()
 
 
 def _begin_sqlite(connection: sa.Connection) -> None:
-    # Between a read and a later write another process could have written.
+    # A deferred transaction would let another process write between its read and its write.
     wants = connection.get_execution_options().get("writing")
     connection.exec_driver_sql("BEGIN IMMEDIATE" if wants else "BEGIN")
 

@@ -31,7 +31,7 @@ LEARNED: Final[Mapping[str, str]] = {
     "reactive": "reactive",
     "task_model": "task_model",
 }
-"""Which policies use what was learned, and its file below ``agents/control/data``."""
+"""Policies with learned parameters, and their files below ``agents/control/data``."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,7 +48,7 @@ class Entrant:
     """Digest of all that was submitted."""
     policy: AgentSpec
     fresh: AgentSpec
-    """The same, in a fresh process for every episode, nothing loaded beforehand: for the audit."""
+    """The same policy for the audit: a fresh process for every episode, nothing preloaded."""
 
     @classmethod
     def of(cls, submission: Submission, level: str) -> "Entrant":
@@ -70,7 +70,7 @@ class Entrant:
 def builtin_entrant(name: str, level: str = BUBBLEWRAP) -> Entrant:
     """Return one of the built-in policies as an entrant at an isolation level.
 
-    Its digest is over its name, and the code and data that it uses.
+    Its digest covers its name, and the code and data that it uses.
 
     Raises
     ------
@@ -102,7 +102,7 @@ def builtin_entrant(name: str, level: str = BUBBLEWRAP) -> Entrant:
 
 
 def trained_on(name: str) -> str:
-    """Return what one of the built-in policies was trained on: the command that did it."""
+    """Return the training data of a built-in policy, with the command that trained it."""
     if name not in LEARNED:
         return "nothing"
     file = files(control).joinpath("data", f"{LEARNED[name]}.json")
@@ -115,11 +115,11 @@ AUTO: Final = "auto"
 
 
 class NoSandboxError(EvaluatorFault):
-    """No level that this board may use works here, at the moment."""
+    """No level that this board may use works here at present."""
 
 
 def board_level(isolation: str) -> Choice:
-    """Return the level at which a worker runs what was submitted.
+    """Return the level at which a worker runs submissions.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Evaluation of a submission in a season: reproducible from the two alone."""
+"""Evaluation of a submission in a season, reproducible from these two alone."""
 
 import dataclasses
 from collections.abc import Callable
@@ -75,7 +75,7 @@ def evaluate_entrant(
     human_human
         The human-human baseline on the hidden episodes; see :func:`play_human_human`.
     bundle
-        Where the bundle of the public run is written.
+        Folder for the bundle of the public run.
     executor
         Runs the episodes; None runs all in this process.
     watch
@@ -135,7 +135,7 @@ def evaluate_entrant(
 
 
 class PlayingOptions(TypedDict):
-    """How episodes of an entrant are played; see :func:`.run_suite`."""
+    """The player of an entrant's episodes; see :func:`.run_suite`."""
 
     executor: Executor | None
     progress: Callable[[int], None]
@@ -164,7 +164,7 @@ def _check(entrant: Entrant, suite: Suite, playing: PlayingOptions) -> None:
 
 
 def episode_count(season: Season) -> int:
-    """Return how many episodes :func:`evaluate` counts, if nothing is refused."""
+    """Return the number of episodes that :func:`evaluate` counts, if nothing is refused."""
     size = season.suite.size
     played = 0 if shipped_baselines(season.suite) else len(BASELINES) * size
     return check_part(checked_with(season.suite)).size + 2 * (size + audited(size)) + played + size
@@ -173,7 +173,7 @@ def episode_count(season: Season) -> int:
 def play_human_human(
     season: Season, *, executor: Executor | None = None, watch: Callbacks | None = None
 ) -> Baseline:
-    """Return the human-human baseline on a season's hidden episodes: once a season.
+    """Return the human-human baseline on a season's hidden episodes; needed once per season.
 
     Raises
     ------

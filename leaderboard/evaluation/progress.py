@@ -23,17 +23,17 @@ class Callbacks:
     """Progress callbacks of an evaluation; each call also serves as a heartbeat."""
 
     stage: Callable[[Stage], None] = lambda stage: None
-    """Called at the beginning of a stage."""
+    """Called when a stage begins."""
     progress: Callable[[int], None] = lambda episodes: None
     """Called with the number of episodes finished since the last call; see
     :func:`.episode_count`."""
     total: Callable[[int], None] = lambda episodes: None
-    """Called with the number of episodes in all, as soon as it is known."""
+    """Called with the total number of episodes, as soon as it is known."""
 
 
 SECONDS: Final = 7200.0
-"""Time of a policy in an evaluation [s]: over ten seconds for each of the 650 lifts of the standard
-suite, each of which lasts seven to ten."""
+"""Time budget of a policy in an evaluation [s]: over ten seconds for each of the 650 lifts of the
+standard suite, which last seven to ten seconds."""
 
 
 class BudgetError(InputError):
@@ -41,43 +41,43 @@ class BudgetError(InputError):
 
 
 class Budget:
-    """Adds up what a policy's lifts take: starting it, and its steps.
+    """The sum of the times that a policy takes in its lifts: for its start, and for its steps.
 
     Parameters
     ----------
     seconds
-        What they may take [s].
+        The budget [s].
     """
 
     def __init__(self, seconds: float = SECONDS) -> None:
         self._seconds = self._left = seconds
 
     def add(self, place: int, episode: Episode) -> None:
-        """Count a lift, wherever in its suite it is.
+        """Add the time of a lift; its place in the suite does not matter.
 
         Raises
         ------
         BudgetError
-            If that is too much.
+            If the sum exceeds the budget.
         """
         self._left -= episode.policy_time
         if self._left < 0:
             raise BudgetError(
                 f"the policy took more than {self._seconds:g} s for all lifts of an evaluation "
-                "together: it must start sooner or think less"
+                "together: it must start and act faster"
             )
 
 
 TICK_S: Final = 0.2
-"""Time by which the end of a hidden run is rounded up, for each of its lifts [s]: one minute on the
+"""Step to which the duration of a hidden run is rounded up, per lift of it [s]: one minute on the
 standard suite."""
 
 
 class HiddenRunTimer:
-    """Waits at the end of a hidden run until its duration is a whole number of ticks.
+    """A wait at the end of a hidden run until its duration is a whole number of ticks.
 
-    A policy chooses how long it thinks, so the duration of a hidden run is a way to tell what it
-    has seen there.
+    A policy chooses how long its steps take, so it could reveal by the duration of a hidden run
+    what it has seen there.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ class HiddenRunTimer:
         self._began: float | None = None
 
     def stage(self, stage: Stage) -> None:
-        """Take notice of a stage that begins."""
+        """Record that a stage begins."""
         if stage == HIDDEN:
             self._began = time.monotonic()
 

@@ -24,7 +24,7 @@ def public_scores(results: Results) -> PublicScores:
     Parameters
     ----------
     results
-        Its results, the human-human baseline among the baselines.
+        Its results, with the human-human baseline among the baselines.
     """
     summary = results.summary
     return PublicScores(
@@ -68,7 +68,7 @@ def hidden_scores(run: Run, human_human: Baseline) -> HiddenScores:
 
 
 def gap(hidden: Run, public: Run) -> Estimate:
-    """Return by how much the mean RMSE of the hidden run is above the public one's [mm]."""
+    """Return the mean RMSE of the hidden run minus that of the public run [mm]."""
     a, b = _rmse(hidden), _rmse(public)
     strata_a, strata_b = (
         [stratum(episode) for episode in run.episodes] for run in (hidden, public)
@@ -81,7 +81,7 @@ def _rmse(run: Run) -> list[float]:
 
 
 def _failures(run: Run) -> Counter[str]:
-    """Count the failed episodes by where they failed; see :attr:`.HiddenScores.failure_lines`."""
+    """Count the failed episodes by place of failure; see :attr:`.HiddenScores.failure_lines`."""
     reasons = [episode.failure for episode in run.episodes if episode.failure is not None]
     words = (reason.partition(" ")[0].rstrip(":") for reason in reasons)
     return Counter(word if word in ("start", "step") else "table" for word in words)
@@ -100,7 +100,7 @@ _STEP: Final = re.compile(r"(step \d+): (.*)", re.DOTALL)
 
 
 def failure_lines(episodes: Sequence[Episode]) -> list[str]:
-    """Return a line for each error, with the lift where it came first, the most frequent first.
+    """Return a line for each error with its first lift, the most frequent error first.
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ from ..records.job import Job
 from . import LostError, WorkerQueue
 
 PERIOD_S: Final = 1.0
-"""Longest time between two heartbeats [s]; a fifth of the lease if that is less."""
+"""Longest time between two heartbeats [s]; at most a fifth of the lease."""
 
 
 class Heartbeat:
@@ -84,6 +84,6 @@ class Heartbeat:
                 self._lost = True
                 return
             except sa.exc.DBAPIError:
-                pass  # The database is away or busy: the lease limits how long.
+                pass  # The database is away or busy: the lease limits for how long.
             self._news.wait(self._period)
             self._news.clear()

@@ -16,7 +16,7 @@ REASON: Final = 2000
 
 
 def read_job(found: Any, store: Store) -> Job:
-    """Return the job of a row of the table, with its log, as it may be published."""
+    """Return the job of a row of the table, with its log, for publication."""
     own = {name: value for name, value in found.items() if name in Job.__dataclass_fields__}
     texts = {"reason": found["reason"], "log": store.log(found["id"])}
     public = {name: text and store.placeless(text) for name, text in texts.items()}
@@ -32,19 +32,19 @@ def job_outcome(entry: BoardEntry, ended_at: datetime) -> dict[str, Any]:
 
 
 def storable_reason(reason: str) -> str:
-    """Return a reason as any database keeps it: no NUL, no half characters, not too long."""
+    """Return a reason that any database can store: no NUL, no surrogates, not too long."""
     text = reason.replace("\0", "").encode(errors="replace").decode()
     return text if len(text) <= REASON else f"{text[: REASON - 3]}..."
 
 
 def this_worker() -> str:
-    """Return the name of this process: host, machine, process id, when it was started."""
+    """Return the name of this process: host, machine, process id and start time."""
     pid = os.getpid()
     return f"{socket.gethostname()}/{_machine()}/{pid}/{_started(pid)}"
 
 
 def is_gone(worker: str) -> bool:
-    """Return whether a worker was a process of this machine and is none any more."""
+    """Return whether a worker was a process of this machine that has ended."""
     parts = worker.split("/")
     if len(parts) != 4 or parts[1] != _machine() or not parts[2].isdecimal():
         return False  # On another machine: only its lease counts.
@@ -52,14 +52,14 @@ def is_gone(worker: str) -> bool:
 
 
 def _machine() -> str:
-    """Return what the processes share whose ids mean the same to this one."""
+    """Return a text that processes share if their ids are of the same namespace and boot."""
     boot = Path("/proc/sys/kernel/random/boot_id").read_text().strip()
     space = Path("/proc/self/ns/pid").readlink()
     return hashlib.sha256(f"{boot} {space}".encode()).hexdigest()[:12]
 
 
 def _started(pid: int) -> str | None:
-    """Return when a process was started, in ticks of this boot; None if it runs no more."""
+    """Return the start time of a process in ticks of this boot; None if it has ended."""
     try:
         stat = Path(f"/proc/{pid}/stat").read_text()
     except OSError:

@@ -34,10 +34,10 @@ class Queue:
         submitter: str = LOCAL,
         place: Callable[[], object] = lambda: None,
     ) -> Job:
-        """Return the job of a submission in the current season; a new one if there is none.
+        """Return the job of a submission in the current season; create it if there is none.
 
-        The same content has one job per season. If that ended by a fault of the evaluator, it is
-        queued again.
+        The same content has one job per season. A job that ended with an evaluator fault is queued
+        again.
 
         Parameters
         ----------
@@ -46,13 +46,13 @@ class Queue:
         submitter
             Name of the submitter.
         place
-            Called as soon as the submitter may have the job, before it is there for workers: puts
-            the files in their place, which those of :meth:`.Board.keep` have already.
+            Called once the submitter may have the job, before workers see it: it puts the files in
+            their place, where those of :meth:`.Board.keep` already are.
 
         Raises
         ------
         QuotaError
-            If the submitter has too many open jobs or failures, or too much is kept of them.
+            If the submitter has too many open jobs, failures or rows, or too many files are kept.
         InputError
             If the season cannot be played by this colift.
         """
@@ -106,7 +106,7 @@ class Queue:
         return self._job(found)
 
     def job(self, id: str) -> Job | None:  # noqa: A002
-        """Return a job, or None if there is none of that id."""
+        """Return the job with that id, or None."""
         with self.board.database.reading() as connection:
             found = connection.execute(sa.select(jobs).where(jobs.c.id == id)).mappings().first()
         return None if found is None else self._job(found)
@@ -114,7 +114,7 @@ class Queue:
     def jobs(
         self, state: State | None = None, limit: int = 100, submitter: str | None = None
     ) -> tuple[Job, ...]:
-        """Return the last jobs, of one state and submitter or of all, the newest first."""
+        """Return the last jobs, of one state and submitter or of all, newest first."""
         query = sa.select(jobs).order_by(jobs.c.submitted_at.desc(), jobs.c.id).limit(limit)
         if state is not None:
             query = query.where(jobs.c.state == state)
@@ -125,7 +125,7 @@ class Queue:
         return tuple(map(self._job, found))
 
     def retry(self, id: str, who: str, why: str) -> None:  # noqa: A002
-        """Queue a job again that has ended without an entry, at the maintainer's request.
+        """Queue again a job that ended without an entry, at the maintainer's request.
 
         Raises
         ------
@@ -144,9 +144,9 @@ class Queue:
         self._change(id, _fresh(self.board.clock()), "retry", who, why, may, refusal)
 
     def cancel(self, id: str, who: str, why: str, submitter: str | None = None) -> Job:  # noqa: A002
-        """Take a job out of the queue that has not ended; a worker that has it stops.
+        """Take a job that has not ended out of the queue; a worker that has it stops.
 
-        It counts for no quota. The same content is not queued again in this season, unless by
+        It counts for no quota. The same content is not queued again in this season, except by
         :meth:`retry`.
 
         Parameters
@@ -154,9 +154,9 @@ class Queue:
         id
             The job.
         who, why
-            By whom and for what reason, for everybody to read.
+            The actor and the reason; both are public.
         submitter
-            Whose job it must be; None is anybody's.
+            Required submitter of the job; None accepts any.
 
         Raises
         ------
@@ -182,7 +182,7 @@ class Queue:
         may: Callable[[sa.Connection, sa.RowMapping], bool],
         refusal: str,
     ) -> Job:
-        """Change a job that is there and may be changed, and note that as an event."""
+        """Change a job that may be changed, and record that as an event."""
         this = jobs.c.id == id
         with self.board.database.writing() as connection:
             found = connection.execute(sa.select(jobs).where(this)).mappings().first()
@@ -193,7 +193,7 @@ class Queue:
             return self._job({**found, **values})
 
     def waiting(self) -> tuple[Job, ...]:
-        """Return the jobs that wait, in the order in which they are taken if none ends before."""
+        """Return the waiting jobs, in the order in which they are taken if none ends before."""
         query = sa.select(jobs).where(jobs.c.ended_at.is_(None))
         with self.board.database.reading() as connection:
             found = [dict(each) for each in connection.execute(query).mappings()]

@@ -14,38 +14,38 @@ from ..database.schema import jobs
 
 
 class QuotaError(InputError):
-    """A submitter has too much in the queue, on the board or on the disk, or failed too often."""
+    """A submitter exceeds the quota of open jobs, rows, stored files or failures."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Quota:
-    """How much a submitter may ask for."""
+    """The limits of a submitter."""
 
     open: int = 5
     """Jobs that have not ended."""
     failures: int = 20
-    """Jobs that failed within a window; faults of the evaluator are none."""
+    """Jobs that failed within a window, without evaluator faults."""
     rows: int = 10
-    """Jobs that got a row within a window, those that may still get one included: each row tells a
-    little of the hidden lifts."""
+    """Jobs that got a row within a window, including those that may still get one: each row reveals
+    a little about the hidden lifts."""
     window: timedelta = timedelta(days=1)
     size: int = 2048 * MIB
-    """Of all that is kept of a submitter [bytes]."""
+    """Size of all files that are kept of a submitter [bytes]."""
 
 
 NO_QUOTA: Final = Quota(open=10**9, failures=10**9, rows=10**9, size=10**18)
-"""For whoever can write to the board's folder anyway."""
+"""The quota of a user who can write to the board's folder anyway."""
 
 
 def admit(
     connection: sa.Connection, submitter: str, quota: Quota, now: datetime, size: int = 0
 ) -> None:
-    """Let a submitter have one more job, for a submission of that size [bytes].
+    """Check that a submitter may have one more job, for a submission of that size [bytes].
 
     Raises
     ------
     QuotaError
-        If that is too much.
+        If the quota would be exceeded.
     """
     count = sa.select(sa.func.count()).select_from(jobs).where(jobs.c.submitter == submitter)
     waiting = connection.scalar(count.where(jobs.c.ended_at.is_(None))) or 0
@@ -79,7 +79,7 @@ def admit(
 
 
 def _kept(submitter: str) -> sa.Select[Any]:
-    """Return the query for what is kept of a submitter [bytes]; seasons share equal contents."""
+    """Return the query for the size kept of a submitter [bytes]; seasons share equal contents."""
     each = (
         sa.select(sa.func.max(jobs.c.size).label("size"))
         .where(jobs.c.submitter == submitter)
@@ -95,17 +95,17 @@ NEVER: Final = datetime.min.replace(tzinfo=UTC)
 def in_turn(
     waiting: Sequence[Mapping[str, Any]], held: Sequence[str], served: Mapping[str, datetime]
 ) -> Iterator[Mapping[str, Any]]:
-    """Yield the jobs that wait in the order in which they are taken, if none ends meanwhile.
+    """Yield the waiting jobs in the order in which they are taken, if none ends meanwhile.
 
-    First those of the submitter of whom fewest are worked on, then of the one who was not served
-    for the longest time, and of one submitter the oldest.
+    The submitter with the fewest running jobs comes first, of several the one who was served
+    longest ago; of the jobs of one submitter, the oldest.
 
     Parameters
     ----------
     waiting
         Rows of the table of jobs.
     held
-        Submitters of the jobs that are worked on.
+        Submitters of the running jobs.
     served
         See :func:`last_served`.
     """
@@ -123,6 +123,6 @@ def in_turn(
 
 
 def last_served(connection: sa.Connection) -> dict[str, datetime]:
-    """Return when a worker was last heard of that had a job of a submitter; not who never had."""
+    """Return the last heartbeat of a worker on a job of each submitter who was ever served."""
     query = sa.select(jobs.c.submitter, sa.func.max(jobs.c.heartbeat_at)).group_by(jobs.c.submitter)
     return {who: at for who, at in connection.execute(query) if at is not None}

@@ -28,7 +28,7 @@ FAULTS: Final = 3
 """Maximum number of retries after faults of this machine."""
 
 LOST: Final = 50
-"""Maximum number of times a job is reclaimed from a dead worker; stops jobs that crash every
+"""Maximum number of times that a job is taken from a dead worker; stops jobs that crash every
 worker."""
 
 PAUSE: Final = timedelta(seconds=10)
@@ -38,7 +38,7 @@ POSTPONED: Final = timedelta(minutes=1)
 """Wait before the next attempt at a job that this machine cannot run at all."""
 
 LONGEST: Final = max(PAUSE * 2**FAULTS, POSTPONED) + timedelta(seconds=30)
-"""No job waits longer for its next try; clocks may differ by some seconds."""
+"""Longest wait of a job for its next attempt; clocks may differ by some seconds."""
 
 VERIFYING: Final[Stage] = "verification"
 """The stage that has its own state."""
@@ -161,7 +161,7 @@ class WorkerQueue:
             record_entry(connection, entry, hidden_rmse_mm)
 
     def fail(self, job: Job, reason: str, log: str = "") -> None:
-        """End a job by the submission's own fault; :class:`LostError` as :meth:`report`."""
+        """End a job that failed by the submission's fault; :class:`LostError` as :meth:`report`."""
         ended = {
             "state": "failed",
             "reason": storable_reason(reason),
@@ -175,7 +175,7 @@ class WorkerQueue:
     def fault(self, job: Job, reason: str) -> None:
         """Queue a job again after a fault of this machine, or end it after :data:`FAULTS` times.
 
-        It does not count for the submitter's quota. :class:`LostError` as :meth:`report`.
+        It does not count towards the submitter's quota. :class:`LostError` as :meth:`report`.
         """
         now = self.board.clock()
         with self.board.database.writing() as connection:

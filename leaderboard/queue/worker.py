@@ -30,7 +30,7 @@ from .jobs import this_worker
 log: Final = logging.getLogger("colift.worker")
 
 IDLE_S: Final = 1.0
-"""Time between two looks into an empty queue [s]."""
+"""Time between two queries of an empty queue [s]."""
 
 DETAILS: Final = "the details are for the maintainer of the board"
 """Published reason of a fault after the policy has met hidden lifts."""
@@ -57,7 +57,7 @@ class Worker:
         Parameters
         ----------
         stop
-            Asked before each job.
+            Called before each job.
         ended
             Called with every job that was worked on.
         """
@@ -103,21 +103,21 @@ class Worker:
     ) -> BoardRow:
         """Evaluate a row's submission again, replace its bundle and return the new row.
 
-        The entry stays as it was; the row that counts is that of the last rescore.
+        The entry stays as it was; the row of the last rescore is the valid one.
 
         Parameters
         ----------
         season, digest
             The row.
         who, why
-            Who decided it, and the reason, for everybody to read.
+            The actor and the reason; both are public.
         watch
             Progress callbacks.
 
         Raises
         ------
         InputError
-            If there is no such row, or the policy fails or is refused now: the row stays.
+            If there is no such row, or the policy now fails or is refused: the row stays.
         EvaluatorFault
             If this machine failed.
         """
@@ -129,14 +129,14 @@ class Worker:
             _, result = self._evaluate(entry, made, watch or Callbacks())
             if result.row is None:
                 raise InputError(
-                    f"{entry.name} keeps its row, but is refused now: {result.refusal}"
+                    f"{entry.name} keeps its row, but would be refused now: {result.refusal}"
                 )
             self._board.rescore(season, result.row, result.hidden_rmse_mm, who, why)
             self._board.store.place_bundle(season, digest, made)
         return result.row
 
     def _work(self, job: Job, watch: Callbacks) -> None:
-        """Bring a job to its end."""
+        """Evaluate a job and record its outcome."""
         self._log(job, f"attempt {job.attempt}")
         heartbeat = Heartbeat(self.work, job, self._logged(job, watch))
         try:
@@ -247,7 +247,7 @@ class Worker:
         for line in lines:
             try:
                 self._board.store.add_to_log(job.id, f"{now} {line}")
-            except OSError as refused:  # A full disk, most likely: that is no end of the work.
+            except OSError as refused:  # Most likely a full disk, which does not stop the work.
                 log.error("job %s: %s; its log cannot be written: %s", job.id, line, refused)
 
     @property

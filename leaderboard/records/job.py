@@ -5,7 +5,7 @@ from datetime import datetime
 from typing import Any, Final, Literal
 
 State = Literal["queued", "running", "verifying", "done", "failed", "evaluator fault", "cancelled"]
-"""An ``evaluator fault`` is this machine's: as long as the job has not ended, it is tried again."""
+"""An ``evaluator fault`` is a fault of this machine: until the job has ended, it is tried again."""
 
 STATES: Final[tuple[State, ...]] = (
     "queued",
@@ -18,7 +18,7 @@ STATES: Final[tuple[State, ...]] = (
 )
 
 HELD: Final[tuple[State, ...]] = ("running", "verifying")
-"""States in which a worker has it."""
+"""States in which a worker has the job."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,20 +37,20 @@ class Job:
     stage: str | None
     """Stage of the evaluation; see :data:`.progress.Stage`."""
     done: int
-    """Episodes that are finished."""
+    """Number of finished episodes."""
     total: int
-    """Episodes in all."""
+    """Total number of episodes."""
     submitted_at: datetime
     started_at: datetime | None
     heartbeat_at: datetime | None
     ended_at: datetime | None
     worker: str | None
     attempt: int
-    """How often it was begun."""
+    """Number of times that it was begun."""
     reason: str | None
-    """Why it failed, or is tried again."""
+    """Reason of a failure, or of a new attempt."""
     log: str | None
-    """What the workers wrote about it."""
+    """Log of the workers."""
 
     @property
     def ended(self) -> bool:
@@ -58,7 +58,7 @@ class Job:
         return self.ended_at is not None
 
     def plain(self) -> dict[str, Any]:
-        """Return the job as JSON has it."""
+        """Return the job as JSON."""
         return {
             name: value.isoformat() if isinstance(value, datetime) else value
             for name, value in vars(self).items()

@@ -29,7 +29,7 @@ def board_metrics(suite: str) -> tuple[Metric, ...]:
 
 
 def picture_axes(suite: str) -> tuple[Metric, Metric]:
-    """Return the leading metric of a suite, and the one beside it in pictures."""
+    """Return the leading metric of a suite, and the second one of its pictures."""
     metrics = suite_metrics(suite)
     return metrics[LEADING], second_axis(metrics)
 
@@ -37,7 +37,7 @@ def picture_axes(suite: str) -> tuple[Metric, Metric]:
 def read_means(content: Mapping[str, Any], suite: str, episodes: int) -> dict[str, MeanWithMissing]:
     """Return the means of a suite's :func:`board_metrics` by name, from JSON with other entries.
 
-    A metric that is newer than the content has a value in none of its ``episodes``.
+    A metric that is newer than the content is missing in all of its ``episodes``.
     """
     newer = {"mean": None, "missing": episodes}
     return {
@@ -47,12 +47,12 @@ def read_means(content: Mapping[str, Any], suite: str, episodes: int) -> dict[st
 
 
 def known_means(means: Mapping[str, float | None], suite: str) -> dict[str, float | None]:
-    """Return a baseline's means of a suite's :func:`board_metrics`; None of one that is newer."""
+    """Return a baseline's means of a suite's :func:`board_metrics`; None for a newer metric."""
     return {metric.name: means.get(metric.name) for metric in board_metrics(suite)}
 
 
 def sort_key(metric: Metric, found: MeanWithMissing) -> float | None:
-    """Return the place of a mean in a table that begins with the best; None is last."""
+    """Return the sort key of a mean in a table that begins with the best; None is last."""
     if found.mean is None:
         return None
     key = {"less": found.mean, "more": -found.mean, "near zero": abs(found.mean)}[metric.better]

@@ -9,7 +9,7 @@ from ...benchmark.statistics import Estimate, MeanWithMissing
 from .metrics import read_means
 
 UNTRAINED: Final = ("nothing", "none", "no data")
-"""Entries of authors whose policy was not trained."""
+"""Entries of ``trained_on`` that stand for a policy without training."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,12 +112,12 @@ class BoardRow:
         return False not in (self.public.real_time, self.hidden.real_time)
 
     def plain(self) -> dict[str, Any]:
-        """Return the row as JSON has it."""
+        """Return the row as JSON."""
         return dataclasses.asdict(self)
 
     @classmethod
     def read(cls, content: Mapping[str, Any]) -> Self:
-        """Return the row that :meth:`plain` has written."""
+        """Return the row from the output of :meth:`plain`."""
         public, hidden = content["public"], content["hidden"]
         return cls(
             **{

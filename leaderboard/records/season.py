@@ -22,7 +22,7 @@ class Season:
 
     @property
     def commitment(self) -> str:
-        """What is published of the secret; see :func:`.commitment`."""
+        """The commitment to the secret; see :func:`.commitment`."""
         return commitment(self.secret)
 
     @property
@@ -33,7 +33,7 @@ class Season:
 
 @dataclass(frozen=True, kw_only=True)
 class SeasonInfo:
-    """What is published of a season: one suite, one secret, one table."""
+    """The published facts of a season, which has one suite, one secret and one table."""
 
     __pydantic_config__ = {"use_attribute_docstrings": True}  # noqa: RUF012  The API's descriptions.
 
@@ -46,8 +46,8 @@ class SeasonInfo:
     current: bool
     """Whether it takes submissions; all others are frozen."""
     revealed: str | None
-    """The secret, 64 hexadecimal digits, if it has been published: anybody can then run the
-    hidden episodes and check the commitment."""
+    """The secret, 64 hexadecimal digits, if it has been published: anyone can then run the hidden
+    episodes and check the commitment."""
 
 
 Kind = Literal[
@@ -64,7 +64,7 @@ Kind = Literal[
 removed by the maintainer, reinstated, rescored, queued again, or cancelled."""
 
 OUT: tuple[Kind, ...] = ("withdrawal", "removal")
-"""After these a row is in no ranking, until a reinstatement."""
+"""Events after which a row is in no ranking, until a reinstatement."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,13 +81,13 @@ class Event:
     """Its data: a revealed ``secret``, a new ``row``."""
 
     def plain(self) -> dict[str, Any]:
-        """Return the event as JSON has it."""
+        """Return the event as JSON."""
         return {**vars(self), "at": self.at.isoformat()}
 
 
 @dataclass(frozen=True, kw_only=True)
 class BoardEntry:
-    """An evaluated submission: its row, or why it has none."""
+    """An evaluated submission: its row, or the reason for having none."""
 
     season: str
     submission: str
@@ -101,7 +101,7 @@ class BoardEntry:
     refusal: str | None
 
     def plain(self) -> dict[str, Any]:
-        """Return the entry as JSON has it."""
+        """Return the entry as JSON."""
         return {
             "season": self.season,
             "submission": self.submission,
@@ -114,7 +114,7 @@ class BoardEntry:
 
     @classmethod
     def read(cls, content: Mapping[str, Any]) -> Self:
-        """Return the entry that :meth:`plain` has written."""
+        """Return the entry from the output of :meth:`plain`."""
         row = None if content["row"] is None else BoardRow.read(content["row"])
         at = datetime.fromisoformat(content["at"])
         return cls(**{**content, "row": row, "at": at})

@@ -9,7 +9,7 @@ from ...benchmark.rendering.ticks import far_limit, round_step, round_ticks
 from ...benchmark.statistics import Estimate
 
 MOST: Final = 5
-"""Intervals between ticks, at most."""
+"""Maximum number of intervals between ticks."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,11 +21,11 @@ class Axis:
     ticks: tuple[float, ...]
 
     def at(self, value: float) -> float:
-        """Return where a value [mm] is drawn [% of the breadth]; what is beyond, at 100."""
+        """Return the position of a value [mm] in % of the width; at most 100."""
         return round(100 * min(max(value / self.top, 0.0), 1.0), 2)
 
     def beyond(self, value: float) -> bool:
-        """Whether a value lies off the scale."""
+        """Return whether a value lies off the scale."""
         return value > self.top
 
 
@@ -35,7 +35,7 @@ def make_axis(estimates: Sequence[Estimate], marks: Sequence[float] = ()) -> Axi
     Parameters
     ----------
     estimates
-        What is drawn, in millimetres. Means beyond :func:`.far_limit` do not count.
+        The drawn values, in millimetres. Means beyond :func:`.far_limit` do not count.
     marks
         Other values that must be on the scale.
     """

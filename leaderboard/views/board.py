@@ -25,7 +25,7 @@ class RankedLine:
     strata: tuple[StratumScore, ...]
     """Its public lifts, stratum by stratum; nothing if its bundle is gone."""
     shared: int
-    """How many policies are in its rank group."""
+    """Number of policies in its rank group."""
     leads: bool
     """Whether it is the first of its group."""
 
@@ -36,11 +36,11 @@ class RankedLine:
 
 @dataclass(frozen=True, kw_only=True)
 class BoardView:
-    """What the board page shows."""
+    """The content of the board page."""
 
     season: SeasonInfo
     seasons: tuple[SeasonInfo, ...]
-    """All of them, the current one first: the tabs."""
+    """All seasons, the current one first: the tabs."""
     rows: tuple[RankedLine, ...]
     slow: tuple[RankedRow, ...]
     """Not real-time: ranked among themselves."""
@@ -49,18 +49,18 @@ class BoardView:
     human_human: HumanHumanScores | None
     """The human-human baseline on the hidden lifts."""
     bounds: tuple[PublicBound, ...]
-    """Those of the public lifts."""
+    """The bounds on the public lifts."""
     axis: Axis
     events: tuple[Event, ...]
-    """What has been done to the season and its rows, newest first."""
+    """The events of the season and its rows, newest first."""
     names: dict[str, str]
-    """What the submissions of the events are called."""
+    """Names of the submissions of the events."""
     wide: ScatterScene | None
     narrow: ScatterScene | None
 
     @property
     def causal(self) -> float | None:
-        """The RMSE [mm] that the best foresight reaches on the public lifts, if that is known."""
+        """The RMSE [mm] of the causal bound on the public lifts, if that is known."""
         return next((each.rmse_mm.mean for each in self.bounds if each.causal), None)
 
     def human_human_mm(self, behaviour: str) -> float | None:
@@ -83,10 +83,10 @@ class BoardView:
 
     @property
     def data(self) -> dict[str, Any]:
-        """What the page's script filters by: each row's public lifts, stratum by stratum.
+        """The data that the page's script filters: each row's public lifts, stratum by stratum.
 
-        ``strata`` has behaviour, subject, episodes and the human-human RMSE [mm]; ``rows`` has for
-        each row of the table, in its order, and each stratum: RMSE [mm], then of each of
+        ``strata`` has behaviour, subject, episodes and the human-human RMSE [mm]; ``rows`` has, for
+        each row of the table in its order and each stratum, the RMSE [mm], then for each of
         ``metrics`` the mean and the lifts without a value; ``bounds`` has each bound's RMSE [mm].
         """
         return {
@@ -118,7 +118,7 @@ class BoardView:
 def board_view(board: Board, season: str | None = None) -> BoardView | None:
     """Return the page of a season, by default of the current one; None if there is no such season.
 
-    The database is asked a fixed number of times, however many rows there are.
+    The number of queries does not depend on the number of rows.
     """
     seasons = ordered_seasons(board)
     info = find_season(seasons, season)

@@ -1,4 +1,4 @@
-"""The bounds beside a table: how level the ends can be kept at all, on the public lifts."""
+"""The bounds beside a table, on the public lifts."""
 
 import functools
 from collections.abc import Mapping
@@ -21,7 +21,7 @@ from ..records.season import SeasonInfo
 from .suites import season_suite
 
 MEANINGS: Final[Mapping[str, str]] = {
-    "causal_bound": "sees what a policy sees, foresees as well as has been learned so far, and "
+    "causal_bound": "sees what a policy sees, predicts as well as has been learned so far, and "
     "spends nothing on smoothness",
     "oracle": "knows where the person is going, and rehearses the lift",
 }
@@ -38,7 +38,7 @@ class PublicBound:
     vs_human: float
     """RMSE over that of the human-human baseline, on the same lifts."""
     means: Mapping[str, float | None]
-    """Of the other metrics that boards show."""
+    """Means of the other metrics that boards show."""
     strata: Mapping[Stratum, float]
     """Mean RMSE [mm] by behaviour and subject."""
 
@@ -48,7 +48,7 @@ class PublicBound:
         return self.name == "causal bound"
 
     def mean_mm(self, behaviour: str) -> float:
-        """Return the mean RMSE [mm] on a behaviour; all its strata have as many lifts."""
+        """Return the mean RMSE [mm] on a behaviour; all its strata have equally many lifts."""
         return float(np.mean([mm for (each, _), mm in self.strata.items() if each == behaviour]))
 
 

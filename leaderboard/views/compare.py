@@ -29,10 +29,10 @@ from .lifts import (
 )
 
 MOST: Final = 4
-"""Policies that are compared at a time."""
+"""Maximum number of policies that are compared at a time."""
 
 ALL: Final = 40
-"""Policies, from the best, that a page can hold which shows some of them later."""
+"""Number of policies, from the best, in a page that shows only some of them at a time."""
 
 
 EVERY: Final = 5
@@ -60,11 +60,11 @@ class Pair:
 
 @dataclass(frozen=True, kw_only=True)
 class CompareView:
-    """What the compare page shows."""
+    """The content of the compare page."""
 
     season: SeasonInfo
     choice: tuple[RankedRow, ...]
-    """All that can be chosen: the ranking."""
+    """All policies that can be chosen: the ranking."""
     parts: tuple[Part, ...]
     columns: tuple[Column, ...]
     human_human_mm: tuple[float | None, ...]
@@ -74,14 +74,14 @@ class CompareView:
     lifts: tuple[PublicLift, ...]
     """The public lifts, of the first column; all have the same."""
     lift_rmse_mm: tuple[tuple[float, ...], ...]
-    """RMSE [mm] of each column on each lift; nothing where its single lifts are not there."""
+    """RMSE [mm] of each column on each lift; empty where its single lifts are missing."""
     curves: tuple[Mapping[str, Sequence[int]], ...]
-    """Of each column the lifts that another one has too, by what they are called: the error that is
-    shown, every :data:`EVERY` frames [0.1 mm]."""
+    """For each column, the lifts that another column also has, by their names: the shown error,
+    every :data:`EVERY` frames [0.1 mm]."""
 
     @property
     def data(self) -> dict[str, Any]:
-        """What the page's script draws: each policy's lifts, and errors over time."""
+        """The data that the page's script draws: each policy's lifts, and errors over time."""
         return {
             "lifts": [[lift.behaviour, lift.subject, lift.seed] for lift in self.lifts],
             "policies": [
@@ -107,11 +107,11 @@ def compare_view(
     Parameters
     ----------
     board, season
-        Which table.
+        The table.
     digests
-        The submissions; what is not in the ranking is left out, and what is beyond
-        :data:`MOST`. If none are asked for, the first and the second of the table. None compares
-        the best :data:`ALL`: for a page that shows some of them later.
+        The submissions; those that are not in the ranking are left out, and those beyond
+        :data:`MOST`. An empty sequence compares the first two of the table. None compares the best
+        :data:`ALL`, for a page that shows only some of them at a time.
     """
     info = find_season(ordered_seasons(board), season)
     if info is None:
@@ -157,7 +157,7 @@ def compare_view(
 
 
 def _shared(found: Sequence[Mapping[str, list[int]]]) -> tuple[Mapping[str, Sequence[int]], ...]:
-    """Return the curves of the lifts that more than one policy has."""
+    """Return the curves of the lifts of more than one policy."""
     count = Counter(name for curves in found for name in curves)
     return tuple(
         {name: curve for name, curve in curves.items() if count[name] > 1} for curves in found
@@ -165,7 +165,7 @@ def _shared(found: Sequence[Mapping[str, list[int]]]) -> tuple[Mapping[str, Sequ
 
 
 def _errors(bundle: Path) -> dict[str, list[int]]:
-    """Return the errors over time of a bundle's replays, as far as they have been made."""
+    """Return the errors over time of those replays of a bundle that have been made."""
     return {
         f"{each['behaviour']} {each['subject']} {each['seed']}": list(
             itertools.accumulate(map(operator.sub, *_compared(each)))
@@ -192,7 +192,7 @@ def _parts(strata: Sequence[StratumScore]) -> tuple[Part, ...]:
 
 @functools.lru_cache(maxsize=64)
 def _differences(bundles: tuple[Path, ...]) -> tuple[PairedDifference | None, ...]:
-    """Return what is between each two of some bundles, in the order of their combinations."""
+    """Return the difference between each two of some bundles, in the order of combinations."""
     runs = [public_lifts(bundle) for bundle in bundles]
     found: list[PairedDifference | None] = []
     for i, a in enumerate(runs):

@@ -12,11 +12,11 @@ from ..records.season import SeasonInfo
 from .board import find_season, ordered_seasons
 
 FORMULA: Final = ("=", "+", "-", "@", "\t", "\r")
-"""Beginnings of a text that spreadsheets take for a formula."""
+"""First characters of a text that spreadsheets take for a formula."""
 
 
 def standings_csv(board: Board, season: str | None = None) -> str:
-    """Return the rows that are in a ranking as CSV, in the columns of :meth:`.Board.ranking`.
+    """Return the ranked rows as CSV, with the columns of :meth:`.Board.ranking`.
 
     A text that a spreadsheet would take for a formula has an apostrophe before it.
 
@@ -50,7 +50,7 @@ def _harmless(value: object) -> object:
 
 
 MOST: Final = 100
-"""Rows in a feed."""
+"""Maximum number of rows in a feed."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,10 +58,10 @@ class NewRow:
     """A row of the board."""
 
     id: uuid.UUID
-    """The same wherever the board is shown."""
+    """Identifier; it is the same wherever the board is shown."""
     standing: RankedRow
     updated: datetime
-    """When something was done to it last."""
+    """Time of the last event, or of the entry."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,5 +97,5 @@ def news_of(board: Board, season: str) -> News | None:
 
 
 def _identifier(info: SeasonInfo, submission: str) -> uuid.UUID:
-    """Return an identifier that follows from what is published of a season and a submission."""
+    """Return an identifier that follows from published facts of a season and a submission."""
     return uuid.uuid5(uuid.NAMESPACE_OID, f"{info.name} {info.commitment} {submission}")

@@ -1,4 +1,4 @@
-"""The page of a job: how far a submission is, or how it ended."""
+"""The page of a job: the progress of a submission, or its outcome."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -10,7 +10,7 @@ from ..records.job import Job
 from ..records.season import BoardEntry
 
 WAITING: Final = 100
-"""Jobs that the queue's list shows at most."""
+"""Maximum number of jobs in the queue's list."""
 
 STAGES: Final[tuple[Stage, ...]] = ("check", "public run", "audit", "verification", "hidden run")
 """The stages that every evaluation goes through, in their order."""
@@ -18,17 +18,17 @@ STAGES: Final[tuple[Stage, ...]] = ("check", "public run", "audit", "verificatio
 
 @dataclass(frozen=True, kw_only=True)
 class JobView:
-    """What the page of a job shows."""
+    """The content of the page of a job."""
 
     job: Job
     entry: BoardEntry | None
-    """What it has come to."""
+    """Its outcome."""
     ahead: int
-    """Jobs that are taken before it."""
+    """Number of jobs that are taken before it."""
 
     @property
     def share(self) -> float:
-        """How much is done, 0 to 1."""
+        """The finished part, 0 to 1."""
         if self.job.state == "done":
             return 1.0
         return min(self.job.done / self.job.total, 1.0) if self.job.total else 0.0
@@ -48,6 +48,6 @@ def job_view(board: Board, queue: Queue, job_id: str) -> JobView | None:
 
 
 def open_jobs(queue: Queue) -> tuple[Job, ...]:
-    """Return what is in the queue now, what was submitted first at the top."""
+    """Return the present queue, oldest submission first."""
     jobs = [job for job in queue.jobs(limit=WAITING) if not job.ended]
     return tuple(sorted(jobs, key=lambda job: job.submitted_at))

@@ -40,7 +40,7 @@ class PublicLift:
     seed: int
     rmse_mm: float
     failure: str | None
-    """Why it failed, in the policy's own words where it is the policy's."""
+    """Reason of a failure, in the policy's own words if the policy failed."""
 
 
 @functools.lru_cache(maxsize=8192)
@@ -52,7 +52,7 @@ def stratum_scores(bundle: Path) -> tuple[StratumScore, ...]:
 
 @functools.lru_cache(maxsize=64)
 def public_lifts(bundle: Path) -> tuple[PublicLift, ...]:
-    """Return the lifts of a bundle, in the suite's order; none if only its results are there."""
+    """Return the lifts of a bundle, in the suite's order; none if it has only results."""
     if not (bundle / EPISODES).is_file():
         return ()
     with (bundle / EPISODES).open(newline="", encoding="utf-8") as file:
@@ -95,7 +95,7 @@ class Part:
     """None: all of them."""
 
     def has(self, lift: PublicLift | StratumScore) -> bool:
-        """Whether a lift, or a stratum, belongs to it."""
+        """Return whether a lift, or a stratum, belongs to it."""
         return self.behaviour in (None, lift.behaviour) and self.subject in (None, lift.subject)
 
     @property
@@ -124,7 +124,7 @@ def parts_of(strata: Sequence[StratumScore]) -> Iterator[Part]:
 def part_estimate(bundle: Path, part: Part) -> Estimate:
     """Return the mean RMSE [mm] of a bundle over a part, with its 95 % interval.
 
-    It has no width if only the bundle's results are there.
+    The interval has no width if the bundle has only results.
     """
     lifts = [lift for lift in public_lifts(bundle) if part.has(lift)]
     if not lifts:
@@ -134,12 +134,12 @@ def part_estimate(bundle: Path, part: Part) -> Estimate:
 
 
 def known(mean: float) -> Estimate:
-    """Return a mean whose interval is not known."""
+    """Return a mean without a known interval."""
     return Estimate(mean=mean, ci95=(mean, mean))
 
 
 def mean_rmse(strata: Sequence[StratumScore], part: Part) -> float | None:
-    """Return a policy's mean RMSE [mm] over a part; None if nothing is known of it."""
+    """Return a policy's mean RMSE [mm] over a part; None if it is not known."""
     some = [stratum for stratum in strata if part.has(stratum)]
     lifts = sum(stratum.episodes for stratum in some)
     return sum(stratum.episodes * stratum.rmse_mm for stratum in some) / lifts if some else None

@@ -14,12 +14,12 @@ from .bounds import bounds_of
 
 @dataclass(frozen=True, kw_only=True)
 class MethodView:
-    """What the method page shows."""
+    """The content of the method page."""
 
     season: SeasonInfo
     seasons: tuple[SeasonInfo, ...]
     lifts: int | None
-    """Public lifts of an evaluation; as many are hidden. None as long as there is no row."""
+    """Number of public lifts of an evaluation, and of hidden ones. None until there is a row."""
     human_human: HumanHumanScores | None
     causal: bool
     """Whether the causal bound is known on the public lifts."""
@@ -28,9 +28,9 @@ class MethodView:
     failed_frame_mm: float
     limits: Limits
     isolation: dict[str, str]
-    """The ways to keep a policy apart, strongest first."""
+    """The isolation levels, strongest first."""
     verifiable: frozenset[str]
-    """Those that a verified row needs."""
+    """The levels at which a row can be verified."""
 
 
 def method_view(board: Board) -> MethodView:

@@ -1,4 +1,4 @@
-"""The page of a policy: what it is, what it did, part by part, and its history."""
+"""The page of a policy: description, scores part by part, and history."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -24,12 +24,12 @@ from .lifts import (
 )
 
 BLEND: Final = "blend"
-"""The paper's method, which every policy is set against."""
+"""The paper's method, with which every policy is compared."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PartScore:
-    """What a policy did on a part of the public lifts, and what others did there."""
+    """The scores of a policy on a part of the public lifts, beside those of others."""
 
     part: Part
     episodes: int
@@ -51,20 +51,20 @@ class Failure:
 
 @dataclass(frozen=True, kw_only=True)
 class PolicyView:
-    """What the page of a policy shows."""
+    """The content of the page of a policy."""
 
     season: SeasonInfo
     standing: RankedRow
     shared: int
-    """How many policies are in its rank group."""
+    """Number of policies in its rank group."""
     ranked: int
-    """How many policies are ranked with it."""
+    """Number of policies that are ranked with it."""
     parts: tuple[PartScore, ...]
     axis: Axis
     failures: tuple[Failure, ...]
-    """Why public lifts failed, the most frequent reason first."""
+    """Reasons of failed public lifts, the most frequent first."""
     worst: tuple[PublicLift, ...]
-    """Of each behaviour the public lift with the largest error: its replay is shown."""
+    """For each behaviour, the public lift with the largest error, whose replay is shown."""
     better: RankedRow | None
     """The policy before it in the table."""
     worse: RankedRow | None
@@ -77,7 +77,7 @@ class PolicyView:
 
     @property
     def never_lifted(self) -> bool:
-        """Whether all public lifts failed: then there is nothing to be seen of it."""
+        """Whether all public lifts failed: then there is nothing to show."""
         public = self.standing.row.public
         return public.failed == public.episodes
 
@@ -92,19 +92,19 @@ class PolicyView:
         return tuple(each for each in self.parts if each.part.of_subject)
 
     def stratum(self, behaviour: str | None, subject: str | None) -> PartScore | None:
-        """Return what it did on a behaviour with a subject, if the suite has that."""
+        """Return its scores on a behaviour with a subject, if the suite has that stratum."""
         part = Part(behaviour=behaviour, subject=subject)
         return next((each for each in self.parts if each.part == part), None)
 
     @property
     def has_blend(self) -> bool:
-        """Whether it is set against ``blend``: that is on the board, and another policy."""
+        """Whether it is compared with ``blend``, which is on the board and another policy."""
         return any(each.blend_mm is not None for each in self.parts)
 
 
 @dataclass(frozen=True, kw_only=True)
 class RefusalView:
-    """What the page of a submission without a row shows."""
+    """The content of the page of a submission without a row."""
 
     season: SeasonInfo
     entry: BoardEntry
@@ -169,7 +169,7 @@ def _failures(bundle: Path | None) -> tuple[Failure, ...]:
 
 
 def _worst(bundle: Path | None) -> tuple[PublicLift, ...]:
-    """Return the worst lift of each behaviour; of equal ones the last, as :func:`.choose` does."""
+    """Return the worst lift of each behaviour; of equal ones the last, as in :func:`.choose`."""
     worst: dict[str, PublicLift] = {}
     for lift in () if bundle is None else public_lifts(bundle):
         known = worst.get(lift.behaviour)

@@ -19,18 +19,18 @@ from .lifts import Part, StratumScore, known, part_estimate, stratum_scores
 from .suites import season_suite
 
 CURVES: Final = 5
-"""Lifts whose intended heights are drawn."""
+"""Number of lifts whose intended heights are drawn."""
 
 HEAT: Final = 60
-"""Policies on the map of all scenarios, from the best."""
+"""Number of policies, from the best, on the map of all scenarios."""
 
 BEST: Final = 20
-"""Policies that have their interval drawn, from the best; the others have their mean."""
+"""Number of policies, from the best, with an interval; the others have only a mean."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Curve:
-    """What a person means to do in one lift."""
+    """The heights that a person intends in one lift."""
 
     seed: int
     heights: tuple[float, ...]
@@ -48,12 +48,12 @@ class ScenarioRow:
 
 @dataclass(frozen=True, kw_only=True)
 class ScenarioView:
-    """What the page of a scenario shows."""
+    """The content of the page of a scenario."""
 
     season: SeasonInfo
     behaviour: str
     description: str
-    """What the behaviour is, in a line."""
+    """Description of the behaviour, in a line."""
     subject: Subject
     curves: tuple[Curve, ...]
     rows: tuple[ScenarioRow, ...]
@@ -70,7 +70,7 @@ class StratumLine:
     subject: str
     human_human_mm: float | None
     best_mm: float | None
-    """Mean RMSE [mm] of the policy that is best there."""
+    """Mean RMSE [mm] of the policy that is best on it."""
     best: RankedRow | None
 
 
@@ -85,15 +85,15 @@ class HeatRow:
 
 @dataclass(frozen=True, kw_only=True)
 class ScenariosView:
-    """What the list of the scenarios shows."""
+    """The content of the list of scenarios."""
 
     season: SeasonInfo
     behaviours: tuple[str, ...]
     subjects: tuple[str, ...]
     descriptions: dict[str, str]
-    """What each behaviour is, in a line."""
+    """Description of each behaviour, in a line."""
     strata: dict[tuple[str, str], StratumLine]
-    """By behaviour and subject, those that the suite has."""
+    """The strata of the suite, by behaviour and subject."""
     rows: tuple[HeatRow, ...]
     """The policies of the ranking, best first."""
 
@@ -106,7 +106,7 @@ class ScenariosView:
 def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | None:
     """Return the list of a season's scenarios.
 
-    None if there is no such season, or its suite is not what this colift plays.
+    None if there is no such season, or this colift does not play its suite.
     """
     info = find_season(ordered_seasons(board), season)
     suite = None if info is None else season_suite(info)

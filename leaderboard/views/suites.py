@@ -1,4 +1,4 @@
-"""The suite of a season, as far as this colift still plays it."""
+"""The suite of a season, if this colift still plays it."""
 
 from ...agents.errors import InputError
 from ...benchmark.suites.suite import Suite, make_suite

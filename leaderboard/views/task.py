@@ -14,7 +14,7 @@ from ..board.board import SUITE as PLAYED
 
 @dataclass(frozen=True, kw_only=True)
 class TaskView:
-    """What pages say of a task, and of its suite."""
+    """The texts of pages about a task and its suite."""
 
     level: bool
     """Whether it is the task ``level``, to which some paragraphs belong."""
@@ -23,12 +23,12 @@ class TaskView:
     run: str
     """Option of ``colift run`` that names the suite; empty if that is the default."""
     check: str
-    """The same of ``colift check``."""
+    """The same for ``colift check``."""
 
 
 @functools.cache
 def task_view(suite: str) -> TaskView:
-    """Return the task of a suite; ``level`` with the options, if no suite of that name is there."""
+    """Return the task of a suite; ``level`` with the options if no suite has that name."""
     if suite not in entries(SUITES):
         named = f" --suite {suite}"
         return TaskView(level=True, words=_words(LEVEL), run=named, check=named)
@@ -43,7 +43,7 @@ def task_view(suite: str) -> TaskView:
 
 
 def _words(task: object) -> str:
-    """Return the first paragraph of a docstring, as it stands behind a colon."""
+    """Return the first paragraph of a docstring in the form that follows a colon."""
     paragraph = (inspect.getdoc(type(task)) or "").partition("\n\n")[0]
     text = " ".join(paragraph.split())
     return text and f"{text[0].lower()}{text[1:].removesuffix('.')}."

@@ -28,4 +28,4 @@ def test_a_season_has_one_life(tmp_path):
     board = str(tmp_path / "board")
     colift("season", "begin", "2027", "--board", board, "--no-own")
     again = colift("season", "begin", "2027", "--board", board, "--no-own")
-    assert "has had a season 2027" in str(again.exception)
+    assert "already has a season 2027" in str(again.exception)

@@ -1,4 +1,4 @@
-"""The entry point of Alembic: runs the migrations on the connection that it was given."""
+"""The entry point of Alembic, which runs the migrations on the given connection."""
 
 from alembic import context
 

@@ -276,6 +276,6 @@ def test_a_season_from_elsewhere_must_have_the_secret_that_it_is_committed_to(bo
     import dataclasses
 
     wrong = dataclasses.replace(told.info, commitment="0" * 64)
-    with pytest.raises(InputError, match="practice: its secret is not the one"):
+    with pytest.raises(InputError, match="practice: its secret does not match"):
         board.import_season(dataclasses.replace(told, info=wrong))
     assert len(board.seasons()) == 1
