@@ -29,7 +29,7 @@ from ..storage.store import FORMAT as LAYOUT
 from ..storage.store import Store
 
 MARK: Final = "backup.json"
-"""The first member of the archive: what it is."""
+"""The first member of the archive: its description."""
 
 FORMAT: Final = 1
 """Version of the archive."""
@@ -37,29 +37,29 @@ FORMAT: Final = 1
 
 @dataclass(frozen=True, kw_only=True)
 class Backup:
-    """What a backup holds."""
+    """The contents of a backup."""
 
     seasons: int
     entries: int
     jobs: int
     missing: tuple[str, ...]
-    """What it should hold, and the board did not."""
+    """Contents that the board lacked."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class BackupContents:
-    """What the tables of a board refer to."""
+    """The files to which the tables of a board refer."""
 
     seasons: dict[str, str]
     """The commitments, by name."""
     entries: tuple[tuple[str, str, bool], ...]
-    """Season, digest, and whether there is a row."""
+    """Season, digest, and whether the entry has a row."""
     submissions: frozenset[str]
     jobs: tuple[str, ...]
 
     @classmethod
     def of(cls, connection: sa.Connection) -> "BackupContents":
-        """Return what the tables refer to."""
+        """Return the references in the tables."""
         found = read_entries(connection)
         own = sa.select(jobs.c.id, jobs.c.submission, jobs.c.submitter)
         queued = connection.execute(own).all()
@@ -80,7 +80,7 @@ class BackupContents:
         )
 
     def places(self) -> Iterator[tuple[str, str]]:
-        """Yield files and folders that the board may have, and what each must be there for."""
+        """Yield the paths that a board may have, each with its name in words if it must exist."""
         for season in self.seasons:
             yield f"private/{season}/secret", f"the secret of season {season}"
             yield f"private/{season}/human_human.json", ""
@@ -168,5 +168,5 @@ def _files(place: Path) -> Iterator[Path]:
 def _add(archive: tarfile.TarFile, name: str, source: IO[bytes]) -> None:
     entry = tarfile.TarInfo(name)
     entry.size, entry.mode = source.seek(0, os.SEEK_END), PRIVATE_FILE
-    source.seek(0)  # What a log grows by meanwhile is not part of it.
+    source.seek(0)  # Lines that are added to a log meanwhile are not part of it.
     archive.addfile(entry, source)

@@ -35,9 +35,9 @@ def restore(file: Path, folder: Path, url: str | None = None) -> Backup:
     Parameters
     ----------
     file
-        What :func:`.back_up` has written.
+        A backup by :func:`.back_up`.
     folder
-        Where to: a folder that is not there, or empty.
+        Destination: a folder that does not exist, or is empty.
     url
         An empty PostgreSQL database for the tables, instead of a file in the folder; by default
         that of the environment's ``COLIFT_DATABASE_URL``, if there is one.
@@ -45,8 +45,8 @@ def restore(file: Path, folder: Path, url: str | None = None) -> Backup:
     Raises
     ------
     InputError
-        If the file is no backup, is damaged or of another colift, or something is in the folder or
-        the database.
+        If the file is not a backup, is damaged or of another colift, or the folder or the database
+        is not empty.
     """
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise InputError(f"{folder} holds something; name a new folder for the board")
@@ -92,7 +92,7 @@ def _unpack(file: Path, folder: Path) -> None:
             while entry := archive.next():
                 _extract(archive, entry, folder)
             while unpacked.read(2**20):
-                pass  # The checksum of everything stands at the end.
+                pass  # The checksum of the archive is at its end.
     except (
         tarfile.TarError,
         gzip.BadGzipFile,
@@ -125,10 +125,10 @@ def _extract(archive: tarfile.TarFile, entry: tarfile.TarInfo, folder: Path) -> 
 
 
 def _check(store: Store, wanted: BackupContents) -> list[str]:
-    """Return what is missing or damaged; without its secrets it is no board."""
+    """Return the missing or damaged contents; refuse a board with a missing or wrong secret."""
     for season, promised in wanted.seasons.items():
         if commitment(store.secrets(season).secret()) != promised:
-            raise InputError(f"the secret of season {season} is not the one that was committed to")
+            raise InputError(f"the secret of season {season} does not match its commitment")
     missing = []
     for place, needed in wanted.places():
         if needed and not (store.folder / place).exists():

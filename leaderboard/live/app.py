@@ -66,7 +66,7 @@ def create_play(
 
 
 def mount_play(board: FastAPI, play: FastAPI, path: str) -> None:
-    """Serve live lifts under a path of a board, from its start to its end."""
+    """Serve live lifts under a path of a board, while the board runs."""
     board.mount(path, play)
     outer = board.router.lifespan_context
 

@@ -1,4 +1,4 @@
-"""The pages of one session: people in their seats, spectators, and what each of them gets."""
+"""The pages of one session: people in their seats, spectators, and the messages to each."""
 
 import json
 from typing import Any, Final
@@ -13,17 +13,17 @@ SEATS: Final[dict[Role, int]] = {"host": 0, "person": 1}
 """Seats of the people who lift."""
 
 WATCHING: Final = range(2, 22)
-"""Seats of spectators, as the room sees them: it answers their pings there."""
+"""Seats of spectators in the room, which answers their pings there."""
 
 FROM_PEOPLE: Final = {"ping", "choose", "grip", "release", "hidden", "report", "swap"}
 FROM_SPECTATORS: Final = {"ping"}
-"""Types of messages that are handed on to the room."""
+"""Types of messages that are passed on to the room."""
 
 WATCHED: Final = {"start", "end", "void", "state"}
-"""Types of messages to the host that spectators get, too."""
+"""Types of messages to the host that spectators also get."""
 
 KEPT: Final = {"state", "start"}
-"""Types of which a spectator who comes later gets the last."""
+"""Types of messages of which a spectator who comes later gets the last one."""
 
 
 class Group:
@@ -45,16 +45,16 @@ class Group:
         self.housed = False
         """Whether it has a room, or one is being started for it."""
         self.active = now
-        """When a person last did something [s]."""
+        """Time of the last action of a person [s]."""
         self.deaths: list[float] = []
-        """When rooms of this session died [s]."""
+        """Times at which rooms of this session died [s]."""
         self._shown: dict[str, str] = {}
         self._chosen: bytes | None = None
         self._waiting: tuple[int, str | None] | None = None
 
     @property
     def people(self) -> list[int]:
-        """Return the seats that people have taken."""
+        """Return the seats taken by people."""
         return [seat for seat in SEATS.values() if seat in self.pages]
 
     def free_seat(self, role: Role) -> int | None:
@@ -64,7 +64,7 @@ class Group:
         return next((seat for seat in WATCHING if seat not in self.pages), None)
 
     def enter(self, seat: int, page: Page) -> None:
-        """Give a page a seat; a page that has it is ended with a sentence."""
+        """Give a page a seat; end the page that has it with a message."""
         older = self.pages.pop(seat, None)
         if older is not None:
             older.end(TAKEN_OVER, "taken_over", "This place was opened in another window.")
@@ -75,13 +75,13 @@ class Group:
             self._begin(seat)
 
     def leave(self, seat: int, page: Page) -> None:
-        """Take the seat of a page that has gone, unless another page has it by now."""
+        """Free the seat of a page that has gone, unless another page has taken it."""
         if self.pages.get(seat) is page:
             del self.pages[seat]
             self._tell_room(seat, LEAVE)
 
     def connect(self, link: RoomLink) -> None:
-        """Join a room with everybody who is here."""
+        """Join a room with all present pages."""
         self.link = link
         for seat in self.pages:
             self._begin(seat)
@@ -94,7 +94,7 @@ class Group:
         self._shown.clear()
 
     def wait(self, place: int, reason: str | None) -> None:
-        """Say to the pages why they wait, and where in the queue, if that is news to them."""
+        """Send the pages the reason for waiting and their place in the queue, if these changed."""
         if self._waiting != (place, reason):
             self._waiting = (place, reason)
             self.say("queued", place=place, reason=reason)
@@ -105,7 +105,7 @@ class Group:
             page.say(kind, **content)
 
     def from_page(self, seat: int, message: Message, now: float) -> None:
-        """Hand a page's message on to the room, if a page may send it."""
+        """Pass a page's message on to the room, if a page may send it."""
         if isinstance(message, bytes):
             if seat in SEATS.values():
                 self._to_room(packet(seat, message))
@@ -125,7 +125,7 @@ class Group:
         self._to_room(content)
 
     def from_room(self, seat: int, kind: bytes, content: bytes) -> None:
-        """Hand a packet of the room on to the pages that it is for."""
+        """Pass a packet of the room on to the pages that it is for."""
         message: Message = content if kind == BINARY else content.decode()
         if seat != ALL and seat in self.pages:
             self.pages[seat].send(message)
@@ -168,7 +168,7 @@ class Group:
         self.pages[seat].say("fault", message=message)
 
     def _watched(self, message: str) -> str | None:
-        """Return a control message to the host as spectators get it, if they do."""
+        """Return the form of a control message to the host that spectators get, if any."""
         kind = _type_of(message)
         if kind not in WATCHED:
             return None

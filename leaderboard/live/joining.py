@@ -13,7 +13,7 @@ from .play import Play, play_of
 from .sessions import LiveSession, Role
 
 SEATS: Final[dict[str, Role]] = {"0": "host", "1": "person", "spectator": "spectator"}
-"""Roles by the seats that pages ask for."""
+"""Roles by the seats that pages request."""
 
 NOT_HERE: Final = "There is no such session, or this link is not for it."
 
@@ -48,7 +48,7 @@ async def socket(websocket: WebSocket) -> None:
 
 
 async def _admitted(play: Play, text: str | None) -> tuple[LiveSession | None, Role | None]:
-    """Return the session that a first message names, and the role that its secret allows."""
+    """Return the session in a first message, and the role that its secret allows."""
     try:
         asked = json.loads(text or "")
         name, secret, seat = (str(asked[each]) for each in ("session", "secret", "seat"))
@@ -64,7 +64,7 @@ async def _admitted(play: Play, text: str | None) -> tuple[LiveSession | None, R
 
 
 async def _seated(play: Play, page: Page, session: LiveSession, role: Role) -> None:
-    """Serve a page in its seat, as long as it is there."""
+    """Serve a page in its seat until it has gone."""
     loop = asyncio.get_running_loop()
     entered = play.keeper.enter(session, role, page)
     if entered is None:
@@ -78,6 +78,6 @@ async def _seated(play: Play, page: Page, session: LiveSession, role: Role) -> N
 
 
 async def _refuse(page: Page, message: str) -> None:
-    """Say why a page gets no seat, and close its socket."""
+    """Send the reason why a page gets no seat, and close its socket."""
     page.end(REFUSED, "refused", message)
     await page.serve(lambda message: None)

@@ -1,4 +1,4 @@
-"""The keeper of the rooms: who gets one, who waits, and what happens when one dies."""
+"""The keeper of the rooms: assignment, waiting sessions, and replacement of rooms that die."""
 
 import asyncio
 import logging
@@ -20,37 +20,37 @@ from .sessions import LiveSession, Role
 log: Final = logging.getLogger("colift.live")
 
 RETRY_S: Final = 1.0
-"""How often those who wait are looked at [s]."""
+"""Time between two checks of the waiting sessions [s]."""
 
 AWAY_S: Final = 30.0
-"""How long a room waits for people who have left [s]."""
+"""Time for which a room waits for people who have left [s]."""
 
 IDLE_S: Final = 300.0
-"""How long people may do nothing in a room while others wait for one [s]."""
+"""Time for which people may be idle in a room while others wait for one [s]."""
 
 DEATHS, DEATHS_S = 3, 60.0
-"""So many rooms of a session that die within this time [s] are a fault that stays."""
+"""Number of rooms of a session, and time within which their deaths are a lasting fault [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PlayConfig:
-    """What people can lift with, and how many can at once."""
+    """The partners of people, and the number of rooms."""
 
     folder: Path
-    """The sessions, a folder each."""
+    """Folder of the sessions, each of which is a folder."""
     policies: Mapping[str, AgentSpec]
-    """Partners by the names that pages use, in order; the first is chosen first."""
+    """Partners by the names that pages use, in order; the first is the default."""
     descriptions: Mapping[str, str] = field(default_factory=dict)
     """A line about each of them."""
     rooms: int = 8
-    """Most rooms at the same time."""
+    """Largest number of rooms at the same time."""
     strict: bool = False
-    """Whether the first room, too, is refused while the machine is busy; then only its own lifts
-    would suffer, and they say so."""
+    """Whether even the first room is refused while the machine is busy. Otherwise only its own
+    lifts suffer, and they are marked."""
     away_s: float = AWAY_S
-    """How long a room waits for people who have left [s]."""
+    """Time for which a room waits for people who have left [s]."""
     hosts: frozenset[str] = frozenset()
-    """Names by which browsers may ask for the page; empty: any."""
+    """Host names by which browsers may request the page; empty: any."""
 
 
 class Keeper:
@@ -61,7 +61,7 @@ class Keeper:
     config
         The partners, and the number of rooms.
     obstacle
-        Returns why this machine has no time for one more room, as a sentence; None if it has.
+        Returns the reason, as a sentence, why this machine has no time for another room, or None.
     """
 
     def __init__(
@@ -78,16 +78,16 @@ class Keeper:
 
     @property
     def rooms(self) -> int:
-        """How many rooms there are."""
+        """The number of rooms."""
         return sum(group.housed for group in self._groups.values())
 
     @property
     def waiting(self) -> int:
-        """How many sessions wait for one."""
+        """The number of sessions that wait for a room."""
         return len(self._queue)
 
     def start(self) -> None:
-        """Begin to give rooms to those who come."""
+        """Begin to assign rooms."""
         self._spawn(self._admit())
 
     async def close(self) -> None:
@@ -126,7 +126,7 @@ class Keeper:
         return group, seat
 
     def leave(self, group: Group, seat: int, page: Page) -> None:
-        """Take the seat of a page that has gone; a room without people ends after a while."""
+        """Free the seat of a page that has gone; a room without people ends after a while."""
         group.leave(seat, page)
         if page.dropped:
             self._note(group, "frames dropped", seat=seat, frames=page.dropped)
@@ -147,7 +147,7 @@ class Keeper:
             self._end(group, "Nobody lifts in this session any more.")
 
     async def _admit(self) -> None:
-        """Give rooms to those who wait, one after the other."""
+        """Assign rooms to the waiting sessions, one after the other."""
         while True:
             await self._wanted.wait()
             self._wanted.clear()
@@ -200,7 +200,7 @@ class Keeper:
             self._spawn(link.close())
 
     def _died(self, group: Group, link: RoomLink) -> None:
-        """Replace a room that has ended by itself; those who were in it stay."""
+        """Replace a room that has ended by itself; the people in it stay."""
         self._spawn(link.close())
         if group.link is not link or self._closing:
             return
@@ -216,7 +216,7 @@ class Keeper:
         self._spawn(self._open(group))
 
     def _end(self, group: Group, message: str) -> None:
-        """End a session's room, if it has one, and say to its pages why."""
+        """End a session's room, if it has one, and send its pages the reason."""
         name = group.session.name
         if self._groups.get(name) is group:
             del self._groups[name]
@@ -244,7 +244,7 @@ class Keeper:
             try:
                 await work
             except Exception:
-                log.exception("something in the keeper of rooms has failed")
+                log.exception("an error in the keeper of rooms")
 
         task = asyncio.create_task(run())
         self._tasks.add(task)

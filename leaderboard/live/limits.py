@@ -1,4 +1,4 @@
-"""Limits of sockets: who may open one, how many, and how much may be sent."""
+"""Limits of sockets: origin, number, and rate of messages."""
 
 from collections import Counter
 from collections.abc import Collection, Iterator
@@ -15,22 +15,22 @@ from starlette.websockets import WebSocketClose
 from ..service.security import Rate
 
 MESSAGES: Final = Rate(per_second=400.0, burst=800)
-"""Messages on one socket."""
+"""Rate of messages on one socket."""
 
 SOCKETS: Final = 16
-"""Open sockets of one address."""
+"""Number of open sockets of one address."""
 
 SESSIONS: Final = Rate(per_second=0.2, burst=30)
-"""New sessions of one address: each is a folder on the disk."""
+"""Rate of new sessions of one address: each is a folder on the disk."""
 
 JOIN_S: Final = 10.0
 """Time from the opening of a socket to its first message [s]."""
 
 
 def same_origin(connection: HTTPConnection) -> bool:
-    """Return whether a request comes from a page of this server: browsers let any page ask.
+    """Return whether a request comes from a page of this server: browsers allow any page to ask.
 
-    A request without an origin is none of a page's.
+    A request without an origin does not come from a page.
     """
     origin = urlsplit(connection.headers.get("origin", ""))
     host = connection.headers.get("host", "")
@@ -38,16 +38,16 @@ def same_origin(connection: HTTPConnection) -> bool:
 
 
 class KnownHosts:
-    """ASGI middleware: answers requests for names of this machine, and for no others.
+    """ASGI middleware that answers only requests for names of this machine.
 
-    A page elsewhere can let its own name stand for this machine; then its origin is our host.
+    Another site can make its own name point to this machine; then its origin equals our host.
 
     Parameters
     ----------
     app
         The application.
     names
-        The names, such as ``localhost``; without any, all are known.
+        The names, such as ``localhost``; empty allows all.
     """
 
     def __init__(self, app: ASGIApp, names: Collection[str]) -> None:
@@ -70,12 +70,12 @@ class KnownHosts:
 
 @dataclass
 class Places:
-    """Places that each client may take so many of.
+    """Places, of which each client may take a limited number.
 
     Parameters
     ----------
     most
-        Places of one client.
+        Number of places per client.
     """
 
     most: int

@@ -1,4 +1,4 @@
-"""The time of this machine for one more live lift, whose table must not stand still."""
+"""The spare time of this machine for another live lift, whose table must not stand still."""
 
 import asyncio
 import os
@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final
 
 SPAN_S: Final = 0.3
-"""How long it is looked [s]."""
+"""Duration of a measurement [s]."""
 
 TICK_S: Final = 0.010
 """Time of a frame of a lift [s]."""
@@ -16,11 +16,11 @@ LATE_S: Final = 0.005
 """A machine is busy if more than a tenth of the ticks are later than this [s]."""
 
 FREE_CORES: Final = 0.25
-"""Cores that must be idle: a room takes a tenth of that, and its browser may be on this machine."""
+"""Number of cores that must be idle: a room takes a tenth of that, and its browser may run here."""
 
 
 async def busy() -> str | None:
-    """Return why this machine has no time for one more room, as a sentence; None if it has."""
+    """Return a sentence on why this machine has no time for another room, or None if it has."""
     loop = asyncio.get_running_loop()
     began, idle = time.monotonic(), idle_seconds()
     late, due = [], loop.time()
@@ -36,7 +36,7 @@ async def busy() -> str | None:
 
 
 def busy_reason(late: list[float], free: float | None) -> str | None:
-    """Return why a machine is busy, from the lateness of ticks [s] and its idle cores."""
+    """Return a sentence on why a machine is busy, from late ticks [s] and idle cores, or None."""
     usually = sorted(late)[len(late) * 9 // 10]
     if usually > LATE_S:
         return (
@@ -51,7 +51,7 @@ def busy_reason(late: list[float], free: float | None) -> str | None:
 def idle_seconds() -> float | None:
     """Return the time that all cores together have been idle [s]; None if it is not known.
 
-    Processes of lower priority (nice) count as idle: they make way.
+    Processes of lower priority (nice) count as idle, since they yield.
     """
     try:
         fields = Path("/proc/stat").read_text().partition("\n")[0].split()

@@ -1,4 +1,4 @@
-"""The web process's end of a page's socket: slow pages lose their oldest frames, no sentence."""
+"""The web process's end of a page's socket: slow pages lose old frames, but no control message."""
 
 import asyncio
 import contextlib
@@ -13,22 +13,22 @@ from ..service.security import RateLimit
 from .limits import MESSAGES
 
 NORMAL: Final = 1000
-"""Close code: nothing more is said."""
+"""Close code: the last message was sent."""
 
 TAKEN_OVER: Final = 4001
 """Close code: another window has this seat."""
 
 REFUSED: Final = 4003
-"""Close code: the page need not come back."""
+"""Close code: the page should not reconnect."""
 
 TOO_SLOW: Final = 4008
-"""Close code: the page takes so little that sentences wait."""
+"""Close code: the page reads so slowly that control messages wait."""
 
 LAST_S: Final = 3.0
-"""What a page has to take its last message [s]."""
+"""Time for a page to take its last message [s]."""
 
 WAITING: Final = 100
-"""Messages that wait for one page: a second of frames."""
+"""Number of messages that may wait for one page: a second of frames."""
 
 Message = str | bytes
 """Text is a control message, bytes are a frame."""
@@ -40,7 +40,7 @@ class Outbox:
     Parameters
     ----------
     most
-        How many messages may wait.
+        Number of messages that may wait.
     """
 
     def __init__(self, most: int = WAITING) -> None:
@@ -49,10 +49,10 @@ class Outbox:
         self._filled = asyncio.Event()
         self._closed = False
         self.dropped = 0
-        """Frames that were dropped."""
+        """Number of dropped frames."""
 
     def put(self, message: Message) -> bool:
-        """Add a message at once; False if there is no place, since only sentences wait."""
+        """Add a message at once; return False if the queue is full of control messages."""
         if len(self._waiting) >= self._most:
             oldest = next((each for each in self._waiting if isinstance(each, bytes)), None)
             if oldest is None:
@@ -64,7 +64,7 @@ class Outbox:
         return True
 
     def close(self) -> None:
-        """Let :meth:`get` return None after all that waits."""
+        """Make :meth:`get` return None after all waiting messages."""
         self._closed = True
         self._filled.set()
 
@@ -77,7 +77,7 @@ class Outbox:
 
 
 class Page:
-    """A page of a browser: messages to it never wait, and it may send no flood.
+    """A page of a browser: sending to it never blocks, and its own messages are limited in rate.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ class Page:
 
     @property
     def dropped(self) -> int:
-        """Frames that the page was too slow for."""
+        """Number of frames that the page was too slow for."""
         return self._outbox.dropped
 
     @property
@@ -103,7 +103,7 @@ class Page:
         return self._code is not None
 
     def send(self, message: Message) -> None:
-        """Send a message, as soon as the page takes it."""
+        """Send a message as soon as the page takes it."""
         if self._code is None and not self._outbox.put(message):
             self._finish(TOO_SLOW)
 
@@ -112,13 +112,13 @@ class Page:
         self.send(json.dumps({"type": kind, **content}))
 
     def end(self, code: int, kind: str, message: str) -> None:
-        """Send a last sentence, and close the socket."""
+        """Send a last message, and close the socket."""
         self.say(kind, message=message)
         if self._code is None:
             self._finish(code)
 
     async def serve(self, received: Callable[[Message], None]) -> None:
-        """Hand each message of the page on, until the page has gone or was ended."""
+        """Pass each message of the page on, until the page has gone or was ended."""
         reader = asyncio.create_task(self._read(received))
         writer = self._writer = asyncio.create_task(self._write())
         tasks = {reader, writer}

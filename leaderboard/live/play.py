@@ -1,4 +1,4 @@
-"""The state of the application of live lifts, which its routes share."""
+"""The state that the routes of live lifts share."""
 
 import asyncio
 import gc
@@ -16,7 +16,7 @@ from .sessions import Sessions
 
 
 class Play:
-    """All that the routes share.
+    """The state that the routes share.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ class Play:
         self.geometry = b""
 
     async def start(self) -> None:
-        """Begin to give rooms."""
+        """Begin to assign rooms."""
         self.geometry = await asyncio.to_thread(lambda: json.dumps(geometry()).encode())
         self.keeper.start()
         gc.collect()
@@ -53,6 +53,6 @@ class Play:
 
 
 def play_of(connection: Request | WebSocket) -> Play:
-    """Return what the routes share."""
+    """Return the state that the routes share."""
     found: Play = connection.app.state.play
     return found

@@ -25,22 +25,22 @@ from .replaying import tether
 log: Final = logging.getLogger("colift.live")
 
 SOON_S: Final = 10.0
-"""A process that ends sooner than this has not worked [s]."""
+"""Running time below which a process counts as failed [s]."""
 
 TRIES: Final = 3
-"""How many may end so soon, one after the other."""
+"""Number of processes in succession that may end so soon."""
 
 END_S: Final = 8.0
-"""What the web process has to end with its rooms [s]."""
+"""Time for the web process to end with its rooms [s]."""
 
 SENDING: Final = 8192
-"""Size of the system's buffer of what is sent to a page: seconds of frames, not minutes."""
+"""Size of the system's send buffer for a page: seconds of frames, not minutes."""
 
 
 class SmallBuffers(WebSocketsSansIOProtocol):
-    """WebSockets that hold little of what a page has not taken.
+    """WebSockets with small send buffers.
 
-    What waits must wait where the oldest frames can be dropped, in :class:`.Outbox`.
+    Messages must wait where the oldest frames can be dropped, in :class:`.Outbox`.
     """
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
@@ -65,7 +65,7 @@ def run_web(config: PlayConfig, listener: socket.socket, root: str) -> None:
     """
     os.setsid()  # Ctrl-C in a terminal is for the parent.
     tether(signal.SIGTERM)
-    take_turn(RELAY)  # Frames and samples wait for nobody who has more time.
+    take_turn(RELAY)  # Frames and samples must not wait for less urgent work.
     logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(levelname)s %(message)s")
     make_server(create_play(config), root, SmallBuffers).run(sockets=[listener])
 
@@ -73,12 +73,12 @@ def run_web(config: PlayConfig, listener: socket.socket, root: str) -> None:
 def keep_serving(config: PlayConfig, listener: socket.socket, root: str = "") -> None:
     """Keep a web process running until this one is interrupted.
 
-    While there is none, who connects waits: the socket stays open here.
+    While there is none, new connections wait: the socket stays open here.
 
     Raises
     ------
     EvaluatorFault
-        If one after the other ends at once.
+        If several in succession end at once.
     """
     context = multiprocessing.get_context("spawn")
     failed = 0

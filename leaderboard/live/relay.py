@@ -9,13 +9,13 @@ from typing import Final
 from ...benchmark.live.process import LARGEST_PACKET, RoomProcess, parse_packet
 
 AT_ONCE: Final = 64
-"""Packets that are read before others of the event loop have their turn."""
+"""Number of packets that are read before other tasks of the event loop have their turn."""
 
 WAITING: Final = 1000
-"""Packets that may wait for a room: it takes none for seconds, so that it has failed."""
+"""Number of packets that may wait for a room: with more, it has read none for seconds."""
 
 END_S: Final = 5.0
-"""What a room has to end by itself after its socket was closed [s]."""
+"""Time for a room to end by itself after its socket was closed [s]."""
 
 
 class RoomLink:
@@ -46,7 +46,7 @@ class RoomLink:
         self._loop.add_reader(self._channel, self._read)
 
     def send(self, packet: bytes) -> None:
-        """Send a packet to the room, now or as soon as it takes it."""
+        """Send a packet to the room as soon as it takes it."""
         if not self._open:
             return
         self._waiting.append(packet)
@@ -56,7 +56,7 @@ class RoomLink:
             self.process.kill()  # Its end of the socket is closed by that.
 
     async def close(self) -> None:
-        """Close the socket, by which the room ends, and wait until it has."""
+        """Close the socket, which ends the room, and wait until it has ended."""
         self._shut()
         await asyncio.to_thread(self.process.join, END_S)
         if self.process.is_alive():

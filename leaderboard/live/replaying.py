@@ -17,7 +17,7 @@ from ...benchmark.live.scenarios import ghost_scenario
 from ..replays.replay import play_ghost, replay_content
 
 WAITING: Final = 8
-"""Replays that may wait to be made."""
+"""Number of replays that may wait to be made."""
 
 NICENESS: Final = 10
 """Priority of the process that makes them: behind every room."""
@@ -27,14 +27,14 @@ PR_SET_PDEATHSIG: Final = 1
 
 
 def live_replay(bundle: Path) -> dict[str, Any]:
-    """Return the replay of a live lift as :func:`.replay_content` has it.
+    """Return the replay of a live lift, in the form of :func:`.replay_content`.
 
     Its ghost is a team of two simulated people with the same cues.
 
     Raises
     ------
     InputError
-        If the folder is no bundle of a live lift.
+        If the folder is not a bundle of a live lift.
     """
     lifted = read_bundle(bundle)
     suite = lifted.recipe.suite()
@@ -50,7 +50,7 @@ def live_replay(bundle: Path) -> dict[str, Any]:
 
 
 class Replays:
-    """Makes replays, one at a time, in a process that starts when it is first needed."""
+    """A maker of replays, one at a time, in a process that starts when it is first needed."""
 
     def __init__(self) -> None:
         self._pool: ProcessPoolExecutor | None = None
@@ -58,7 +58,7 @@ class Replays:
 
     @property
     def full(self) -> bool:
-        """Whether as many wait as may."""
+        """Whether the queue is full."""
         return self._asked >= WAITING
 
     async def make(self, bundle: Path) -> dict[str, Any]:
@@ -95,7 +95,7 @@ class Replays:
 
 
 def tether(number: signal.Signals) -> None:
-    """Let the system send this process a signal when its parent ends, however that ends."""
+    """Let the system send this process a signal when its parent ends for any reason."""
     ctypes.CDLL(None, use_errno=True).prctl(PR_SET_PDEATHSIG, number)
 
 

@@ -17,7 +17,7 @@ from . import limits
 from .play import play_of
 
 ISOLATED: Final = {"Cross-Origin-Embedder-Policy": "require-corp"}
-"""With the other headers it isolates the page, so that its clock is exact to 5 us, not 100."""
+"""Isolates the page, together with the other headers: its clock is exact to 5 us, not to 100."""
 
 LIFT: Final = re.compile(r"[0-9]{3,6}")
 """Number of a lift, as in the name of its folder."""
@@ -33,7 +33,7 @@ class NewSession(BaseModel):
 
 
 class PlayHealth(BaseModel):
-    """How many rooms there are."""
+    """The number of rooms."""
 
     status: str = "ok"
     rooms: int
@@ -61,7 +61,7 @@ def page(request: Request) -> HTMLResponse:
 
 @router.get("/api/health")
 async def play_health(request: Request) -> PlayHealth:
-    """Say that the web process answers, and how many rooms there are."""
+    """Confirm that the web process answers, with the number of rooms."""
     play = play_of(request)
     return PlayHealth(rooms=play.keeper.rooms, most=play.config.rooms, waiting=play.keeper.waiting)
 
@@ -74,7 +74,7 @@ async def scene(request: Request) -> Response:
 
 @router.post("/api/sessions")
 async def new_session(request: Request) -> NewSession:
-    """Make a session, and return the host's secret."""
+    """Create a session, and return the host's secret."""
     play = play_of(request)
     if "origin" in request.headers and not limits.same_origin(request):
         raise problem(403, "a session is made by a page of this server")
@@ -90,7 +90,7 @@ async def new_session(request: Request) -> NewSession:
 async def session_replay(
     request: Request, name: str, lift: Annotated[str, Path(pattern=f"^{LIFT.pattern}$")]
 ) -> Response:
-    """Send the replay of a lift to those who have a secret of its session."""
+    """Send the replay of a lift to a holder of a secret of its session."""
     play = play_of(request)
     kind, _, credential = request.headers.get("authorization", "").partition(" ")
     owner, _, secret = credential.partition(".")

@@ -15,7 +15,7 @@ from ...benchmark.live.session import SESSION
 from ..storage.files import read_json, write_json
 
 Role = Literal["host", "person", "spectator"]
-"""What a secret allows: the first person's seat, the second person's, or to watch."""
+"""Role that a secret allows: first person, second person, or spectator."""
 
 ROLES: Final[tuple[Role, ...]] = get_args(Role)
 
@@ -23,7 +23,7 @@ FORMAT: Final = 1
 """Version of the content of :data:`.SESSION`."""
 
 NAME: Final = re.compile(r"[0-9]{8}-[0-9a-f]{12}")
-"""A session's name: the day of its beginning (UTC), and a random number."""
+"""Pattern of a session's name: the day of its beginning (UTC), and a random number."""
 
 SECRET_BYTES: Final = 18
 """Length of a secret; 24 characters in an address."""
@@ -42,9 +42,9 @@ class LiveSession:
         return urlsafe_b64encode(self._derived(role)[:SECRET_BYTES]).decode()
 
     def role_of(self, secret: str) -> Role | None:
-        """Return the role that a secret allows; None if it is no secret of this session.
+        """Return the role that a secret allows; None if it is not a secret of this session.
 
-        All are compared, each in constant time: the answer's time says nothing about them.
+        It is compared with all of them, each time in constant time: the duration reveals nothing.
         """
         given = secret.encode(errors="replace")
         found = [role for role in ROLES if hmac.compare_digest(self.secret(role).encode(), given)]
@@ -62,18 +62,18 @@ class LiveSession:
 
 @dataclass(frozen=True)
 class Sessions:
-    """The sessions in a folder, a folder each; nobody but the user of this process may read them.
+    """The sessions in a folder, a folder each; only the user of this process may read them.
 
     Parameters
     ----------
     folder
-        The folder; it is made if there is none.
+        The folder; it is created if missing.
     """
 
     folder: Path
 
     def make(self) -> LiveSession:
-        """Make a session, with a new key."""
+        """Create a session, with a new key."""
         now = time.time()
         name = f"{time.strftime('%Y%m%d', time.gmtime(now))}-{secrets.token_hex(6)}"
         session = LiveSession(name=name, folder=self.folder / name, key=secrets.token_bytes(32))
@@ -89,7 +89,7 @@ class Sessions:
         return session
 
     def find(self, name: str) -> LiveSession | None:
-        """Return a session; None if there is none of that name that can be read."""
+        """Return the session of that name; None if it is missing or cannot be read."""
         if not NAME.fullmatch(name):
             return None
         folder = self.folder / name

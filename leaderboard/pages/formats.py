@@ -22,7 +22,7 @@ TEX: Final = {
 
 
 def number(value: float | None, places: int = 1) -> str:
-    """Return a number with so many decimals."""
+    """Return a number with a given number of decimals."""
     if value is None:
         return NONE
     text = f"{value:.{places}f}"

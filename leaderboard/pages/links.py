@@ -17,7 +17,7 @@ class ServiceLinks:
 
     @property
     def live(self) -> bool:
-        """It takes submissions."""
+        """Whether the board takes submissions: a service does."""
         return True
 
     def board(self, season: str | None = None) -> str:
@@ -112,14 +112,14 @@ class ServiceLinks:
 
 @dataclass(frozen=True)
 class SiteLinks:
-    """The names of files, all in one folder but for styles, scripts and data."""
+    """The names of files, all in one folder except styles, scripts and data."""
 
     current: str
     """Name of the season whose table is ``index.html``."""
 
     @property
     def live(self) -> bool:
-        """Files take no submissions."""
+        """Whether the board takes submissions: files do not."""
         return False
 
     def board(self, season: str | None = None) -> str:
@@ -208,4 +208,4 @@ class SiteLinks:
 
 
 Links = ServiceLinks | SiteLinks
-"""The address of each page, as another page writes it."""
+"""The addresses of the pages, for links between them."""

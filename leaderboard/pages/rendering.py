@@ -33,11 +33,11 @@ def render_page(template: str, links: Links, **content: Any) -> str:
     template
         Name of a file in ``templates``.
     links
-        Where the other pages are.
+        Addresses of the other pages.
     content
-        What the template shows, by name; it also gets the metrics of the season's suite:
-        ``metrics`` have columns beside the ``leading`` one, ``second`` is their first;
-        ``error_words`` say what the drawn error is; and ``task``, the :class:`.TaskView`.
+        The values for the template, by name. It also gets the metrics of the season's suite:
+        ``metrics`` have columns beside the ``leading`` one, ``second`` is the first of them;
+        ``error_words``, a description of the drawn error; and ``task``, the :class:`.TaskView`.
     """
     season = content.get("season") or getattr(content.get("view"), "season", None)
     if season is not None:
@@ -55,7 +55,7 @@ def render_page(template: str, links: Links, **content: Any) -> str:
 
 @functools.cache
 def prose(name: str) -> Markup:
-    """Return a text of ``templates`` that is in Markdown, as HTML.
+    """Return a Markdown file of ``templates`` as HTML.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def _environment() -> Environment:
 
 @functools.cache
 def template_archive() -> bytes:
-    """Return what ``colift new`` writes, packed."""
+    """Return the files that ``colift new`` writes, as a zip archive."""
     buffer = io.BytesIO()
     with tempfile.TemporaryDirectory(prefix="colift-") as temporary:
         folder = Path(temporary, PLACEHOLDER)

@@ -1,4 +1,4 @@
-"""The pages as files: they open from a disk, and from any host of static files."""
+"""The pages as files, for a disk or any host of static files."""
 
 import contextlib
 import shutil
@@ -26,21 +26,21 @@ from .links import SiteLinks
 from .rendering import prose, render_page, template_archive
 
 MARK: Final = "colift-site.txt"
-"""Says that a folder holds a site, and may be replaced by another one."""
+"""Name of the file that marks a folder as a site, which another one may replace."""
 
 Page = tuple[str, str]
 """Name and content of a file."""
 
 
 def write_site(board: Board, folder: Path) -> None:
-    """Write the pages of a board into a folder; an older site there is replaced.
+    """Write the pages of a board into a folder; replace an older site there.
 
     Readers of the folder see the older one until the new one is complete.
 
     Raises
     ------
     InputError
-        If something else is in the folder, it cannot be written, or a library is missing.
+        If the folder has other content or cannot be written to, or a library is missing.
     """
     if folder.exists() and not (folder / MARK).is_file() and any(folder.iterdir()):
         raise InputError(f"{folder} holds something else; name a new folder for the site")
@@ -109,7 +109,7 @@ def _season(board: Board, info: SeasonInfo, links: SiteLinks) -> Iterator[Page]:
 
 
 def _replays(bundle: Path, policy: str) -> list[dict[str, Any]]:
-    """Return the replays of a bundle, if its suite is one that this colift still plays."""
+    """Return the replays of a bundle, if this colift still plays its suite."""
     with contextlib.suppress(InputError):
         return replays_of(bundle, policy)
     return []

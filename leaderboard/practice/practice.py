@@ -1,8 +1,8 @@
 """The practice season: a season with a public secret and rows of the built-in policies.
 
 Its rows are evaluated like submissions. But its secret follows from this file, so its hidden
-episodes prove nothing: it fills a new board, and serves to try a submission. A competitive season
-has a random secret; see :meth:`.Board.new_season`.
+episodes prove nothing: the season fills a new board, and is for trying a submission. A competitive
+season has a random secret; see :meth:`.Board.new_season`.
 """
 
 import hashlib

@@ -33,7 +33,7 @@ DATA: Final = Path(__file__).parents[1] / "data"
 """Folder of the practice seasons."""
 
 _DATE: Final = (1980, 1, 1, 0, 0, 0)
-"""Of all files in the archive, so that equal files make equal archives."""
+"""Time stamp of all files in the archive, so that equal files make equal archives."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +50,7 @@ class PlayedSeason:
 
     @classmethod
     def read(cls, suite: str, folder: Path = DATA) -> Self | None:
-        """Read the practice season of a suite; None if there is none of this format."""
+        """Return the practice season of a suite; None if there is none of this format."""
         path, archive = _files(folder, suite)
         if not (path.is_file() and archive.is_file()):
             return None
@@ -68,7 +68,7 @@ class PlayedSeason:
         )
 
     def write(self, folder: Path) -> None:
-        """Write the two files; the archive first: the other refers to it."""
+        """Write the two files, the archive first, since the other refers to it."""
         path, archive = _files(folder, self.suite)
         content = {
             "format": FORMAT,
@@ -89,7 +89,7 @@ class PlayedSeason:
             partial.replace(target)
 
     def with_played(self, new: PracticeRun) -> Self:
-        """Return the same with a policy's evaluation added, or in the place of an older one."""
+        """Return the season with a policy's evaluation, which replaces an older one."""
         others = [each for each in self.played if each.entry.name != new.entry.name]
         played = sorted([*others, new], key=lambda each: each.entry.name)
         return dataclasses.replace(self, played=tuple(played))
@@ -108,7 +108,7 @@ class PlayedSeason:
 def practice_import(
     suite: str, folder: Path = DATA, *, current: bool = True
 ) -> Iterator[ImportedSeason | None]:
-    """Yield the practice season of a suite for import into a board; its files exist meanwhile.
+    """Yield the practice season of a suite for import into a board; its files exist until the end.
 
     It is None if there is none for this suite and its digest.
 
@@ -202,7 +202,7 @@ def open_with_practice(folder: Path, suite: str | None = None, data: Path = DATA
 
 
 def _from_here(folder: Path) -> Path:
-    """Return a folder as it is named from the working directory, if it is in there."""
+    """Return a folder relative to the working directory, if it is in there."""
     place, here = folder.resolve(), Path.cwd()
     return place.relative_to(here) if place.is_relative_to(here) else place
 

@@ -20,8 +20,8 @@ from .season_import import DATA, PlayedSeason
 def shipped_scores(suite: Suite, folder: Path = DATA) -> dict[str, FloatArray]:
     """Return the RMSE of each built-in policy in each lift of a suite [mm], by its name.
 
-    The practice season has them. Policies that have changed since are left out, and all of them if
-    there is no practice season of this suite and its digest.
+    They come from the practice season. Policies that have changed since are left out; the result is
+    empty if there is no practice season of this suite and its digest.
 
     Parameters
     ----------

@@ -16,20 +16,20 @@ WHICH: Final[tuple[Which, ...]] = ("best", "median", "worst")
 
 @dataclass(frozen=True, kw_only=True)
 class ReplayChoice:
-    """A lift that is shown, and what it stands for."""
+    """A lift that is shown, and the reason for its choice."""
 
     behaviour: str
     which: Which
     row: int
-    """Where the episode is in the run, counted from 0."""
+    """Index of the episode in the run."""
 
 
 def choose_replays(episodes: Sequence[Episode]) -> tuple[ReplayChoice, ...]:
     """Return the lifts that are shown, behaviour by behaviour in order of appearance.
 
     They are ordered by RMSE, equal ones by their place in the run; the median of an even number
-    is the better of the middle two. Of a behaviour with two lifts there is no median, of one with
-    one lift there is only that.
+    is the better of the middle two. A behaviour with two lifts has no median, one with a single
+    lift has only that.
     """
     by_behaviour: dict[str, list[int]] = {}
     for row, episode in enumerate(episodes):
@@ -55,14 +55,14 @@ FILE: Final = "replays.json"
 
 
 def chosen_replays(bundle: Bundle, policy: str) -> list[dict[str, Any]]:
-    """Return the best, median and worst lift of each behaviour as :func:`.replay_content` has them.
+    """Return :func:`.replay_content` of the best, median and worst lift of each behaviour.
 
     Parameters
     ----------
     bundle
         Of a public run: a replay reveals its episode.
     policy
-        What the policy is called.
+        Name of the policy.
 
     Raises
     ------
@@ -98,7 +98,7 @@ def has_replays(bundle: Path) -> bool:
 
 
 def made_replays(bundle: Path) -> list[dict[str, Any]]:
-    """Return the replays of a bundle as far as they have been made: none are made for this."""
+    """Return those replays of a bundle that have been made already; make none."""
     for path in (bundle.parent / FILE, bundle / FILE):
         if path.is_file():
             replays: list[dict[str, Any]] = read_json(path)["replays"]
@@ -107,14 +107,14 @@ def made_replays(bundle: Path) -> list[dict[str, Any]]:
 
 
 def replays_of(bundle: Path, policy: str) -> list[dict[str, Any]]:
-    """Return the replays of the bundle in a folder; they are made only once, in some seconds.
+    """Return the replays of the bundle in a folder; making them takes seconds, and is done once.
 
     None if the bundle is incomplete, as that of an imported row without replays.
 
     Raises
     ------
     InputError
-        If it is no bundle.
+        If it is not a bundle.
     """
     made = made_replays(bundle)
     if made or not all((bundle / name).is_file() for name in FILES):

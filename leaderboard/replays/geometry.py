@@ -31,7 +31,7 @@ from ...robots.nao.kinematics import (
 from ...robots.nao.shapes import dressed
 
 ROWS: Final = 0.01
-"""Between two rows of a table of arms [m]; the page draws a straight line from row to row."""
+"""Height between two rows of a table of arms [m]; the page interpolates linearly."""
 
 REACH: Final = (-0.10, 0.40)
 """Heights of a person's hands in the tables [m]."""
@@ -53,7 +53,7 @@ CLOTHES: Final = {
     mannequin.HAIR: "hair",
     mannequin.SHIRT: "shirt",
 }
-"""Names of the colours; the page has another set for the dark."""
+"""Names of the colours; the page has another set for dark mode."""
 
 MOVING: Final = ("ShoulderPitch", "ShoulderRoll", "ElbowYaw", "ElbowRoll", "WristYaw", "Hand")
 """Joints from which on the NAO moves."""
@@ -62,14 +62,14 @@ ROUND: Final = 0.35
 """Radius of the corners of a box or a cylinder as a fraction of its shorter side."""
 
 END_ON: Final = 0.9
-"""A cylinder whose axis is within acos of this of the line of sight is seen as a disc."""
+"""A cylinder is drawn as a disc if the cosine between its axis and the line of sight is larger."""
 
 SMALL: Final = 0.02
-"""Radius of what is smaller than any limb [m]: an eye; of the two, one is seen."""
+"""Radius below which a part is an eye, not a limb [m]; of the two eyes, one is visible."""
 
 PROFILE: Final = 0.022
-"""How much farther back the hair is drawn than it is [m]: it covers the sides of the head, which
-from the side would hide the face."""
+"""Distance by which the hair is drawn farther back than it is [m]: it covers the sides of the head,
+and would hide the face in a side view."""
 
 Flat = list[float | str]
 Pose = Callable[[float], list[list[float]]]
@@ -82,8 +82,9 @@ def geometry() -> dict[str, Any]:
     ``nao.body`` has a list for each link, the farthest first, of rectangles with round corners:
     ``[x, z, width, height, turn in degrees, radius of the corners, colour]``. ``person.body`` are
     rods between two balls: ``[x, z, radius, x, z, radius, width as a fraction of the height,
-    colour]``, x ahead of the hands. ``arm`` is where shoulder, elbow, wrist and hand are, in rows
-    of heights of the hands above rest: the first at ``lowest``, the next ``step`` above it.
+    colour]``, x ahead of the hands. ``arm`` has the places of shoulder, elbow, wrist and hand, in
+    rows by the height of the hands above rest: the first at ``lowest``, each ``step`` above the
+    one before.
     """
     return {
         "floor": _rounded(FLOOR),
@@ -96,7 +97,7 @@ def geometry() -> dict[str, Any]:
 
 
 def _nao() -> list[list[Flat]]:
-    """Return the links that do not move, as seen from the robot's right: from -y."""
+    """Return the links that do not move, as seen from the robot's right, from -y."""
     links = []
     for name, origin in _still_links().items():
         shapes = [_seen(shape, origin) for shape in dressed(LINKS[name]).visuals]
@@ -107,9 +108,9 @@ def _nao() -> list[list[Flat]]:
 
 
 def _seen(shape: Shape, origin: NDArray[np.float64]) -> tuple[float, Flat]:
-    """Return y of the part of a shape that is nearest to the eye, and what is seen of it.
+    """Return y of the part of a shape that is nearest to the viewer, and its visible outline.
 
-    Of a ball it is the centre: what sticks out of it to the front is nearer than its edge.
+    For a ball, y is that of the centre: parts that stick out in front are nearer than its edge.
     """
     turn = rotations.from_rpy(shape.rpy)
     x, y, z = origin + np.array(shape.at)
@@ -134,7 +135,7 @@ def _seen(shape: Shape, origin: NDArray[np.float64]) -> tuple[float, Flat]:
 
 
 def _still_links() -> dict[str, NDArray[np.float64]]:
-    """Return where the frame of each link is that is not of an arm; all of them are upright."""
+    """Return the origin of each link outside the arms; the frames of all are upright."""
     places = {"torso": np.zeros(3)}
     for joint in JOINTS.values():
         moves = joint.name[1:] in MOVING and joint.name[0] in "LR"
@@ -144,7 +145,7 @@ def _still_links() -> dict[str, NDArray[np.float64]]:
 
 
 def _person() -> list[Flat]:
-    """Return the shapes of a person that looks towards -x, the far leg first."""
+    """Return the shapes of a person who faces -x, the far leg first."""
     parts = mannequin.person(-1)
     return [
         [

@@ -1,7 +1,7 @@
-"""Replays in one HTML file that needs nothing else: to be mailed, or kept with a paper.
+"""Replays in one self-contained HTML file, to be mailed or kept with a paper.
 
-Its content security policy allows its own script and style, by their hashes, and nothing more: the
-file cannot ask for anything from anywhere.
+Its content security policy allows only its own script and style, by their hashes: the file cannot
+load anything.
 """
 
 import json
@@ -24,24 +24,24 @@ SCRIPTS: Final = (
     "replay-charts.js",
     "replay.js",
 )
-"""The player, in the order in which it is loaded."""
+"""The scripts of the player, in the order in which they are loaded."""
 
 STYLE: Final = "replay.css"
 
 KEYS: Final = (
-    "Keys: space plays and pauses, the arrows go by a decision of the robot, with shift by a "
-    "second, comma and full stop by a frame; G shows or hides the human-human baseline."
+    "Keys: space plays and pauses; the arrows move by one decision of the robot, with shift by a "
+    "second; comma and full stop move by a frame; G shows or hides the human-human baseline."
 )
-"""How the player is used without a mouse."""
+"""Use of the player by keyboard."""
 
 
 def replay_data(replays: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-    """Return the player's input: the scene, and replays made by :func:`.replay_content`."""
+    """Return the player's input: the scene, and replays from :func:`.replay_content`."""
     return {"geometry": geometry(), "replays": list(replays)}
 
 
 def script_json(content: Any) -> str:
-    """Return JSON that may stand in an HTML script element, whatever strings it has."""
+    """Return JSON that is safe in an HTML script element, with any strings."""
     text = json.dumps(content, separators=(",", ":"), allow_nan=False)
     for character in "<>&":
         text = text.replace(character, f"\\u{ord(character):04x}")

@@ -1,4 +1,4 @@
-"""A replay: one lift as JSON that is small enough to be mailed.
+"""Replays: one lift as JSON that is small enough to be mailed.
 
 ======================== =========================================================================
 key                      content
@@ -55,7 +55,7 @@ from ...benchmark.results.baselines import partner_spec
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Ghost:
-    """How two people do it, and what the first of them means to do."""
+    """The lift of two people, and the intention of the first of them."""
 
     episode: Episode
     plan: Plan
@@ -79,12 +79,12 @@ def play_ghost(scenario: Scenario, seed: int) -> Ghost:
 
 
 Which = Literal["best", "median", "worst"]
-"""What a replay was chosen as."""
+"""Reason for the choice of a replay."""
 
 FORMAT: Final = 1
 
 UNIT: Final = 1e-4
-"""What heights are rounded to [m]: below the noise of motion capture."""
+"""Unit to which heights are rounded [m]: below the noise of motion capture."""
 
 LARGEST: Final = 2**15 - 1
 
@@ -102,7 +102,7 @@ def replay_content(
     suite_digest: str = "",
     which: Which | None = None,
 ) -> dict[str, Any]:
-    """Return a lift as JSON has it; see the table above.
+    """Return a lift as JSON; see the table above.
 
     Parameters
     ----------
@@ -115,9 +115,9 @@ def replay_content(
     policy
         The policy's name.
     suite, suite_digest
-        Of which suite the episode is, if it is of one.
+        The suite of the episode, if it is from one.
     which
-        What it was chosen as.
+        Reason for its choice.
     """
     trace = episode.trace
     internals = trace.internals
@@ -157,7 +157,7 @@ def replay_content(
 
 
 def _drawn(scenario: Scenario, trace: Trace) -> dict[str, Any]:
-    """Return the series that the task adds and pictures show; nothing if there are none."""
+    """Return the series that the task adds and pictures show; empty if there are none."""
     shown = [
         {**dataclasses.asdict(each), "values": changes(trace.added[each.name])}
         for each in drawn_series(scenario.task.metrics)

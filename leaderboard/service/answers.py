@@ -1,6 +1,6 @@
 """Response models of the API, as its OpenAPI document describes them.
 
-Seasons, events and strata are answered as the records that they are.
+Seasons, events and strata are returned as records, without a model of their own.
 """
 
 from collections.abc import Mapping, Sequence
@@ -17,19 +17,19 @@ from ..views.lifts import StratumScore
 
 
 class Answer(BaseModel):
-    """Something read from the board; the texts below an attribute are its description."""
+    """A model read from the board; the text below an attribute is its description."""
 
     model_config = ConfigDict(from_attributes=True, use_attribute_docstrings=True, frozen=True)
 
     @classmethod
     def of(cls, record: object, **more: Any) -> Self:
-        """Return what is published of a record, and more beside it."""
+        """Return the published part of a record, with further values."""
         known: Mapping[str, Any] = vars(record) | more
         return cls(**{name: known[name] for name in cls.model_fields})
 
 
 class Health(Answer):
-    """The service answers, and so does its database."""
+    """The answer of a service whose database answers."""
 
     status: str = "ok"
     season: str
@@ -43,24 +43,24 @@ class SubmitterAnswer(Answer):
 
 
 class StandingAnswer(Answer):
-    """A row, and where it stands in its season."""
+    """A row, and its place in its season."""
 
     group: int
     """Rank group in its section over all hidden episodes, 1 the best; 0 is none."""
     section: Section
     """The ranking, that of policies that are not real-time, or a section without ranks."""
     at: datetime
-    """When it was put on the board."""
+    """Time at which it was put on the board."""
     submitter: str
     row: BoardRow
     events: tuple[Event, ...]
-    """What has happened to it since, oldest first."""
+    """Its later events, oldest first."""
     strata: Sequence[StratumScore] | None
     """The requested public lifts, by behaviour and subject; None if none were requested."""
 
     @classmethod
     def of_row(cls, standing: RankedRow, strata: Sequence[StratumScore] | None) -> Self:
-        """Return what is published of a row."""
+        """Return the published part of a row."""
         return cls.of(standing, section=standing.section, strata=strata)
 
 
@@ -74,7 +74,7 @@ class EntryAnswer(Answer):
     at: datetime
     row: BoardRow | None
     refusal: str | None
-    """Why it has no row."""
+    """Reason for having no row."""
     events: tuple[Event, ...]
     bundle: str | None
     """Address of the bundle of its public run."""
@@ -91,16 +91,16 @@ class JobSummary(Answer):
     """Name of its policy."""
     submitted_at: datetime
     ended_at: datetime | None
-    """Nothing more happens to it after this."""
+    """Time at which it ended; after that, nothing more happens to it."""
     state: State
     stage: str | None
-    """What the worker does now."""
+    """Present stage of the evaluation."""
     done: int
-    """Episodes that are finished."""
+    """Number of finished episodes."""
     total: int
-    """Episodes in all."""
+    """Total number of episodes."""
     reason: str | None
-    """Why it failed, or is tried again."""
+    """Reason of a failure, or of a new attempt."""
 
 
 class JobAnswer(JobSummary):
@@ -111,9 +111,9 @@ class JobAnswer(JobSummary):
     heartbeat_at: datetime | None
     """Last heartbeat of its worker."""
     attempt: int
-    """How often it was begun."""
+    """Number of times that it was begun."""
     log: str | None
-    """What the workers wrote about it."""
+    """Log of the workers."""
 
 
 class SubmissionAnswer(JobSummary):
@@ -126,13 +126,13 @@ class SubmissionAnswer(JobSummary):
 
     @classmethod
     def of_job(cls, job: Job, root: str) -> Self:
-        """Return what is published of a job to its submitter; the API is at the root."""
+        """Return the part of a job that its submitter sees; ``root`` is the address of the API."""
         entry = f"{root}/entries/{job.season}/{job.submission}" if job.state == "done" else None
         return cls.of(job, job=f"{root}/jobs/{job.id}", entry=entry)
 
 
 class RulesAnswer(Answer):
-    """Limits of submissions, quotas, what is published, and the maintainer's contact."""
+    """Limits of submissions, quotas, rules of publication, and the maintainer's contact."""
 
     season: str
     """The season that takes submissions."""
@@ -146,7 +146,7 @@ class RulesAnswer(Answer):
     total_bytes: int
     """All files together."""
     packages: list[str]
-    """What a policy may import beside the standard library and `colift.agents`."""
+    """Packages that a policy may import besides the standard library and `colift.agents`."""
     open_jobs: int
     """Submissions of one submitter that may wait at the same time."""
     failures: int
@@ -155,10 +155,10 @@ class RulesAnswer(Answer):
     """Submissions of one submitter that may get a row within a window."""
     window_hours: float
     kept_bytes: int
-    """What is kept of all submissions of one submitter."""
+    """Size of the files kept of all submissions of one submitter."""
     published: list[str]
-    """What everybody may see of a submission."""
+    """Parts of a submission that everyone may see."""
     private: list[str]
-    """What nobody but the maintainer sees."""
+    """Parts that only the maintainer sees."""
     contact: str | None
-    """How the maintainer of the board is reached."""
+    """Contact of the maintainer of the board."""

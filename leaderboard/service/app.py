@@ -25,10 +25,10 @@ from .security import Guard, RateLimit
 from .uploads import remove_orphans
 
 THREADS: Final = 12
-"""Requests that are worked on at the same time: less than there are database connections."""
+"""Number of requests that are handled at the same time: less than the database connections."""
 
 SWEEP_S: Final = 600.0
-"""How often it is looked for what killed uploads have left [s]."""
+"""Time between two searches for the remains of killed uploads [s]."""
 
 
 def create_app(
@@ -47,11 +47,11 @@ def create_app(
     folder
         The board's; see :func:`.open_with_practice`.
     rates
-        How often a client may ask.
+        Rate limits of clients.
     contact
-        How the maintainer is reached, to be shown with the rules.
+        Contact of the maintainer, shown with the rules.
     quota
-        How much a submitter may ask for.
+        Limits of a submitter.
     docs
         The documentation that the pages link to.
     play
@@ -71,8 +71,8 @@ def create_app(
             await asyncio.sleep(SWEEP_S)
             try:
                 await anyio.to_thread.run_sync(remove_orphans, board)
-            except Exception:  # Such as a database that is away: the next one does it.
-                log.exception("what uploads have left could not be removed")
+            except Exception:  # For example, the database is away: the next sweep does it.
+                log.exception("the remains of uploads could not be removed")
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
@@ -88,7 +88,7 @@ def create_app(
         summary="Standings, submissions and bundles of a leaderboard of cooperative lifting.",
         lifespan=lifespan,
         openapi_url=f"{PREFIX}/openapi.json",
-        docs_url=None,  # These pages load scripts from elsewhere.
+        docs_url=None,  # FastAPI's own pages load scripts from elsewhere.
         redoc_url=None,
     )
     app.state.folder = board.folder
@@ -120,7 +120,7 @@ def api_router() -> APIRouter:
     router = APIRouter(
         prefix=PREFIX,
         responses={
-            422: {"model": Problem, "description": "A value is not what it must be."},
+            422: {"model": Problem, "description": "A value is not allowed."},
             429: {"model": Problem, "description": "Too many requests; see Retry-After."},
         },
     )
@@ -130,6 +130,6 @@ def api_router() -> APIRouter:
 
 
 def health(service: Service) -> Health:
-    """Say that the service answers, and its database."""
+    """Confirm that the service and its database answer."""
     current = [season.name for season in service.board.seasons() if season.current]
     return Health(season=current[0])

@@ -19,20 +19,20 @@ PLAY: Final = "/play"
 """Path of live lifts, below the board's root."""
 
 PATIENCE_S: Final = 20.0
-"""How long an upload or download waits for its turn [s]."""
+"""Longest wait of an upload or download for its turn [s]."""
 
 UNPACKING: Final = 4
-"""Uploads that are unpacked at the same time: it bounds what they take on the disk."""
+"""Number of uploads that are unpacked at the same time: it bounds their space on the disk."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Rates:
-    """How often one client may ask."""
+    """Rate limits of one client."""
 
     address: Rate = field(default_factory=lambda: Rate(per_second=50.0, burst=500))
-    """Of requests from an address."""
+    """Limit of requests from an address."""
     submitter: Rate = field(default_factory=lambda: Rate(per_second=0.1, burst=20))
-    """Of uploads by a submitter."""
+    """Limit of uploads by a submitter."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,9 +43,9 @@ class ServiceState:
     queue: Queue
     tokens: Tokens
     uploads: RateLimit
-    """By submitter."""
+    """Rate of uploads, by submitter."""
     contact: str = ""
-    """How the maintainer is reached."""
+    """Contact of the maintainer."""
     docs: Documentation | None = None
     """The documentation that the pages link to."""
     play: bool = False
@@ -53,22 +53,22 @@ class ServiceState:
     receiving: Slots = field(
         default_factory=lambda: Slots(what="uploads", each=2, total=32, patience_s=PATIENCE_S)
     )
-    """For uploads, by submitter."""
+    """Slots for uploads, by submitter."""
     unpacking: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(UNPACKING))
     sending: Slots = field(
         default_factory=lambda: Slots(what="downloads", each=4, total=64, patience_s=PATIENCE_S)
     )
-    """For bundles, by address."""
+    """Slots for bundles, by address."""
     packing: asyncio.Lock = field(default_factory=asyncio.Lock)
     """Held while a bundle is packed."""
     streams: Slots = field(
         default_factory=lambda: Slots(what="streams", each=100, total=100, patience_s=0.0)
     )
-    """For news of jobs, by address."""
+    """Slots for streams of jobs, by address."""
 
 
 def service_state(request: Request) -> ServiceState:
-    """Return the state of the service that a request has come to."""
+    """Return the state of the service that received a request."""
     state: ServiceState = request.app.state.service
     return state
 
@@ -98,7 +98,7 @@ BehaviourAsked = Annotated[
     str | None,
     Query(
         pattern=_WORD,
-        description="A way to lift, such as `jerky`: each row also has its public lifts of that "
+        description="A behaviour, such as `jerky`: each row also has its public lifts of that "
         "behaviour, subject by subject.",
     ),
 ]
@@ -106,7 +106,7 @@ SubjectAsked = Annotated[
     str | None,
     Query(
         pattern=_WORD,
-        description="A person, such as `S1`: each row also has its public lifts with them, "
+        description="A subject, such as `S1`: each row also has its public lifts with it, "
         "behaviour by behaviour.",
     ),
 ]
@@ -114,21 +114,21 @@ SubjectAsked = Annotated[
 BINARY: Final = {"type": "string", "format": "binary"}
 
 MISSING: Final[dict[int | str, dict[str, Any]]] = {
-    404: {"model": Problem, "description": "It is not there."}
+    404: {"model": Problem, "description": "It does not exist."}
 }
 
 UNKNOWN: Final[dict[int | str, dict[str, Any]]] = {
-    401: {"model": Problem, "description": "There is no token, or it does not count."}
+    401: {"model": Problem, "description": "The token is missing or not valid."}
 }
 
 
 def api_root(request: Request) -> str:
-    """Return where the API is, as the client sees it: a proxy may have put it below a path."""
+    """Return the address of the API for the client: a proxy may have put it below a path."""
     return f"{request.scope.get('root_path', '').rstrip('/')}{PREFIX}"
 
 
 def links_of(request: Request) -> ServiceLinks:
-    """Return the addresses of the pages, as the client sees them."""
+    """Return the addresses of the pages for the client."""
     root = str(request.scope.get("root_path", "")).rstrip("/")
     state = service_state(request)
     return ServiceLinks(

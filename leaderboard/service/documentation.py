@@ -39,7 +39,7 @@ class Documentation:
         Raises
         ------
         InputError
-            If it is neither an address of http or https nor a folder with an ``index.html``.
+            If it is neither an http or https address nor a folder with an ``index.html``.
         """
         if place.startswith(SCHEMES):
             return cls(address=place)
@@ -52,7 +52,7 @@ class Documentation:
         return cls(address="", folder=folder.resolve())
 
     def link(self, root: str) -> str:
-        """Return the address as a page of a board below ``root`` writes it."""
+        """Return the address for the pages of a board below ``root``."""
         return self.address or f"{root}{PLACE}/"
 
 

@@ -1,4 +1,4 @@
-"""Error responses: one line with what would be right, without a traceback."""
+"""Error responses: one line that says how to correct the request, without a traceback."""
 
 import asyncio
 import contextlib
@@ -22,31 +22,31 @@ from ..queue import QuotaError
 log: Final = logging.getLogger("colift.service")
 
 REQUEST_ID: Final = "X-Request-ID"
-"""Header of every answer; the log names what failed by it."""
+"""Header of every answer, by which the log names a failed request."""
 
 CLOSE: Final = {"Connection": "close"}
-"""Header of an answer to a request of which the rest is not read."""
+"""Header of an answer to a request whose rest is not read."""
 
 LINGER_S: Final = 10.0
-"""How long the rest is thrown away [s]."""
+"""Longest time for which the rest is discarded [s]."""
 
 AWAY: Final = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
-"""What is raised when the database is away, or has no connection to spare."""
+"""Errors that are raised when the database is away, or has no free connection."""
 
 QUOTA_S: Final = 60
-"""When a submitter may ask again who has too much in the queue [s]."""
+"""Time after which a submitter over quota may ask again [s]."""
 
 AWAY_S: Final = 10
-"""When a client may ask again then [s]."""
+"""Time after which a client may ask again if the database is away [s]."""
 
 PAGE: Final = (
     '<!doctype html><html lang="en"><title>The board does not answer</title>'
     "<h1>The board does not answer</h1><p>{message}.</p></html>"
 )
-"""What a reader of pages sees then: nothing that would need the database."""
+"""The page that is shown then: nothing on it needs the database."""
 
 FULL: Final = {errno.ENOSPC, errno.EDQUOT}
-"""Error numbers of a full disk."""
+"""Error numbers (errno) of a full disk."""
 
 
 class Problem(BaseModel):
@@ -56,7 +56,7 @@ class Problem(BaseModel):
 
 
 def problem(status: int, error: str, headers: Mapping[str, str] | None = None) -> HTTPException:
-    """Return what a route raises to answer with an error."""
+    """Return the exception that a route raises to answer with an error."""
     return HTTPException(status, error, headers)
 
 
@@ -90,8 +90,8 @@ def answer_errors(app: FastAPI) -> None:
 class LastAnswer(JSONResponse):
     """An answer before the request was read: it is sent at once, then the connection ends.
 
-    What still comes is thrown away for a while: who is sending hears nothing, and would lose the
-    answer if the connection was cut.
+    The rest of the request is discarded for a while: a client that is still sending does not
+    listen, and would lose the answer if the connection was cut.
     """
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -107,7 +107,7 @@ class LastAnswer(JSONResponse):
 
 
 class FaultHandler:
-    """ASGI middleware: gives every request an id; logs unexpected errors and answers 500."""
+    """ASGI middleware that gives every request an id, logs unexpected errors and answers 500."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
@@ -143,7 +143,7 @@ class FaultHandler:
                 exc_info=not away,
             )
             if started:
-                raise  # The answer has begun: all that can be done is to break it off.
+                raise  # The answer has begun, so it can only be broken off.
             status, message = _fault(error, name)
             headers = {"Retry-After": str(AWAY_S)} if status == 503 else {}
             answer: Response = JSONResponse({"error": message}, status, headers)
@@ -153,7 +153,7 @@ class FaultHandler:
 
 
 def _fault(error: Exception, name: str) -> tuple[int, str]:
-    """Return status and text of the answer to a request that ended by an error."""
+    """Return status and text of the answer to a request that ended with an error."""
     full = isinstance(error, OSError) and error.errno in FULL
     if full or getattr(getattr(error, "orig", None), "sqlite_errorname", "") == "SQLITE_FULL":
         return 507, "the board has no room left; please inform its maintainer"
@@ -166,7 +166,7 @@ def _fault(error: Exception, name: str) -> tuple[int, str]:
 
 
 def _first(errors: Sequence[Any]) -> str:
-    """Return the first of pydantic's errors as a line: where, what, and what was given."""
+    """Return the first of pydantic's errors as a line: place, message and given value."""
     error = errors[0]
     where = " ".join(map(str, error["loc"])) or "request"
     message = f"{where}: {error['msg']}"

@@ -1,4 +1,4 @@
-"""The OpenAPI document of the service, as pages show it: operations, and the objects in them."""
+"""The OpenAPI document of the service in the form for pages: operations, and their objects."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -61,7 +61,7 @@ def submission_page(
 
 @router.get("/seasons/{season}/policies/{digest}/badge.svg", response_class=Response)
 def badge_svg(service: Service, request: Request, season: SeasonName, digest: Digest) -> Response:
-    """Send the badge of a row, for pages elsewhere."""
+    """Send the badge of a row, for other sites."""
     found = [s for s in service.board.standings(season) if s.row.submission == digest]
     if not found:
         return _missing(service, request, f"Season {season} has no row {digest[:16]}.")
@@ -105,7 +105,7 @@ def replays(service: Service, request: Request, season: SeasonName, digest: Dige
 def replay_file(
     service: Service, request: Request, season: SeasonName, digest: Digest, name: str
 ) -> HTMLResponse:
-    """Send one lift of a submission as a file that needs nothing else."""
+    """Send one lift of a submission as a self-contained file."""
     found = replay_files(_replays(service, season, digest))
     if name not in found:
         return _missing(service, request, "There is no such replay.")
@@ -189,7 +189,7 @@ def submit_page(service: Service, request: Request) -> HTMLResponse:
 def job_page(
     service: Service, request: Request, job: Annotated[str, Path(pattern="^[0-9a-f]{32}$")]
 ) -> HTMLResponse:
-    """Show how far a submission is; its address is known to its submitter alone."""
+    """Show the progress of a submission; only its submitter knows the address."""
     view = job_view(service.board, service.queue, job)
     if view is None:
         return _missing(service, request, "There is no such job.")
@@ -199,7 +199,7 @@ def job_page(
 
 
 def _replays(service: ServiceState, season: str, digest: str) -> list[dict[str, Any]]:
-    """Return the replays of a submission: none of a suite that this colift plays no more."""
+    """Return the replays of a submission; none if this colift no longer plays its suite."""
     entry = service.board.entry(season, digest)
     bundle = service.board.bundle(season, digest)
     with contextlib.suppress(InputError):

@@ -1,4 +1,4 @@
-"""Routes for what is published: rules, seasons, standings, entries and bundles."""
+"""Routes of published data: rules, seasons, standings, entries and bundles."""
 
 from datetime import timedelta
 from typing import Final
@@ -34,7 +34,7 @@ from .uploads import BODY, ZIP
 router: Final = APIRouter()
 
 SENDING_S: Final = 600.0
-"""How long a client may take for a bundle [s]."""
+"""Longest time that a client may take for a bundle [s]."""
 
 
 @router.get("/seasons")
@@ -52,7 +52,7 @@ def get_standings(
 ) -> list[StandingAnswer]:
     """Return the rows of a season, best first; with the public lifts of a behaviour or subject.
 
-    Rank groups are over all hidden lifts, whatever is asked for.
+    Rank groups are always over all hidden lifts.
     """
     rows = _standings(service, season)
     if behaviour is None and subject is None:
@@ -100,8 +100,8 @@ def entry(service: Service, request: Request, season: SeasonName, digest: Digest
     responses={
         **MISSING,
         200: {"content": {ZIP: {"schema": BINARY}}},
-        206: {"description": "The part that was asked for."},
-        304: {"description": "It is what the client has."},
+        206: {"description": "The requested part."},
+        304: {"description": "It equals the client's copy."},
         400: {"description": "The Range is malformed."},
         416: {"description": "It is shorter than the Range."},
         503: {"model": Problem, "description": "Too many downloads; see Retry-After."},
@@ -110,12 +110,12 @@ def entry(service: Service, request: Request, season: SeasonName, digest: Digest
 async def bundle(
     service: Service, request: Request, season: SeasonName, digest: Digest
 ) -> Response:
-    """Return the bundle of the public run, as `colift verify` takes it.
+    """Return the bundle of the public run, for `colift verify`.
 
-    `If-None-Match` with its `ETag` is answered 304; `Range` requests a part.
+    `If-None-Match` with its `ETag` is answered with 304; `Range` requests a part.
     """
     entry = await run_in_threadpool(service.board.entry, season, digest)
-    async with service.packing:  # The first one to ask packs it, the others wait.
+    async with service.packing:  # The first request packs it, the others wait.
         packed = await run_in_threadpool(service.board.store.packed_bundle, season, digest)
     if entry is None or packed is None:
         message = f"season {season} has no bundle of {digest}"
@@ -149,7 +149,7 @@ def _strata(service: ServiceState, standing: RankedRow) -> tuple[StratumScore, .
 
 
 def _check_word(what: str, value: str | None, known: set[str]) -> None:
-    """Refuse a value that no lift has; without rows no values are known."""
+    """Refuse a value that no lift has; accept any if there are no rows."""
     if value is not None and known and value not in known:
         raise problem(422, f"{what} {value} is not in this season; {', '.join(sorted(known))} are")
 
@@ -159,7 +159,7 @@ PUBLISHED: Final = (
     "the digest of the files, the submitter's name, and when it was submitted",
     "scores of the public and the hidden lifts, with their intervals",
     "the bundle of the public lifts: motions, actions, and failures with what the policy printed",
-    "why it has no row, if it has none",
+    "the reason for having no row, if it has none",
 )
 
 PRIVATE: Final = (
@@ -170,7 +170,7 @@ PRIVATE: Final = (
 
 @router.get("/rules")
 def rules(service: Service) -> RulesAnswer:
-    """Return limits of submissions, quotas, what is published, and the maintainer's contact."""
+    """Return limits of submissions, quotas, rules of publication, and the maintainer's contact."""
     return rules_of(service)
 
 

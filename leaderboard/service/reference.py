@@ -1,4 +1,4 @@
-"""The description of the API as a page, made from its OpenAPI document; nothing is loaded."""
+"""The description of the API as a page, made from its OpenAPI document, without other scripts."""
 
 from typing import Final
 

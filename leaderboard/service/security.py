@@ -14,7 +14,7 @@ from starlette.requests import HTTPConnection
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 HEADERS: Final[Mapping[str, str]] = {
-    # Nothing is loaded from anywhere else, nothing inline is run, nobody frames us.
+    # No content from elsewhere, no inline scripts, no frames around the pages.
     "Content-Security-Policy": (
         "default-src 'self'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'; "
         "object-src 'none'"
@@ -30,17 +30,17 @@ HEADERS: Final[Mapping[str, str]] = {
 """Headers of every answer that does not set them itself."""
 
 IPV6_NETWORK: Final = 64
-"""Bits of an IPv6 address that are one subscriber's."""
+"""Number of leading bits of an IPv6 address that identify a subscriber."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Rate:
-    """How often somebody may do something."""
+    """A rate limit."""
 
     per_second: float
-    """In the long run [1/s]."""
+    """Long-run rate [1/s]."""
     burst: int
-    """At once, after a pause."""
+    """Number of requests at once, after a pause."""
 
 
 @dataclass(kw_only=True)
@@ -49,12 +49,12 @@ class RateLimit:
 
     rate: Rate
     most: int = 10_000
-    """How many clients are remembered."""
+    """Number of clients that are remembered."""
     clock: Callable[[], float] = time.monotonic
     _buckets: OrderedDict[str, tuple[float, float]] = field(default_factory=OrderedDict)
 
     def wait(self, client: str) -> float:
-        """Return 0 and count the request, or how long the client has to wait [s]."""
+        """Return 0 and count the request, or return the time that the client has to wait [s]."""
         now = self.clock()
         level, since = self._buckets.pop(client, (float(self.rate.burst), now))
         level = min(level + (now - since) * self.rate.per_second, self.rate.burst)
@@ -66,14 +66,14 @@ class RateLimit:
 
 
 class Guard:
-    """ASGI middleware: the headers of every answer, and the rate of an address."""
+    """ASGI middleware that sets the headers of every answer, and limits the rate of an address."""
 
     def __init__(self, app: ASGIApp, rate: Rate) -> None:
         self.app = app
         self.limit = RateLimit(rate=rate)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer a request, or say when it may be repeated."""
+        """Answer a request, or refuse it with the time after which it may be repeated."""
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return
@@ -87,7 +87,7 @@ class Guard:
 
         names = [name for name, _ in scope["headers"]]
         if b"content-length" in names and b"transfer-encoding" in names:
-            # Servers on the way may read one, we the other, and take what follows for requests.
+            # A proxy could use one and this server the other: data would be taken for a request.
             message = "a request has Content-Length or Transfer-Encoding, not both"
             answer = JSONResponse({"error": message}, 400, {"Connection": "close"})
             await answer(scope, receive, guarded)
@@ -102,12 +102,12 @@ class Guard:
 
 
 def client_of(connection: HTTPConnection) -> str:
-    """Return whom a request counts for: what addresses of one subscriber have in common."""
+    """Return the client that a request counts for: the common part of a subscriber's addresses."""
     return network(connection.client.host if connection.client else "")
 
 
 def network(address: str) -> str:
-    """Return what addresses of one subscriber have in common."""
+    """Return the common part of the addresses of one subscriber."""
     try:
         parsed = ipaddress.ip_address(address)
     except ValueError:
@@ -118,5 +118,5 @@ def network(address: str) -> str:
 
 
 def seconds(wait: float) -> str:
-    """Return whole seconds that are not less."""
+    """Return a time rounded up to whole seconds."""
     return str(math.ceil(wait))

@@ -19,14 +19,14 @@ import uvicorn
 from fastapi import FastAPI
 
 UNREAD_S: Final = 60
-"""After how long the system drops a connection whose client takes nothing of an answer [s]."""
+"""Time after which the system drops a connection whose client reads nothing of an answer [s]."""
 
 LISTENING: Final = 2048
-"""Connections that wait to be accepted."""
+"""Number of connections that may wait to be accepted."""
 
 
 def listening(host: str, port: int) -> socket.socket:
-    """Return a socket that is listened at; :class:`OSError` if that is not possible here."""
+    """Return a listening socket; :class:`OSError` if that is not possible here."""
     family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
     listener = socket.create_server((host, port), family=family, backlog=LISTENING)
     # What is accepted inherits it.
@@ -35,14 +35,14 @@ def listening(host: str, port: int) -> socket.socket:
 
 
 GRACE_S: Final = 3
-"""What open connections have to end, when the service does [s]."""
+"""Time for open connections to end when the service ends [s]."""
 
 
 SOCKET_BYTES: Final = 4096
 """Longest message that a client may send on a WebSocket."""
 
 PING_S: Final = 10.0
-"""How often a WebSocket is pinged, and how long it may take to answer [s]."""
+"""Time between two pings of a WebSocket, and longest time to its answer [s]."""
 
 
 class _Server(uvicorn.Server):
@@ -56,16 +56,16 @@ class _Server(uvicorn.Server):
 def make_server(
     app: FastAPI, root: str = "", sockets: type[asyncio.Protocol] | None = None
 ) -> uvicorn.Server:
-    """Return a server of an application; it logs by the loggers that there are.
+    """Return a server of an application; it uses the existing loggers.
 
     Parameters
     ----------
     app
         The application.
     root
-        Path below which a proxy shows it, such as ``/board``; the proxy takes it away.
+        Path below which a proxy shows it, such as ``/board``; the proxy removes it from requests.
     sockets
-        Protocol of WebSockets; without it there are none.
+        Protocol of WebSockets; None serves no WebSockets.
     """
     config = uvicorn.Config(
         app,
@@ -86,15 +86,15 @@ def make_server(
 log: Final = logging.getLogger("colift.service")
 
 LOOK_S: Final = 0.5
-"""How often the workers are looked at [s]."""
+"""Time between two checks of the workers [s]."""
 
 PAUSE_S: Final = 1.0
-"""Before a worker is started again [s]; twice as long every time, if it ends again soon."""
+"""Wait before a worker is started again [s]; it doubles each time the worker ends again soon."""
 
 LONGEST_PAUSE_S: Final = 60.0
 
 WORKER_GRACE_S: Final = 10.0
-"""What a worker has to end by itself [s]."""
+"""Time for a worker to end by itself [s]."""
 
 # Also when this process is killed, so that those of the next one are not too many.
 _TETHER: Final = """
@@ -107,14 +107,14 @@ if os.getppid() == int(sys.argv[1]):
 
 @contextmanager
 def running(command: Sequence[str], count: int) -> Iterator[None]:
-    """Keep so many processes running while the body runs.
+    """Keep a number of processes running while the body runs.
 
     Parameters
     ----------
     command
-        What each runs: a program's path, and its arguments.
+        The command of each: a program's path, and its arguments.
     count
-        How many.
+        Number of processes.
     """
     stop = threading.Event()
     keepers = [
@@ -132,7 +132,7 @@ def running(command: Sequence[str], count: int) -> Iterator[None]:
 
 
 def _keep(command: Sequence[str], stop: threading.Event) -> None:
-    """Run the command again and again, until it shall stop."""
+    """Run the command again and again, until ``stop`` is set."""
     pause = PAUSE_S
     while not stop.is_set():
         began = time.monotonic()
@@ -149,7 +149,7 @@ def _keep(command: Sequence[str], stop: threading.Event) -> None:
 
 
 def start_worker(command: Sequence[str]) -> "subprocess.Popen[bytes]":
-    """Start a process that is terminated when the calling thread ends, however that ends."""
+    """Start a process that is terminated when the calling thread ends for any reason."""
     tether = [sys.executable, "-c", _TETHER, str(os.getpid()), *command]
     # Ctrl-C in a terminal is for the service, which then ends its workers.
     return subprocess.Popen(tether, stdin=subprocess.DEVNULL, start_new_session=True)

@@ -14,15 +14,15 @@ from .security import seconds
 
 @dataclass(kw_only=True)
 class Slots:
-    """Places that clients share."""
+    """Slots that clients share."""
 
     what: str
-    """What is done there, in the plural: for what is message."""
+    """The activity in a slot, in the plural, for messages."""
     each: int
-    """Of one client."""
+    """Number of slots of one client."""
     total: int
     patience_s: float
-    """How long somebody waits for one [s]."""
+    """Longest wait for a slot [s]."""
     _clients: dict[str, "_Client"] = field(default_factory=dict)
     _all: asyncio.Semaphore = field(init=False)
 
@@ -31,12 +31,12 @@ class Slots:
 
     @asynccontextmanager
     async def held(self, client: str) -> AsyncIterator[None]:
-        """Hold a place while the body runs.
+        """Hold a slot while the body runs.
 
         Raises
         ------
         HTTPException
-            429 if the client itself has all of its places, 503 if all others are taken.
+            429 if the client has all of its slots, 503 if all others are taken.
         """
         end = asyncio.get_running_loop().time() + self.patience_s
         own = self._clients.setdefault(client, _Client(asyncio.Semaphore(self.each)))
@@ -63,11 +63,11 @@ class Slots:
 class _Client:
     places: asyncio.Semaphore
     waiting: int = 0
-    """Those who hold one, too."""
+    """Number of requests that wait for a slot or hold one."""
 
 
 class Slotted(Response):
-    """An answer that is sent while a place is held, and broken off when that takes too long."""
+    """An answer that is sent while a slot is held, and broken off when that takes too long."""
 
     def __init__(self, answer: Response, slots: Slots, client: str, longest_s: float) -> None:
         self.answer, self.slots, self.client, self.longest_s = answer, slots, client, longest_s

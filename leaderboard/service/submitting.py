@@ -21,13 +21,13 @@ from .slots import Slotted
 from .uploads import BODY, ZIP, check_headers, received
 
 POLL_S: Final = 1.0
-"""How often the database is asked [s]."""
+"""Time between two queries of the database [s]."""
 
 ALIVE_S: Final = 15.0
-"""After how long without news a comment is sent [s], so that nobody on the way hangs up."""
+"""Time without news after which a comment is sent [s], so that no proxy closes the connection."""
 
 LONGEST_S: Final = 3600.0
-"""After how long a stream ends [s]; a browser asks again by itself."""
+"""Time after which a stream ends [s]; a browser reconnects by itself."""
 
 
 async def events(
@@ -38,9 +38,9 @@ async def events(
     Parameters
     ----------
     first
-        The job as it is.
+        The job at the beginning.
     read
-        Returns it as it is now, or raises that the database is away.
+        Returns the present job, or raises an error if the database is away.
     """
     clock = asyncio.get_running_loop().time
     began = reported = clock()
@@ -67,16 +67,16 @@ def _event(job: JobAnswer) -> bytes:
 
 router = APIRouter()
 
-REVOKED: Final = "this token does not count: it is mistyped or has been revoked"
+REVOKED: Final = "this token is not valid: it is mistyped or has been revoked"
 
 CANCELLED: Final = "at the submitter's request"
-"""Why a job is cancelled over the web."""
+"""Reason of a cancellation over the web."""
 
 MINE: Final = 50
 """Maximum number of listed submissions of a submitter."""
 
 _token: Final = HTTPBearer(
-    auto_error=False, description="A token, made by: colift token add NAME --board PATH"
+    auto_error=False, description="A token, made with: colift token add NAME --board PATH"
 )
 Credentials = Annotated[HTTPAuthorizationCredentials | None, Depends(_token)]
 
@@ -91,7 +91,7 @@ async def me(service: Service, credentials: Credentials) -> SubmitterAnswer:
 async def submissions(
     service: Service, request: Request, credentials: Credentials
 ) -> list[SubmissionAnswer]:
-    """Return the last submissions of the token's owner, the newest first."""
+    """Return the last submissions of the token's owner, newest first."""
     submitter = await _submitter(service, credentials)
     found = await run_in_threadpool(service.queue.jobs, limit=MINE, submitter=submitter)
     return [SubmissionAnswer.of_job(each, api_root(request)) for each in found]
@@ -99,7 +99,7 @@ async def submissions(
 
 @router.get("/jobs/{job}", responses=MISSING)
 def get_job(service: Service, job: JobId) -> JobAnswer:
-    """Return how far a submission is."""
+    """Return a submission and its progress."""
     return JobAnswer.of(_job(service, job))
 
 
@@ -108,7 +108,7 @@ def get_job(service: Service, job: JobId) -> JobAnswer:
     responses={
         **MISSING,
         **UNKNOWN,
-        403: {"model": Problem, "description": "It is somebody else's."},
+        403: {"model": Problem, "description": "It is another submitter's job."},
         409: {"model": Problem, "description": "It has ended."},
     },
 )
@@ -131,7 +131,7 @@ async def delete_job(service: Service, job: JobId, credentials: Credentials) -> 
     responses={
         **MISSING,
         200: {"content": {"text/event-stream": {"schema": {"type": "string"}}}},
-        503: {"model": Problem, "description": "Too many listen; ask for the job instead."},
+        503: {"model": Problem, "description": "Too many streams; request the job instead."},
     },
 )
 async def job_events(service: Service, request: Request, job: JobId) -> Response:
@@ -145,7 +145,7 @@ async def job_events(service: Service, request: Request, job: JobId) -> Response
     news = StreamingResponse(
         events(JobAnswer.of(found), read),
         media_type="text/event-stream",
-        headers={"X-Accel-Buffering": "no"},  # nginx would keep the news to itself
+        headers={"X-Accel-Buffering": "no"},  # else nginx would buffer the stream
     )
     return Slotted(news, service.streams, client_of(request), 2 * LONGEST_S)
 
@@ -158,8 +158,8 @@ async def job_events(service: Service, request: Request, job: JobId) -> Response
         **UNKNOWN,
         408: {"model": Problem, "description": "The upload is too slow."},
         413: {"model": Problem, "description": "The upload is too large."},
-        415: {"model": Problem, "description": "The body is no zip archive."},
-        503: {"model": Problem, "description": "Too many upload; see Retry-After."},
+        415: {"model": Problem, "description": "The body is not a zip archive."},
+        503: {"model": Problem, "description": "Too many uploads; see Retry-After."},
     },
     openapi_extra={
         "requestBody": {
@@ -213,7 +213,7 @@ def _known(service: ServiceState, credentials: HTTPAuthorizationCredentials | No
 
 
 def _nobody(message: str) -> HTTPException:
-    message = f"{message}; the maintainer makes tokens by: colift token add NAME"
+    message = f"{message}; the maintainer makes tokens with: colift token add NAME"
     return problem(401, message, {**CLOSE, "WWW-Authenticate": "Bearer"})
 
 

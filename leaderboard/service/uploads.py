@@ -29,16 +29,16 @@ BODY: Final = 64 * MIB
 
 ZIP: Final = "application/zip"
 TYPES: Final = {ZIP, "application/x-zip-compressed", "application/octet-stream"}
-"""What browsers and tools call a zip archive."""
+"""Media types that browsers and tools use for a zip archive."""
 
 LEAST_RATE: Final = 16 * 1024
-"""What a client must send [bytes/s], over :data:`WINDOW_S`."""
+"""Least rate at which a client must send [bytes/s], over :data:`WINDOW_S`."""
 
 WINDOW_S: Final = 15.0
-"""How long a client may be silent [s]; that is also all the lead that one can gain."""
+"""Longest silence of a client [s]; this is also the largest lead that it can gain."""
 
 LONGEST_S: Final = 900.0
-"""How long an upload may take [s]."""
+"""Longest duration of an upload [s]."""
 
 
 def check_headers(request: Request) -> None:
@@ -60,17 +60,17 @@ def check_headers(request: Request) -> None:
 
 @asynccontextmanager
 async def received(request: Request, service: ServiceState) -> AsyncIterator[Incoming]:
-    """Yield the submission that a request brings, ready to be placed in the board.
+    """Yield the submission in a request, ready to be placed in the board.
 
-    What is not placed by the end is not on the disk any more; what it takes meanwhile is bounded by
-    :data:`BODY` and what may come out of an archive.
+    A submission that is not placed is removed from the disk at the end; until then its size is
+    bounded by :data:`BODY` and the limits of an archive's content.
 
     Raises
     ------
     HTTPException
         If the body is too large, too slow, or breaks off.
     InputError
-        If it is no zip archive, or not of a submission.
+        If it is not a zip archive, or not one of a submission.
     """
     # Not in /tmp, which may be memory.
     with service.board.store.staging() as place, (place / "upload.zip").open("w+b") as file:
@@ -111,26 +111,26 @@ def _incoming(file: IO[bytes], folder: Path, board: Board) -> Incoming:
         unpack_archive(file, folder)  # type: ignore[arg-type]
         return board.store.incoming(folder)
     except InputError as error:
-        # The user knows nothing of our folders.
+        # Messages to clients must not name folders of this machine.
         message = str(error).replace(f"{folder}/", "").replace(str(folder), "the zip archive")
         raise InputError(message) from error
 
 
 def _too_large() -> Exception:
-    return problem(413, f"a zip archive may have {BODY // MIB} MiB", CLOSE)
+    return problem(413, f"a zip archive may have at most {BODY // MIB} MiB", CLOSE)
 
 
 AGE: Final = timedelta(hours=1)
-"""What is younger may be about to get its job."""
+"""Age below which a submission may be about to get its job."""
 
 _DIGEST: Final = re.compile("[0-9a-f]{64}")
 
 
 def remove_orphans(board: Board, age: timedelta = AGE) -> None:
-    """Remove what killed uploads have left; submissions under way are not touched.
+    """Remove the remains of killed uploads; submissions under way are not touched.
 
-    A submission comes to its place in the transaction that makes its job (see :class:`.Queue`), so
-    within another transaction one without a job stays one.
+    A submission is placed in the transaction that makes its job (see :class:`.Queue`), so during
+    another transaction a submission without a job cannot get one.
     """
     folder = board.folder / "submissions"
     remove_abandoned(folder)

@@ -13,16 +13,16 @@ from ...agents.errors import InputError
 from ...agents.submissions.folder import CHUNK, LIMITS, MIB, NAME, FolderLimits, is_part
 
 RATIO: Final = 200
-"""How many times larger than the archive all files together may be."""
+"""Largest ratio of the size of all files to that of the archive."""
 
 LARGE: Final = 16 * MIB
-"""From where on :data:`RATIO` counts [bytes]: less does no harm, however well it was packed."""
+"""Total size from which :data:`RATIO` applies [bytes]: less is harmless at any ratio."""
 
 DIRECTORY: Final = 2 * MIB
 """Largest table of contents [bytes]; it is read before anything in it can be checked."""
 
 METHODS: Final = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}
-"""Compression that needs no more memory than we give it."""
+"""Compression methods whose memory is bounded."""
 
 _END: Final = b"PK\x05\x06"
 _END_SIZE: Final = 22
@@ -53,22 +53,23 @@ def unpack_archive(file: BinaryIO, folder: Path, limits: FolderLimits = LIMITS) 
 
     The rules are those of :func:`.read_folder`; all names and declared sizes are checked before
     the first byte is written. Names that begin with a dot, and ``__pycache__``, are left out. If
-    all that remains lies in one folder, as when a folder itself was packed, its files are taken.
+    all other files lie in one folder, as when a folder itself was packed, that folder is left out
+    of their paths.
 
     Parameters
     ----------
     file
-        The archive; it can be sought in.
+        The archive; it must be seekable.
     folder
-        Where to: a folder that is there, empty, and nobody else's.
+        Destination: an existing empty folder that nobody else uses.
     limits
-        How much may come out.
+        Limits of the extracted files.
 
     Raises
     ------
     InputError
-        If it is no zip archive, is damaged, or an entry is not allowed; the message names the
-        entry. The folder then may hold a part of the files.
+        If it is not a zip archive, is damaged, or an entry is not allowed; the message names the
+        entry. The folder may then hold a part of the files.
     """
     size = _check_directory(file)
     with _readable("the archive"), zipfile.ZipFile(file) as archive:
@@ -94,7 +95,9 @@ def _check_directory(file: BinaryIO) -> int:
         )
     directory = int.from_bytes(tail[at + 12 : at + 16], "little")
     if tail[max(at - _END64_SIZE, 0) :].startswith(_END64) or directory > DIRECTORY:
-        raise InputError(f"the zip archive's table of contents may have {DIRECTORY // MIB} MiB")
+        raise InputError(
+            f"the zip archive's table of contents may have at most {DIRECTORY // MIB} MiB"
+        )
     return size
 
 
@@ -109,7 +112,7 @@ def _check_ratio(entries: Iterable[zipfile.ZipInfo], size: int) -> None:
 
 
 def _entries(archive: zipfile.ZipFile, limits: FolderLimits) -> dict[str, zipfile.ZipInfo]:
-    """Return the files that are part of the submission by their path in it, all checked."""
+    """Return the files of the submission by their paths in it, all checked."""
     names: dict[tuple[str, ...], zipfile.ZipInfo] = {}
     for entry in archive.infolist():
         parts = _parts(entry)
@@ -179,7 +182,7 @@ def _check_names(entry: zipfile.ZipInfo, parts: tuple[str, ...], limits: FolderL
 
 
 def _check_collisions(inside: dict[tuple[str, ...], zipfile.ZipInfo]) -> None:
-    """Refuse paths that are one on a system without case, or a file and a folder at once."""
+    """Refuse paths that differ only in case, and paths that are a file and a folder at once."""
     seen: dict[tuple[str, ...], tuple[tuple[str, ...], bool]] = {}
     for parts, entry in inside.items():
         for end in range(1, len(parts) + 1):

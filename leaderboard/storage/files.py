@@ -11,7 +11,7 @@ from typing import Any
 def write_json(
     path: Path, content: Mapping[str, Any], *, mode: int = 0o644, indent: int | None = 2
 ) -> None:
-    """Write a JSON file; readers see the old or the new one, never a part."""
+    """Write a JSON file atomically: readers see the old file or the new one."""
     separators = (",", ":") if indent is None else None
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}-")
     try:
@@ -29,7 +29,7 @@ def write_json(
 
 
 def sync(path: Path) -> None:
-    """Wait until a file's content, or a folder's names, would outlive a power failure."""
+    """Wait until a file's content, or a folder's names, would survive a power failure."""
     handle = os.open(path, os.O_RDONLY)
     try:
         os.fsync(handle)
@@ -38,7 +38,7 @@ def sync(path: Path) -> None:
 
 
 def sync_tree(folder: Path) -> None:
-    """Wait until all that is in a folder would outlive a power failure."""
+    """Wait until all content of a folder would survive a power failure."""
     for place, _, names in os.walk(folder, topdown=False):
         for name in names:
             sync(Path(place, name))

@@ -13,10 +13,10 @@ from ...benchmark.suites.hidden import SECRET_BYTES
 from .files import read_json, sync, write_json
 
 PRIVATE_FILE: Final = 0o600
-"""A file that only its owner may read."""
+"""Mode of a file that only its owner may read."""
 
 FOLDER: Final = 0o700
-"""A folder that only its owner may enter."""
+"""Mode of a folder that only its owner may enter."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,7 +79,7 @@ class SeasonSecrets:
         return known
 
     def known_human_human(self) -> Baseline | None:
-        """Return what :meth:`human_human` has kept, or None if it has not been run."""
+        """Return the baseline that :meth:`human_human` has stored, or None if it has not run."""
         path = self.folder / "human_human.json"
         return Baseline.read(read_json(path)) if path.exists() else None
 

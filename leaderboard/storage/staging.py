@@ -16,15 +16,15 @@ from ...agents.submissions.submission import Submission
 from .files import sync, sync_tree
 
 PREFIX: Final = ".new-"
-"""How such a folder is called."""
+"""Prefix of the name of such a folder."""
 
 _LOCK: Final = "lock"
-"""A file in it; a process holds its lock as long as it works there."""
+"""A file in it, whose lock a process holds while it works there."""
 
 
 @contextmanager
 def staging(parent: Path) -> Iterator[Path]:
-    """Yield a new folder in another one; at the end it is removed with all that is left in it."""
+    """Yield a new folder in another one; remove it at the end with its remaining content."""
     place, lock = _locked(parent)
     try:
         yield place
@@ -34,7 +34,7 @@ def staging(parent: Path) -> Iterator[Path]:
 
 
 def remove_abandoned(parent: Path) -> None:
-    """Remove what processes have left of their work that were killed in the middle of it."""
+    """Remove the folders of processes that were killed during their work."""
     for place in parent.glob(f"{PREFIX}*"):
         try:
             lock = _opened(place)
@@ -72,17 +72,17 @@ def _locked(parent: Path) -> tuple[Path, int]:
 
 @dataclass(frozen=True)
 class Incoming:
-    """A submission that can be put in its place in a moment: all that takes time has been done."""
+    """A submission that can be put in its place at once: all slow work has been done."""
 
     submission: Submission
     target: Path
     """Its place."""
     spoilt: bool
-    """Whether something else is there, such as what a power failure has left of it."""
+    """Whether the place has other content, such as remains after a power failure."""
 
     @classmethod
     def of(cls, submission: Submission, target: Path) -> Self:
-        """Return a submission on its way to a place; its files are on the disk then."""
+        """Return a submission on its way to a place; wait until its files are on the disk."""
         there = target.is_dir()
         intact = there and _digest(target) == submission.contents.digest
         if not intact:
@@ -90,7 +90,7 @@ class Incoming:
         return cls(submission, target, spoilt=there and not intact)
 
     def place(self) -> None:
-        """Put the files in their place; equal files that are there stay."""
+        """Put the files in their place; equal files that are already there stay."""
         if self.spoilt:
             self.target.rename(self.submission.folder.with_name("spoilt"))
         if self.target.is_dir():

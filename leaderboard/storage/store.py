@@ -10,7 +10,7 @@
     private/SEASON/                          the secret, the human-human baseline, faults in detail
     private/work/                            evaluations in progress
 
-Only ``public`` may be shown to everybody, and a log to those who know the id of its job.
+Only ``public`` may be shown to everyone, and a log to those who know the id of its job.
 """
 
 import fcntl
@@ -50,7 +50,7 @@ LOG_BYTES: Final = 100_000
 """Maximum length of the shown end of a log [bytes]."""
 
 _FOLDERS: Final = re.compile(r"(?<![\w/.:])/(?:[^\s/'\"<>:,]+/)+")
-"""The folders of an absolute path; no part of a URL, nor of a quotient."""
+"""Pattern of the folders of an absolute path, but not of a URL or a quotient."""
 
 
 @dataclass(frozen=True)
@@ -65,14 +65,14 @@ class Store:
         Parameters
         ----------
         database
-            Where the tables are: ``SQLite`` in this folder, or ``PostgreSQL``.
+            Place of the tables: ``SQLite`` in this folder, or ``PostgreSQL``.
 
         Raises
         ------
         InputError
-            If something else is there, or its tables are elsewhere.
+            If the folder has other content, or its tables are elsewhere.
         OSError
-            If it cannot be written.
+            If it cannot be written to.
         """
         if self.folder.is_dir() and not (self.folder / "board.json").exists():
             others = sorted({path.name for path in self.folder.iterdir()} - set(PARTS))
@@ -95,7 +95,7 @@ class Store:
         self.check(database)
 
     def check(self, database: str) -> None:
-        """Refuse another layout, and another database than the board's; as :meth:`prepare`."""
+        """Refuse another layout, and a database that is not the board's; as :meth:`prepare`."""
         mark = self.folder / "board.json"
         try:
             content = read_json(mark)
@@ -112,7 +112,7 @@ class Store:
 
     @contextmanager
     def alone(self) -> Iterator[None]:
-        """Hold the board's lock; it ends with this process, however that ends."""
+        """Hold the board's lock, which is released when this process ends for any reason."""
         with (self.folder / "lock").open("a") as file:
             fcntl.flock(file, fcntl.LOCK_EX)
             yield
@@ -144,7 +144,7 @@ class Store:
             yield place
 
     def incoming(self, files: Path) -> Incoming:
-        """Return the submission that files of :meth:`staging` are, ready to be placed.
+        """Return the submission in a folder of :meth:`staging`, ready to be placed.
 
         Raises
         ------
@@ -161,7 +161,7 @@ class Store:
         Raises
         ------
         InputError
-            If it is not there, or has been changed.
+            If it is missing, or has been changed.
         """
         place = self.folder / "submissions" / digest
         message = f"submission {digest} is not as it was submitted: submit the same files again"
@@ -174,7 +174,7 @@ class Store:
         return kept
 
     def bundle(self, season: str, digest: str) -> Path:
-        """Return where the bundle of a submission's public run is, or will be."""
+        """Return the path of the bundle of a submission's public run, which may not exist yet."""
         return self.folder / "public" / season / "entries" / digest / "bundle"
 
     def place_bundle(self, season: str, digest: str, made: Path) -> None:
@@ -189,7 +189,7 @@ class Store:
             sync(folder)
 
     def packed_bundle(self, season: str, digest: str) -> Path | None:
-        """Return the zip archive of a bundle, made if it is not there; None without a bundle."""
+        """Return the zip archive of a bundle; make it if needed; None without a bundle."""
         folder = self.bundle(season, digest)
         packed = folder.with_name("bundle.zip")
         if packed.is_file():
@@ -229,7 +229,7 @@ class Store:
             return None
 
     def placeless(self, text: str) -> str:
-        """Return a text for everybody: files by their names, without this machine's folders."""
+        """Return a text for publication: files by their names, without this machine's folders."""
         return _FOLDERS.sub("", text.replace(f"{self.folder}/", "/-/"))
 
     def add_to_log(self, job: str, text: str) -> None:
@@ -238,7 +238,7 @@ class Store:
             file.write(f"{text.rstrip()}\n".encode(errors="replace"))
 
     def add_to_private_log(self, season: str, job: str, text: str) -> None:
-        """Append to the log that only the maintainer may read: it may reveal hidden lifts."""
+        """Append to the log that only the maintainer may read, since it may reveal hidden lifts."""
         folder = self.secrets(season).folder / "logs"
         folder.mkdir(mode=FOLDER, exist_ok=True)
         path = folder / f"{job}.txt"

@@ -96,7 +96,7 @@ def test_a_wrong_token_is_refused_before_all_else_in_the_boards_words(colift, ur
     (place / "other" / "policy.py").write_text("class Policy: ...")
     done = colift("submit", "other", "--board", url, "--token", "x")
     assert done.returncode == 2
-    assert "this token does not count" in done.stderr
+    assert "this token is not valid" in done.stderr
     assert "Traceback" not in done.stderr
 
 

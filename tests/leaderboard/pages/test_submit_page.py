@@ -156,7 +156,7 @@ def test_why_lifts_failed_is_told_in_the_policys_own_words(page, url, queue, tok
 def test_what_is_not_accepted_is_told_why_and_nothing_is_queued(page, url, queue, token, zipped):
     before = len(queue.jobs())
     upload(page, url, zipped("other"), "wrong-token")
-    expect(page.get_by_role("alert")).to_contain_text("this token does not count")
+    expect(page.get_by_role("alert")).to_contain_text("this token is not valid")
     page.get_by_label("Your token").fill(token)
     bad = zipped("bad").with_name("bad.txt.zip")
     bad.write_bytes(b"no zip")

@@ -81,7 +81,7 @@ def test_who_asks_whose_a_token_is_gets_told(client, ada):
     assert client.get("/api/v1/me", headers=ada).json() == {"submitter": "ada"}
     answer = client.get("/api/v1/me", headers={"Authorization": "Bearer wrong"})
     assert answer.status_code == 401
-    assert "this token does not count" in answer.json()["error"]
+    assert "this token is not valid" in answer.json()["error"]
 
 
 def test_a_revoked_token_does_not_count_any_more(client, folder, opening, add_token, zipped):
@@ -168,7 +168,7 @@ def test_a_body_that_says_it_is_too_large_is_refused_unread(url, ada):
         while b"}" not in answer:
             answer += connection.recv(65536)
     assert answer.startswith(b"HTTP/1.1 413 ")
-    assert b"a zip archive may have 64 MiB" in answer
+    assert b"a zip archive may have at most 64 MiB" in answer
 
 
 def test_a_body_without_end_is_refused_early_and_not_kept(url, folder, ada):
@@ -191,7 +191,7 @@ def test_a_body_without_end_is_refused_early_and_not_kept(url, folder, ada):
         while b"}" not in answer:
             answer += connection.recv(65536)
     assert answer.startswith(b"HTTP/1.1 413 ")
-    assert answer.endswith(b'{"error":"a zip archive may have 64 MiB"}')
+    assert answer.endswith(b'{"error":"a zip archive may have at most 64 MiB"}')
     assert BODY < sent < 2 * BODY
     assert 0 < most <= BODY
 
@@ -203,7 +203,7 @@ def test_who_does_not_listen_while_sending_gets_the_answer_as_well(client, ada):
 
     answer = client.post(SUBMIT, headers=ada, content=large())
     assert answer.status_code == 413
-    assert answer.json() == {"error": "a zip archive may have 64 MiB"}
+    assert answer.json() == {"error": "a zip archive may have at most 64 MiB"}
 
 
 def test_a_client_that_goes_away_leaves_nothing(client, url, folder, ada, zipped):

@@ -178,7 +178,7 @@ def test_a_huge_table_of_contents_is_refused_before_it_is_read(out):
     content = bytearray(archive("a").getvalue())
     at = content.rindex(b"PK\x05\x06") + 12
     content[at : at + 4] = struct.pack("<I", DIRECTORY + 1)
-    with pytest.raises(InputError, match="table of contents may have 2 MiB"):
+    with pytest.raises(InputError, match="table of contents may have at most 2 MiB"):
         out(io.BytesIO(content))
 
 
