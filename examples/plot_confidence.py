@@ -3,7 +3,7 @@ Confidence during a lift
 ========================
 
 The paper's blend leads in proportion to its confidence in its own prediction, and follows
-otherwise. The trace of a lift keeps the numbers by which a policy explains its actions.
+otherwise. The trace of a lift keeps the numbers with which a policy explains its actions.
 """
 
 import colift

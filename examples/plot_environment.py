@@ -27,8 +27,8 @@ while env.agents:
 env.close()
 
 # %%
-# A reward is the negative distance from what the agent wants, in metres: the robot wants a level
-# table, the human wants that and the intended height. The robot sees samples that are 100 ms old.
+# A reward is the negative distance from the agent's goal, in metres: the robot's goal is a level
+# table, the human's is that and the intended height. The robot sees samples that are 100 ms old.
 
 figure, (upper, lower) = plt.subplots(2, 1, figsize=(8, 5), sharex=True, layout="constrained")
 for name, colour, height, reward in zip(

@@ -3,7 +3,7 @@ New people
 ==========
 
 The five subjects of the suites are a sample of a population, from which ``Subject.draw`` draws new
-people. Policies can be tried on people that nothing was tuned on.
+people. Policies can be tried on people for whom nothing was tuned.
 """
 
 from colift.agents.humans import SUBJECTS, Subject

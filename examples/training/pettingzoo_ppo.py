@@ -2,11 +2,11 @@
 PPO for both seats of the PettingZoo environment
 ================================================
 
-The robot and the person both learn in the engine, each by a PPO of its own, in plain PyTorch: their
-observations and actions differ, so that they share no network. The person is paid for its private
-target and for a level table, the robot for the level alone. In the end, the robot is scored on the
-quick suite, with the benchmark's people, whom it has not met. PyTorch for processors is enough, and
-smaller than the default build::
+The robot and the person both learn in the engine, each by its own PPO, in plain PyTorch: their
+observations and actions differ, so they share no network. The person is rewarded for its private
+target and for a level table, the robot for the level table alone. At the end, the robot is scored
+on the quick suite, with the benchmark's people, whom it has not met. The CPU build of PyTorch is
+enough, and smaller than the default build::
 
     pip install torch --index-url https://download.pytorch.org/whl/cpu
 
@@ -23,13 +23,13 @@ from torch import nn
 from torch.distributions import Normal
 
 STEPS = 20  # Steps of the human's motion that the robot sees.
-ENVS, LENGTH, UPDATES = 8, 512, 50  # Environments, and their steps in each of the updates.
+ENVS, LENGTH, UPDATES = 8, 512, 50  # Environments, their steps per update, and updates.
 EPOCHS, BATCH, RATE = 10, 256, 3e-4
 DISCOUNT, TRACE, CLIP = 0.9, 0.9, 0.2
 
 
 class Robot:
-    """The robot's seat: a straight line through the human's last heights, and its correction."""
+    """The robot's seat: a straight line through the human's last heights, and a correction."""
 
     inputs = FIXED + STEPS
 
@@ -51,7 +51,7 @@ class Robot:
 
 
 class Person:
-    """The person's seat: the private target, and a height by which the hand is held above it."""
+    """The person's seat: the private target, and the height at which the hand is held above it."""
 
     inputs = 14
 
@@ -74,7 +74,7 @@ class Person:
 
 
 class Learner(nn.Module):
-    """Two networks, of the corrections and of the value, and what improves them."""
+    """The networks of the corrections and of the value, and their optimiser."""
 
     def __init__(self, inputs: int) -> None:
         super().__init__()
@@ -91,7 +91,7 @@ class Learner(nn.Module):
         return self.critic(inputs).squeeze(-1)
 
     def learn(self, inputs, actions, rewards, ended) -> None:
-        """Improve the networks by a rollout, each argument with the axes (steps, environments)."""
+        """Improve the networks from a rollout; each argument has the axes (steps, environments)."""
         with torch.no_grad():
             values = self.value(inputs)
             before = self.policy(inputs[:-1]).log_prob(actions)
@@ -120,7 +120,7 @@ class Learner(nn.Module):
 
 
 def perceptron(inputs: int, gain: float) -> nn.Sequential:
-    """Return a network of two layers, whose last weights are of the size ``gain``."""
+    """Return a network with two hidden layers, whose last weights are of the size ``gain``."""
     layers = [nn.Linear(inputs, 64), nn.Linear(64, 64), nn.Linear(64, 1)]
     for layer, size in zip(layers, (2**0.5, 2**0.5, gain), strict=True):
         nn.init.orthogonal_(layer.weight, size)
@@ -130,7 +130,7 @@ def perceptron(inputs: int, gain: float) -> nn.Sequential:
 
 
 def rollout(envs, seats, learners, now):
-    """Play with both seats; return the last inputs, and what each learner learns from."""
+    """Play with both seats; return the last inputs, and the data for each learner."""
     played = {name: ([now[name]], [], [], []) for name in learners}
     for _ in range(LENGTH):
         with torch.no_grad():

@@ -2,7 +2,7 @@
 PPO of Stable-Baselines3
 ========================
 
-A policy is trained in the engine by PPO, and scored on the quick suite. PyTorch for processors is
+A policy is trained in the engine by PPO, and scored on the quick suite. The CPU build of PyTorch is
 enough, and smaller than the default build::
 
     pip install torch --index-url https://download.pytorch.org/whl/cpu

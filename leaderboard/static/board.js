@@ -45,12 +45,12 @@
     ["q", "behaviour", "subject", "sort", "columns", "status", "more"].map(field);
   const whole = status.textContent;
   const filters = { q: query, behaviour, subject, columns };
-  let sort = "rank", order = rows, limit = 200;  // So many rows are laid out at once.
+  let sort = "rank", order = rows, limit = 200;  // Rows that are laid out at once.
 
   const write = (value, places) => (value === null ? "–" : value.toFixed(places).replace("-", "−"));
   const at = (mm) => (100 * Math.min(mm / data.top, 1)).toFixed(2) + "%";
 
-  // Means over the public lifts of the chosen strata; what is missing weighs nothing.
+  // Means over the public lifts of the chosen strata; missing values have no weight.
   function mean(pairs) {
     let sum = 0, weight = 0;
     for (const [value, count] of pairs) if (value !== null) { sum += value * count; weight += count; }
@@ -72,7 +72,7 @@
     };
   }
 
-  // As the table of the whole has it: the best first, and after them what is missing in some lifts.
+  // The order of the whole table: the best first, then values that are missing in some lifts.
   function sortKey(metric, { mean, missing }) {
     if (mean === null) return null;
     const place = { less: mean, more: -mean, "near zero": Math.abs(mean) }[metric.better];
@@ -95,7 +95,7 @@
     row.off.classList.toggle("away", rmse === null || rmse <= data.top);
   }
 
-  // Near an end of the scale the label stays within it, as the page has it.
+  // Near an end of the scale the label stays within it, as in the template.
   function within(label, place) {
     const [anchor, dx] = place > 85 ? ["end", 14] : place < 15 ? ["start", -14] : ["middle", 0];
     label.setAttribute("text-anchor", anchor);
@@ -173,7 +173,7 @@
     const keyed = rows.map((row) => [key(row, name), row]);
     keyed.sort(([a, x], [b, y]) => {
       if (a === b) return x.index - y.index;
-      if (a === Infinity || b === Infinity) return a === Infinity ? 1 : -1;  // What has none is last either way.
+      if (a === Infinity || b === Infinity) return a === Infinity ? 1 : -1;  // Missing values are last either way.
       return (a < b ? -1 : 1) * sign;
     });
     const next = keyed.map(([, row]) => row);
@@ -255,7 +255,7 @@
     if (next) next.focus();
   });
   addEventListener("hashchange", recall);
-  // On a telephone a row unfolds by a tap, and so do the filters.
+  // On a telephone a tap unfolds a row, or the filters.
   body.addEventListener("click", (event) => {
     const button = event.target.closest(".unfold");
     if (!button) return;

@@ -21,7 +21,7 @@
     select.append(each);
   }
 
-  // The scatter: logarithmic, the same scale across and up, so that the diagonal is "equal".
+  // The scatter plot: logarithmic, with the same scale on both axes, so that the diagonal is "equal".
   function scatter(a, b) {
     const svg = field("scatter");
     svg.replaceChildren();

@@ -3,7 +3,7 @@
 (() => {
   const form = document.getElementById("choice");
   const selects = [...form.querySelectorAll("select")];
-  form.addEventListener("submit", () => {  // What was left open does not stand in the address.
+  form.addEventListener("submit", () => {  // Empty choices are left out of the address.
     for (const select of selects) select.disabled = !select.value;
   });
   addEventListener("pageshow", () => { for (const select of selects) select.disabled = false; });

@@ -1,4 +1,4 @@
-// Follows a job: asks every second how far it is, and shows its end.
+// Follows a job: requests its progress every second, and shows its outcome.
 "use strict";
 (() => {
   const box = document.getElementById("job");

@@ -42,7 +42,7 @@
     return found;
   }
 
-  // Where the joints of an arm are when its hands are at a height above rest.
+  // The places of the joints of an arm whose hands are at a height above rest.
   function armAt(arm, height) {
     const last = arm.rows.length - 1;
     const place = Math.min(Math.max((height - arm.lowest) / arm.step, 0), last);
@@ -55,7 +55,7 @@
   }
 
   // A part of an arm. Its outline is drawn once, along x; after that it is only moved, turned and
-  // stretched, which a browser can do at any rate.
+  // stretched, which is fast in any browser.
   class Limb {
     constructor(parent, paint, ra, rb) {
       this.path = make("path", { class: "paint-" + paint }, parent);

@@ -1,5 +1,5 @@
 "use strict";
-// Which curves the player of replays draws of a lift, and in which charts.
+// The charts of a lift in the replay player, and their curves.
 (function () {
   const colift = (window.coliftReplay = window.coliftReplay || {});
 
@@ -36,7 +36,7 @@
       lines.push(series("prediction", "dots", steps, mm(now.prediction)));
       keys.push(["prediction", "prediction of the human, drawn when it was made"]);
     }
-    // A wild prediction must not flatten the lift.
+    // An outlying prediction must not flatten the curves of the lift.
     const [least, most] = span(mm(now.human), mm(now.robot), mm(now.target), mm(now.ghost.robot), ...added.map((each) => mm(each.values)));
     const room = most - least;
     const within = (value) => value !== null && value > least - 0.15 * room && value < most + 0.15 * room;

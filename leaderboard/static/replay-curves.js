@@ -1,5 +1,5 @@
 "use strict";
-// Curves over the time of a lift, all with one cursor; a press or a drag on them goes there.
+// Curves over the time of a lift, all with one cursor, which a press or a drag moves.
 (function () {
   const MARGIN = { left: 54, right: 22, top: 10, bottom: 8, axis: 30 };
 
@@ -66,7 +66,7 @@
       return this.bottom - ((value - low) / (high - low)) * room;
     }
 
-    // Draw everything anew for the width that there is.
+    // Draw everything anew for the available width.
     fit() {
       const width = Math.round(this.svg.parentNode.clientWidth);
       if (!width || width === this.width) return;
@@ -154,7 +154,7 @@
     }
   }
 
-  // What a line of a chart stands for.
+  // The key of a line of a chart.
   function key(kind, words) {
     const item = document.createElement("span");
     item.className = "replay-key key-" + kind;

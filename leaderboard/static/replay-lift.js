@@ -1,5 +1,5 @@
 "use strict";
-// A lift as the player of replays shows it, from what replays/replay.py packs.
+// A lift as the replay player shows it, from the data of replays/replay.py.
 (function () {
   const UNIT = 1e-4; // m
 
@@ -34,12 +34,12 @@
     return { ...now, error: errorOf(now) };
   };
 
-  // The height that the robot's end should have; and the place of a ball, with that where it should be.
+  // The height that the robot's end should have; and the place of a ball, with its target place.
   const farGoal = (colift.farGoal = (drawn) => drawn.find((each) => each.goal && each.where !== "place"));
   const places = (colift.places = (drawn) =>
     [false, true].map((goal) => drawn.find((each) => each.where === "place" && each.goal === goal)));
 
-  // The error over time, of the robot and of two people, in m, and what it is (episode/drawn.py).
+  // The error over time, of the robot and of two people, in m, and its name (episode/drawn.py).
   function errorOf(now) {
     const less = (a, b) => a.slice(0, b.length).map((value, i) => value - b[i]);
     const goal = farGoal(now.drawn);
@@ -50,12 +50,12 @@
     };
     const words =
       ball && target ? `${ball.label} from the ${target.label}, towards the robot` : `robot's end above ${goal ? "the " + goal.label : "the human's"}`;
-    // Where several things count, the height difference is not the error.
+    // If several quantities count, the height difference is not the error.
     const scored = Boolean(goal || (ball && target)) || !now.drawn.length;
     return { values: missed(now), ghost: missed(now.ghost), words, scored };
   }
 
-  // A lift's state at a time; a height between two frames is on the line between them.
+  // A lift's state at a time; heights are interpolated between two frames.
   colift.stateAt = function (now, time) {
     const place = Math.max(time / now.frame_s - 1, 0);
     const at = (values) => {

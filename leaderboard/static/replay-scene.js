@@ -10,7 +10,7 @@
   const colift = window.coliftReplay;
   const { make, Nao, NaoArm, Person } = colift;
 
-  // The table between its two ends; with one shape for the board and one for each end's colour.
+  // The table between its two ends, with one shape for the board and one for each end's colour.
   class Table {
     constructor(parent, geometry, kind) {
       this.right = geometry.grip[0] + geometry.table;
@@ -36,7 +36,7 @@
     }
   }
 
-  // A spirit level: its bubble goes to the higher end, far enough to be seen.
+  // A spirit level: its bubble goes to the higher end, far enough to be visible.
   class Level {
     constructor(parent) {
       const { x, z, half, height } = LEVEL;
@@ -117,7 +117,7 @@
       this.humanX = humanX;
     }
 
-    // What is seen of the scene.
+    // The visible part of the scene.
     look(view) {
       const { left, right, top, bottom } = view;
       this.view = view;

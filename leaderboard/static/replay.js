@@ -1,8 +1,8 @@
 "use strict";
-// The player of replays: fills every element with data-replay="ID", ID that of a JSON script
+// The replay player: it fills every element with data-replay="ID", where ID is that of a JSON script
 // {"geometry": ..., "replays": [...]} (see replays/geometry.py and replays/replay.py).
-// Keys: space plays and pauses, arrows go by a step (with shift by a second), Home and End,
-// comma and full stop go by a frame, G shows or hides the human-human baseline.
+// Keys: space plays and pauses, arrows move by a step (with shift by a second), Home and End,
+// comma and full stop move by a frame, G shows or hides the human-human baseline.
 (function () {
   const SPEEDS = [0.25, 0.5, 1, 2, 4];
 
@@ -39,7 +39,7 @@
       return [replay.behaviour, replay.which, replay.subject, replay.seed].filter((x) => x !== null).join("-");
     }
 
-    // The replay that the address asks for, or the first.
+    // The replay in the address, or the first one.
     wanted() {
       const asked = decodeURIComponent(window.location.hash.slice(1));
       const found = this.replays.findIndex((r) => asked && this.name(r).startsWith(asked));

@@ -1,5 +1,5 @@
 // Uploads a zip file with a token; then shows its job. XMLHttpRequest, since fetch reports no progress.
-// Shows what the token's owner has submitted. The token stays in this tab.
+// Shows the submissions of the token's owner. The token stays in this tab.
 "use strict";
 (() => {
   const form = document.getElementById("upload");
@@ -86,7 +86,7 @@
       const content = await answer.json();
       if (!answer.ok) whose.textContent = content.error || "the service answered " + answer.status;
       else {
-        whose.textContent = content.length ? `The last ${content.length}, the newest first.` : "Nothing yet.";
+        whose.textContent = content.length ? `The last ${content.length}, newest first.` : "Nothing yet.";
         body.replaceChildren(...content.map(line));
       }
     } catch { whose.textContent = "The service cannot be reached. Try again."; }

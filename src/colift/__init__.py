@@ -10,7 +10,7 @@ name                   what it is
 ``colift_v0``          the environment as a module, as PettingZoo's own are
 ====================== ==========================================================================
 
-Importing it loads none of its parts: each is loaded when it is first used. It registers
+Importing colift loads none of its parts: each is loaded when it is first used. The import registers
 ``colift/Lift-v0`` with Gymnasium, whichever of the two is imported first.
 """
 

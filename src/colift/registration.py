@@ -30,7 +30,10 @@ def register_with_gymnasium() -> None:
 
 
 class _Awaited(MetaPathFinder):
-    """Finds Gymnasium as the others do, once, and registers with it when it has been executed."""
+    """A finder that waits for the import of Gymnasium, and then registers the environments.
+
+    It finds the module by the other finders.
+    """
 
     def find_spec(
         self, name: str, path: Sequence[str] | None, target: ModuleType | None = None
@@ -48,7 +51,7 @@ class _Awaited(MetaPathFinder):
             try:
                 execute(module)
             except BaseException:
-                sys.meta_path.insert(0, self)  # It may be tried again.
+                sys.meta_path.insert(0, self)  # For another attempt to import it.
                 raise
             _register(module)
 

@@ -40,13 +40,13 @@ ROUNDING: Final = 1e-9
 """Rounding of heights [m]."""
 
 PLANS: Final = 60
-"""Plans of a behaviour that are checked."""
+"""Number of plans of a behaviour that are checked."""
 
 FASTEST: Final = 0.5
 """Highest speed of a plan [m/s]; people lift at up to 0.3 m/s."""
 
 OBSERVED: Final = 40
-"""Steps of a lift that a policy is checked with."""
+"""Number of steps of the lift with which a policy is checked."""
 
 STEEPEST: Final = 4.5
 """Highest acceleration of a plan from frame to frame [m/s2]; the limit of ``jerky``."""
@@ -197,7 +197,7 @@ def check_task(task: Task, behaviour: str = "smooth") -> None:
 
 
 class Watching:
-    """A partner that checks what it is shown, and what it is paid.
+    """An agent that checks its observations and rewards.
 
     As a robot it follows the human's end, as a second human it stays at rest.
 
@@ -218,7 +218,7 @@ class Watching:
         """Begin an episode."""
 
     def act(self, observation: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the action, unless a rule is broken."""
+        """Return the action; fail if a rule is broken."""
         lift = self._lift
         try:
             self.fault = observation_fault(lift) or (rewards_fault(lift) if lift.frame else None)
@@ -243,9 +243,9 @@ def _check_played(title: str, lift: Lift, *, fails: bool) -> None:
 
 
 def check_suite(suite: Suite) -> None:
-    """Check that a suite can be published and verified; a suite that is made can be run.
+    """Check that a suite can be published and verified, beyond being run.
 
-    Its name is plain ASCII, and its recipe, which goes into result bundles, rebuilds it.
+    Its name must be plain ASCII, and its recipe, which goes into result bundles, must rebuild it.
     """
     if not isinstance(suite, Suite):
         raise AssertionError(f"check_suite takes a Suite, got {article(suite)}")
@@ -282,7 +282,7 @@ def _asserting(title: str, source: Any, hint: str = "") -> Iterator[None]:
 
 
 def _observations(seed: int, task: Task) -> NDArray[np.float64]:
-    """Return the robot's observations of a lift, (40, 5) or as the task has them."""
+    """Return the robot's observations of a lift, shape (40, 5) or that of the task."""
     return _made_up(seed) if task == LEVEL else _followed(seed, task)
 
 
@@ -291,7 +291,7 @@ def _followed(seed: int, task: Task) -> NDArray[np.float64]:
     seen: list[NDArray[np.float64]] = []
 
     class Noting(Copy):
-        """A policy that keeps what it is shown."""
+        """A policy that keeps its observations."""
 
         def act(self, observation: NDArray[np.float64]) -> NDArray[np.float64]:
             seen.append(observation.copy())

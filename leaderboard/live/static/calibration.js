@@ -1,5 +1,5 @@
 "use strict";
-// The input: which one, how strongly it moves the table, and the true size of this screen.
+// The input: its kind, its gain, and the true size of this screen.
 (function () {
   const play = (window.coliftPlay = window.coliftPlay || {});
 
@@ -71,7 +71,7 @@
       form.querySelector("#card-says").textContent =
         this.card && scale
           ? `20 cm of the table are ${((0.2 * scale * CARD_MM) / this.card / 10).toFixed(1)} cm of your finger.`
-          : "Not set yet; lifts count without it, too.";
+          : "Not set yet; lifts also count without it.";
       for (const each of document.querySelectorAll("[data-how]")) each.hidden = each.dataset.how !== preset;
     }
   }

@@ -3,13 +3,13 @@
 (function () {
   const play = (window.coliftPlay = window.coliftPlay || {});
 
-  const DRIFT = 5e-5; // of two clocks: what an old answer is uncertain by, besides its way
+  const DRIFT = 5e-5; // of two clocks: the uncertainty of an old answer, besides its travel time
   const MOST = 200;
   const EVERY_MS = 25;
   const LONGEST_MS = 4_000;
 
-  // The way there and back takes the same time only if nothing waited on it: the answer that was
-  // there soonest is the one that is believed, unless it is old.
+  // The ways there and back take the same time only if nothing waited: the answer with the shortest
+  // round trip is used, unless it is old.
   class Clock {
     constructor() {
       this.reset();
@@ -42,7 +42,7 @@
       return this.known ? this.best.rtt : Infinity;
     }
 
-    // Ask so many times; resolves when all are answered, or after a few seconds.
+    // Ask a number of times; resolves when all are answered, or after a few seconds.
     measure(send, count) {
       if (this.waiting) this.waiting.done();
       return new Promise((resolve) => {

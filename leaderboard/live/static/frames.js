@@ -1,6 +1,6 @@
 "use strict";
-// Frames of the table as they arrive, and the picture of any moment: never a predicted one, and
-// both ends always of the same moment.
+// Frames of the table as they arrive, and the picture of any moment: never a predicted picture, and
+// always with both ends at the same moment.
 (function () {
   const play = (window.coliftPlay = window.coliftPlay || {});
 
@@ -10,7 +10,7 @@
   const SHORTEST_MS = 5;
   const LONGEST_MS = 150;
 
-  // The value below which a share of the values is; null of none.
+  // The value below which a share of the values lies; null if there are none.
   play.quantile = function (values, share) {
     if (!values.length) return null;
     const sorted = Float64Array.from(values).sort();
@@ -54,12 +54,12 @@
       this.robot[n] = frame.robot;
       this.used[n] = frame.used;
       this.last = n;
-      // A frame that was made late says nothing about the way here.
+      // A frame that was made late says nothing about its travel time.
       if (!frame.late) this.lateness.push(arrived - this.at - FRAME_MS * n);
     }
 
-    // What is seen at a room time: between two frames it is on the line between them, and after the
-    // newest one that has come, the picture stands. The object is reused.
+    // The picture at a room time: interpolated between two frames; after the newest frame it stands
+    // still. The object is reused.
     look(now) {
       const { picture } = this;
       const wanted = (now - this.playout - this.at) / FRAME_MS;

@@ -1,5 +1,5 @@
 "use strict";
-// All hands of a page: whichever closes, the lift is by that one.
+// All hands of a page: the one that closes makes the lift.
 (function () {
   const play = (window.coliftPlay = window.coliftPlay || {});
 
@@ -24,7 +24,7 @@
         move: (time, height) => lifting.move(time, height),
         release: () => lifting.release(),
         say: (sentence) => told.say(sentence),
-        pad: () => told.say("A gamepad is there: choose it as input to lift with its left stick."),
+        pad: () => told.say("A gamepad is connected: choose it as input to lift with its left stick."),
       };
       this.pointer = new play.Pointer(at("stage"), asked, does);
       this.keys = new play.Keys(at("stage"), asked, does);

@@ -61,7 +61,7 @@
       if (!this.closed) return;
       if (this.started) {
         this.seen.push(now - time);
-        // Nothing was heard of the pointer, so it lay still until this movement.
+        // There were no events of the pointer, so it lay still until this movement.
         if (this.resting && time - this.last > BEFORE_MS) this.sample(time - BEFORE_MS, now);
         this.resting = false;
       }
@@ -69,8 +69,7 @@
       if (this.started) this.sample(time, now);
     }
 
-    // A pointer that rests has no events: say that it rests, as soon as no event from before can
-    // come any more.
+    // A pointer at rest has no events: report the rest as soon as no earlier event can still come.
     still(now) {
       if (!this.started || !this.silent) return;
       const time = now - this.ages[this.preset];
@@ -79,7 +78,7 @@
       this.sample(time, now);
     }
 
-    // After a lift: the age that nearly no event exceeded.
+    // After a lift: the age that almost no event exceeded.
     learn() {
       if (!this.silent || this.seen.length < LEAST_EVENTS) return;
       const age = play.quantile(this.seen, 0.99) + SPARE_MS;

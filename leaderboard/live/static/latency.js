@@ -39,14 +39,14 @@
       return play.quantile(this.delays, 0.95);
     }
 
-    // Pictures a second, by the median time between two.
+    // Pictures per second, from the median time between two.
     get refresh() {
       const gaps = this.stamps.slice(1).map((stamp, i) => stamp - this.stamps[i]);
       const gap = play.quantile(gaps, 0.5);
       return gap ? Math.round(1000 / gap) : null;
     }
 
-    // The messages that say it to the room.
+    // The messages that report the delays to the room.
     reports(lift) {
       const parts = Math.max(Math.ceil(Math.max(this.delays.length, this.late.length) / VALUES), 1);
       return Array.from({ length: parts }, (_, part) => {

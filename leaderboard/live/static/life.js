@@ -38,7 +38,7 @@
         if (wanted && !document.hidden) this.lock = await navigator.wakeLock.request("screen");
         else if (!wanted && this.lock) await this.lock.release();
       } catch {
-        // Such as a battery that is low: a lift is short enough.
+        // For example, a low battery; a lift is short enough.
       }
     }
 

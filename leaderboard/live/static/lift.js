@@ -4,10 +4,10 @@
   const play = (window.coliftPlay = window.coliftPlay || {});
 
   const TICK_MS = 10;
-  const LONG_HOLD = 4; // pictures that stand before it is said
+  const LONG_HOLD = 4; // pictures that stand still before the page says so
   const LAST_MS = 50;
 
-  // Family and major version of the browser, and no more: pages are no fingerprint.
+  // Only the family and the major version of the browser: it must not be a fingerprint.
   play.familyOf = function (navigator) {
     const brands = (navigator.userAgentData && navigator.userAgentData.brands) || [];
     const known = brands.find(({ brand }) => !/not.?a.?brand/i.test(brand) && brand !== "Chromium") || brands.find(({ brand }) => brand === "Chromium");

@@ -1,5 +1,5 @@
 "use strict";
-// Before a lift: the partner, the cues, and the people who are there.
+// Before a lift: the partner, the cues, and the people in the session.
 (function () {
   const play = (window.coliftPlay = window.coliftPlay || {});
 
@@ -13,9 +13,9 @@
 
   play.partnerWords = (partner) => NAMES[partner] || partner;
 
-  // Who is there, and what this person is and does, as sentences.
+  // The place and the role of this person, as sentences.
   play.placeWords = function (state, spectator) {
-    if (spectator) return "You watch: the table, and not the goals.";
+    if (spectator) return "You watch: you see the table, not the goals.";
     const end = state.you === "far" ? "the left end, in orange" : "the right end, in blue";
     if (state.partner === "person as robot" && state.you === "far") {
       return "You command the robot, at the left end: it follows your hand as far as a robot can. You see the table only.";
@@ -56,7 +56,7 @@
         button.addEventListener("click", () => this.copy(button));
       }
       this.show();
-      form.querySelector("button").disabled = false; // Before, a press would leave the page.
+      form.querySelector("button").disabled = false; // Earlier, a press would leave the page.
     }
 
     get choice() {
@@ -86,7 +86,7 @@
       this.form.querySelector("#latency-field").hidden = two || play.hasHumanFar(partner.value);
     }
 
-    // What the room says; it knows better than the form after a reload.
+    // The state of the room, which is right after a reload when the form is not.
     follow(state) {
       const known = this.options.find((option) => option.value === state.partner);
       if (known && state.phase !== "preparing") known.checked = true;

@@ -1,5 +1,5 @@
 "use strict";
-// The page of live lifts: what the room says, what the person does, and what is shown.
+// The page of live lifts: messages of the room, actions of the person, and their display.
 (function () {
   const play = window.coliftPlay;
 
@@ -42,7 +42,7 @@
       });
       at("next").addEventListener("click", () => this.lobby.next());
       at("change").addEventListener("click", () => this.view("choose"));
-      // Another link in the same tab is another session; the skip link is none.
+      // Another link in the same tab is another session; the skip link is not.
       window.addEventListener("hashchange", () => play.placeOf(window.location.hash) && window.location.reload());
       document.querySelector(".skip").addEventListener("click", (event) => {
         event.preventDefault();
@@ -131,7 +131,7 @@
       this.life.awake(true);
     }
 
-    // Before the first lift in a room, the clock: not while the room is busy with its preparations.
+    // Before the first lift in a room, measure the clock, but not while the room prepares.
     async measure() {
       this.measured = true;
       this.clock.reset();
@@ -249,7 +249,7 @@
       if (!answer.ok) throw new Error(`The server answered ${answer.status}.`);
       play.page = new Page(await answer.json());
     } catch (error) {
-      at("status").textContent = `The page could not start: ${error.message} Reload it.`;
+      at("status").textContent = `The page could not start: ${error.message} Reload the page.`;
     }
   }
 

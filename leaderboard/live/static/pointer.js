@@ -8,7 +8,7 @@
   const MOVES = RAW ? "pointerrawupdate" : "pointermove";
   const AGAIN_MS = 3000;
   const CLICK_MS = 500;
-  const HOLD = "This browser does not hand over the mouse. Hold its button down on the picture.";
+  const HOLD = "This browser does not lock the mouse. Hold its button down on the picture.";
 
   const samplesOf = (event) => {
     const found = event.getCoalescedEvents ? event.getCoalescedEvents() : [];
@@ -16,7 +16,7 @@
   };
 
   class Pointer {
-    // area: what is pressed. asked: {mouse(): whether the mouse is the input, gain(),
+    // area: the element that is pressed. asked: {mouse(): whether the mouse is the input, gain(),
     // pixelsPerMetre(), may(): whether a grip is possible now}. told: {grip(time, input),
     // move(time, height), release(), say(sentence)}.
     constructor(area, asked, told) {
@@ -33,7 +33,7 @@
       for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) {
         area.addEventListener(end, (event) => event.pointerId === this.held && this.let());
       }
-      // Under a lock, events go to the area, too.
+      // While the pointer is locked, events also go to the area.
       area.addEventListener(MOVES, (event) => this.move(event));
       document.addEventListener("pointerlockchange", () => this.lockChanged());
     }
@@ -59,7 +59,7 @@
           const before = this.refused;
           this.refused = performance.now();
           if (this.refused - before < AGAIN_MS) break;
-          this.told.say("The browser did not hand over the mouse. Wait a second, then click again.");
+          this.told.say("The browser did not lock the mouse. Wait a second, then click again.");
           return;
         }
       }

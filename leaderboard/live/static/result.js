@@ -1,5 +1,5 @@
 "use strict";
-// After a lift: its score, what others would have done, and the lift itself to look at.
+// After a lift: its score, the scores of others with the same movement, and its replay.
 (function () {
   const play = (window.coliftPlay = window.coliftPlay || {});
   const { element, number } = window.coliftReplay;
@@ -7,13 +7,13 @@
   const KEPT = "colift-play-best";
   const mm = (value) => (value === null || value === undefined ? "–" : `${number(value, 1)} mm`);
 
-  // What a person reads of how old the pictures were.
+  // The sentence on the age of the pictures.
   play.delayWords = function (median, p95) {
     if (median === null) return "";
     return `What you saw was ${Math.round(median)} ms old (95 % of it less than ${Math.ceil(p95)} ms).`;
   };
 
-  // The sentence of a standing; partner: the name of whoever held the far end, if it was a policy.
+  // The sentence of a standing; partner: the name of the policy at the far end, if there was one.
   play.standingWords = function (standing, partner, score) {
     const [best] = standing.policies;
     if (!best) return "";
@@ -78,7 +78,7 @@
         rows.push({ name: "simulated person", rmse_mm: standing.human_human_mm });
       }
       rows.sort((a, b) => a.rmse_mm - b.rmse_mm);
-      // One that never moves must not make all others look alike.
+      // A policy that never moves must not make all others look alike.
       const most = Math.max(Math.min(rows[rows.length - 1].rmse_mm, 3 * this.end.rmse_mm), 1e-9);
       this.part("policies").replaceChildren(
         ...rows.map((row) => {

@@ -1,5 +1,5 @@
 "use strict";
-// The session: who this page is, and its connection, which comes back by itself.
+// The session: the identity of this page, and its connection, which reconnects by itself.
 (function () {
   const play = (window.coliftPlay = window.coliftPlay || {});
 
@@ -7,10 +7,10 @@
   const TAKEN_OVER = 4001;
   const REFUSED = 4003;
   const PING_MS = 2000;
-  const SILENT_MS = 7000; // a connection without answers for so long is dead
+  const SILENT_MS = 7000; // without answers for that long, a connection is dead
   const SEATS = { s: 0, p: 1, w: "spectator" };
 
-  // What the address says after its #: {session, secret, seat}, or null.
+  // The content of the address after its #: {session, secret, seat}, or null.
   play.placeOf = function (fragment) {
     const found = /^#?([spw])=([A-Za-z0-9_-]+)\.([A-Za-z0-9_-]+)$/.exec(fragment);
     return found && { seat: SEATS[found[1]], session: found[2], secret: found[3] };
@@ -31,7 +31,7 @@
       setInterval(() => this.look(), PING_MS);
     }
 
-    // Make a session of one's own.
+    // Create a session.
     async make() {
       const answer = await fetch(`${this.root}/api/sessions`, { method: "POST" });
       const content = await answer.json().catch(() => ({}));
@@ -101,7 +101,7 @@
       if (socket) socket.close();
     }
 
-    // A cable that was pulled does not close a connection.
+    // A pulled cable does not close a connection.
     look() {
       if (!this.open || document.hidden) {
         this.heard = performance.now();
@@ -123,7 +123,7 @@
       if (this.open) this.socket.send(message instanceof ArrayBuffer ? message : JSON.stringify(message));
     }
 
-    // One of the session's lifts, as the player of replays takes it.
+    // One of the session's lifts, in the form for the replay player.
     async replay(lift) {
       const { session, secret } = this.place;
       const number = String(lift).padStart(3, "0");

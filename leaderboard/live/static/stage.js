@@ -8,7 +8,7 @@
   const ACROSS_NARROW = 1.1;
   const NARROW = 620; // px
   const LEAST_HEIGHT = 0.72; // m
-  const HIGH = 0.945; // m: with more, what is added goes above and below
+  const HIGH = 0.945; // m: any height beyond it is added above and below
   const BOTTOM = -0.28;
   const LEVEL_Z = 0.7; // where the scene has its spirit level
   const LEVEL_HIGHEST = 0.58; // not too far from the table to be seen with it
@@ -45,7 +45,7 @@
       this.fit();
     }
 
-    // Fill the place that there is, so that a metre has the same number of pixels both ways.
+    // Fill the available space; a metre has the same number of pixels in both directions.
     fit() {
       const { clientWidth: width, clientHeight: height } = this.host;
       if (!width || !height) return;
@@ -64,7 +64,7 @@
       this.scene.level.group.setAttribute("transform", `translate(0 ${lower})`);
     }
 
-    // seat: which end this person holds, "human" or "far"; null for one who watches.
+    // seat: the end that this person holds, "human" or "far"; null for a spectator.
     seat(seat) {
       if (this.at === seat) return;
       this.at = seat;

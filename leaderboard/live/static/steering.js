@@ -8,7 +8,7 @@
   const FASTER = 0.75; // m/s2
   const SLOWER = 1.5;
   const STEP_MS = 10;
-  const DEAD = 0.12; // of a stick's way: it does not come back to 0
+  const DEAD = 0.12; // of a stick's range: it does not return exactly to 0
   const LONGEST_MS = 100; // a page that slept does not catch up
 
   // The movement: pure, so that it can be tested.

@@ -1,5 +1,5 @@
 "use strict";
-// What a person is told: a sentence on the state of things, faults, and ways out of dead ends.
+// Messages to the person: the state, faults, and buttons that lead on.
 (function () {
   const play = (window.coliftPlay = window.coliftPlay || {});
 
@@ -13,14 +13,14 @@
       if (at("status").textContent !== sentence) at("status").textContent = sentence;
     }
 
-    // The server did not take something; the session goes on.
+    // The server refused something; the session goes on.
     fault(sentence) {
       at("fault").textContent = `${sentence[0].toUpperCase()}${sentence.slice(1)}.`;
       clearTimeout(this.timer);
       this.timer = setTimeout(() => (at("fault").textContent = ""), FAULT_MS);
     }
 
-    // A button that leads on; null takes it away.
+    // A button that leads on; null hides it.
     offer(words, does) {
       const button = at("action");
       button.hidden = words === null;

@@ -22,7 +22,7 @@
     return view.buffer;
   };
 
-  // Heights in m above rest; null if it is no frame.
+  // Heights in m above rest; null if the message is not a frame.
   play.unpackFrame = function (buffer) {
     const view = new DataView(buffer);
     if (view.byteLength !== FRAME || view.getUint8(0) !== KIND) return null;

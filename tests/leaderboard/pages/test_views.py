@@ -217,7 +217,11 @@ def test_a_page_shows_what_is_not_real_time_apart_and_says_what_has_no_rank(tmp_
         async with httpx.AsyncClient(transport=transport, base_url="http://board") as client:
             return [await client.get(path) for path in (*paths, "/api/v1/standings")]
 
-    told = {"good": "Rank", "snail": "would not wait for this policy", "free": "did not run in a sandbox"}
+    told = {
+        "good": "Rank",
+        "snail": "would not wait for this policy",
+        "free": "did not run in a sandbox",
+    }
     front, *pages, api = asyncio.run(answers())
     app.state.service.board.close()
     text = front.text
