@@ -111,7 +111,7 @@ def _bundle(folder: Path, to: str, out: Path, view: str, force: bool, jobs: int)
             "Each lift was replayed from both agents' actions, and every bit of its states was "
             "equal to the bundle's.",
             "A policy that is trained on lifts of a suite has met its people and seeds: its score "
-            "on that suite says nothing. The fixed sets have people of training only.",
+            "on that suite says nothing. The fixed sets have only people drawn for training.",
         ),
         licence=OWN_LICENCE if real else LICENCE,
     )

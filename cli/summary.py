@@ -27,7 +27,7 @@ def summarise_bundles(
 ) -> None:
     """Print the results of policies on several suites: on each, the error relative to two people.
 
-    There is no mean over suites: they ask for different things.
+    There is no mean over suites, since they measure different things.
     """
     found: dict[tuple[str, str], Stored] = {}
     for folder in bundles:
@@ -48,7 +48,7 @@ def summarise_bundles(
             (left("policy"), *suites),
             _rows(found, suites),
             caption="With 95 % intervals. Below 1 is better than the human-human baseline on the "
-            "same lifts. There is no mean over suites: they ask for different things.",
+            "same lifts. There is no mean over suites, since they measure different things.",
         )
     )
 

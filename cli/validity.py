@@ -1,4 +1,4 @@
-"""``colift validity``: how well suites predict the scores of policies with real people."""
+"""``colift validity``: quality of the suites' predictions of scores with real people."""
 
 import sys
 from collections import Counter

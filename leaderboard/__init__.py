@@ -1,1 +1,1 @@
-"""The leaderboard: boards, and how a submission becomes a row."""
+"""The leaderboard: boards, and the way from a submission to a row."""

@@ -49,7 +49,7 @@ def restore(file: Path, folder: Path, url: str | None = None) -> Backup:
         is not empty.
     """
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise InputError(f"{folder} holds something; name a new folder for the board")
+        raise InputError(f"{folder} is not empty; name a new folder for the board")
     url = url or os.environ.get(URL) or None
     place = folder.absolute()
     try:
@@ -84,7 +84,7 @@ def _unpack(file: Path, folder: Path) -> None:
             content = first and first.name == MARK and archive.extractfile(first)
             mark = json.load(content) if content else {}
             if (mark.get("format"), mark.get("board")) != (FORMAT, LAYOUT):
-                raise InputError(f"{file} is no backup of a board, or one of another colift")
+                raise InputError(f"{file} is not a backup of a board, or one of another colift")
             folder.mkdir()
             for name in PRIVATE:
                 (folder / name).mkdir(mode=FOLDER)
@@ -101,7 +101,7 @@ def _unpack(file: Path, folder: Path) -> None:
         ValueError,
         AttributeError,
     ) as error:
-        raise InputError(f"{file} is no backup of a board, or damaged: {error}") from error
+        raise InputError(f"{file} is not a backup of a board, or is damaged: {error}") from error
     if not (folder / FILE).is_file():
         raise InputError(f"{file} is damaged: it holds no {FILE}")
 

@@ -111,7 +111,9 @@ def _url(text: str) -> sa.URL:
     try:
         url = sa.make_url(text)
     except sa.exc.ArgumentError:
-        raise InputError(f"{URL} is no URL of a database: postgresql://user@host/name") from None
+        raise InputError(
+            f"{URL} is not the URL of a database, such as postgresql://user@host/name"
+        ) from None
     if url.drivername not in SERVERS:
         raise InputError(f"{URL} begins with {url.drivername}://; it must be postgresql://")
     return url.set(drivername="postgresql+psycopg")

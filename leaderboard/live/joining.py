@@ -1,4 +1,4 @@
-"""The socket of a page: who may open it, and the way to a seat."""
+"""The socket of a page: its admission, and the way to a seat."""
 
 import asyncio
 import json

@@ -188,7 +188,7 @@ class Keeper:
             room = await asyncio.to_thread(start_room, config)
         except Exception:  # Others wait: their turn comes.
             log.exception("the room of session %s cannot start", group.session.name)
-            self._end(group, "The room cannot start; the log of this server says why.")
+            self._end(group, "The room cannot start; the server's log has the reason.")
             return
         self._connect(group, room)
 
@@ -210,7 +210,7 @@ class Keeper:
         log.error("the room of session %s has ended by itself", group.session.name)
         self._note(group, "room lost")
         if len(group.deaths) >= DEATHS:
-            self._end(group, "The room has failed again and again; the server's log says why.")
+            self._end(group, "The room has failed repeatedly; the server's log has the reason.")
             return
         group.say("room_lost", message="The room has failed; this lift does not count.")
         self._spawn(self._open(group))

@@ -97,7 +97,9 @@ async def session_replay(
     session = await asyncio.to_thread(play.sessions.find, name)
     if session is None or kind != "Bearer" or owner != name or session.role_of(secret) is None:
         headers = {"WWW-Authenticate": "Bearer"}
-        raise problem(401, "a replay needs a secret of its session, as its link has it", headers)
+        raise problem(
+            401, "a replay needs a secret of its session, which is in the session's link", headers
+        )
     found = await asyncio.to_thread(lambda: sorted((session.folder / LIFTS).glob(f"{lift}-*/")))
     if not found:
         raise problem(404, f"this session has no lift {lift}")

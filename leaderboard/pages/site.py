@@ -43,7 +43,7 @@ def write_site(board: Board, folder: Path) -> None:
         If the folder has other content or cannot be written to, or a library is missing.
     """
     if folder.exists() and not (folder / MARK).is_file() and any(folder.iterdir()):
-        raise InputError(f"{folder} holds something else; name a new folder for the site")
+        raise InputError(f"{folder} has other content; name a new folder for the site")
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".site-") as temporary:

@@ -4,22 +4,22 @@
 key                      content
 ======================== =========================================================================
 format                   version of this table
-policy, suite,           whose lift it is
+policy, suite,           origin of the lift
 suite_digest
-behaviour, subject,      which episode it is; ``trial`` is the name of a recording, or empty
+behaviour, subject,      the episode; ``trial`` is the name of a recording, or empty
 trial, seed
 which                    ``best``, ``median`` or ``worst`` of its behaviour; null if not chosen
-failure                  why it ended early, or null
+failure                  reason of an early end, or null
 scores                   the metrics of the episode; null where there is none
-frame_s, period_s,       time of a frame and of a step, and the age of what the robot sees [s]
+frame_s, period_s,       time of a frame and of a step, and the latency [s]
 latency_s
 horizon                  frames that the whole episode has, failed or not
 human, robot, target     height of the human's end, of the robot's end and as intended by the human:
                          the first, then the changes from frame to frame [0.1 mm]
 command                  where the policy sends the hands by the end of each step [0.1 mm]
-prediction               where it predicted the human's end to be, step by step [0.1 mm]; or null
+prediction               its prediction of the human's end, step by step [0.1 mm]; or null
 confidence, role         its other reports, step by step [1/1000]; or null
-events                   what the human meant to do, and from which frame on
+events                   the human's intentions, each with its first frame
 drawn                    only of tasks that add some: the series of :class:`.DrawnSeries`, each
                          with ``name``, ``label``, ``where``, ``goal`` and ``values``, packed as
                          heights are

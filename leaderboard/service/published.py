@@ -140,7 +140,7 @@ def _standings(service: ServiceState, season: str | None) -> tuple[RankedRow, ..
 def _check_season(service: ServiceState, season: str | None) -> None:
     names = [each.name for each in service.board.seasons()]
     if season is not None and season not in names:
-        raise problem(404, f"there is no season {season}; there are {', '.join(names)}")
+        raise problem(404, f"there is no season {season}; the seasons are {', '.join(names)}")
 
 
 def _strata(service: ServiceState, standing: RankedRow) -> tuple[StratumScore, ...]:
@@ -151,7 +151,9 @@ def _strata(service: ServiceState, standing: RankedRow) -> tuple[StratumScore, .
 def _check_word(what: str, value: str | None, known: set[str]) -> None:
     """Refuse a value that no lift has; accept any if there are no rows."""
     if value is not None and known and value not in known:
-        raise problem(422, f"{what} {value} is not in this season; {', '.join(sorted(known))} are")
+        raise problem(
+            422, f"{what} {value} is not in this season, which has {', '.join(sorted(known))}"
+        )
 
 
 PUBLISHED: Final = (

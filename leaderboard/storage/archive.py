@@ -91,7 +91,7 @@ def _check_directory(file: BinaryIO) -> int:
     at = tail.rfind(_END)
     if at < 0 or len(tail) - at < _END_SIZE:
         raise InputError(
-            f"this is no zip archive, or not all of it: {size} bytes without its end record"
+            f"this is not a zip archive, or not all of one: {size} bytes without its end record"
         )
     directory = int.from_bytes(tail[at + 12 : at + 16], "little")
     if tail[max(at - _END64_SIZE, 0) :].startswith(_END64) or directory > DIRECTORY:
@@ -218,7 +218,7 @@ def _readable(what: str) -> Iterator[None]:
         ValueError,  # also what decoding raises
         OverflowError,
     ) as error:
-        raise InputError(f"{what!a} is damaged, or no zip archive: {error}") from error
+        raise InputError(f"{what!a} is damaged, or not a zip archive: {error}") from error
 
 
 def _refused(entry: zipfile.ZipInfo, reason: str) -> InputError:

@@ -6,7 +6,7 @@
     submissions/DIGEST/                      submitted files, by digest
     public/SEASON/entries/DIGEST/bundle/     the bundle of the public run
     public/SEASON/entries/DIGEST/bundle.zip  the same in one file, made at the first request
-    logs/JOB.txt                             what the workers wrote about a job
+    logs/JOB.txt                             the workers' log of a job
     private/SEASON/                          the secret, the human-human baseline, faults in detail
     private/work/                            evaluations in progress
 
@@ -78,7 +78,7 @@ class Store:
             others = sorted({path.name for path in self.folder.iterdir()} - set(PARTS))
             if others:
                 raise InputError(
-                    f"{self.folder} is no board: it holds {others[0]}; name a new folder"
+                    f"{self.folder} is not a board: it holds {others[0]}; name a new folder"
                 )
         self.folder.mkdir(parents=True, exist_ok=True)
         for name in ("private", "submissions", "logs"):

@@ -167,7 +167,7 @@ def test_what_fails_its_check_is_not_put_on_the_board(colift, first, make, place
     [
         (("nowhere", "--board", "new"), "nowhere: no such folder"),
         (("empty", "--board", "new"), "colift new DIR"),
-        (("mine", "--board", "mine"), "mine is no board"),
+        (("mine", "--board", "mine"), "mine is not a board"),
         (("mine", "--board", "mine/policy.py"), "as a board"),
         (("mine", "--board", "board", "--suite", "paper-v1"), "a board of quick-v1"),
         (("mine", "--board", "new", "--jobs", "0"), "jobs must be at least 1"),

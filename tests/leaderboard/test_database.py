@@ -106,7 +106,7 @@ def test_a_change_that_fails_leaves_nothing(board):
     ("url", "told"),
     [
         ("mysql://here/x", "begins with mysql://; it must be postgresql://"),
-        ("nonsense", "is no URL of a database"),
+        ("nonsense", "is not the URL of a database"),
         ("postgresql://ada:geheim@127.0.0.1:1/x", "cannot be opened"),
     ],
 )

@@ -112,7 +112,7 @@ def test_what_is_there_is_not_replaced(filled, tmp_path):
     with pytest.raises(InputError, match="is there already"):
         back_up(filled, tmp_path / "there")
     back_up(filled, tmp_path / "kept")
-    with pytest.raises(InputError, match="holds something; name a new folder"):
+    with pytest.raises(InputError, match="is not empty; name a new folder"):
         restore(tmp_path / "kept", filled.folder)
     assert (tmp_path / "there").read_text() == "mine"
 
@@ -141,7 +141,7 @@ def archive(file, *names, first="backup.json"):
 @pytest.mark.parametrize(
     ("names", "first", "words"),
     [
-        ((), "other", "is no backup of a board"),
+        ((), "other", "is not a backup of a board"),
         (("../out",), "backup.json", "is nothing that a backup of a board holds"),
         (("/out",), "backup.json", "is nothing that a backup of a board holds"),
         (("public/../../out",), "backup.json", "is nothing that a backup of a board holds"),
@@ -189,7 +189,7 @@ def test_other_files_in_the_folder_do_not_matter(tmp_path):
     Board.open(board.folder).close()
     (tmp_path / "none").mkdir()
     (tmp_path / "none" / "copy.sqlite").touch()
-    with pytest.raises(InputError, match="is no board: it holds"):
+    with pytest.raises(InputError, match="is not a board: it holds"):
         Board.open(tmp_path / "none")
 
 
@@ -290,4 +290,4 @@ def test_a_board_that_cannot_be_written_can_be_read_and_backed_up(tmp_path):
         board.close()
     restored = colift("board", "--restore", "kept")
     assert restored.returncode == 2
-    assert "holds something" in restored.stderr
+    assert "is not empty" in restored.stderr

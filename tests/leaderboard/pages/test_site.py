@@ -57,7 +57,7 @@ def test_an_older_site_is_replaced_and_nothing_else(folder, tmp_path):
     board = Board.open(folder)
     (tmp_path / "thesis").mkdir()
     (tmp_path / "thesis/thesis.tex").touch()
-    with pytest.raises(InputError, match="holds something else"):
+    with pytest.raises(InputError, match="has other content"):
         write_site(board, tmp_path / "thesis")
     write_site(board, tmp_path / "site")
     (tmp_path / "site/old.html").touch()

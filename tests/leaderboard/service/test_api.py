@@ -41,8 +41,8 @@ def test_the_service_says_that_it_is_well(client):
     ("path", "message"),
     [
         ("/nothing", "there is no '/nothing' here"),
-        ("/api/v1/standings?season=7", "there is no season 7; there are 1"),
-        ("/api/v1/standings.csv?season=7", "there is no season 7; there are 1"),
+        ("/api/v1/standings?season=7", "there is no season 7; the seasons are 1"),
+        ("/api/v1/standings.csv?season=7", "there is no season 7; the seasons are 1"),
         (f"/api/v1/entries/1/{DIGEST}", f"season 1 has no entry {DIGEST}"),
         (f"/api/v1/entries/1/{DIGEST}/bundle.zip", f"season 1 has no bundle of {DIGEST}"),
         (f"/api/v1/jobs/{JOB}", f"there is no job {JOB}"),

@@ -98,7 +98,7 @@ def test_the_lifts_of_a_behaviour_or_subject_are_told(client, done):
     assert strata(behaviour="pause", subject=subject) == [("pause", subject)]
     answer = client.get("/api/v1/standings", params={"behaviour": "dance"})
     assert answer.status_code == 422
-    assert "behaviour dance is not in this season; " in answer.json()["error"]
+    assert "behaviour dance is not in this season, which has " in answer.json()["error"]
     assert "pause" in answer.json()["error"]
 
 
