@@ -71,7 +71,9 @@ def check(
         print_json(_content(folder, done))
     elif failed:
         checks = "1 check" if failed == 1 else f"{failed} checks"
-        _print(console, f"{checks} failed. Fix it, then: colift check {argument(folder)}")
+        _print(
+            console, f"{checks} failed. Fix the submission, then: colift check {argument(folder)}"
+        )
     else:
         name = argument(folder)
         _print(console, f"Next: colift run {name}, or colift submit {name} --board PATH")
@@ -119,7 +121,7 @@ def _files(submission: Submission) -> Iterator[Check]:
         if wanting
     ]
     if wanted:
-        text += f". Write in policy.toml {' and '.join(wanted)}"
+        text += f". Add to policy.toml {' and '.join(wanted)}"
     yield Check(name="manifest", ok=True, message=text, warning=bool(wanted))
     wrong = list(undeclared(submission.folder, contents, manifest.packages))
     none = "none: a network runs without code" if manifest.model else "none but Python's own"

@@ -176,7 +176,7 @@ def _refuse(reason: str, fix: Path | None = None, option: str = "") -> NoReturn:
     """End with the reason why there is no row, and the folder to fix, if any."""
     print(reason, file=sys.stderr)
     if fix is not None:
-        print(f"Fix it, then: colift check {argument(fix)}{option}", file=sys.stderr)
+        print(f"Fix the submission, then: colift check {argument(fix)}{option}", file=sys.stderr)
     raise typer.Exit(1)
 
 

@@ -137,7 +137,7 @@ def test_a_failure_is_shown_with_what_was_printed_and_what_to_do(colift, mine):
     done = colift("check", "mine", COLUMNS="60")
     lines = [line.strip() for line in done.stdout.splitlines()]
     assert "loud" in lines
-    assert lines[-1] == "1 check failed. Fix it, then: colift check mine"
+    assert lines[-1] == "1 check failed. Fix the submission, then: colift check mine"
     assert any(line.startswith("failed  lifts        smooth/S1 seed 7000") for line in lines)
     told, _, printed = done.stdout.partition("it printed:\n")
     assert all(len(line) <= 60 for line in told.splitlines())
@@ -227,7 +227,7 @@ def test_a_plain_number_is_an_action_and_a_sound_policy_is_not_warned_of(checked
 
 def test_the_templates_words_about_itself_are_to_be_replaced(checked, mine):
     told = checked((mine / "policy.py").read_text())["manifest"].message
-    assert told.endswith("Write in policy.toml the authors")
+    assert told.endswith("Add to policy.toml the authors")
     own = FAILING["no act"][0]
     told = checked(own)["manifest"].message
     assert told.endswith("the authors and a description (it is the template's)")
