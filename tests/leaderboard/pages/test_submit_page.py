@@ -184,6 +184,15 @@ def test_there_is_no_page_of_an_unknown_job(page, url):
     assert "There is no such job" in answer.text()
 
 
+def test_a_cancelled_submission_is_no_fault_of_the_machine(page, url, queue, token, zipped):
+    upload(page, url, zipped("unwanted"), token)
+    page.wait_for_url("**/jobs/*")
+    queue.cancel(page.url.rpartition("/")[2], "Grace", "too long")
+    notice = page.locator(".notice.bad")
+    expect(notice).to_contain_text("Cancelled by Grace: too long.")
+    expect(notice).not_to_contain_text("machine")
+
+
 def test_my_submissions_are_shown_to_who_has_the_token_and_the_token_stays_in_the_tab(
     page, url, queue, token, zipped
 ):
