@@ -22,8 +22,8 @@ from .observing import ObservedLift
 from .rules import NAMES, agent, rule
 
 FIRST_SEED: Final = 120_000
-"""Seed of the first lift and of its person: one of those for training, which no suite has, and
-beyond those that the built-in policies were learned from."""
+"""Seed of the first lift and of its person: one of those for training, which no suite contains.
+Some of the lifts were among those from which ``learned`` was trained."""
 
 MOST_LIFTS: Final = 10_000
 """Largest set."""
