@@ -28,12 +28,12 @@ def checked_action(agent: str, action: Any, size: int) -> list[float]:
     action
         Any object. A single number need not be in a list.
     size
-        Its length.
+        Number of values that the action must have.
 
     Raises
     ------
     ActionError
-        If it is not ``size`` finite numbers.
+        If the action is not ``size`` finite numbers.
     """
     try:
         values = np.asarray(action, dtype=np.float64)

@@ -48,7 +48,7 @@ class Printing(Protocol):
 
     @property
     def printed(self) -> str:
-        """The end of its output to stdout and stderr since its reset."""
+        """Return the end of its output to stdout and stderr since the reset."""
 
 
 class RobotObservation(IntEnum):
@@ -71,15 +71,15 @@ class RobotObservation(IntEnum):
 
 
 class HumanObservation:
-    """Index table of the human's observation, for ``n`` frames a step (10 by default).
+    """Index table of the human's observation, for ``n`` frames per step (10 by default).
 
     Histories hold the last ten frames, oldest first.
     """
 
     OWN_HEIGHT: Final = slice(0, HISTORY)
-    """Height of the own table end [m] in the last ten frames."""
+    """Height of the human's own table end [m] in the last ten frames."""
     OWN_VELOCITY: Final = slice(HISTORY, 2 * HISTORY)
-    """Velocity of the own table end [m/s] in the last ten frames."""
+    """Velocity of the human's own table end [m/s] in the last ten frames."""
     OTHER_END: Final = slice(2 * HISTORY, 3 * HISTORY)
     """Height of the other table end [m] in ten frames, as old as the visual delay."""
     HAND_FORCE: Final = slice(3 * HISTORY, 4 * HISTORY)
@@ -92,5 +92,5 @@ class HumanObservation:
 
     @staticmethod
     def size(frames: int) -> int:
-        """Return the length of the observation for ``frames`` frames a step."""
+        """Return the length of the observation for ``frames`` frames per step."""
         return 4 * HISTORY + frames + 1

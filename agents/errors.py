@@ -4,7 +4,7 @@ from enum import Enum, auto
 
 
 class Remedy(Enum):
-    """What a user can do about an InputError; each interface has its own words for it."""
+    """Action that a user can take after an InputError; each interface words it in its own way."""
 
     RESUME = auto()
     """Resume the interrupted run."""
@@ -26,9 +26,9 @@ class InputError(ValueError):
     message
         The fault, without options or commands of any interface.
     remedy
-        What the user can do, if a command line or a page can name a command for it.
+        The action to take, if a command line or a page can name a command for it.
     target
-        What the remedy applies to, such as a file.
+        The object of the remedy, such as a file.
     """
 
     def __init__(self, *message: object, remedy: Remedy | None = None, target: str = "") -> None:

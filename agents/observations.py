@@ -1,7 +1,7 @@
 """The layouts of the robot's observations in tasks with touch: version 2.
 
 They begin with the five numbers of version 1, :class:`.RobotObservation`, so that a policy that
-reads those by name plays here, too.
+reads those by name also plays here.
 """
 
 from enum import IntEnum
@@ -10,8 +10,8 @@ from enum import IntEnum
 class HapticObservation(IntEnum):
     """Index table of an observation with touch: version 1, and the force and torque at the hands.
 
-    A force and torque sensor in each of the robot's wrists, the readings of both added up and
-    averaged over the last 50 ms.
+    Each of the robot's wrists has a force and torque sensor; both readings are added and averaged
+    over the last 50 ms.
     """
 
     HUMAN_END = 0
@@ -32,9 +32,9 @@ class HapticObservation(IntEnum):
 
 
 class AgreeObservation(IntEnum):
-    """Index table of the robot's observation in the task of two secrets: touch, and the own hurdle.
+    """Index table of the robot's observation in the task ``agree``: touch, and its own hurdle.
 
-    The four numbers of the hurdle are 0 where the robot has none.
+    The four numbers of the hurdle are 0 if the robot has none.
     """
 
     HUMAN_END = 0

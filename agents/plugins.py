@@ -69,7 +69,7 @@ def blaming(title: str, source: Any) -> Iterator[None]:
 
 
 def class_fault(kind: Any) -> str | None:
-    """Return why something is no class of a plugin, or None.
+    """Return the reason why something is not a plugin's class, or None.
 
     It must be a frozen dataclass; a subclass of one needs no decorator if it only changes methods.
     """
@@ -82,7 +82,7 @@ def class_fault(kind: Any) -> str | None:
 
 
 def _has_own_state(kind: type) -> bool:
-    """Return whether a class adds state that is in no field, since the decorator is missing."""
+    """Return whether a class adds state outside its fields, since the decorator is missing."""
     own = vars(kind)
     if "__dataclass_params__" in own:
         return False
@@ -93,9 +93,9 @@ def _has_own_state(kind: type) -> bool:
 
 
 def object_fault(made: Any, protocol: type) -> str | None:
-    """Return why an object is not one of a plugin, or None.
+    """Return the reason why an object is not a plugin's, or None.
 
-    Its class must be a frozen dataclass, and it must have all that a protocol states.
+    Its class must be a frozen dataclass, and it must have all members of the protocol.
     """
     if isinstance(made, type):
         return f"must be an object, got the class {made.__name__}"
@@ -114,7 +114,7 @@ def object_fault(made: Any, protocol: type) -> str | None:
 
 
 def place_of(made: Any) -> str:
-    """Return the class of an object, or a class, as an entry point has it: ``module:Class``."""
+    """Return the class of an object, or a class, as in an entry point: ``module:Class``."""
     kind = made if isinstance(made, type) else type(made)
     return f"{kind.__module__}:{kind.__qualname__}"
 
@@ -134,7 +134,7 @@ def article(value: Any) -> str:
 
 
 def plugin_frames(error: BaseException, source: Any) -> list[tuple[str, str]]:
-    """Return the calls of a plugin's code that an error passed, the last one last.
+    """Return the calls of a plugin's code that an error passed through, the innermost last.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ def plugin_frames(error: BaseException, source: Any) -> list[tuple[str, str]]:
 
 
 def error_at(error: BaseException, source: Any) -> str:
-    """Return an error in words, with the place in a plugin's code if it passed there."""
+    """Return an error in words, with the place in a plugin's code if it passed through that."""
     text = f"{type(error).__name__}: {error}".rstrip(": ")
     passed = plugin_frames(error, source)
     return f"{text} ({passed[-1][1]})" if passed else text

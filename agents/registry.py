@@ -25,8 +25,8 @@ _KIND: Final = {POLICIES: "policy", HUMANS: "human behaviour", SUITES: "suite", 
 def entries(group: str) -> dict[str, EntryPoint]:
     """Return the entry points of a group by name, in the order of their names.
 
-    Policies for one task alone are among the policies. Of a name that several packages register,
-    the first is here; :func:`entry_of` refuses it.
+    Policies for one task alone are among the policies. If several packages register a name, the
+    first is included here; :func:`entry_of` refuses the name.
     """
     return {name: found[0] for name, found in _registered(group).items()}
 
@@ -64,7 +64,7 @@ def _registered(group: str) -> dict[str, tuple[EntryPoint, ...]]:
 
 
 def playing(task: str) -> dict[str, EntryPoint]:
-    """Return the entry points of the policies that play a task: those for any, and its own."""
+    """Return the entry points of the policies that play a task: those for any task, and its own."""
     groups = (POLICIES, f"{POLICIES}.{task}")
     return {name: each for name, each in entries(POLICIES).items() if each.group in groups}
 
@@ -106,7 +106,7 @@ def _is_own(entry: EntryPoint) -> bool:
 
 
 def _package(entry: EntryPoint) -> str:
-    """Return the package that an entry point is of, as words behind its value."""
+    """Return the package of an entry point, as words to follow its value."""
     return "" if entry.dist is None else f" of the package {entry.dist.name}"
 
 

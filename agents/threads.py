@@ -1,4 +1,4 @@
-"""Linear algebra on one thread: its number of threads changes the last bits of what it computes."""
+"""Linear algebra on one thread: the number of threads changes the last bits of its results."""
 
 import ctypes
 from collections.abc import Iterator
@@ -11,7 +11,7 @@ _Count = tuple[int, int]
 
 
 class _Loaded(ctypes.Structure):
-    """The system's ``struct dl_phdr_info``: of the process, how often libraries came and went."""
+    """The system's ``struct dl_phdr_info``, which counts the libraries loaded and unloaded."""
 
     _fields_ = (
         ("address", ctypes.c_void_p),
@@ -36,7 +36,7 @@ def _first(info: "ctypes._Pointer[_Loaded]", size: int, found: list[_Count]) -> 
 
 
 def _library_count() -> _Count | None:
-    """Return how many libraries this process has loaded and unloaded; None if nobody counts."""
+    """Return how many libraries this process has loaded and unloaded; None if unknown."""
     found: list[_Count] = []
     visit = getattr(ctypes.CDLL(None), "dl_iterate_phdr", None)
     if visit is not None:
@@ -49,9 +49,10 @@ _known: dict[_Count, ThreadpoolController] = {}
 
 
 def _controller() -> ThreadpoolController:
-    """Return the loaded libraries of linear algebra: looked for again only after a new one came.
+    """Return the loaded libraries of linear algebra.
 
-    To look for them takes milliseconds, as long as a tenth of a lift.
+    They are searched again only after another library has been loaded: a search takes
+    milliseconds, as long as a tenth of a lift.
     """
     count = _library_count()
     if count is None:
@@ -65,7 +66,7 @@ def _controller() -> ThreadpoolController:
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """Limit linear algebra to one thread, as in a sandbox: their number changes the last bits.
+    """Limit linear algebra to one thread, as in a sandbox: more threads change the last bits.
 
     Only libraries that are already loaded are limited.
     """

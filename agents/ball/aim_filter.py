@@ -1,4 +1,4 @@
-"""A bank of Kalman filters of the aim that a person's wrists show."""
+"""A bank of Kalman filters for the aim that a person's wrists show."""
 
 from typing import Final
 
@@ -31,7 +31,7 @@ SPREAD: Final = 0.1
 
 
 def wanted_difference(place: float, speed: float, aim: float) -> float:
-    """Return the height difference [m] by which a person would bring the ball to an aim.
+    """Return the height difference [m] with which a person would bring the ball to an aim.
 
         d = (w^2 (s - y) + 2 z w v) / PULL
 
@@ -43,12 +43,13 @@ def wanted_difference(place: float, speed: float, aim: float) -> float:
 class AimFilter:
     """Estimates the aim of a person whose wrists show an unknown part of what the person wants.
 
-    With the part k, the wrists mean k d, so that each k makes of the felt c another measurement
+    If the wrists show the part k, they mean k d. Each candidate k therefore turns the felt c into a
+    different measurement
 
         y = s + (2 z / w) v - PULL c / (k w^2)
 
-    of an aim that drifts. Each candidate has its Kalman filter; the likelihoods of what each has
-    predicted weigh them (Bayes), and the estimate is the mean of all.
+    of an aim that drifts. Each candidate has its own Kalman filter and is weighted by the
+    likelihood of its predictions (Bayes); the estimate is the weighted mean.
 
     Parameters
     ----------
@@ -82,13 +83,13 @@ class AimFilter:
         return float((self.weights * PARTS).sum())
 
     def update(self, place: float, speed: float, meant: float, period: float) -> None:
-        """Add what the wrists seem to mean [m], with the ball's place and speed [m, m/s]."""
+        """Add the height difference that the wrists mean [m], and the ball's place and speed."""
         scale = PULL / RATE**2 / PARTS
         seen = place + 2 * DAMPING / RATE * speed - scale * meant
         self._variances = self._variances + DRIFT**2 * max(period, 0.0) / 0.1
         total = self._variances + (scale * self._felt_noise) ** 2 + PLACE_NOISE**2
         error = seen - self._aims
-        # The felt, not the aim, is what the candidates compete to predict.
+        # The candidates compete to predict the felt difference, not the aim.
         self._evidence += -0.5 * error**2 / total - 0.5 * np.log(total / scale**2)
         gain = self._variances / total
         self._aims = self._aims + gain * error

@@ -1,4 +1,4 @@
-"""A Kalman filter of the place and the speed of the ball."""
+"""A Kalman filter for the place and the speed of the ball."""
 
 from typing import Final
 
@@ -16,13 +16,13 @@ PUSH_NOISE: Final = 0.15
 
 
 class BallFilter:
-    """A Kalman filter of the ball's place and speed at the time of the newest sample.
+    """A Kalman filter for the ball's place and speed at the time of the newest sample.
 
     The state x = (s, v) moves in a period T by
 
         s <- s + T v + T^2 u / 2,    v <- v + T u,    u = -PULL d,
 
-    with the height difference d of the ends, far above near, on the mean over the period.
+    with d the height difference of the ends, far above near, averaged over the period.
     """
 
     def reset(self) -> None:
@@ -31,7 +31,7 @@ class BallFilter:
         self._covariance: NDArray[np.float64] = np.diag((1e-6, 1e-4))
 
     def update(self, place: float, difference: float, period: float) -> None:
-        """Add a seen place [m], a period after the last, with the mean difference between [m]."""
+        """Add a seen place [m], a period after the last, and the mean difference since then [m]."""
         push = -PULL * difference
         self.place += period * self.speed + period**2 / 2 * push
         self.speed += period * push
@@ -48,7 +48,7 @@ class BallFilter:
         )
 
     def ahead(self, differences: list[float], step: float) -> tuple[float, float]:
-        """Return place and speed after so many steps [s] with these height differences [m]."""
+        """Return place and speed after one step [s] for each of the height differences [m]."""
         place, speed = self.place, self.speed
         for difference in differences:
             push = -PULL * difference

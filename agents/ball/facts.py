@@ -3,7 +3,7 @@
 from typing import Final
 
 LENGTH: Final = 0.8
-"""Distance of the table's ends [m]."""
+"""Distance between the table's ends [m]."""
 
 HALF_WEIGHT: Final = 0.35 * 9.81 / 2
 """Force that carries half of the table [N]."""
@@ -12,7 +12,7 @@ BALL_WEIGHT: Final = 0.17 * 9.81
 """Weight of the ball [N]."""
 
 PULL: Final = 5 / 7 * 9.81 / LENGTH
-"""Acceleration of the ball [m/s2] by a height difference of the ends of 1 m."""
+"""Acceleration of the ball per height difference of the ends [m/s2 per m]."""
 
 WRIST: Final = 10.0
 """Pitch stiffness of a person's grip [Nm/rad]."""
@@ -32,7 +32,7 @@ def meant_by_wrists(force: float, difference: float, place: float) -> float:
     difference
         The height difference of the ends, far above near [m].
     place
-        s, the ball's [m].
+        s, the ball's place [m].
     """
     beyond = force - (0.5 + place / LENGTH) * BALL_WEIGHT
     return difference - beyond * LENGTH**2 / WRIST

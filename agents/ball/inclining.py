@@ -21,7 +21,7 @@ SAG_MEMORY: Final = 0.1
 
 
 class Inclining:
-    """Forecasts the human's end, and commands a height difference to it.
+    """Forecasts the height of the human's end, and commands a height difference from it.
 
     It is the controller of :class:`.Anticipate`, with a wanted difference added to the path.
     """
@@ -40,7 +40,7 @@ class Inclining:
 
     @property
     def sag(self) -> float:
-        """Height of the command above the own hand [m], filtered."""
+        """Height of the command above the robot's hand [m], filtered."""
         return self._sag
 
     def observe(self, observation: Observation) -> None:

@@ -1,4 +1,4 @@
-"""The robot's view of the ball now and soon, and of what the human's wrists mean."""
+"""The robot's estimate of the ball now and soon, and of the intention in the human's wrists."""
 
 from typing import Final
 
@@ -16,10 +16,10 @@ SENSED: Final = 0.025
 
 
 class Tracking:
-    """Carries the seen ball on to the present, by the height differences since.
+    """Extrapolates the seen ball to the present by the height differences since the sample.
 
-    Between the newest sample and now the difference goes from the seen one to that of the own hand
-    and the forecast of the human's end.
+    Between the newest sample and now the difference is a ramp from the seen one to that between the
+    robot's hand and the forecast of the human's end.
     """
 
     def reset(self) -> None:
@@ -60,6 +60,6 @@ class Tracking:
 
 
 def _ramp(first: float, last: float, time: float) -> list[float]:
-    """Return values in the middles of the frames of a ramp."""
+    """Return the values of a ramp at the middle of each frame."""
     frames = round(time / FRAME)
     return [first + (last - first) * (frame + 0.5) / frames for frame in range(frames)]

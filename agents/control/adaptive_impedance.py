@@ -1,7 +1,7 @@
 """Adaptive impedance around a planned motion: learned by practice, scaled by the plan's certainty.
 
-A spring of stiffness K draws the hand to its plan, the table draws it to its partner. K is relative
-to the table's stiffness: with 0 the hand follows the partner, with 1 both weigh the same.
+A spring of stiffness K draws the hand to its plan; the table draws it to its partner. K is relative
+to the table's stiffness: with 0 the hand follows the partner, with 1 both have equal weight.
 """
 
 import math
@@ -25,7 +25,7 @@ def certainty(variance: float, tolerance: float) -> float:
     Parameters
     ----------
     variance
-        s^2, variance of the prediction that is planned for [m2].
+        s^2, variance of the prediction that the plan is for [m2].
     tolerance
         t, the standard deviation at which the certainty is one half [m].
     """
@@ -35,7 +35,7 @@ def certainty(variance: float, tolerance: float) -> float:
 def compliance(stiffness: float) -> float:
     """Return the fraction of a deviation from the plan that the hand corrects: 1 / (1 + K).
 
-    There the spring to the plan and the table's spring to the partner are in balance.
+    At that fraction the spring to the plan and the table's spring to the partner are in balance.
     """
     return 1.0 / (1.0 + stiffness)
 
@@ -143,13 +143,13 @@ def adapt(
         K_i'  = K_i - eta_K w_i (e d - rho kappa d^2) / t^2,  clipped to [0, STIFFEST]
         lead' = lead + eta_T e v,    offset' = offset + eta_z e
 
-    The first descends the cost E[e^2 + rho (kappa d)^2]: if too little of a deviation was
+    The first update descends the cost E[e^2 + rho (kappa d)^2]: if too little of a deviation was
     corrected, an error of its sign remains and the hand becomes more compliant; if too much, it
-    becomes stiffer. The fixed point is E[w_i d (e - rho kappa d)] = 0: the fraction
+    becomes stiffer. The fixed point is E[w_i d (e - rho kappa d)] = 0, at the fraction
     kappa* / (1 + rho), with kappa* the least-squares fraction of d that levels the table. As in
     human motor learning, stiffness and feed-forward adapt to the error against the effort (Yang,
-    Ganesh, Haddadin, Parusel, Albu-Schaeffer, Burdet 2011). The other two come to rest where the
-    error has zero mean and is uncorrelated with the velocity.
+    Ganesh, Haddadin, Parusel, Albu-Schaeffer, Burdet 2011). Lead and offset settle where the error
+    has zero mean and is uncorrelated with the velocity.
     """
     d = movement.deviation
     downhill = d * (error - gains.effort * movement.correction * d) / tolerance**2

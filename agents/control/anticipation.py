@@ -1,4 +1,4 @@
-"""The learned forecast of a human's motion: its features, the perceptron and what it returns."""
+"""The learned forecast of a human's motion: its features, its perceptron and its outputs."""
 
 from dataclasses import asdict, dataclass, field
 from functools import cache
@@ -52,7 +52,7 @@ class FeatureWindow:
 
 
 class FeatureHistory:
-    """Recent observations, and the features that they give.
+    """Recent observations, and the features computed from them.
 
     With z the seen heights of the human's end and dt the window's interval, the features are
 

@@ -7,20 +7,20 @@ from ..agent import FRAME, Observation
 from ..observations import AgreeObservation
 
 THERE: Final = 0.015
-"""Distance within which an end is seen at the hurdle [m]."""
+"""Distance within which an end counts as being at the hurdle [m]."""
 
 SEEN_AGE: Final = 0.1
-"""Age of the seen heights [s], as the paper's."""
+"""Age of the seen heights [s], as in the paper."""
 
 
 class HurdleWatch:
-    """The robot's own hurdle, as the observations of an episode tell of it."""
+    """The robot's own hurdle, as observed during an episode."""
 
     def __init__(self) -> None:
         self.height = self.start = self.stop = 0.0
         """Its height [m], and when its window opens and closes, from now [s]."""
         self.given = self.passed = False
-        """Whether there is one, and whether both ends were seen there in its window."""
+        """Whether there is a hurdle, and whether both ends were seen there in its window."""
 
     def see(self, observation: Observation) -> None:
         """Take an observation, laid out as :class:`.AgreeObservation`."""
@@ -44,7 +44,7 @@ class Approach:
 
         x'' = w^2 (goal - x) - sqrt(2) w x'
 
-    It begins with the speed that the command has.
+    It begins with the present speed of the command.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class Approach:
         self._last: tuple[float, float] | None = None
 
     def change(self, command: float, goal: float, time: float) -> float:
-        """Return the change of the command in this period [m]; to be called in each step.
+        """Return the change of the command in this period [m]; call it in each step.
 
         Parameters
         ----------

@@ -18,7 +18,7 @@ def learned_json(parts: Mapping[str, Any]) -> str:
 
 
 def read_learned(text: str, make: Callable[[Any], Model], kind: str) -> Model:
-    """Return what ``make`` builds from the parts of :func:`learned_json`.
+    """Return the model that ``make`` builds from the parts of :func:`learned_json`.
 
     Raises
     ------
@@ -34,7 +34,7 @@ def read_learned(text: str, make: Callable[[Any], Model], kind: str) -> Model:
 
 
 def load_learned(path: str | None, shipped: Traversable, read: Callable[[str], Model]) -> Model:
-    """Return what ``read`` makes of a file; without a path, of the shipped one.
+    """Return the model that ``read`` makes of a file; without a path, of the shipped file.
 
     Raises
     ------

@@ -14,7 +14,7 @@ ConfidenceForm = Literal["likelihood", "residuals"]
 p-value of the latest residuals (:mod:`colift.agents.estimators.residuals`)."""
 
 DEFAULT_PERIOD = 0.1
-"""Time between two samples before there have been two [s]: the paper's."""
+"""Assumed time between samples until two have arrived [s]: the paper's."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,10 +51,10 @@ class PredictorParameters:
 class Predictor:
     """Predicts the human's height one step ahead of the sample, with a confidence.
 
-    Literally the paper's: the sample's age is not compensated. The next step is assumed to last as
-    long as the last one. The first sample has no prediction to compare with and counts as one of
-    likelihood 1: eq. 7 begins at a confidence of 1, and the robot copies. The confidence by
-    residuals begins at 1 too.
+    As in the paper, the sample's age is not compensated. The next step is assumed to last as long
+    as the last one. The first sample has no prediction to compare with and counts with a likelihood
+    of 1: eq. 7 begins at a confidence of 1, and the robot copies. The confidence by residuals
+    begins at 1 too.
     """
 
     def __init__(self, parameters: PredictorParameters | None = None) -> None:
@@ -92,7 +92,7 @@ class Predictor:
 
     @property
     def period(self) -> float:
-        """The time between the last two samples [s]; the paper's before there have been two."""
+        """The time between the last two samples [s]; until two have arrived, the paper's."""
         return self._period
 
     def ahead(self, horizon: float) -> Prediction:
@@ -108,7 +108,7 @@ class Predictor:
         return self._filter.ahead(horizon)
 
     def _compare(self, error: float, variance: float) -> float:
-        """Return the confidence after an error [mm] of a prediction of a variance [mm2]."""
+        """Return the confidence after a prediction error [mm] with the predicted variance [mm2]."""
         parameters = self._parameters
         if parameters.confidence == "residuals":
             return self._residuals.update(error, variance + parameters.motion.measurement_noise)

@@ -37,9 +37,9 @@ def preview_gains(frames: int, steps: int, smoothness: float) -> PreviewGains:
 
     .. math:: \int (h(t) - u(t))^2 dt + T \rho \sum_i (u_{i+1} - 2 u_i + u_{i-1})^2
 
-    over the coming ``steps`` periods of length T: least squares, of which the first command is
-    carried out and the rest is optimised again with the next sample (receding horizon). The path
-    may be the mean of an uncertain forecast: as the cost is quadratic and the commands do not
+    over the coming ``steps`` periods of length T. It is a least-squares problem; the first command
+    is carried out, and the rest is optimised again with the next sample (receding horizon). The
+    path may be the mean of an uncertain forecast: as the cost is quadratic and the commands do not
     affect the path, no other moment matters (certainty equivalence).
 
     Parameters
@@ -58,7 +58,7 @@ def preview_gains(frames: int, steps: int, smoothness: float) -> PreviewGains:
         rows = slice(step * frames, (step + 1) * frames)
         knots[rows, step] = 1.0 - ramp
         knots[rows, step + 1] = ramp
-    # Columns of both: u_(-1), u_0, u_1, ...
+    # The columns of both matrices are u_(-1), u_0, u_1, ...
     line = FRAME * np.hstack((np.zeros((len(knots), 1)), knots))
     bends = np.zeros((steps, steps + 2))
     for step in range(steps):

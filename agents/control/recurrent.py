@@ -15,17 +15,17 @@ from ..errors import InputError
 from .portable import ArrayFunctions
 
 STEPS_AHEAD: Final = 2.0
-"""Control periods from the sample to the end of the next command: as of :class:`.Extrapolate`."""
+"""Control periods from the sample to the end of the next command, as in :class:`.Extrapolate`."""
 
 ARM_BEHIND: Final = 0.2
-"""Share of a command's change that the hand has still to make when the robot decides: the time
+"""Share of a command's change that the hand still has to make when the robot decides: the time
 constant of the joints (20 ms) over the control period."""
 
 SAG_GAIN: Final = 0.632
-"""Gain a step of the filter of the measured sag: a time constant of one control period."""
+"""Gain per step of the filter of the measured sag: a time constant of one control period."""
 
 CORRECTION: Final = 0.02
-"""Size of a correction of 1 [m]."""
+"""Height difference per unit of the network's output [m]."""
 
 INPUTS: Final = 6
 
@@ -48,7 +48,7 @@ class GatedNetwork(NamedTuple):
 
     @property
     def units(self) -> int:
-        """How many units."""
+        """Number of units."""
         return int(self.memory.shape[1])
 
 
@@ -82,7 +82,7 @@ def act(
     network
         The weights.
     memory
-        That of the last step.
+        The memory after the last step.
     observation
         (5, ...) observations of :class:`.RobotObservation`.
     functions

@@ -33,5 +33,5 @@ class RecurrentController:
         return np.array([change])
 
     def internals(self) -> dict[str, float]:
-        """Return the height expected of the human's end after the step, and the arms' sag [m]."""
+        """Return the expected height of the human's end after the step, and the arms' sag [m]."""
         return self._internals

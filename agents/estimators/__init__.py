@@ -1,1 +1,1 @@
-"""Estimators: what a robot can tell of the human's motion, and how sure it is of it."""
+"""Estimators of the human's motion, with their uncertainty."""

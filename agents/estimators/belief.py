@@ -15,7 +15,7 @@ class BeliefParameters:
     pace: float = 5.0
     """Rate at which a partner approaches its goal [1/s]."""
     noise: float = 0.04
-    """Standard deviation of a partner's speed about that [m/s]."""
+    """Standard deviation of a partner's speed about that of the approach [m/s]."""
     change: float = 0.08
     """Probability that a partner changes its mind in 0.1 s."""
     along: float = 0.8
@@ -25,8 +25,8 @@ class BeliefParameters:
 class GoalBelief:
     r"""The probabilities of a partner's goals, updated by its motion.
 
-    A partner either comes along, towards my height m, or goes to a height h_k of its own. At the
-    height z it is expected to move, in the time dt, by
+    A partner either comes along, towards the height m of the observer, or goes to a height h_k of
+    its own. At the height z it is expected to move, in the time dt, by
 
         (1 - exp(-pace dt)) (goal - z),
 
@@ -47,14 +47,14 @@ class GoalBelief:
     def update(
         self, before: float, after: float, mine: float, common: float, time: float, noise: float = 0
     ) -> None:
-        """Take a motion of the partner from one height to another [m] within ``time`` [s].
+        """Update by a motion of the partner from one height to another [m] within ``time`` [s].
 
         Parameters
         ----------
         before, after
             The partner's heights [m].
         mine
-            My own height then [m].
+            The observer's own height then [m].
         common
             The common height, in the middle of the grid [m].
         time

@@ -41,7 +41,7 @@ class Confidence:
     Parameters
     ----------
     forgetting
-        phi, in (0, 1]: small forgets fast. The paper found 0.45 good (section IV.C).
+        phi, in (0, 1]: a small value forgets fast. The paper found 0.45 good (section IV.C).
 
     Raises
     ------

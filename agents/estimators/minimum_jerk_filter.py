@@ -46,8 +46,8 @@ class MinimumJerkFilterParameters:
 class MinimumJerkFilter:
     """Estimates the states of :class:`.MinimumJerkProcess` from a hand's heights.
 
-    The process is linear but for the time to go, which enters only with the fourth and fifth power
-    of the step. With start, end, onset and duration as the state, the model would be strongly
+    The process is linear except in the time to go, which enters only with the fourth and fifth
+    power of the step. With start, end, onset and duration as the state, the model would be strongly
     nonlinear early in a movement, and an extended Kalman filter overconfident; this one is
     consistent from the first sample on.
     """

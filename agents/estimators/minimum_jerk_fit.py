@@ -58,7 +58,7 @@ class MinimumJerkFitParameters:
 
 
 class MinimumJerkFit:
-    """Posterior of the minimum-jerk stroke that the samples are the beginning of.
+    """Posterior of the minimum-jerk stroke whose beginning was sampled.
 
     Over a grid of durations and elapsed fractions, the likelihood of a stroke is
 

@@ -2,10 +2,10 @@
 
 The paper derives its confidence (eqs. 6 and 7) from an earlier one "based on the statistical
 properties of the residuals between the predicted measurements and the observed measurements"
-(section III.B, its reference 13). This module is one such: the standard test of a Kalman filter's
-consistency by its time-average normalised innovation squared (Bar-Shalom, Li, Kirubarajan,
-*Estimation with Applications to Tracking and Navigation*, 2001, section 5.4), with the test's
-p-value as the confidence.
+(section III.B, its reference 13). This module implements one such confidence: the standard test of
+a Kalman filter's consistency by its time-average normalised innovation squared (Bar-Shalom, Li,
+Kirubarajan, *Estimation with Applications to Tracking and Navigation*, 2001, section 5.4), with the
+test's p-value as the confidence.
 """
 
 import math

@@ -14,7 +14,7 @@ class StrokeWindowParameters:
     """Parameters of :class:`StrokeWindow`."""
 
     rest_speed: float = 0.008
-    """Below this speed a hand rests [m/s]; a lift's highest is twenty times as much."""
+    """Below this speed a hand rests [m/s]; the highest speed of a lift is twenty times this."""
     baseline: float = 0.1
     """Time over which a speed is taken [s], or the time between two samples if that is longer; the
     height's noise of 0.23 mm becomes a noise of 3 mm/s."""

@@ -25,8 +25,8 @@ class TouchedEndParameters:
     seen_noise: float = 0.0003
     """Standard deviation of the seen height [m]."""
     felt_noise: float = 0.003
-    """Standard deviation of the height felt by the torque [m]: 2 mNm over 0.8 m, and what the
-    table's inertia adds."""
+    """Standard deviation of the height felt by the torque [m]: 2 mNm over 0.8 m, and the effect of
+    the table's inertia."""
     jerk: float = 0.5
     """Root of the spectral density of the human's acceleration [m/s^(3/2)]."""
 
@@ -35,7 +35,7 @@ class TouchedEnd:
     r"""Height z and velocity v of the human's end now.
 
     The motion is a random walk of the velocity. The samples are the seen height, ``latency`` old,
-    and the height that the torque M at the hands tells, z = hand + L M / k: noisier, but fresh.
+    and the height inferred from the torque M at the hands, z = hand + L M / k: noisier, but fresh.
     """
 
     def __init__(self, parameters: TouchedEndParameters | None = None) -> None:
@@ -45,7 +45,7 @@ class TouchedEnd:
         self._time: float | None = None
 
     def update(self, observation: Observation) -> None:
-        """Take an observation, laid out as :class:`.HapticObservation`."""
+        """Update by an observation, laid out as :class:`.HapticObservation`."""
         p = self._parameters
         time = float(observation[HapticObservation.TIME])
         period = 0.1 if self._time is None else max(time - self._time, 1e-3)
@@ -64,7 +64,7 @@ class TouchedEnd:
         self._correct(felt, p.touch_age, p.felt_noise)
 
     def _correct(self, sample: float, age: float, noise: float) -> None:
-        """Take a sample of z - age v. The motion within its age adds to its noise."""
+        """Update by a sample of z - age v. The motion within its age adds to its noise."""
         p = self._parameters
         a, b, c = self._variance
         walk = p.jerk * p.jerk * age**3 / 3

@@ -3,7 +3,8 @@
 The key :data:`KEY` holds the name of the holder, a token and the number of the heartbeat; without a
 name, the robot is free. A claim is alive while its heartbeat advances on the observer's clock: no
 two clocks are compared. Two clients that claim at once both write, wait, and read: the last writer
-has it. Every heartbeat reads before it writes; a client that has lost the claim notices and stops.
+holds the claim. Every heartbeat reads before it writes; a client that has lost the claim notices
+and stops.
 
 NAOqi itself accepts commands of any client; one without a claim is detected by the set-points that
 it moves.
@@ -56,7 +57,7 @@ def holder(session: Naoqi) -> Holder:
     Raises
     ------
     RobotLostError
-        If it does not answer.
+        If the robot does not answer.
     """
     if KEY not in session.call("ALMemory", "getDataList", KEY):
         return NOBODY
@@ -86,7 +87,7 @@ class RobotClaim:
         Raises
         ------
         InputError
-            If somebody else has it.
+            If another client holds it.
         RobotLostError
             If the robot does not answer.
         StopTrialError
@@ -143,12 +144,12 @@ class RobotClaim:
 
 @contextmanager
 def claimed(arm: NaoqiArm, clock: Clock) -> Iterator[None]:
-    """Hold the claim on a robot, with a heartbeat; an arm whose claim is lost is ``taken``.
+    """Hold the claim on a robot, with a heartbeat; if it is lost, set ``taken`` of the arm.
 
     Raises
     ------
     InputError
-        If somebody else has it: nothing has been moved.
+        If another client holds it; nothing has been moved.
     StopTrialError
         If the robot does not answer, or the operator stops.
     """
@@ -167,7 +168,7 @@ def claimed(arm: NaoqiArm, clock: Clock) -> Iterator[None]:
 
 
 def _beat(claim: RobotClaim, arm: NaoqiArm, over: threading.Event) -> None:
-    """Send heartbeats until it is over; the loop detects a robot that does not answer."""
+    """Send heartbeats until ``over`` is set; the loop detects a robot that does not answer."""
     while not over.wait(BEAT):
         with suppress(RobotLostError):
             other = claim.beat()

@@ -56,7 +56,8 @@ class Conduct:
     def level(self, wanted: float, command: float, human_end: float) -> float:
         """Return the height to command [m], clipped to a tilt within the limit.
 
-        It never moves hands that would stay: a tilt caused by the person is not corrected here.
+        It never moves hands that would otherwise stay: a tilt caused by the person is not corrected
+        here.
 
             clip(wanted, min(command, human_end - limit), max(command, human_end + limit))
 

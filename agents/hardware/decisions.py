@@ -28,7 +28,7 @@ class Decision:
 
 
 class Decider(Protocol):
-    """Requests actions of a policy."""
+    """Requests actions from a policy."""
 
     def decide(self, observation: Observation, budget: float) -> Decision:
         """Return its action, or the reason for none after ``budget`` [s]."""
@@ -62,8 +62,8 @@ class Inline:
 class Timed:
     """Requests in a separate thread: a late policy does not delay the loop.
 
-    An action after its budget is discarded, and the policy gets no new request before it has
-    answered. Python cannot end a thread: one that never answers ends with the process.
+    An action that arrives after its budget is discarded, and the policy gets no new request before
+    it has answered. Python cannot end a thread: a policy that never answers ends with the process.
     """
 
     def __init__(self, policy: Agent) -> None:
@@ -93,5 +93,5 @@ class Timed:
         return answer
 
     def close(self) -> None:
-        """Let the thread end, once the policy has answered."""
+        """Let the thread end once the policy has answered."""
         self._questions.put(None)

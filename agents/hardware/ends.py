@@ -65,7 +65,7 @@ class MarkerEnds:
         self._frozen: list[str] = []
 
     def set_rest(self, human_end: float, robot_end: float) -> None:
-        """Shift the zero of the ends' heights by these [m]."""
+        """Subtract these heights [m] from the ends' heights."""
         self._human_rest += human_end
         self._robot_rest += robot_end
 

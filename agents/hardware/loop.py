@@ -1,12 +1,12 @@
 """The real-time loop: one decision and at most one command in each control period.
 
-Deadlines are absolute, ``start + k T``: a step that comes late does not shift those after it. When
-whole periods have been missed, they are skipped and counted, and never caught up with.
+Deadlines are absolute, ``start + k T``: a step that comes late does not shift those after it.
+Periods that were missed as a whole are skipped and counted, and not made up for.
 
 Each step reads the robot, judges the motion capture, asks the policy, and gives one command: the
-same as in simulation, up to what the clock makes of it. What cannot be acted on holds the hands
-at the last command; what lasts longer than :data:`.holds.LIMIT`, or cannot be waited
-for, stops the trial.
+same as in simulation, apart from timing. A fault in one of these holds the hands at the last
+command; a fault that lasts longer than :data:`.holds.LIMIT`, or that waiting cannot end, stops the
+trial.
 """
 
 from dataclasses import dataclass
@@ -29,8 +29,8 @@ from .trial_end import TrialEnd
 from .trial_log import Step, TrialLog
 
 DEAD_TIME: Final = 0.01
-"""Mean time from a command to the hands' setting out [s]: half a cycle of ALMotion, which takes
-commands in every 20 ms."""
+"""Mean time from a command until the hands begin to move [s]: half a cycle of ALMotion, which
+accepts commands every 20 ms."""
 
 FASTEST_LOOP: Final = 0.02
 """Shortest control period [s]: one cycle of the NAO's motion thread."""
@@ -41,7 +41,7 @@ SLOWEST_LOOP: Final = 0.5
 
 @dataclass(frozen=True, kw_only=True)
 class LoopSettings:
-    """When the loop decides, and on how old a frame.
+    """Times of the loop: the control period, and the age of the frame that it acts on.
 
     Raises
     ------
@@ -52,9 +52,9 @@ class LoopSettings:
     period: float = 0.1
     """Control period T [s]."""
     latency: float = 0.1
-    """Time from the motion-capture frame that the policy is given to the hands' setting out [s]:
-    its age and :data:`DEAD_TIME`, as in simulation, where there is no dead time. The newest frame
-    there is, if that is older. The policies were made for 0.1 s, the paper's."""
+    """Time from the policy's motion-capture frame until the hands begin to move [s]: the frame's
+    age plus :data:`DEAD_TIME`, which is 0 in simulation. If even the newest frame is older, that
+    one is used. The policies were made for 0.1 s, the paper's latency."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
@@ -84,11 +84,11 @@ def run_trial(
     robot, capture, clock
         The ports. The hands are at height 0.
     decider
-        Asks the policy, which has been reset.
+        Requests actions from the policy, which has been reset.
     settings
-        Times.
+        Control period and latency.
     end
-        Says when the trial is over.
+        Criterion for the end of the trial.
     """
     log = TrialLog(period=settings.period, latency=settings.latency)
     loop = _Loop(robot, capture, decider, clock, settings, log)
@@ -193,7 +193,7 @@ class _Loop:
             self._conduct.tilts(now, self._watch.samples[-1])
 
     def _frames(self, now: float) -> None:
-        """Take in what the motion capture has sent."""
+        """Process the frames that the motion capture has sent."""
         frames, misdated = drained(self._capture, now)
         self._log.events.extend([*frames, *[UNDATED] * misdated])
         self._watch.take(frames, misdated)
@@ -203,9 +203,9 @@ class _Loop:
             self._command = self._robot.command(height, self._settings.period)
 
     def _observation(self, now: float, time: float, state: ArmState) -> Observation:
-        """Return what the policy sees, laid out as in simulation.
+        """Return the policy's observation, laid out as in simulation.
 
-        It is extrapolated to the time when the hands begin to move: until then they continue at
+        The hands are extrapolated to the time when they begin to move: until then they continue at
         their commanded speed.
         """
         sample = at(self._watch.samples, now - max(0.0, self._settings.latency - DEAD_TIME))

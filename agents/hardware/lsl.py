@@ -1,7 +1,7 @@
 """Motion capture of the table from a stream of the Lab Streaming Layer.
 
-The stream has channels for the positions of markers, labelled as the layer's convention for motion
-capture has it: one channel a coordinate, with ``marker`` (or a label ``NAME_X``), ``type``
+The stream has channels for the positions of markers, labelled by the layer's convention for motion
+capture: one channel per coordinate, with ``marker`` (or a label ``NAME_X``), ``type``
 (``PositionZ``) and ``unit``.
 """
 
@@ -86,7 +86,7 @@ class LslCapture:
         """The stream's description of itself."""
 
     def set_rest(self, human_end: float, robot_end: float) -> None:
-        """Shift the zero of the ends' heights by these [m]."""
+        """Subtract these heights [m] from the ends' heights."""
         self._ends.set_rest(human_end, robot_end)
 
     @property
@@ -141,7 +141,7 @@ def list_channels(info: Any) -> list[StreamChannel]:
 
 
 def pick_channel(channels: list[StreamChannel], marker: str, axis: str) -> Height:
-    """Return where a marker's coordinate is, and the metres per unit of it.
+    """Return the place of a marker's coordinate in a row, and its metres per unit.
 
     Raises
     ------

@@ -30,7 +30,7 @@ class StopButton:
         self._event.set()
 
     def wait(self, seconds: float) -> bool:
-        """Wait at most that long; return whether it is pressed."""
+        """Wait at most ``seconds``; return whether it is pressed."""
         return self._event.wait(seconds)
 
 

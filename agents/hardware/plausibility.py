@@ -12,22 +12,23 @@ STALE: Final = 0.2
 """Age of the newest frame [s] from which the hands are held."""
 
 AHEAD: Final = 0.03
-"""How far a frame's time stamp may be ahead of this machine's clock [s]: the clocks are brought
-together to half of a round trip, which takes up to 50 ms over a wireless network."""
+"""Largest lead of a frame's time stamp over this machine's clock [s]: the clocks are synchronised
+to within half a round trip, which takes up to 50 ms over a wireless network."""
 
 FEWEST: Final = 25
-"""Fewest new frames in a second with which the hands are moved: half of what a set-up asks for."""
+"""Fewest new frames in a second with which the hands are moved: half of the rate that the set-up
+requires."""
 
 FASTEST: Final = 2.0
 """Highest plausible speed of a table end [m/s]. Free hands peak at 1.84 +- 0.43 m/s in
-vertical movements of 0.8 m; people who move with a robot at a fraction of it."""
+vertical movements of 0.8 m; people who move together with a robot reach a fraction of that."""
 
 SLACK: Final = 0.005
 """Change between two frames [m] that is noise, whatever the time between them."""
 
 AGREEMENT: Final = 0.03
 """Largest plausible distance between the hands by their encoders and the robot's table end [m]:
-beyond it the grip is lost, or the motion capture has drifted or took one end for the other."""
+beyond it the grip is lost, or the motion capture has drifted or mistakes one end for the other."""
 
 SETTLED: Final = 0.1
 """Time [s] without a jump after which the motion capture is believed again."""
@@ -51,9 +52,10 @@ def jumped(before: Sample, after: Sample) -> bool:
 
 
 def at(samples: Sequence[Sample], time: float) -> Sample:
-    """Return what the ends' heights were at a time, linear between two frames.
+    """Return the ends' heights at a time, interpolated linearly between two frames.
 
-    Before the first frame it is the first, after the last one the last: nothing is extrapolated.
+    Before the first frame and after the last, the heights are those of that frame: nothing is
+    extrapolated.
 
     Parameters
     ----------
@@ -93,15 +95,15 @@ class CaptureMonitor:
         return self._kept
 
     def take(self, frames: Sequence[Sample], misdated: int = 0) -> None:
-        """Take new frames in; one that is not newer than the last is left out.
+        """Add new frames; a frame that is not newer than the last is left out.
 
         Parameters
         ----------
         frames
-            Those with time stamps that can be.
+            New frames with possible time stamps, oldest first.
         misdated
-            How many others came with them. If there are any, no stamp is believed: the clock that
-            is ahead dates a frame that is a little older as if it were new.
+            Number of other frames that came with them. If there are any, no stamp is trusted: a
+            clock that is ahead makes an older frame look new.
         """
         self._misdated = misdated > 0
         for frame in frames:
@@ -125,7 +127,7 @@ class CaptureMonitor:
         return math.inf if self._newest is None else now - self._newest.time
 
     def rate(self, now: float) -> float:
-        """Return how many new frames the last second has brought; infinite in the first second."""
+        """Return the number of new frames in the last second; infinite in the first second."""
         while self._times and self._times[0] <= now - 1.0:
             self._times.popleft()
         if self._begin is None or now - self._begin < 1.0:
@@ -133,7 +135,7 @@ class CaptureMonitor:
         return len(self._times)
 
     def judge(self, now: float, hand_height: float) -> HoldReason | None:
-        """Return why the motion capture must not be acted on now, or None.
+        """Return the reason not to act on the motion capture now, or None.
 
         Parameters
         ----------
@@ -158,7 +160,7 @@ class CaptureMonitor:
         return None
 
     def _disagrees(self, newest: Sample) -> bool:
-        """Return whether the robot's end is away from where its hands were, and are."""
+        """Return whether the robot's end is away from the recent and present hand heights."""
         recent = [height for time, height in self._hands if time >= newest.time - 0.15]
         low, high = min(recent), max(recent)
         return not low - AGREEMENT <= newest.robot_end <= high + AGREEMENT

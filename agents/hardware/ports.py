@@ -85,11 +85,11 @@ class TableCapture(MotionCapture, Protocol):
     """Its description of itself."""
 
     def set_rest(self, human_end: float, robot_end: float) -> None:
-        """Shift the zero of the ends' heights by these [m]."""
+        """Subtract these heights [m] from the ends' heights."""
 
 
 class Naoqi(Protocol):
-    """A NAOqi whose services can be called; each raises :class:`RobotLostError` on silence."""
+    """A NAOqi; a call without an answer raises :class:`RobotLostError`."""
 
     url: str
     """Its address."""
@@ -111,7 +111,7 @@ class RobotArm(Protocol):
 
     @property
     def limits(self) -> HandLimits:
-        """What the robot holds a command to."""
+        """Limits to which the robot clips a command."""
 
     def state(self) -> ArmState:
         """Return the state of the hands.
@@ -121,7 +121,7 @@ class RobotArm(Protocol):
         RobotLostError
             If the robot does not answer.
         RobotTakenError
-            If somebody else commands it.
+            If another client commands it.
         """
 
     def command(self, height: float, duration: float) -> float:
@@ -137,7 +137,7 @@ class RobotArm(Protocol):
         RobotLostError
             If the robot does not answer.
         RobotTakenError
-            If somebody else commands it.
+            If another client commands it.
         """
 
     def stop(self) -> None:
@@ -151,4 +151,4 @@ class Clock(Protocol):
         """Return the time [s]."""
 
     def wait_until(self, time: float) -> str | None:
-        """Wait until a time; return early with the reason if the operator wants to stop."""
+        """Wait until a time; return early with the reason if the operator stops the trial."""

@@ -95,7 +95,7 @@ class LoggedPorts:
 
 
 class LoggedDecider(Inline):
-    """Asks a policy; where the log has a late answer, it is late again."""
+    """Requests to a policy; an answer that was late in the log is late again."""
 
     def __init__(self, policy: Agent, ports: LoggedPorts) -> None:
         super().__init__(policy)

@@ -63,11 +63,11 @@ class Session:
     dry: bool = False
     """Whether nothing may move."""
     asked_by: Callable[[Agent], Decider] = Timed
-    """What asks a policy: in a thread of its own, where the time is real."""
+    """Makes the decider of a policy; in real time, one with a thread of its own."""
 
     @property
     def robot(self) -> RobotArm:
-        """What the trials move."""
+        """The arm that the trials use."""
         return DryArm(self.arm) if self.dry else self.arm
 
     @property
@@ -117,7 +117,7 @@ class Session:
         settings: LoopSettings,
         end: TrialEnd,
     ) -> TrialLog:
-        """Play one trial with a new policy object; return also one that was stopped."""
+        """Play one trial with a new policy object; return its log, also if it was stopped."""
         robot = self.robot
         with policy as agent:
             warm_up(agent, seed)
@@ -157,7 +157,7 @@ class Session:
     def finish(self, taken_out: Callable[[], None]) -> None:
         """Release the arms smoothly, and bring the robot to rest.
 
-        A robot that another client commands is left to it. One that does not answer is waited for,
+        A robot that another client commands is left alone. If a robot does not answer, wait for it
         up to :data:`BACK`.
 
         Parameters
@@ -188,9 +188,9 @@ class Session:
 
 
 def warm_up(policy: Agent, seed: int) -> None:
-    """Reset a policy for a trial that will not be late at its first step.
+    """Reset a policy for a trial, such that it is not late at its first step.
 
-    What it does only once, such as importing, it does here, for an observation that means nothing.
+    Work that it does only once, such as importing, is done here, on a meaningless observation.
 
     Raises
     ------
@@ -198,7 +198,8 @@ def warm_up(policy: Agent, seed: int) -> None:
         If it fails.
     """
     try:
-        # In a thread that ends: a sandboxed policy holds its caller's to one processor for a while.
+        # In a thread that ends: a sandboxed policy pins its caller's thread to one processor for a
+        # while.
         with ThreadPoolExecutor(1) as aside:
             aside.submit(_rehearse, policy, seed).result()
     except (Exception, SystemExit) as error:

@@ -20,19 +20,19 @@ from .safety import ASTRAY, motor_fault
 from .stops import Stop, StopTrialError, losses_stop
 
 REST_TIME: Final = 1.0
-"""How long rest heights are measured [s]."""
+"""Duration of a measurement of the rest heights [s]."""
 
 LOWEST_RATE: Final = 50.0
-"""Fewest motion-capture frames a second that can be worked with; at 100 Hz it is the paper's."""
+"""Lowest usable rate of the motion capture [1/s]; the paper's is 100 Hz."""
 
 STILL: Final = 0.003
 """Largest standard deviation of an end at rest [m]."""
 
 PATIENCE: Final = 10
-"""How often rest heights are measured before it is said that an end does not rest."""
+"""Number of measurements of the rest heights after which an end counts as moving."""
 
 LARGEST_OFFSET: Final = 0.03
-"""Largest sag of the hands under the table's weight that is made up for [m]."""
+"""Largest sag of the hands under the table's weight that is compensated [m]."""
 
 TEST_MOVE: Final = 0.02
 """Height of the test move [m]."""
@@ -55,11 +55,11 @@ class Rest:
     noise: float
     """Standard deviation of a height from frame to frame [m]."""
     rate: float
-    """Frames a second that came in."""
+    """Motion-capture frames per second."""
 
 
 class Direction(NamedTuple):
-    """How the ends moved with the hands: m per m."""
+    """Movement of the ends relative to that of the hands [m per m]."""
 
     human_end: float
     robot_end: float
@@ -73,7 +73,7 @@ def wait(clock: Clock, seconds: float) -> None:
 
 
 def arm_state(robot: RobotArm) -> ArmState:
-    """Return where the hands are, unless somebody else moves them."""
+    """Return the state of the hands, unless another client moves them."""
     with losses_stop():
         state = robot.state()
     if not state.astray <= ASTRAY:
@@ -106,7 +106,7 @@ class _Ends(NamedTuple):
 
 
 def _ends(capture: MotionCapture, clock: Clock, seconds: float) -> _Ends:
-    """Return the heights of both ends for a while."""
+    """Return the heights of both ends over some seconds."""
     drained(capture, clock.now())
     wait(clock, seconds)
     frames, misdated = drained(capture, clock.now())
@@ -172,8 +172,8 @@ def measure_direction(robot: RobotArm, capture: MotionCapture, clock: Clock) -> 
     Raises
     ------
     InputError
-        If the robot's end does not follow the hands: the ends are taken for each other, an axis
-        points down, the unit is wrong, or the hands do not hold the table.
+        If the robot's end does not follow the hands: the ends are swapped, an axis points down, the
+        unit is wrong, or the hands do not hold the table.
     """
     drained(capture, clock.now())
     hands = move_to(robot, clock, TEST_MOVE) + move_to(robot, clock, 0.0)

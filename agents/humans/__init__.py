@@ -1,4 +1,4 @@
-"""Humans: who they are, what they mean to do, and how they carry it out.
+"""Humans: subjects, their plans, and the movements that carry the plans out.
 
 A subject and a behaviour make a plan from a seed; ``ScriptedHuman`` carries a plan out.
 """

@@ -16,15 +16,15 @@ CueKind = Literal["smooth", "pause", "changing_goal"]
 KINDS: Final[tuple[CueKind, ...]] = get_args(CueKind)
 
 READY: Final = 0.8
-"""Rest before the first cue [s], added to the drawn one: a person needs a moment to grip."""
+"""Rest before the first cue [s], added to the drawn rest: a person needs a moment to grip."""
 
 REACTION: Final = 0.30
 """Time from a cue to the planned movement [s]: a simple reaction to something seen takes 0.2 to
-0.3 s, with a mouse a little more."""
+0.3 s, with a mouse a little longer."""
 
 SETTLING: Final = 1.0
 """Time after each planned movement before the next cue [s]: people are slower with a pointer, and
-differ."""
+differ from one another."""
 
 PAUSE_AT: Final = (0.35, 0.65)
 """Range of the height of an intermediate stop, relative to the goal's."""
@@ -98,7 +98,7 @@ class Cued:
     def plan(self, subject: Subject, seed: int) -> Plan:
         """Return the movement that the cues ask for: minimum jerk, after a reaction time.
 
-        A simulated person carries it out. A real one has the cues, and moves otherwise.
+        A simulated person carries it out. A real person sees the cues, and moves in another way.
         """
         legs, end = self._drawn()
         segments = [still("ready", 0.0, legs[0][0].frame * FRAME + REACTION)]

@@ -15,7 +15,7 @@ LONGEST_DELAY: Final = 0.25
 """Longest playout delay of samples [s]."""
 
 MOST_SAMPLES: Final = 120_000
-"""Most samples of a lift: 120 s at 1 kHz, the fastest mice that are common."""
+"""Most samples of a lift: 120 s at 1 kHz, the rate of the fastest common mice."""
 
 FARTHEST: Final = 2.0
 """Largest height of a sample [m]; the reference itself is clipped much earlier."""
@@ -32,12 +32,12 @@ class Resampler:
     """Turns time-stamped samples of a hand into its reference in each frame.
 
     The reference of frame n, which ends at ``t = (n + 1) FRAME``, is the height of the hand at
-    ``t - delay``: on the straight line between the two samples around that time, as far as they
-    arrived before the frame. Before the first sample it is 0, the height of the grip. If no later
-    sample is there, the hand stays where it was last seen, and the frame counts as starved.
+    ``t - delay``: interpolated linearly between the two samples around that time, if they arrived
+    before the frame. Before the first sample it is 0, the height of the grip. If no later sample
+    has arrived, the hand stays where it was last seen, and the frame counts as starved.
 
-    The delay is what makes samples arrive in time; a sample that is held until the next one comes
-    would turn 60 samples a second into a staircase.
+    The delay lets samples arrive in time. Holding each sample until the next one comes would
+    instead turn 60 samples per second into a staircase.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ class Resampler:
 
     @property
     def used(self) -> int:
-        """Samples up to the newest one that the last reference depends on."""
+        """Number of samples up to the newest one on which the last reference depends."""
         return min(self._next + 1, len(self._later)) if self._asked else 0
 
     def reference(self, frame: int) -> float:
@@ -129,9 +129,9 @@ class HandLog:
 
     @classmethod
     def of_references(cls, references: Sequence[float]) -> Self:
-        """Return a log that gives these references [m], one a frame, bit for bit.
+        """Return a log that gives these references [m], one per frame, bit for bit.
 
-        It is what is published of a live lift: the movement, without the pointer's samples, which
+        A published live lift contains this log: the movement, without the pointer's samples, which
         are personal data.
         """
         frames = np.arange(len(references))

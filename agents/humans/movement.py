@@ -14,8 +14,8 @@ HOLD = (0.2, 0.8)
 REST_AFTER = (0.6, 1.2)
 """Shortest and longest rest before, between and after the strokes [s].
 
-Drawn anew in each episode from the same distribution for all behaviours: time carries no
-information for a robot.
+Drawn anew in each episode from the same distribution for all behaviours, so that the time carries
+no information for a robot.
 """
 
 EXTRA_RISE = (0.03, 0.08)

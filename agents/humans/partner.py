@@ -1,4 +1,4 @@
-"""The partner, the second person of the human-human baseline: follows a little ahead of the eye."""
+"""The partner, the second person of the human-human baseline."""
 
 import math
 from dataclasses import dataclass
@@ -28,11 +28,12 @@ PARTNER_SUBJECT: Final = Subject(
     pull=0.4,
     felt_share=1.0,
 )
-"""The person at the far end in every lift of the human-human baseline: always the same one, as the
-robot is one robot.
+"""The person at the far end in every lift of the human-human baseline: always the same person, as
+there is only one robot.
 
-Sight about 150 ms old and a faster haptic reflex; a light, well damped arm that gives in to what it
-feels. Choices inside the ranges of the literature; height and duration of own lifts do not matter.
+Sight about 150 ms old and a faster haptic reflex; a light, well damped arm that yields to the felt
+force. These are choices inside the ranges of the literature; the height and duration of the
+partner's own lifts have no effect.
 """
 
 
@@ -41,8 +42,8 @@ class PartnerParameters:
     """Parameters of :class:`Partner`."""
 
     lag: float = CALIBRATION.partner_lag
-    """How far behind the other person the partner means to be [s]: the one number that is
-    calibrated, so that the human-human baseline has the RMSE of the paper's pair, 6.531 mm."""
+    """Intended lag behind the other person [s]: the only calibrated number, chosen so that the
+    human-human baseline has the RMSE of the paper's pair, 6.531 mm."""
 
     velocity_memory: float = 0.1
     """Time constant with which the seen velocity is smoothed [s]: one control period."""
@@ -52,11 +53,11 @@ class Partner:
     """Keeps the table level with another person, as a person would.
 
     It sees the other end ``visual_delay`` late, at the height z with the smoothed velocity v, and
-    means to be where the other will be, but for its lag:
+    intends to be where the other will be, less its lag:
 
         r(t) = z + v (visual_delay + t - lag),  t the time from now.
 
-    The hand is a person's own, with its noise and tremor (:class:`.ScriptedHuman`); the faster,
+    The hand moves as a person's, with noise and tremor (:class:`.ScriptedHuman`); the faster,
     haptic correction is a reflex of the body in the world.
     """
 

@@ -8,10 +8,10 @@ from .hand_log import Hand
 
 
 class PersonAsRobot:
-    """Commands the robot by a hand: one command a control period, towards the hand's height.
+    """Commands the robot by a hand: one command per control period, towards the hand's height.
 
-    The person has the robot's arm, its period, its speed and its stroke, as a policy has. What a
-    step is decided on is the hand's last reference before it.
+    As for a policy, the robot's arm, period, speed and stroke apply. Each step uses the hand's last
+    reference before it.
 
     Parameters
     ----------

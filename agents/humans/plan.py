@@ -1,4 +1,4 @@
-"""A plan: the height a person means to be at, for a whole episode, and how one is put together."""
+"""A plan: a person's intended height throughout an episode, and its assembly from segments."""
 
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol, runtime_checkable
@@ -15,7 +15,7 @@ LENGTH_STEP = 10
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Plan:
-    """What a person intends, private to that person.
+    """A person's intention, private to that person.
 
     Starts and ends at rest at height 0 and is smooth: position, velocity and acceleration have no
     steps.
@@ -24,11 +24,11 @@ class Plan:
     target: NDArray[np.float64]
     """(n,) intended height [m] of the human's end at the end of each frame, read-only."""
     strokes: tuple[tuple[int, int], ...]
-    """First frame and frame past the last of each movement between two rests."""
+    """First frame, and frame after the last, of each movement between two rests."""
     goal: float
     """The highest intended height [m]."""
     events: tuple[tuple[str, int], ...]
-    """What happens and in which frame it starts, in order."""
+    """Name and first frame of each event, in order."""
 
 
 class Behaviour(Protocol):
@@ -68,7 +68,7 @@ def move(name: str, heights: NDArray[np.float64]) -> Segment:
 
 
 def assemble(*segments: Segment) -> Plan:
-    """Join segments to a plan, lengthening the last one to a multiple of ``LENGTH_STEP`` frames."""
+    """Join segments into a plan; the last is extended to a multiple of ``LENGTH_STEP`` frames."""
     events: list[tuple[str, int]] = []
     strokes: list[tuple[int, int]] = []
     frame = 0

@@ -54,7 +54,7 @@ class Recorded:
         Raises
         ------
         InputError
-            When no lift is left after smoothing, as for a lone outlier.
+            If no lift is left after smoothing, as for a lone outlier.
         """
         before, after = np.random.default_rng(seed).random(2).tolist()
         return assemble(
@@ -87,7 +87,7 @@ def _retarget(recording: Recording) -> NDArray[np.float64]:
         )
     scale = PEAK / highest if dip * PEAK <= ROOM_BELOW * highest else ROOM_BELOW / dip
 
-    # A spline is nowhere steeper than its control polygon.
+    # A spline is never steeper than its control polygon.
     steepest = scale * float(np.abs(np.diff(control)).max()) / knot
     full_pace = int(np.ceil(duration * max(steepest / FASTEST, 1.0) / FRAME))
     ease = min(round(EASE / FRAME), full_pace)

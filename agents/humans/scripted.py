@@ -1,4 +1,4 @@
-"""The human that carries a plan out: with motor noise, tremor, and a slow eye on the result."""
+"""The human that carries out a plan, with motor noise, tremor and slow visual correction."""
 
 import math
 from collections import deque
@@ -37,11 +37,11 @@ class ScriptedHuman:
     The hand's reference in frame i is ``target_i + e_i + tremor_i + c_i`` with
 
     * signal-dependent noise ``e_i = exp(-FRAME / LEAK) e_(i-1) + k g_i (target_i - target_(i-1))``,
-      k the subject's motor noise and g smooth noise of unit variance: the velocity is off by a
-      share, the position finds back (Harris and Wolpert 1998);
+      k the subject's motor noise and g smooth noise of unit variance: the error of the velocity is
+      proportional to it, and that of the position decays (Harris and Wolpert 1998);
     * the subject's tremor, a sine of random phase;
-    * a voluntary correction c, which integrates the height that was seen to be missing one visual
-      delay ago and is limited: the hand arrives even when the robot only holds.
+    * a voluntary correction c, which integrates the height error seen one visual delay ago and is
+    limited: the hand arrives even when the robot only holds.
 
     The noise is drawn per frame and depends on the seed and the target alone, so that it is the
     same whatever the robot does.

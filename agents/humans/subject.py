@@ -37,8 +37,8 @@ BOUNDS: Final[Mapping[str, tuple[float, float]]] = MappingProxyType(
 """Limits of each parameter, in its unit, for a healthy person.
 
 Hand tremor lies between 6 and 12 Hz (Wade et al. 1982; Lakie et al. 2015), and 2 mm is already an
-enhanced one. The delays span long-latency reflexes to voluntary answers, and visual corrections to
-simple reactions. These and the arm's impedance are wide limits that we chose, not measurements.
+enhanced tremor. The delays span long-latency reflexes to voluntary answers, and visual corrections
+to simple reactions. These and the arm's impedance are wide limits that we chose, not measurements.
 """
 
 MOST_SUBMOVEMENTS: Final = 5
@@ -116,7 +116,7 @@ class Subject:
 
         Parameters
         ----------
-        seed : which person; also in the name, ``draw-<seed>``.
+        seed : number of the person, which is also in the name, ``draw-<seed>``.
         """
         rng = np.random.default_rng(seed)
         table = np.array([_numbers(subject) for subject in SUBJECTS.values()])

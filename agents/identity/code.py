@@ -1,4 +1,4 @@
-"""Hashes of code: what definitions do, with all that they use, whatever it is called."""
+"""Hashes of code: the behaviour of definitions and of all that they use, whatever the names."""
 
 import ast
 import builtins
@@ -21,7 +21,7 @@ WHOLE: Final = "*"
 """The name under which a module itself is referred to."""
 
 ROUNDS: Final = 4
-"""Rounds in which definitions are distinguished by those they use, to order a module's."""
+"""Rounds in which a module's definitions are distinguished by those they use, to order them."""
 
 COLIFT: Final = __name__.partition(".")[0]
 
@@ -37,7 +37,8 @@ class Code:
     Parameters
     ----------
     packages
-        Names of the packages, or of modules outside any; what others define enters by its name.
+        Names of the packages, or of modules outside any package; definitions of others enter by
+        their names.
     changed
         Sources to take instead of files, by the full names of their modules.
     """
@@ -54,7 +55,7 @@ class Code:
     def with_tree(self, name: str, tree: ast.Module) -> "Code":
         """Return the same with another source of a module that defines and imports the same names.
 
-        All other modules are shared, which makes it cheap.
+        All other modules are shared, which makes this cheap.
         """
         other = Code(self._packages)
         other._modules = {**self._modules, name: self._replaced(name, tree)}
@@ -62,7 +63,7 @@ class Code:
         return other
 
     def hash(self, *roots: Root, without: Iterable[Root] = ()) -> str:
-        """Return the hash of what the roots do, with all that they use, directly or not.
+        """Return the hash of the roots' behaviour, with all that they use, directly or not.
 
         Definitions are numbered as they are reached. So the hash stays the same when something is
         renamed, moved to another place or another module, or when something is added that the
@@ -71,10 +72,11 @@ class Code:
         Parameters
         ----------
         roots
-            Where to begin; their order counts. One whose source is not known enters by its name.
+            Definitions to begin with; their order counts. One whose source is not known enters by
+            its name.
         without
-            What is not followed: its value is stated elsewhere. One definition may be there under
-            several names.
+            Definitions that are not followed, since their values are stated elsewhere. One
+            definition may occur under several names.
         """
         return self._hash([self._root(root) for root in roots], without)[0]
 
@@ -83,7 +85,7 @@ class Code:
         return self._hash([self._root(root) for root in roots], without)[1]
 
     def module_hash(self, name: str) -> str:
-        """Return the hash of all that a module defines, in whatever order, and of what that uses.
+        """Return the hash of all that a module defines, in any order, and of all that this uses.
 
         Raises
         ------
@@ -154,10 +156,10 @@ class Code:
         return sorted(signatures, key=lambda each: signatures[each])
 
     def _effects(self, name: str) -> Iterator[Reference]:
-        """Yield the loose statements that importing a module runs: those of its packages, its own.
+        """Yield the loose statements that importing a module runs: its packages', then its own.
 
-        The ones of colift's top package enter colift's environments into Gymnasium's registry,
-        which changes no score.
+        Those of colift's top package are left out: they enter its environments into Gymnasium's
+        registry, which changes no score.
         """
         parts = name.split(".")
         for i in range(1, len(parts) + 1):
@@ -187,7 +189,7 @@ class Code:
         return f"<{target.module}.{target.name}>"
 
     def _unbound(self, module: Module, name: str) -> Piece:
-        """Return what a name stands for that a module does not bind where it can be seen."""
+        """Return the meaning of a name that a module does not bind visibly."""
         for star in module.stars:
             source = self._module(star)
             if source is None:
@@ -206,7 +208,7 @@ class Code:
         return self._modules[name]
 
     def _folder(self, name: str) -> Path | None:
-        """Return where a module of colift lies; others lie among anything."""
+        """Return the folder of a module of colift; None for others, which lie among any files."""
         module = self._module(name) if name.partition(".")[0] == COLIFT else None
         return None if module is None else module.folder
 
@@ -220,9 +222,9 @@ class Code:
 
 @functools.cache
 def code_hash(*roots: Root, without: tuple[Root, ...] = ()) -> str:
-    """Return the hash of what functions, classes and constants do; see :meth:`Code.hash`.
+    """Return the hash of the behaviour of functions, classes and constants; see :meth:`Code.hash`.
 
-    It is over colift and the packages of the roots.
+    It covers colift and the packages of the roots.
     """
     names = {each.__name__ if isinstance(each, ModuleType) else _home(each) for each in roots}
     packages = {COLIFT, *(name.partition(".")[0] for name in names)}
@@ -232,7 +234,7 @@ def code_hash(*roots: Root, without: tuple[Root, ...] = ()) -> str:
 
 @contextmanager
 def _no_collection() -> Iterator[None]:
-    """Keep the garbage collector from walking over syntax trees as they grow: half of the time."""
+    """Suspend the garbage collector: walking over growing syntax trees takes half of the time."""
     enabled = gc.isenabled()
     gc.disable()
     try:
@@ -252,10 +254,10 @@ def _home(root: Root) -> str:
 
 
 def source_hash(source: bytes) -> str:
-    """Return the hash of what a source file does, and of what it uses of colift.
+    """Return the hash of a source file's behaviour, and of all that it uses of colift.
 
-    All that it defines counts; what it imports from elsewhere enters by its name. What cannot be
-    read as Python is hashed as it is.
+    All its definitions count; imports from elsewhere enter by their names. A file that is not
+    valid Python is hashed byte by byte.
     """
     name = "a source by itself"
     try:

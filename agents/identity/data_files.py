@@ -24,7 +24,7 @@ class DataFiles:
     folder_of
         Returns the folder of one of our own modules, None for others.
     meaning
-        Returns what a plain or dotted name stands for; None for any other expression.
+        Returns the meaning of a plain or dotted name; None for any other expression.
     """
 
     def __init__(
@@ -41,7 +41,7 @@ class DataFiles:
         return None if folder is None else _hash(_below(folder))
 
     def found_by(self, call: ast.Call) -> str | None:
-        """Return the hash of the data files that a call of the finder alone may reach."""
+        """Return the hash of the data files that a call of the finder by itself may reach."""
         return self.all() if self._meaning(call.func) == FINDER else None
 
     def joined_by(self, call: ast.Call) -> str | None:
@@ -63,7 +63,7 @@ class DataFiles:
         return _hash([folder.joinpath(*names)] if len(names) == len(parts) else _below(folder))
 
     def _folder(self, package: ast.expr) -> Path | None:
-        """Return the folder of one of our own packages; None of others."""
+        """Return the folder of one of our own packages; None for others."""
         match package:
             case ast.Name(id="__package__"):
                 return self._folder_of(self._module)

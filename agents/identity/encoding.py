@@ -22,10 +22,10 @@ from .scopes import Scope, body_scope, comprehension_scope, local_meaning
 
 Piece = str | Reference
 Resolve = Callable[[Target], Piece]
-"""Returns the definition that a target stands for, or a text for what is not our own."""
+"""Returns the definition that a target stands for, or a text if it is not our own."""
 
 IGNORED: Final = frozenset({"ctx", "kind", "returns", "type_comment", "type_ignores"})
-"""Fields of syntax trees that do nothing, or repeat another field."""
+"""Fields of syntax trees that have no effect, or repeat another field."""
 
 
 def encoded(
@@ -36,15 +36,15 @@ def encoded(
 ) -> tuple[Piece, ...]:
     """Return a definition as texts and references to other definitions.
 
-    Left out are comments, docstrings, positions, annotations (but those of a class's body, which
-    may declare fields), and what an exception is raised with. Local variables are numbered.
+    Comments, docstrings, positions, annotations (except in a class's body, where they may declare
+    fields) and the arguments of raised exceptions are left out. Local variables are numbered.
 
     Parameters
     ----------
     definition, module
         The definition, and the module that it is in.
     resolve
-        Returns what a global name stands for.
+        Returns the meaning of a global name.
     folder_of
         Returns the folder of one of our own modules, for its data files.
     """
@@ -161,7 +161,7 @@ class _Encoder:
             self._pieces.append(self._found(name))
 
     def _found(self, name: str) -> Piece:
-        """Return what a name stands for here."""
+        """Return the meaning of a name here."""
         local = local_meaning(self._scopes, name)
         if isinstance(local, str):
             return local
@@ -181,7 +181,7 @@ class _Encoder:
         self.text("".join(f".{name}" for name in names))
 
     def _meaning(self, node: ast.expr) -> Piece | None:
-        """Return what a plain or dotted name stands for; None of anything else."""
+        """Return the meaning of a plain or dotted name; None for anything else."""
         base, names = _dotted(node)
         if not isinstance(base, ast.Name):
             return None
@@ -189,7 +189,7 @@ class _Encoder:
         return None if left else found
 
     def _dotted_meaning(self, base: ast.Name, names: list[str]) -> tuple[Piece, list[str]]:
-        """Return what ``base.name.name`` stands for, and the names that remain attributes of it."""
+        """Return the meaning of ``base.name.name``, and the names that remain its attributes."""
         found = self._found(base.id)
         while names and isinstance(found, Reference) and found.name == "*":
             found = self._resolve(Target(found.module, names[0]))
@@ -326,11 +326,11 @@ _SPECIAL: Final[dict[type[ast.AST], Callable[..., None]]] = {
     ast.Raise: _Encoder._raise,
     ast.SetComp: _Encoder._comprehension,
 }
-"""The nodes that are not encoded field by field."""
+"""Encoders of the nodes that are not encoded field by field."""
 
 
 def _dotted(node: ast.expr) -> tuple[ast.expr, list[str]]:
-    """Return the base of an attribute of an attribute ..., and the names after it."""
+    """Return the base of nested attributes, and the names after it."""
     names: list[str] = []
     while isinstance(node, ast.Attribute):
         names.insert(0, node.attr)

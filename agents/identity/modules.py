@@ -1,4 +1,4 @@
-"""Modules as tables of definitions: which statements make a global name what it is."""
+"""Modules as tables of definitions: the statements that define each global name."""
 
 import ast
 import sys
@@ -23,7 +23,7 @@ NAMING: Final[dict[type[ast.AST], str]] = {
 """The field of a node that holds the name that it binds."""
 
 EFFECTS: Final = ""
-"""The name under which a module's statements are found that belong to none of its definitions."""
+"""The name for a module's statements that belong to none of its definitions."""
 
 
 class Reference(NamedTuple):
@@ -34,7 +34,7 @@ class Reference(NamedTuple):
 
 
 class Target(NamedTuple):
-    """What an import binds: a module, or a name in it."""
+    """Target of an import: a module, or a name in it."""
 
     module: str
     name: str | None
@@ -42,11 +42,11 @@ class Target(NamedTuple):
 
 @dataclass(frozen=True)
 class Definition:
-    """The statements that make a global name what it is, in order."""
+    """The statements that define a global name, in order."""
 
     statements: tuple[ast.stmt, ...]
     place: int
-    """Which of the names it is that the first statement binds, as in ``a, b = 1, 2``."""
+    """Position of the name among those that the first statement binds, as in ``a, b = 1, 2``."""
 
 
 class Module:
@@ -61,7 +61,7 @@ class Module:
     package
         The package that its relative imports start from.
     folder
-        Where it lies; None of a text without a file.
+        Its folder; None for a text without a file.
     """
 
     def __init__(self, name: str, tree: ast.Module, package: str, folder: Path | None) -> None:
@@ -128,7 +128,7 @@ class Module:
 def read_module(name: str) -> Module | None:
     """Return a module from its source, without running it; None if no source is known.
 
-    It, or its top package, has been imported.
+    It, or its top package, must have been imported.
     """
     loaded = sys.modules.get(name)
     file = getattr(loaded, "__file__", None)
@@ -191,7 +191,7 @@ def does_nothing(statement: ast.stmt) -> bool:
 
 
 def bound_names(body: Sequence[ast.AST]) -> list[str]:
-    """Return the names that statements bind in their scope, in the order of their first places."""
+    """Return the names that statements bind in their scope, in the order of first appearance."""
     if len(body) == 1 and isinstance(body[0], Function | ast.ClassDef):
         return [body[0].name]
     return list(dict.fromkeys(name for node in scope_nodes(body) for name in binds(node)))
@@ -216,7 +216,7 @@ def scope_nodes(body: Sequence[ast.AST]) -> list[ast.AST]:
         node = left.pop()
         found.append(node)
         if isinstance(node, Comprehension):
-            # What an assignment expression in it binds, it binds outside.
+            # An assignment expression in a comprehension binds its name outside.
             found += [each.target for each in ast.walk(node) if isinstance(each, ast.NamedExpr)]
         elif not isinstance(node, Function | ast.ClassDef | ast.Lambda):
             inner: list[ast.AST] = []

@@ -18,7 +18,7 @@ class Scope:
     names: dict[str, int]
     """Number of each name, in the order of the first places that bind it."""
     imports: dict[str, Target] = field(default_factory=dict)
-    """Names that one import alone binds."""
+    """Names that are bound by one import only."""
     globals: frozenset[str] = frozenset()
     """Names that a ``global`` statement declares."""
 
@@ -48,12 +48,12 @@ def comprehension_scope(generators: Sequence[ast.comprehension]) -> Scope:
 
 
 def local_meaning(scopes: Sequence[Scope], name: str) -> str | Target | None:
-    """Return what a name stands for in nested scopes, the innermost last.
+    """Return the meaning of a name in nested scopes, the innermost last.
 
     Returns
     -------
     object
-        The text of a local variable, the target of a local import, or None of a global name.
+        The text of a local variable, the target of a local import, or None for a global name.
     """
     innermost = len(scopes) - 1
     for depth in range(innermost, -1, -1):

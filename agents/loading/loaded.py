@@ -1,7 +1,7 @@
 """Colift's policies with their late imports, which a fork server loads once for all lifts.
 
 The library of filters takes more than a second to import. Policies import it when they make a
-filter, so that listing them stays fast; without this module the process of every episode would
+filter, so that listing policies stays fast; without this module the process of every episode would
 import it again.
 """
 

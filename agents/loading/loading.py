@@ -56,13 +56,13 @@ class PolicySpec(InProcess):
 
     def check(self) -> None:
         """Raise an InputError, as :meth:`make`, if there is no such policy or parameter."""
-        with one_thread():  # What is imported here may compute.
+        with one_thread():  # Imported code may compute.
             policy = self.load()
             if self._values(policy):
                 self.make()
 
     def digest(self) -> str:
-        """Return the hash of the policy's class, see :func:`source_digest`, and its parameters.
+        """Return the hash of the policy's class (:func:`source_digest`) and its parameters.
 
         Parameters count by their values: ``0.5`` and ``.50`` give the same hash.
 
@@ -145,7 +145,7 @@ class InMemorySpec(InProcess):
     """The class whose code is hashed."""
 
     def check(self) -> None:
-        """Accept it: nothing has to be loaded."""
+        """Do nothing: nothing has to be loaded."""
 
     def digest(self) -> str:
         """Return the hash of the class; see :func:`source_digest`."""

@@ -25,7 +25,7 @@ class Parameter:
     """One parameter: a single value."""
 
     owner: type
-    """The dataclass that has it, or the policy itself."""
+    """The dataclass of which it is a field, or the policy itself."""
     name: str
     """Its name there."""
     hint: Any
@@ -36,7 +36,7 @@ class Parameter:
 
 @dataclass(frozen=True, kw_only=True)
 class _Group:
-    """Parameters from which one object is made: a dataclass, or the policy itself."""
+    """Parameters of one object: a dataclass, or the policy itself."""
 
     make: Callable[..., Any]
     members: "dict[str, Parameter | _Group]"

@@ -16,7 +16,7 @@ _KINDS: Final = {float: "a number", int: "a whole number", bool: "true or false"
 
 
 def readable(hint: Any) -> bool:
-    """Whether values of a type can be read from text."""
+    """Return whether values of a type can be read from text."""
     if _is_union(hint):
         return without_none(hint) is not hint and readable(without_none(hint))
     if get_origin(hint) is tuple:
@@ -28,7 +28,7 @@ def readable(hint: Any) -> bool:
 def read_value(hint: Any, text: str) -> Any:
     """Return the value of a readable type that a text stands for.
 
-    A choice may be abbreviated, as long as only one begins that way.
+    A choice may be abbreviated if only one choice begins that way.
 
     Raises
     ------
@@ -50,7 +50,7 @@ def read_value(hint: Any, text: str) -> Any:
 
 
 def write_value(value: Any) -> str:
-    """Return the text that :func:`read_value` takes for a value; numbers in six digits."""
+    """Return the text that :func:`read_value` turns into a value; numbers have six digits."""
     if value is None or value == ():
         return NONE
     if isinstance(value, bool):

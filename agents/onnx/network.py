@@ -1,6 +1,7 @@
-"""Checks of an ONNX file before anything of it runs: its format and its contents.
+"""Checks of an ONNX file before any of it runs: its format and its contents.
 
-The file is parsed by the library ``onnx``. What it would compute is checked by :mod:`.sizes`.
+The file is parsed by the library ``onnx``. The tensors that it would compute are checked by
+:mod:`.sizes`.
 """
 
 import math
@@ -50,13 +51,13 @@ def read_network(path: Path, shown: str = "") -> Network:
     path
         The file.
     shown
-        Its name in messages; its own without it.
+        Its name in messages; by default its own.
 
     Raises
     ------
     InputError
-        If it is no ONNX file, is too large, has other inputs and outputs than a policy, or contains
-        anything that is not allowed; the message names it.
+        If it is not an ONNX file, is too large, has other inputs and outputs than a policy, or
+        contains anything that is not allowed; the message names the fault.
     """
     shown = shown or path.name
     try:
@@ -157,7 +158,7 @@ def _check_tensor(tensor: Any, where: str) -> None:
         raise InputError(f"has {where} in another file: save all data in one")
     if tensor.data_type not in TYPES:
         raise InputError(f"has {where}, whose type is not float, double, int32, int64 or bool")
-    # Whatever a shape says, there are no more numbers than bytes.
+    # A tensor cannot have more numbers than the file has bytes, whatever its shape claims.
     if any(size < 0 for size in tensor.dims) or math.prod(tensor.dims) > LARGEST:
         raise InputError(f"has {where} of the shape {list(tensor.dims)[:8]}")
     try:

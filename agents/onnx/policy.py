@@ -19,7 +19,7 @@ onnxruntime = import_library("onnxruntime")
 
 
 class OnnxPolicy:
-    """A network: the observation, and the state if there is one, to the action and a new state.
+    """A network from the observation, and the state if there is one, to the action and a new state.
 
     Parameters
     ----------
@@ -45,10 +45,10 @@ class OnnxPolicy:
         self._state = None if state is None else np.zeros(state.shape, state.dtype)
 
     def act(self, observation: Observation) -> float:
-        """Return the change of the hands' height [m]; the state goes on.
+        """Return the change of the hands' height [m], and keep the new state.
 
-        The network sees the first numbers of the observation, as many as it takes: those of other
-        tasks begin with the five of a level table.
+        The network sees as many of the observation's first numbers as it takes: observations of
+        other tasks begin with the five of a level table.
 
         Raises
         ------
@@ -78,7 +78,7 @@ def _session(network: Network) -> Any:
     options.graph_optimization_level = onnxruntime.GraphOptimizationLevel.ORT_DISABLE_ALL
     options.use_deterministic_compute = True
     options.enable_cpu_mem_arena = options.enable_mem_pattern = False
-    options.log_severity_level = 4  # What goes wrong is raised.
+    options.log_severity_level = 4  # Errors are raised instead.
     try:
         return onnxruntime.InferenceSession(
             network.model.SerializeToString(), options, providers=["CPUExecutionProvider"]

@@ -45,7 +45,7 @@ class Port:
 
 
 def quoted(name: str) -> str:
-    """Return a name from a file in quotes, as much as fits into a message."""
+    """Return a name from a file in quotes, shortened to fit into a message."""
     return repr(name if len(name) <= _SHOWN else f"{name[:_SHOWN]}...")
 
 
@@ -55,12 +55,14 @@ def port(value: Any) -> Port:
     Raises
     ------
     InputError
-        If it is no tensor of floats, or its shape is not fixed.
+        If it is not a tensor of floats, or its shape is not fixed.
     """
     where = quoted(value.name)
     tensor = value.type.tensor_type
     if value.type.WhichOneof("value") != "tensor_type" or tensor.elem_type not in FLOATS:
-        raise InputError(f"has the input or output {where}, which is no tensor of float or double")
+        raise InputError(
+            f"has the input or output {where}, which is not a tensor of float or double"
+        )
     sizes = tuple(int(each.dim_value) for each in tensor.shape.dim)
     if not tensor.HasField("shape") or min(sizes, default=1) <= 0:
         shown = ", ".join(str(d.dim_value or d.dim_param or "?") for d in tensor.shape.dim)
@@ -74,7 +76,9 @@ def observation_of(inputs: Sequence[Any]) -> Port:
     """Return the first input; raise InputError if it is no observation, or there are too many."""
     if not 1 <= len(inputs) <= 2:
         names = ", ".join(quoted(value.name) for value in inputs[:5]) or "none"
-        raise InputError(f"has the inputs {names}; it must have the observation, and may a state")
+        raise InputError(
+            f"has the inputs {names}; it must have the observation, and may have a state"
+        )
     found, least = port(inputs[0]), len(RobotObservation)
     size = found.shape[-1] if found.shape else 0
     if found.shape not in ((size,), (1, size)) or not least <= size <= MOST_OBSERVATION:
@@ -87,7 +91,7 @@ def observation_of(inputs: Sequence[Any]) -> Port:
 
 
 def state_of(inputs: Sequence[Any]) -> Port | None:
-    """Return the second input, if there is one; raise InputError if it is no state."""
+    """Return the second input, if there is one; raise InputError if it is not a state."""
     if len(inputs) == 1:
         return None
     found = port(inputs[1])
@@ -100,7 +104,7 @@ def state_of(inputs: Sequence[Any]) -> Port | None:
 
 
 def outputs_of(inputs: Sequence[Any], outputs: Sequence[Any]) -> tuple[str, ...]:
-    """Return the names of the outputs; raise InputError if they are not as many as the inputs."""
+    """Return the names of the outputs; raise InputError if there are not as many as inputs."""
     names = tuple(value.name for value in outputs)
     if len(names) != len(inputs):
         shown = ", ".join(map(quoted, names[:5])) or "none"

@@ -1,4 +1,4 @@
-"""Bounds of what a network computes: the shape of every tensor, inferred before it runs."""
+"""Bounds on a network's computation: the shape of every tensor, inferred before it runs."""
 
 import math
 from collections.abc import Mapping
@@ -23,14 +23,14 @@ Shape = tuple[int, ...]
 def check_sizes(network: Network) -> None:
     """Check the shapes of all that a network computes.
 
-    They are inferred from those of its inputs and weights; what the file says about them is not
-    believed.
+    They are inferred from those of its inputs and weights; the file's own claims about them are not
+    trusted.
 
     Raises
     ------
     InputError
-        If the graph is not sound, a shape does not follow from the inputs, a tensor or all together
-        are too large, or the outputs have not the shapes of an action and of the state.
+        If the graph is not sound, a shape does not follow from the inputs, a tensor or all tensors
+        together are too large, or the outputs do not have the shapes of an action and of the state.
     """
     try:
         shapes = _inferred(network.model)

@@ -1,1 +1,1 @@
-"""Robot policies: what moves the robot's hands, from what a robot may see."""
+"""Robot policies: from a robot's observations to movements of its hands."""

@@ -1,4 +1,4 @@
-"""Admittance: yields to the force at its hands, and is drawn to its own hurdle by a spring."""
+"""Admittance: yielding to the force at the hands, with a spring to the robot's own hurdle."""
 
 import math
 from dataclasses import dataclass
@@ -17,13 +17,13 @@ class AgreeAdmittanceParameters:
     """Parameters of :class:`AgreeAdmittance`, tuned by hand on seeds of no suite."""
 
     compliance: float = 0.7
-    """c, the hands' speed for a force [m/s/N]. A table inclined by 50 mm loads them with 0.8 N."""
+    """c, speed of the hands per force [m/s/N]. A table inclined by 50 mm loads them with 0.8 N."""
     spring: float = 14.0
-    """k, the speed for a distance from the own hurdle [1/s]."""
+    """k, speed per distance from the robot's own hurdle [1/s]."""
     time: float = 0.1
     """Time constant of the speed [s], the virtual mass over the virtual damping."""
     early: float = 0.3
-    """How long before its window opens the own hurdle begins to draw [s]."""
+    """Time before its window opens at which the hurdle begins to attract the hands [s]."""
 
     def __post_init__(self) -> None:
         """Check the ranges.
@@ -37,16 +37,16 @@ class AgreeAdmittanceParameters:
 
 
 class AgreeAdmittance:
-    """Moves as a virtual mass that the human drags by the table, and its own hurdle by a spring.
+    """Moves as a virtual mass, pulled by the human through the table and by a spring to its hurdle.
 
     With the felt force F, the height x of the hand and the height b of the hurdle, the speed
     approaches, with the time constant,
 
         -c F + k (b - x),
 
-    the second term in the own window and until the table has passed. If the human comes along the
-    force stays small and the hand arrives at b; if the human resists, both meet in between. It has
-    no model of the human, and does not look.
+    the second term only during its own window and until the table has passed. If the human comes
+    along, the force stays small and the hand arrives at b; if the human resists, both meet in
+    between. It has no model of the human and does not use sight.
     """
 
     def __init__(self, *, parameters: AgreeAdmittanceParameters | None = None) -> None:
@@ -75,5 +75,5 @@ class AgreeAdmittance:
         return np.array([self._speed * period])
 
     def internals(self) -> dict[str, float]:
-        """Return the velocity of the mass [m/s], and the role: 1 while the own hurdle draws."""
+        """Return the velocity of the mass [m/s], and the role: 1 while the spring acts."""
         return self._internals

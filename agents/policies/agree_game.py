@@ -14,17 +14,17 @@ from .agree_leader import check_positive
 from .anticipate import Anticipate
 
 SAME: Final = 0.015
-"""Distance within which two goals are the same [m]."""
+"""Distance within which two goals count as the same [m]."""
 
 LIFTED: Final = 0.1
 LOWERED: Final = 0.06
-"""Heights above which a rest is the common height, and below which the table is lowered [m]."""
+"""Heights above which a rest is at the common height, and below which the table is lowered [m]."""
 
 SLOW: Final = 0.05
 """Speed below which the human's end rests [m/s]."""
 
 STILL: Final = 0.25
-"""How long it rests until its height is taken for the common one [s]."""
+"""Time at rest after which its height is taken as the common one [s]."""
 
 LEVEL: Final = 0.01
 """Height difference within which the table is level [m]."""
@@ -38,17 +38,17 @@ class AgreeGameParameters:
     """Parameters of :class:`AgreeGame`, tuned by hand on new people and seeds of no suite."""
 
     early: float = 0.35
-    """How long before its window opens it may set out [s]."""
+    """Time before its window opens at which it may set out [s]."""
     lead: float = 0.1
-    """How far ahead the human's end is extrapolated where it is followed [s]."""
+    """Time by which the human's end is extrapolated while it is followed [s]."""
     apart: float = 0.65
-    """Probability of a goal of the human's own from which on the robot gives way."""
+    """Probability that the human has a goal of its own from which the robot gives way."""
     served: float = 0.25
-    """How long the table rests at the human's goal until it is taken for passed [s]."""
+    """Time that the table rests at the human's goal until that hurdle counts as passed [s]."""
     needed: float = 0.65
-    """Time at the end of its window from which on it no longer gives way [s]."""
+    """Time before the end of its window from which it no longer gives way [s]."""
     respite: float = 0.3
-    """How long it does not give way again after the human has been let go first [s]."""
+    """Time for which it does not give way again after it has let the human go first [s]."""
     pace: float = 8.0
     """Natural frequency of the approach [rad/s]."""
     belief: BeliefParameters = field(default_factory=BeliefParameters)
@@ -68,17 +68,17 @@ class AgreeGameParameters:
 class AgreeGame:
     """Plays the game of two hurdles with a belief about the human's goal (ours).
 
-    **Touch.** The torque at its hands tells the incline of the table, and so the human's height
-    now, which motion capture shows a latency later (:class:`.TouchedEnd`).
+    **Touch.** The torque at its hands gives the incline of the table, and with it the present
+    height of the human's end, which motion capture shows a latency later (:class:`.TouchedEnd`).
 
     **Belief.** A hidden Markov model over the human's goals: to come along, or to go to a height of
-    the own (:class:`.GoalBelief`).
+    its own (:class:`.GoalBelief`).
 
     **Turn.** It sets out first, by the linear-quadratic regulator, unless the human already goes
-    elsewhere. If the human does so on the way, one of the two has to give way, or both miss their
-    hurdles; the robot does so at once, as it feels a conflict before a person sees it. Once the
-    table rests at the human's goal, it sets out again. At the end of its window it stays on its
-    way.
+    elsewhere. If the human turns elsewhere while the robot is on its way, one of the two has to
+    give way, or both miss their hurdles; the robot gives way at once, as it feels a conflict before
+    a person sees it. Once the table rests at the human's goal, it sets out again. Near the end of
+    its window it no longer gives way.
 
     **Level.** Away from the hurdles it keeps level by :class:`.Anticipate`; at the common height by
     touch, with the human's velocity extrapolated.
@@ -137,13 +137,13 @@ class AgreeGame:
         """Return the quantities behind the last action.
 
         The human's height a little ahead and the human's expected goal [m], the probability that
-        the human has a goal of the own, and whether the robot gives way to it. The role is 1 on the
-        way to the own hurdle.
+        the human has a goal of its own, and whether the robot gives way to it. The role is 1 on the
+        way to the robot's own hurdle.
         """
         return self._internals
 
     def _find_common(self, period: float) -> None:
-        """Take the height at which the human first comes to rest for the common one."""
+        """Take the height at which the human first comes to rest as the common one."""
         height, speed = self._touch.height, abs(self._touch.velocity)
         rests = speed < SLOW and height > LIFTED
         self._still = self._still + period if rests else 0.0
@@ -153,7 +153,7 @@ class AgreeGame:
             self._common = None
 
     def _decide(self, hand: float, period: float) -> bool:
-        """Return whether to go to the own hurdle now."""
+        """Return whether to go to the robot's own hurdle now."""
         p, hurdle, touch = self._parameters, self._hurdle, self._touch
         if not hurdle.is_open(p.early):
             self._yields = False

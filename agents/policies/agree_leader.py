@@ -17,7 +17,7 @@ class AgreeLeaderParameters:
     """Parameters of :class:`AgreeLeader`."""
 
     early: float = 0.3
-    """How long before its window opens it sets out [s]: so it is there when the window opens."""
+    """Time before its window opens at which it sets out [s], to be there when the window opens."""
     pace: float = 7.0
     """Natural frequency of the approach [rad/s]."""
 
@@ -35,8 +35,8 @@ class AgreeLeaderParameters:
 class AgreeLeader:
     """Goes to its own hurdle as soon as the window opens, and stays until the table has passed.
 
-    It asks nobody: neither the human's motion nor the force changes its way (:class:`.Approach`).
-    Before and afterwards it keeps level by :class:`.Anticipate`.
+    Neither the human's motion nor the force changes its way (:class:`.Approach`). Before and
+    afterwards it keeps level by :class:`.Anticipate`.
     """
 
     def __init__(self, *, parameters: AgreeLeaderParameters | None = None) -> None:
@@ -60,7 +60,7 @@ class AgreeLeader:
         return np.array([led]) if self._leads else kept
 
     def internals(self) -> dict[str, float]:
-        """Return the role: 1 on the way to the own hurdle, 0 where it keeps level."""
+        """Return the role: 1 on the way to its own hurdle, 0 while it keeps level."""
         return {"role": float(self._leads)}
 
     def _in_turn(self) -> bool:

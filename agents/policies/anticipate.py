@@ -120,7 +120,7 @@ class AnticipationController:
         rest, onset, stroke, pause and reversal (:data:`.MODES`); the compensated sag [m].
         Confidence t^2 / (t^2 + s^2), with s^2 the filtered squared error of the predictions and t
         the tolerance. Role, the fraction of the command's change that is due to the forecast: 0
-        follows, 1 leads; the rest is what a human who stays at the last seen height would cause.
+        follows, 1 leads; the rest would also occur if the human stayed at the last seen height.
         """
         return self._internals
 
@@ -150,13 +150,14 @@ class Anticipate(AnticipationController):
 
         p(t) = h(t + ARM_LAG) + sag,
 
-    with the sag measured by the hand's encoders and low-pass filtered. No number of the arm is
+    with the sag measured by the hand's encoders and low-pass filtered. No parameter of the arm is
     learned.
 
-    **Preview control.** The command is the first of those that minimise the height difference over
-    the coming periods, at a cost for bends (:func:`.preview_gains`). A command can only ramp within
-    a period; the optimum therefore fits all ramps of the horizon to the whole path, instead of
-    aiming at the human's height at the end of the period. The cost trades level for smooth.
+    **Preview control.** The command is the first of the sequence that minimises the height
+    difference over the coming periods, at a cost for bends (:func:`.preview_gains`). A command can
+    only ramp within a period; the optimum therefore fits all ramps of the horizon to the whole
+    path, instead of aiming at the human's height at the end of the period. The cost trades a level
+    table for smooth motion.
     """
 
     def __init__(self, *, parameters: AnticipateParameters | None = None) -> None:

@@ -1,4 +1,4 @@
-"""The ball by admittance: the robot gives in to the torque of the human's wrists."""
+"""The ball by admittance: the robot yields to the torque of the human's wrists."""
 
 import math
 from dataclasses import dataclass
@@ -15,9 +15,9 @@ class BallAdmittanceParameters:
     """Parameters of :class:`BallAdmittance`."""
 
     admittance: float = 2.0
-    """Height difference that is made, relative to the one that the wrists seem to mean."""
+    """Commanded height difference, relative to the one that the wrists seem to mean."""
     calming: float = 0.1
-    """Height difference against the ball's speed [s]."""
+    """Height difference against the ball's motion, per speed [s]."""
     steepest: float = 0.08
     """Largest height difference [m]."""
 
@@ -35,9 +35,9 @@ class BallAdmittanceParameters:
 
 
 class BallAdmittance:
-    """Inclines the table as the human's wrists do, so many times as much.
+    """Inclines the table by a multiple of the pitch that the human's wrists seem to mean.
 
-    The sensed force tells the torque of the wrists (:func:`.meant_by_wrists`). The gain is fixed:
+    The sensed force gives the torque of the wrists (:func:`.meant_by_wrists`). The gain is fixed:
     right for a person who shows half of what is wanted, too large for one who shows all of it, and
     too small for one who shows little. It uses no target, known or not.
     """

@@ -15,7 +15,7 @@ class BallCalmParameters:
     """Parameters of :class:`BallCalm`."""
 
     calming: float = 0.2
-    """Height difference against the ball's speed [s]."""
+    """Height difference against the ball's motion, per speed [s]."""
     steepest: float = 0.08
     """Largest height difference [m]."""
 
@@ -35,7 +35,7 @@ class BallCalmParameters:
 class BallCalm:
     """Keeps level with the human, and inclines the table against the ball's speed.
 
-    It never loses the ball, and leaves it to the human where the ball should be.
+    It never loses the ball, but leaves it to the human to bring the ball to its target.
     """
 
     def __init__(self, *, parameters: BallCalmParameters | None = None) -> None:

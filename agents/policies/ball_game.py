@@ -1,4 +1,4 @@
-"""The ball by inference of the person's aim, and what is missing of the steering."""
+"""The ball by inference of the person's aim, and of the missing part of the steering."""
 
 import math
 from dataclasses import dataclass
@@ -17,13 +17,13 @@ class BallGameParameters:
     """Parameters of :class:`BallGame`."""
 
     ahead: float = 0.07
-    """Time from now at which a command acts on the mean [s]."""
+    """Time from now at which a command acts, on average [s]."""
     gain: float = 0.8
-    """Height difference relative to the person's own law."""
+    """Height difference relative to that of the person's law."""
     steepest: float = 0.07
     """Largest height difference [m]."""
     felt_noise: float = FELT_NOISE
-    """See :class:`.AimFilter` [m]; with 1, the wrists are not used."""
+    """See :class:`.AimFilter` [m]; a value of 1 switches the use of the wrists off."""
 
     def __post_init__(self) -> None:
         """Check the ranges.
@@ -39,16 +39,16 @@ class BallGameParameters:
 
 
 class BallGame:
-    """Finds out where the ball should be, and gives what the person does not.
+    """Infers where the ball should be, and does the steering that the person leaves undone.
 
-    **Ball.** A Kalman filter carries place and speed on to when the command acts.
+    **Ball.** A Kalman filter predicts place and speed for the time at which the command acts.
 
     **Aim.** A known target gives the aim with its velocity and acceleration. Otherwise
     :class:`.AimFilter` infers it from the torque of the person's wrists, together with the part of
     the wanted inclination that this person's wrists show.
 
     **Rest.** The law is that of an undelayed person (:func:`.wanted_difference`). The forecast of
-    the human's end holds what the human does of it; the robot's end makes up the difference.
+    the human's end includes the human's part of it; the robot's end makes up the rest.
     """
 
     def __init__(self, *, parameters: BallGameParameters | None = None) -> None:
@@ -82,7 +82,7 @@ class BallGame:
         return self._internals
 
     def _known(self, target: float, period: float) -> float:
-        """Return the aim of a known target, carried on to when the command acts [m]."""
+        """Return the aim of a known target at the time when the command acts [m]."""
         self._targets = [*self._targets[-2:], target]
         if len(self._targets) < 3:
             return target

@@ -8,7 +8,7 @@ from ..touch.touch_law import TouchNetwork
 
 
 class BallLearned(TouchController):
-    """Departs from a level table as a recurrent network tells, learned by gradients (ours).
+    """Departs from a level table by a recurrent network, learned by gradients (ours).
 
     The network was trained on the score itself, by gradients through whole lifts of the twin, with
     people whose manners were drawn anew for each lift (``colift train apg --task ball

@@ -36,10 +36,10 @@ class BallSteadyParameters:
 
 
 class BallSteady:
-    """Keeps level with the human but for a proportional-derivative controller of the ball.
+    """Keeps level with the human, and adds a proportional-derivative controller of the ball.
 
-    It does all of the steering, whatever the person does, by the place and the speed that it sees;
-    a target that it does not know is the middle of the table.
+    It does all of the steering from the seen place and speed, whatever the person does; if it does
+    not know the target, it uses the middle of the table.
     """
 
     def __init__(self, *, parameters: BallSteadyParameters | None = None) -> None:

@@ -1,4 +1,4 @@
-"""Linear extrapolation: the human moves on as in the last step."""
+"""Linear extrapolation: the human is assumed to move on as in the last step."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ class ExtrapolateParameters:
 
     steps: float = 2.0
     """Prediction horizon in control periods. With the paper's timing the sample is one period old
-    and the command takes another: two, which is not tuned."""
+    and the command takes another one: hence two, which is not tuned."""
 
     def __post_init__(self) -> None:
         """Check the range.

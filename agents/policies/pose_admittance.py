@@ -15,7 +15,7 @@ class PoseByAdmittanceParameters:
     """Parameters of :class:`PoseByAdmittance`."""
 
     yielding: float = 0.6
-    """Velocity per force [m/(s N)]. Tuned by a factor of two, on seeds from 100000 on."""
+    """Velocity per force [m/(s N)]. Tuned in factors of two, on seeds from 100000 on."""
 
     def __post_init__(self) -> None:
         """Check the range.
@@ -36,9 +36,9 @@ class PoseByAdmittance:
 
         v = -yielding F,
 
-    the admittance of a pure damper, which the tradition begins with (K. Kosuge, H. Yoshida,
-    T. Fukuda, "Dynamic control for robot-human collaboration", RO-MAN 1993). It has no idea of what
-    the human means, and fails with people who show little of it in their wrists.
+    the admittance of a pure damper, with which this tradition begins (K. Kosuge, H. Yoshida, T.
+    Fukuda, "Dynamic control for robot-human collaboration", RO-MAN 1993). It has no model of the
+    human's intention, and fails with people whose wrists show little of it.
     """
 
     def __init__(self, *, parameters: PoseByAdmittanceParameters | None = None) -> None:

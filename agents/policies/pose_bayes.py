@@ -1,4 +1,4 @@
-"""Pose by Bayes: what the human does and waits for tells which pose of the table is meant."""
+"""Pose by Bayes: the intended pose, inferred from the human's motion, force and waiting."""
 
 from dataclasses import dataclass
 
@@ -16,7 +16,7 @@ class PoseByBayesParameters:
     """Parameters of :class:`PoseByBayes`, tuned on seeds from 100000 on and on no suite."""
 
     ahead: float = 0.12
-    """How far ahead the command is planned [s], for the lag of the arm."""
+    """Time by which the command is planned ahead [s], for the lag of the arm."""
     switch: float = 0.03
     """See :class:`.PoseFilterParameters`."""
     pitch_noise: float = 0.012
@@ -24,15 +24,16 @@ class PoseByBayesParameters:
     path_noise: float = 0.1
     """See :class:`.PoseFilterParameters`."""
     haste: float = 0.1
-    """See :class:`.PoseFilterParameters`; with 1, it is not used whether the human waits."""
+    """See :class:`.PoseFilterParameters`; a value of 1 ignores whether the human waits."""
 
 
 class PoseByBayes:
-    """Goes where the human probably means the robot's end to be (ours).
+    """Goes to the height that the human probably intends for the robot's end (ours).
 
-    A :class:`.PoseFilter` takes the pitch and the human's end, which the torque tells without
-    delay, and the force, in which the human's wrists show. With the expected height f, the expected
-    ratio r of the ends' movements and the velocity v of the human's end, the command becomes
+    A :class:`.PoseFilter` uses the pitch and the human's end, which follow from the torque without
+    delay, and the force, which depends on the human's wrists. With the expected height f, the
+    expected ratio r of the ends' movements and the velocity v of the human's end, the command
+    becomes
 
         u = f + r v ahead.
     """
@@ -63,7 +64,7 @@ class PoseByBayes:
         return np.array([command - observation[HapticObservation.HAND_COMMAND]])
 
     def internals(self) -> dict[str, float]:
-        """Return the expected height of the own end [m], and the probability of each intent."""
+        """Return the expected height of the robot's end [m], and the probability of each intent."""
         together, pivot, counter = self._filter.intents.tolist()
         height = self._filter.height
         return {"height": height, "together": together, "pivot": pivot, "counter": counter}

@@ -1,4 +1,4 @@
-"""Pose by the wrists: the table goes to the pitch at which the human's wrists would be at ease."""
+"""Pose by the wrists: the table goes to the pitch at which the human's wrists relax."""
 
 from dataclasses import dataclass
 
@@ -15,7 +15,8 @@ class PoseByWristParameters:
     """Parameters of :class:`PoseByWrist`."""
 
     shown: float = 0.6
-    """Share of an intended pitch that the wrists are taken to show: about the population's mean."""
+    """Share of an intended pitch that the wrists are assumed to show: about the population's
+    mean."""
 
     def __post_init__(self) -> None:
         """Check the range.
@@ -30,14 +31,15 @@ class PoseByWristParameters:
 
 
 class PoseByWrist:
-    """Takes the torque of the human's wrists at its word (ours).
+    """Takes the torque of the human's wrists as an exact measure of the intended pitch (ours).
 
     The pitch w that the wrists turn towards follows from statics (:class:`.PoseFilter`). With the
     height z and the last change d of the human's end, and the table's length L, the command becomes
 
         u = z + d + L w / shown.
 
-    Right for a person whose wrists show just that share; others get too little or too much.
+    This is right for a person whose wrists show just that share; for others it is too little or too
+    much.
     """
 
     def __init__(self, *, parameters: PoseByWristParameters | None = None) -> None:

@@ -9,7 +9,7 @@ from ..control.predictor import Predictor, PredictorParameters
 class Proactive:
     """Goes to the predicted height of the human (Thobbi, Gu, Sheng 2011, section III.B).
 
-    P = predicted height of the human's end - height of the own hand.
+    P = predicted height of the human's end - height of the robot's hand.
     """
 
     def __init__(self, *, parameters: PredictorParameters | None = None) -> None:

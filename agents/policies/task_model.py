@@ -57,7 +57,7 @@ class TaskModelController:
     Attributes
     ----------
     impedance
-        The task's; practice replaces it.
+        The task's impedance; practice replaces it.
     """
 
     def __init__(self, task: LearnedTask, parameters: TaskModelParameters) -> None:
@@ -153,11 +153,11 @@ class TaskModel(TaskModelController):
     collaborative tasks: object-lifting case study with a humanoid", Humanoids 2009). The control
     law is ours.
 
-    **Step one** learns, from demonstrations by two people, a Gaussian mixture of how people
-    move who lift together. Its regression infers the human's intent: the coming velocities of the
-    human's end with their covariance, from the height and the velocities that were seen. They carry
-    a sample of age L over the latency and the period T, to where the human's end is now, p0, and
-    where it will be at the end of the period, p1.
+    **Step one** learns, from demonstrations by two people, a Gaussian mixture of the movements of
+    people who lift together. Its regression infers the human's intent: the coming velocities of the
+    human's end with their covariance, from the height and the velocities that were seen. They
+    extrapolate a sample of age L to the present height of the human's end, p0, and to its height at
+    the end of the period T, p1.
 
     **Step two** learns, by practice with simulated people, the stiffness K_i around that plan in
     each situation i (component of the mixture), and two feed-forward terms for the arm: a time by
@@ -168,10 +168,10 @@ class TaskModel(TaskModelController):
         change = p1 - p0 + kappa d,    d = p0 + offset - command,
         kappa = 1 / (1 + K),    K = c sum_i h_i K_i,    c = t^2 / (t^2 + lambda s^2),
 
-    with p0 and p1 taken the lead later. The h_i are the responsibilities of the components, t is
-    the tolerance (height difference of the ends in the demonstrations), s^2 the variance of p1, and
-    lambda the surprise at the last samples (:class:`.Surprise`). The robot insists on its plan
-    while the model is certain and right, and follows the human where it is not.
+    with p0 and p1 shifted later by the lead. The h_i are the responsibilities of the components, t
+    is the tolerance (height difference of the ends in the demonstrations), s^2 the variance of p1,
+    and lambda the surprise at the last samples (:class:`.Surprise`). The robot insists on its plan
+    while the model is certain and right, and follows the human otherwise.
     """
 
     def __init__(self, *, parameters: TaskModelParameters | None = None) -> None:

@@ -1,4 +1,4 @@
-"""A level table by touch: the control that does not ask what the human means."""
+"""A level table by touch, without regard to the human's intention."""
 
 import numpy as np
 
@@ -8,10 +8,9 @@ from ..touch.touch import touched
 
 
 class TouchLevel:
-    """Keeps the table level, with the torque at its hands for a pitch that is not late.
+    """Keeps the table level, with a pitch that the torque at its hands gives without delay.
 
-    With the height z that the human's end is felt to have, and its last change d, the command
-    becomes
+    With the felt height z of the human's end, and its last change d, the command becomes
 
         u = z + d.
     """
@@ -21,7 +20,7 @@ class TouchLevel:
         self._near = 0.0
 
     def act(self, observation: Observation) -> Action:
-        """Return the change [m] that brings the command to the height that is level next."""
+        """Return the change [m] that brings the command to the next level height."""
         near = touched(observation).near
         command, self._near = 2 * near - self._near, near
         return np.array([command - observation[HapticObservation.HAND_COMMAND]])

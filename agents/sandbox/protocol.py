@@ -20,7 +20,7 @@ AGENTS: Final = Path(__file__).resolve().parents[1]
 """The part of colift that the guest sees: ``colift.agents``, without the humans."""
 
 OURS: Final = "colift.agents."
-"""Beginning of the modules of colift's own policies; a submission's folder has no code for them."""
+"""Prefix of the modules of colift's own policies; a submission's folder has no code for them."""
 
 EPISODE: Final = "episode"
 PRELOAD: Final = "preload"
@@ -170,7 +170,7 @@ class Channel:
         self._end.close()
 
     def send(self, frame: bytes) -> None:
-        """Send a frame without waiting; raise ClosedError if the other side does not take it."""
+        """Send a frame without waiting; raise ClosedError if the other side does not accept it."""
         try:
             sent = self._end.send(frame, _FLAGS)
         except BlockingIOError:

@@ -78,7 +78,7 @@ class FolderContents:
 
 
 def is_part(name: str) -> bool:
-    """Whether a file or folder of this name belongs to a submission.
+    """Return whether a file or folder of this name belongs to a submission.
 
     Hidden ones and ``__pycache__`` do not: tools leave them behind.
     """
@@ -86,7 +86,7 @@ def is_part(name: str) -> bool:
 
 
 def read_folder(folder: Path, limits: FolderLimits = LIMITS) -> FolderContents:
-    """Return the files of a folder, for which :func:`is_part` holds.
+    """Return the files of a folder for which :func:`is_part` holds.
 
     Only regular files are accepted. No link is followed, not even one that appears during the
     reading, and no file is read before its size is checked.

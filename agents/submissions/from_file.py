@@ -38,14 +38,14 @@ def write_from(folder: Path, text: str) -> tuple[str, ...]:
     folder
         The folder to write, as for :func:`.write_template`.
     text
-        ``file.py:Class``, with parameters after a comma if any. The file alone is copied, as
-        ``policy.py``; it is not run. Or ``file.onnx``, a network.
+        ``file.py:Class``, with parameters after a comma if any; only this file is copied, as
+        ``policy.py``, and it is not run. Or ``file.onnx``, a network.
 
     Raises
     ------
     InputError
-        If there is no such file or class, the parameters are not ``name=value``, the network must
-        not be run, or as :func:`.write_template`.
+        If there is no such file or class, the parameters are not ``name=value``, the network is not
+        allowed, or as :func:`.write_template`.
     """
     if text.endswith(".onnx"):
         return _write_network(folder, Path(text))

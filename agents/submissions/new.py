@@ -44,7 +44,7 @@ def write_template(folder: Path) -> tuple[str, ...]:
     Parameters
     ----------
     folder
-        A new or empty folder. The policy gets its name, as far as that is a valid name.
+        A new or empty folder. The policy is named after it, as far as that is a valid name.
 
     Raises
     ------
@@ -87,7 +87,7 @@ def write_files(folder: Path, policy: bytes, content: Mapping[str, Any]) -> tupl
 
 
 def _manifest(content: Mapping[str, Any]) -> str:
-    """Return the template's manifest with other values, its comments where they were."""
+    """Return the template's manifest with other values, its comments in place."""
     lines = []
     for line in template(MANIFEST).splitlines():
         key, sign, _ = line.partition(" = ")
@@ -105,7 +105,7 @@ def _manifest(content: Mapping[str, Any]) -> str:
 
 
 def _name(folder: Path) -> str:
-    """Return a policy's name after the folder's; the placeholder if none is left."""
+    """Return a policy's name from the folder's; the placeholder if nothing valid is left."""
     name = re.sub(r"[^A-Za-z0-9 ._+-]+", "-", folder.resolve().name).strip(" ._+-")[:40].strip()
     try:
         return fields.name(name)

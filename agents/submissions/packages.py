@@ -1,4 +1,4 @@
-"""The packages that a submission may import, and those that it does import."""
+"""The packages that a submission may import, and those that it imports."""
 
 import ast
 import importlib.util
@@ -27,7 +27,7 @@ SOURCE_BYTES: Final = 2**20
 
 
 def installed(package: str) -> bool:
-    """Whether one of :data:`PACKAGES` is installed here, found without an import."""
+    """Return whether one of :data:`PACKAGES` is installed here, without importing it."""
     return importlib.util.find_spec(PACKAGES[package]) is not None
 
 

@@ -36,7 +36,7 @@ def snapshot_file(path: Path) -> tuple[Path, FolderContents]:
     Raises
     ------
     InputError
-        If there is no such file, it is too large or its name is not one for a submission, or the
+        If there is no such file, it is too large or its name is not allowed in a submission, or the
         cache folder cannot be written to.
     """
     if not path.is_file():
@@ -100,7 +100,7 @@ def _unwritable(cache: Path, error: OSError) -> InputError:
 
 
 def _holds(place: Path, contents: FolderContents) -> bool:
-    """Whether a copy is there, and unchanged."""
+    """Return whether a copy is there, and unchanged."""
     try:
         return read_folder(place) == contents
     except InputError:

@@ -38,13 +38,13 @@ class Submission:
     """A folder with a valid manifest and valid files; its code has not been run."""
 
     folder: Path
-    """Where the files are; absolute."""
+    """The absolute path of the folder with the files."""
     manifest: Manifest
     contents: FolderContents
 
     @property
     def digest(self) -> str:
-        """The digest in tables: the first digits of that of all names and bytes."""
+        """The digest in tables: the first digits of the hash of all names and bytes."""
         return self.contents.digest[:DIGEST]
 
     def sandboxed(self, level: str | None = None, parameters: str = "") -> SandboxedPolicy:

@@ -1,1 +1,1 @@
-"""Touch: the table as the robot's hands feel it, and a learned law of control by it."""
+"""Touch: the table as the robot's hands feel it, and a learned control law that uses it."""

@@ -13,7 +13,7 @@ SHARES: Final = (1.0, 0.0, -1.0)
 """Movement of the far end as a share of the near end's: together, pivot, counter."""
 
 LEAST_WEIGHT: Final = 1e-6
-"""Weight that no hypothesis falls below: people are not as the model has them."""
+"""Least weight of a hypothesis: people differ from the model."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,20 +31,21 @@ class PoseFilterParameters:
     still: float = 0.001
     """Standard deviation of the far end's intended movement in a step at rest [m]."""
     patience: float = 0.05
-    """Distance of the far end from its intended height [m] from which on a person slows down."""
+    """Distance of the far end from its intended height [m] beyond which a person slows down."""
     moves: float = 0.003
-    """Movement of the near end in a step [m] that is as likely of a person who waits as of one who
-    goes on."""
+    """Movement of the near end in a step [m] that is equally likely for a person who waits and one
+    who goes on."""
     haste: float = 0.1
-    """Probability that a person moves on although the far end is more than twice as far off."""
+    """Probability that a person moves on although the far end is more than twice that distance
+    off."""
 
 
 _exponential: Final = np.vectorize(math.exp, otypes=[np.float64])
-"""NumPy's own takes its bits from the processor's vector extensions."""
+"""The C library's, since the bits of NumPy's own depend on the processor's vector extensions."""
 
 
 class PoseFilter:
-    """Estimates where a person intends the far end to be, and which way it will move.
+    """Estimates the height that a person intends for the far end, and its direction of movement.
 
     For each share g of the intended pitch that the wrists may show, and each ratio of the far end's
     movement to the near end's, a Kalman filter of the intended height f of the far end:
@@ -56,11 +57,11 @@ class PoseFilter:
     probability, as in an interacting multiple model (H. A. P. Blom, Y. Bar-Shalom, IEEE
     Transactions on Automatic Control 33, 1988), and g never does.
 
-    A person waits for a far end that is not where it should be: how much the near end moves tells
-    how likely each f is, given where the far end has been.
+    A person waits for a far end that is not where it should be. The movement of the near end
+    therefore gives the likelihood of each f, given where the far end has been.
 
-    The wrists' pitch follows from statics of the table, with the measured force F beyond the own
-    half of its weight and the pitch p:
+    The wrists' pitch follows from statics of the table, with the pitch p and the measured force F
+    beyond the robot's half of its weight:
 
         w = p + (k_far p - F L) / k_wrist.
     """
@@ -82,16 +83,16 @@ class PoseFilter:
         self._near = self._far = 0.0
 
     def update(self, near: float, pitch: float, force: float) -> None:
-        """Take the near end's height [m], the pitch [rad] and the own hands' force [N] of a step.
+        """Update by the near end's height [m], the pitch [rad] and the hands' force [N] of a step.
 
         Parameters
         ----------
         near
             Height of the person's end.
         pitch
-            Of the table, positive if the own end is higher.
+            Pitch of the table, positive if the far end is higher.
         force
-            Of the own hands on the table, beyond their half of its weight, upwards positive.
+            Force of the far hands on the table, beyond their half of its weight, upwards positive.
         """
         wrist = pitch + (FAR_STIFFNESS * pitch - force * TABLE_LENGTH) / WRIST_STIFFNESS
         rise = near - self._near
@@ -116,8 +117,8 @@ class PoseFilter:
     def _waiting(self, moved: float) -> NDArray[np.float64]:
         """Return the likelihood of a movement of the near end [m].
 
-        It passes without a step from that of no movement to that of a clear one: a threshold would
-        turn small differences of the movement into other decisions.
+        It changes smoothly from that of no movement to that of a clear one: with a threshold, small
+        differences of the movement would lead to different decisions.
         """
         away = np.abs(self._far - self._mean)
         goes = np.minimum(np.maximum(2.0 - away / self._p.patience, self._p.haste), 1.0)
@@ -125,7 +126,7 @@ class PoseFilter:
         return clear * goes + (1.0 - clear) * (1.0 - goes / 2)
 
     def _mix(self) -> None:
-        """Let the ratio change, for each share of the wrists by itself."""
+        """Let the ratio change, separately for each share of the wrists."""
         joint = self._change[:, :, np.newaxis] * self._weight[:, np.newaxis, :]
         weight = joint.sum(axis=0)
         part = joint / weight

@@ -7,13 +7,13 @@ from ..agent import Observation
 from ..observations import HapticObservation
 
 TABLE_LENGTH: Final = 0.8
-"""Distance of the two grips [m]; colift's table, as measured."""
+"""Distance between the two grips [m], as measured on colift's table."""
 
 WRIST_STIFFNESS: Final = 10.0
 """Pitch stiffness of a person's two wrists [Nm/rad]."""
 
 FAR_STIFFNESS: Final = 1.0
-"""Pitch stiffness of the own grip [Nm/rad]."""
+"""Pitch stiffness of the robot's grip [Nm/rad]."""
 
 
 class Touched(NamedTuple):
@@ -28,9 +28,9 @@ class Touched(NamedTuple):
 
 
 def touched(observation: Observation) -> Touched:
-    """Return what the hands feel: the grip's torque is its stiffness times the pitch.
+    """Return the table as felt: the grip's torque is its stiffness times the pitch.
 
-    It is fresh, where motion capture is one latency old.
+    Touch has no delay, whereas motion capture is one latency old.
     """
     pitch = -float(observation[HapticObservation.TORQUE]) / FAR_STIFFNESS
     hand = float(observation[HapticObservation.HAND_HEIGHT])

@@ -38,7 +38,7 @@ class TouchController:
         Raises
         ------
         InputError
-            If the observation is another task's.
+            If the observation is that of another task.
         """
         observation = np.asarray(observation, dtype=np.float64)
         if observation.shape != (self._expected,):

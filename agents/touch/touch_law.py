@@ -12,17 +12,17 @@ from ..observations import AgreeObservation, BallObservation, HapticObservation
 from .touch import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS
 
 AHEAD: Final = 1.2
-"""Control periods that the straight line goes ahead, for the lag of the arm."""
+"""Control periods by which the straight line leads, for the lag of the arm."""
 
 REACH: Final = 0.1
-"""Departure from a level table for an output of 1 [m]."""
+"""Departure from a level table per unit of the network's output [m]."""
 
 TOUCH_INPUTS: Final = 10
-"""Inputs that all tasks have."""
+"""Number of inputs that all tasks share."""
 
 
 class TouchNetwork(NamedTuple):
-    """A network, and the task that it was learned for."""
+    """A network, and the task for which it was learned."""
 
     task: str
     network: GatedNetwork
@@ -49,7 +49,7 @@ class TaskSenses(NamedTuple):
     observation: type[IntEnum]
     """Layout of the observation."""
     inputs: int
-    """How many inputs are its own."""
+    """Number of inputs that only this task has."""
 
 
 TASK_SENSES: Final[Mapping[str, TaskSenses]] = {
@@ -60,7 +60,7 @@ TASK_SENSES: Final[Mapping[str, TaskSenses]] = {
 
 
 def inputs_of(task: str) -> int:
-    """Return how many inputs a network has in a task."""
+    """Return the number of a network's inputs in a task."""
     return TOUCH_INPUTS + TASK_SENSES[task].inputs
 
 
@@ -69,8 +69,8 @@ def felt_action(
 ) -> tuple[TouchMemory, Any]:
     """Return the memory after a step, and the change of the command [m].
 
-    With the height z of the human's end, which the torque tells (:func:`.touched`), and its last
-    change d, the next command is
+    With the height z of the human's end, which follows from the torque (:func:`.touched`), and its
+    last change d, the next command is
 
         z + AHEAD d + REACH * network(units, inputs).
 
@@ -79,7 +79,7 @@ def felt_action(
     learned
         The weights.
     memory
-        That of the last step.
+        The memory after the last step.
     observation
         (k, ...) observations of the task's layout.
     functions

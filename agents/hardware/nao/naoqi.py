@@ -1,14 +1,14 @@
 """The two arms of a NAO through NAOqi's ALMotion.
 
 A command is a target on the project's own arm path, given by ``setAngles``: it does not block,
-replaces the one before it, and the arms end at its target by themselves. So a robot that hears
-nothing more stops within a control period, whatever became of the network.
+replaces the one before it, and the arms stop at its target by themselves. A robot that receives no
+more commands therefore stops within a control period, whatever happened to the network.
 
-``setAngles`` moves joints at a fraction of their greatest speeds. Each joint of the left arm gets,
-with its mirror image, a call of its own, and the fraction with which it takes the whole duration:
-all of them arrive together, and the hands stay within 1.5 mm of a steady rise. With one fraction
-for all, the joints with the shorter ways arrive early, and the hands race at up to 2.7 times the
-speed that was asked for.
+``setAngles`` moves joints at a fraction of their greatest speeds. Each joint of the left arm, with
+its mirror image, gets a call of its own, with the fraction at which the movement takes the whole
+duration: all joints arrive together, and the hands stay within 1.5 mm of a steady rise. With one
+fraction for all, the joints with shorter paths would arrive early, and the hands would move at up
+to 2.7 times the requested speed.
 """
 
 import dataclasses
@@ -30,7 +30,7 @@ PAIRS: Final = [(joint, joint + 5) for joint in range(5)]
 """Each joint of the left arm and its mirror image, as places in ``NAMES``."""
 
 SMALLEST_FRACTION: Final = 0.001
-"""Smallest fraction of the greatest speed that is asked for; NAOqi takes (0, 1]."""
+"""Smallest requested fraction of the greatest speed; NAOqi accepts (0, 1]."""
 
 RELEASE_TIME: Final = 2.0
 """Time in which the stiffness goes up, and down again [s]."""
@@ -39,8 +39,8 @@ SLOW: Final = 0.08
 """Fraction of the greatest speed at which the arms go to the rest posture: 0.6 rad/s."""
 
 LAG: Final = 0.3
-"""How long set-points may be behind their commands [s]: two cycles of ALMotion (0.04 s), an answer
-that takes as long as it may (0.15 s), and a margin for a robot that is busy."""
+"""Longest time by which set-points may lag behind their commands [s]: two cycles of ALMotion (0.04
+s), the longest wait for an answer (0.15 s), and a margin for a busy robot."""
 
 
 class NaoqiArm:
@@ -54,7 +54,7 @@ class NaoqiArm:
     Raises
     ------
     InputError
-        If the robot is no NAO with arms of five joints.
+        If the robot is not a NAO with arms of five joints.
     RobotLostError
         If it does not answer.
     """
@@ -68,18 +68,19 @@ class NaoqiArm:
         self._command = 0.0
         self._set_point = 0.0
         self._set_angles: NDArray[np.float64] = np.array(self._path.joint_angles(0.0))
-        # Where this client's commands led in the last steps, and how many of them count.
+        # Joint angles of this client's last commands, and the number of them that count.
         self._targets = deque([self._set_angles])
         self._kept = 2
         self._stopped = False
         self.taken = ""
-        """Who commands the robot, once it is somebody else: nothing is sent to it any more."""
+        """Message naming another client that commands the robot, else empty; once it is set,
+        nothing more is sent to the robot."""
         self.weight_offset = 0.0
         """Added to every command [m], for the sag under the table's weight."""
 
     @property
     def limits(self) -> HandLimits:
-        """Limits of the commands; from the robot's own joint limits, the offset included."""
+        """Limits of the commands, from the robot's own joint limits; the offset is included."""
         own, offset = self._limits, self.weight_offset
         low, high = max(own.low, own.low - offset), min(own.high, own.high - offset)
         return dataclasses.replace(own, low=low, high=high)
@@ -90,7 +91,7 @@ class NaoqiArm:
         return self._stopped
 
     def state(self) -> ArmState:
-        """Return where the hands are; see :meth:`.RobotArm.state`."""
+        """Return the state of the hands; see :meth:`.RobotArm.state`."""
         self._refuse_if_taken()
         measured, set_angles, stiffness = self.session.calls(
             "ALMotion",
@@ -101,8 +102,9 @@ class NaoqiArm:
             ],
         )
         targets = np.array(self._targets)
-        # Between where it was seen and where it is sent; and where it was ever sent of late, or a
-        # joint that somebody else holds would never be astray.
+        # A joint is on its way between its last seen set-point and its newest targets. The range of
+        # all recent targets limits this: otherwise a joint held by another client would never be
+        # astray.
         way = np.array([self._set_angles, *targets[-3:]])
         low = np.maximum(way.min(axis=0), targets.min(axis=0))
         high = np.minimum(way.max(axis=0), targets.max(axis=0))
@@ -118,7 +120,7 @@ class NaoqiArm:
     def command(self, height: float, duration: float) -> float:
         """Move the hands, within the limits; see :meth:`.RobotArm.command`.
 
-        It starts from where :meth:`state` has last seen the set-points.
+        It starts from the set-points that :meth:`state` read last.
         """
         if self._stopped:
             raise RobotLostError("the hands are stopped: no command is taken any more")
@@ -153,7 +155,7 @@ class NaoqiArm:
     def stop(self) -> None:
         """Freeze the arms where they are, stiff; every later command is refused.
 
-        Arms that somebody else commands are left to them.
+        Arms that another client commands are left alone.
         """
         self._stopped = True
         if not self.taken:
@@ -177,7 +179,7 @@ class NaoqiArm:
         if not self.motion("robotIsWakeUp"):
             self.motion("wakeUp")
         if self.state().stiffness < 1.0:
-            # A limp arm is not where it was told to be; stiffened, it would jump there.
+            # A limp arm is away from its set-points, and would jump to them when stiffened.
             here = self.motion("getAngles", NAMES, True)
             self.motion("setAngles", NAMES, here, 1.0)
             self.stiffen(1.0)
@@ -192,7 +194,7 @@ class NaoqiArm:
         self.motion("stiffnessInterpolation", ["LArm", "RArm"], stiffness, RELEASE_TIME)
 
     def release(self) -> None:
-        """Take the stiffness from the arms, smoothly, and let the robot go to rest.
+        """Reduce the arms' stiffness to 0, smoothly, and let the robot go to rest.
 
         Raises
         ------
@@ -204,7 +206,7 @@ class NaoqiArm:
         self.motion("rest")
 
     def say(self, text: str) -> None:
-        """Say a text, where the robot can speak; return when it is said."""
+        """Say a text, if the robot can speak; return when it has been said."""
         if self.session.has("ALTextToSpeech"):
             self.session.call("ALTextToSpeech", "say", text, within=30.0)
 

@@ -11,14 +11,14 @@ from ..missing import import_optional
 from ..ports import RobotLostError
 
 CONNECT_TIME: Final = 5.0
-"""How long a connection may take [s]."""
+"""Longest time to connect [s]."""
 
 ANSWER_TIME: Final = 0.15
-"""How long NAOqi may take to answer a call that does not block [s]; a wired network takes 1 to
-5 ms, a wireless one up to 50 ms."""
+"""Longest time for the answer to a call that does not block [s]; a wired network takes 1 to 5 ms, a
+wireless one up to 50 ms."""
 
 PULSE: Final = 0.3
-"""How often the robot is asked whether it still answers, while a call blocks [s]."""
+"""Interval at which the robot is asked whether it still answers while a call blocks [s]."""
 
 
 class NaoqiSession:
@@ -27,7 +27,7 @@ class NaoqiSession:
     Parameters
     ----------
     url
-        Where NAOqi listens, such as ``tcp://nao.local:9559``.
+        Address at which NAOqi listens, such as ``tcp://nao.local:9559``.
 
     Raises
     ------
@@ -50,7 +50,7 @@ class NaoqiSession:
 
     @property
     def connected(self) -> bool:
-        """Whether the connection stands, as far as libqi has noticed."""
+        """Whether the connection is up, as far as libqi has noticed."""
         return bool(self._session.isConnected())
 
     def has(self, service: str) -> bool:
@@ -96,7 +96,7 @@ class NaoqiSession:
             raise RobotLostError(f"{names} at {self.url}: {message}") from error
 
     def _await(self, futures: Sequence[Any], deadline: float) -> None:
-        """Wait for calls that may take long, as long as the robot answers in between."""
+        """Wait for calls that may take long, while the robot still answers in between."""
         for future in futures:
             while not future.isFinished() and time.monotonic() < deadline:
                 future.wait(min(round(1000 * PULSE), _milliseconds_to(deadline)))
@@ -122,14 +122,15 @@ def _milliseconds_to(deadline: float) -> int:
 
 
 def quiet() -> None:
-    """Let libqi log errors only: it warns at every start of an Application that is not needed."""
+    """Let libqi log errors only: at every start it warns of an Application that is not needed."""
     os.environ.setdefault("QI_LOG_LEVEL", "2")
 
 
 def leave(code: int) -> NoReturn:
-    """End a process in which libqi has served calls, without its destructors.
+    """End a process that has used libqi, without running libqi's destructors.
 
-    They end threads that may still be at work, and abort then ("terminate called"), at random.
+    The destructors end threads that may still be at work; the process then aborts at random
+    ("terminate called").
     """
     sys.stdout.flush()
     sys.stderr.flush()
@@ -137,6 +138,6 @@ def leave(code: int) -> NoReturn:
 
 
 def first_line(error: BaseException) -> str:
-    """Return what an error of libqi says, without the remote side's stack."""
+    """Return the message of a libqi error, without the remote side's stack."""
     lines = [line.strip() for line in str(error).partition("\nAt:")[0].splitlines()]
     return " ".join(line for line in lines if line)

@@ -11,13 +11,13 @@ from ..movement import MovementDraw, natural_stroke
 from ..plan import assemble, move, still
 
 COMMON: Final = (0.13, 0.17)
-"""Range of the common height, which both ends are lifted to [m]."""
+"""Range of the common height, to which both ends are lifted [m]."""
 
 AWAY: Final = (0.03, 0.05)
 """Range of the distance of a hurdle from the common height, above or below [m]."""
 
 APART: Final = (0.02, 0.1)
-"""Range of the distance of two hurdles in one lift [m]."""
+"""Range of the distance between the two hurdles of a lift [m]."""
 
 FIRST: Final = (0.4, 0.7)
 """Range of the time from the end of the rise until the first window opens [s]."""
@@ -37,7 +37,7 @@ class Hurdle(NamedTuple):
     start: int
     """First frame of its window."""
     stop: int
-    """Frame past its last."""
+    """Frame after its last."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -45,12 +45,12 @@ class HurdlePlan(Plan):
     """A plan whose target is the common way of both ends, with the private hurdles beside it."""
 
     own: Hurdle | None
-    """The human's, which the human alone knows."""
+    """The human's hurdle, known to the human alone."""
     other: Hurdle | None
-    """The one of the far end's holder, which that one alone knows."""
+    """The hurdle of the far end's holder, known to that holder alone."""
     agreeing: tuple[int, int]
-    """First frame and frame past the last at the common height, where there is something to agree
-    on."""
+    """First frame at the common height and the frame after the last: the part in which there is
+    something to agree on."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -140,6 +140,6 @@ class OtherHurdle(Abreast):
 
 @dataclass(frozen=True, kw_only=True)
 class NoHurdle(Abreast):
-    """Nobody has a hurdle, and nobody knows that of the other."""
+    """Neither has a hurdle, and neither knows that the other has none."""
 
     has: ClassVar[tuple[bool, bool]] = (False, False)

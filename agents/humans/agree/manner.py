@@ -14,14 +14,15 @@ class AgreeingManner:
     """Who goes first, and how far a person goes along with the other."""
 
     patience: float
-    """How long the person lets the other go first: 0 goes as soon as the own window opens, 1 at the
-    last moment that leaves time enough, more of it too late."""
+    """How long the person lets the other go first: at 0 the person goes as soon as the window
+    opens, at 1 at the last moment that leaves enough time, above 1 too late."""
     trust: float
     """Share of the way to the partner's inferred goal that the person goes."""
     stiffness: float
-    """Weight of the own goal against a level table; the rest of 1 gives way to the far end."""
+    """Weight of the person's own goal against a level table, in [0, 1]; the remainder gives way to
+    the far end."""
     insistence: float
-    """How long the person insists when both go to their own goals [s]; then gives way."""
+    """How long the person insists when both go to their own goals, before giving way [s]."""
 
 
 PATIENCES: Final = (0.0, 1.15)
@@ -43,7 +44,7 @@ MANNERS: Final[Mapping[str, AgreeingManner]] = {
 
 
 def agreeing_manner(subject: Subject) -> AgreeingManner:
-    """Return a person's manner: of the five as stated, of anybody else drawn by the name."""
+    """Return a person's manner: for the five subjects as stated, for others drawn by name."""
     if subject.name in MANNERS:
         return MANNERS[subject.name]
     kind, _, number = subject.name.partition("-")

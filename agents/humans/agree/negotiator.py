@@ -22,11 +22,11 @@ LIFTED: Final = 0.08
 """Height above which a rest is the common height [m]."""
 
 APART: Final = 0.5
-"""Probability from which on the partner is taken to go to a goal of its own."""
+"""Probability from which the partner counts as going to a goal of its own."""
 
 
 class Secret(NamedTuple):
-    """A hurdle as its holder has it."""
+    """A hurdle as its holder knows it."""
 
     height: float
     """Height to pass [m]."""
@@ -50,22 +50,22 @@ def with_secret(view: Observation, secret: Secret, uncertainty: float) -> Observ
     view
         The senses, :class:`.HumanObservation`.
     secret
-        The own hurdle.
+        The person's own hurdle.
     uncertainty
-        Standard deviation of the perceived speed of the far end [m/s]: the less a person knows of
-        the partner, the larger it is.
+        Standard deviation of the perceived speed of the far end [m/s]: the less a person knows
+        about the partner, the larger it is.
     """
     return np.concatenate((secret, (uncertainty,), view))
 
 
 class Negotiator:
-    r"""Carries the common way out, with detours to the own hurdle and to the partner's goal.
+    r"""Carries out the common way, with detours to a hurdle of its own and to the partner's goal.
 
     The observation is that of :func:`with_secret`; its target is the common way. The person infers
-    where the partner goes from what is seen of the far end (:class:`.GoalBelief`), a visual delay
-    late and with the given uncertainty. In the own turn (:class:`.Precedence`) the goal is the own
-    height; otherwise the common height plus ``trust`` times the partner's expected offset from it.
-    With the stiffness s, the best response to a far end at z is
+    the partner's goal from the seen far end (:class:`.GoalBelief`), a visual delay late and with
+    the given uncertainty. In the person's turn (:class:`.Precedence`) the goal is the height of the
+    person's hurdle; otherwise it is the common height plus ``trust`` times the partner's expected
+    offset from it. With the stiffness s, the best response to a far end at z is
 
         s goal + (1 - s) z,
 
@@ -74,8 +74,8 @@ class Negotiator:
 
         d'' = omega^2 (response - way - d) - sqrt(2) omega d'.
 
-    The hand is a person's own, with noise, tremor and correction (:class:`.ScriptedHuman`); the
-    answer to the felt force is the reflex of the body in the world.
+    The hand has a person's noise, tremor and correction (:class:`.ScriptedHuman`); the answer to
+    the felt force is the reflex of the body in the world.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ class Negotiator:
         return way
 
     def _base(self, way: list[float]) -> list[float]:
-        """Return what the offset is from, in each of the next n frames [m]."""
+        """Return the heights to which the offset is added, in each of the next n frames [m]."""
         return way
 
     def _respond(self, secret: Secret, view: Observation, way: list[float]) -> float:
@@ -143,7 +143,7 @@ class Negotiator:
         return self._along(self._common, way, far)
 
     def _see(self, view: Observation, way: list[float]) -> tuple[float, float]:
-        """Take what is seen of both ends; return their heights [m]."""
+        """Update the belief by the seen ends; return their heights [m]."""
         frames = len(way)
         period = frames * FRAME
         own = view[HumanObservation.OWN_HEIGHT].tolist()
@@ -165,7 +165,7 @@ class Negotiator:
         return own[-1], far
 
     def _along(self, common: float, way: list[float], far: float) -> float:
-        """Return the height to go to while it is not the own turn [m]."""
+        """Return the height to go to while it is not the person's turn [m]."""
         stiffness = self._manner.stiffness
         goal = common + self._manner.trust * self._belief.offset
         return stiffness * goal + (1 - stiffness) * far

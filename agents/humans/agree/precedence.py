@@ -1,4 +1,4 @@
-"""Precedence at two hurdles: the turn to go to the own one."""
+"""Precedence at two hurdles: the time to go to one's own."""
 
 from typing import Final
 
@@ -10,24 +10,25 @@ EARLY: Final = 0.25
 
 NEAR: Final = 0.006
 FAR_NEAR: Final = 0.015
-"""Distances of the own end and of the far end from the hurdle within which the table is taken to
-have passed [m]."""
+"""Distances of the person's end and of the far end from the hurdle within which the table counts as
+having passed [m]."""
 
 AWAY: Final = 0.02
 """Distance from the common height beyond which a partner has a goal of its own [m]."""
 
 LEVEL: Final = 0.008
-"""Distance of the ends within which the table is level [m]."""
+"""Height difference of the ends within which the table is level [m]."""
 
 SLOW: Final = 0.05
-"""Speed below which it rests there [m/s]."""
+"""Speed below which the table rests there [m/s]."""
 
 SERVED: Final = 0.2
-"""How long the table rests at the partner's goal until the person thinks it is passed [s]."""
+"""How long the table rests at the partner's goal until the person takes that hurdle as passed
+[s]."""
 
 
 class Precedence:
-    """Decides when to go to the own hurdle, when to give way, and when it is passed.
+    """Decides when to go to one's own hurdle, when to give way, and when it is passed.
 
     The turn comes at the share ``patience`` of the time between the earliest and the latest moment
     to begin, or as soon as the partner has been at its own goal. A partner who is seen to go to a
@@ -37,7 +38,7 @@ class Precedence:
     Parameters
     ----------
     patience, insistence
-        Of the person's :class:`.AgreeingManner`.
+        Numbers of the person's :class:`.AgreeingManner`.
     """
 
     def __init__(self, patience: float, insistence: float) -> None:
@@ -71,7 +72,7 @@ class Precedence:
         return self._served or not self._gave_way
 
     def see(self, height: float, start: float, own: float, far: float) -> None:
-        """Note whether the table passes the own hurdle, by the seen heights [m]."""
+        """Note whether the table passes the person's own hurdle, by the seen heights [m]."""
         if start <= 0.0 and abs(own - height) < NEAR and abs(far - height) < FAR_NEAR:
             self.passed = True
 
@@ -81,7 +82,7 @@ class Precedence:
         Parameters
         ----------
         away, apart
-            Seen distances of the far end from the common height and from the own end [m].
+            Seen distances of the far end from the common height and from the person's own end [m].
         speed
             Seen speed of the far end [m/s].
         period

@@ -16,15 +16,15 @@ STEADY: Final = 0.05
 """Speed below which the other end rests [m/s]."""
 
 STILL: Final = 0.3
-"""How long it rests until its height is taken for the common one [s]."""
+"""How long the other end rests until its height is taken as the common one [s]."""
 
 
 class SecondNegotiator(Negotiator):
     """The :class:`Negotiator` at the far end of a human-human pair.
 
     It does not know the common way, but follows the end that it sees as the :class:`.Partner` does;
-    the height at which that one first comes to rest is the common height. In the own turn its hand
-    moves from there to the own hurdle.
+    the height at which that end first comes to rest is the common height. In its turn the hand
+    moves from there to its own hurdle.
     """
 
     def __init__(
@@ -58,7 +58,7 @@ class SecondNegotiator(Negotiator):
         ]
 
     def _base(self, way: list[float]) -> list[float]:
-        """Return the way or, in the own turn, the common height; the hand does not jump."""
+        """Return the way or, in its turn, the common height; the hand does not jump."""
         fixed = way[0] if self._common is None else self._common
         if self._mine != self._apart:
             sign = 1.0 if self._mine else -1.0

@@ -11,18 +11,20 @@ from .. import SUBJECTS, Subject
 
 @dataclass(frozen=True, kw_only=True)
 class SteeringManner:
-    """How much of the steering a person does, and what the person makes of the partner."""
+    """How much of the steering a person does, and how the person responds to the partner."""
 
     share: float
-    """Part of the wanted height difference of the ends that the own end makes; 1 is all of it."""
+    """Part of the wanted height difference of the ends that the person's own end makes; 1 is all of
+    it."""
     haste: float
     """Natural frequency with which the person means to bring the ball to its target [rad/s]."""
     lead: float
-    """Time by which the person carries on in thought what it sees of the ball [s]."""
+    """Time by which the person extrapolates the seen motion of the ball [s]."""
     trust: float
-    """Part of the own share that the person leaves to a partner who seems to do everything."""
+    """Part of this share that the person leaves to a partner who seems to do everything."""
     wrist: float
-    """Part of the wanted inclination that the wrists turn to, however little the own end does."""
+    """Part of the wanted inclination that the wrists turn to, however little the person's end
+    does."""
 
 
 RANGES: Final = {
@@ -50,7 +52,7 @@ PARTNER_MANNER: Final = SteeringManner(share=0.6, haste=1.8, lead=0.2, trust=0.3
 
 
 def steering_manner(subject: Subject) -> SteeringManner:
-    """Return a person's manner: of the five as stated, of anybody else drawn by the name."""
+    """Return a person's manner: for the five subjects as stated, for others drawn by name."""
     if subject.name in SUBJECTS:
         return MANNERS[subject.name]
     kind, _, number = subject.name.partition("-")

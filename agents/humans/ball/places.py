@@ -22,11 +22,11 @@ LAST: Final = 2.0
 """Least time of the last target [s]."""
 
 CARRYING: Final = (2.0, 3.0)
-"""Range of the time by which the table is held longer than in the lift alone [s]."""
+"""Range of the time by which the table is held longer than without a ball [s]."""
 
 HEIGHT_SHARE: Final = 0.15
-"""Height of the lift above the lowest goal, relative to the lift alone: the ends need room above
-and below."""
+"""Height of the lift above the lowest goal, relative to that without a ball: the ends need room
+above and below."""
 
 FARTHEST: Final = 0.2
 """Largest distance of a target from the table's middle [m]: half of the way to the edge."""
@@ -40,19 +40,19 @@ STRONGEST: Final = 0.5
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BallPlan(Plan):
-    """A plan with the intended place of the ball, too."""
+    """A plan that also has the intended place of the ball."""
 
     place: NDArray[np.float64]
     """(n,) place [m] where the ball should be at the end of each frame, read-only."""
     shown: bool
-    """Whether the partner knows it."""
+    """Whether the partner knows that place."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Placing:
     """Lifts as another behaviour does, with a target for the ball that moves on now and then.
 
-    The target moves as hands do, at minimum jerk, so fast that a ball can just follow.
+    The target moves with minimum jerk, as hands do, and just slowly enough for the ball to follow.
     """
 
     lifting: ClassVar[Behaviour]
@@ -110,7 +110,7 @@ def _next(here: float, rng: np.random.Generator) -> float:
 
 
 def _path(way: float) -> NDArray[np.float64]:
-    """Return a minimum-jerk movement over a way [m], whose acceleration peaks at STRONGEST."""
+    """Return a minimum-jerk movement over a way [m], with a peak acceleration of STRONGEST."""
     peak = 10 / math.sqrt(3)
     frames = round(math.sqrt(peak * abs(way) / STRONGEST) / FRAME)
     t = np.arange(1, frames + 1) / frames

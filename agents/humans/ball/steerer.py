@@ -1,4 +1,4 @@
-"""The person who steers the ball with the own end of the table, on top of lifting."""
+"""The person who steers the ball with one end of the table while lifting."""
 
 import math
 from collections import deque
@@ -13,20 +13,21 @@ from ..partner import PartnerParameters
 from .manner import PARTNER_MANNER, SteeringManner, steering_manner
 
 DAMPING_RATIO: Final = 0.8
-"""Damping with which people bring the ball to its target."""
+"""Damping ratio with which people bring the ball to its target."""
 
 STEEPEST: Final = 0.08
 """Largest wanted height difference of the ends [m]."""
 
 FARTHEST: Final = 0.1
-"""Largest distance of the own end from the plan of the lift [m]."""
+"""Largest distance of the person's end from the plan of the lift [m]."""
 
 FASTEST: Final = 0.25
-"""Highest speed of the own end that steering adds [m/s]."""
+"""Highest speed that steering adds to the person's end [m/s]."""
 
 HAND_TIME: Final = 0.2
-"""Time constant with which the own end approaches where it should be [s], an assumption: with less,
-two who steer ring, and a lift's error depends on differences of micrometres."""
+"""Time constant with which the person's end approaches its wanted height [s], an assumption: with a
+smaller one, two people who steer oscillate, and the error of a lift depends on differences of
+micrometres."""
 
 MEMORY: Final = 2.0
 """Time over which a person judges the partner [s]."""
@@ -37,18 +38,18 @@ JOINING: Final = 1.2
 other's wrists seem to mean."""
 
 CALMING: Final = 0.2
-"""Height difference that such a person adds by the ball's speed [s], against it."""
+"""Height difference that such a person adds against the ball's speed [m per m/s]."""
 
 
 class BallSenses:
-    """Index table of what a person sees of the ball, before :class:`.HumanObservation`."""
+    """Index table of what a person sees of the ball; :class:`.HumanObservation` follows."""
 
     PLACE: Final = slice(0, HISTORY)
     """Place of the ball [m] in ten frames, as old as the visual delay."""
     TARGET: Final = slice(HISTORY, 2 * HISTORY)
-    """Where the ball should be [m] at the end of each of the next ten frames."""
+    """Intended place of the ball [m] at the end of each of the next ten frames."""
     KNOWN: Final = 2 * HISTORY
-    """1 if the person knows the target; else 0, and so are the places."""
+    """1 if the person knows the target; else 0, and then the intended places are 0 too."""
     SIZE: Final = 2 * HISTORY + 1
     """Numbers before the other senses."""
 
@@ -61,7 +62,7 @@ def with_ball(view: Observation, places: list[float], target: Observation | None
 
 
 class Steerer:
-    """Carries the lift out, and steers the ball with a share of the height difference it takes."""
+    """Carries out the lift, and steers the ball with a share of the necessary height difference."""
 
     def __init__(self, *, subject: Subject, manner: SteeringManner | None = None) -> None:
         self._hand = ScriptedHuman(subject=subject)
@@ -83,17 +84,18 @@ class Steerer:
 class Steering:
     """A delayed controller of the ball through the height of one end of the table.
 
-    With the haste w, the damping ratio z, and the ball's place s and speed v as they were a visual
-    delay ago and carried on by the person's lead, the person wants the height difference
+    With the haste w, the damping ratio z, and the ball's place s and speed v as seen a visual delay
+    ago and extrapolated by the person's lead, the person wants the height difference
 
         d = (w^2 (s - x) + 2 z w (v - x') - x'') / PULL,
 
-    far above near, for a target at x. The own end makes the part ``share (1 - trust done)`` of it.
-    ``done`` is the part that the partner seems to do: the regression, over the last seconds, of the
-    other end's distance from the lift on what was wanted.
+    far above near, for a target at x. The person's end makes the part ``share (1 - trust done)`` of
+    it. ``done`` is the part that the partner seems to do: the regression, over the last seconds, of
+    the other end's distance from the lift on the wanted difference.
 
-    A person who does not know the target wants a multiple of what the other's wrists seem to mean
-    (:func:`.meant_by_wrists`), and the ball to calm down, and makes all of it.
+    A person who does not know the target wants a multiple of the height difference that the other's
+    wrists seem to mean (:func:`.meant_by_wrists`), less a term that slows down the ball, and makes
+    all of it.
     """
 
     def __init__(self, manner: SteeringManner, delay: float) -> None:
@@ -108,7 +110,7 @@ class Steering:
         self._product, self._square = 0.0, 1e-4
 
     def offsets(self, observation: Observation, plan: Observation, side: float) -> list[float]:
-        """Return how far the own end should be from the plan [m] in each frame of the step.
+        """Return the distance of the person's end from the plan [m] in each frame of the step.
 
         ``side`` is 1 for the far end, whose height makes the difference larger, and -1 for the
         near one.
@@ -133,14 +135,14 @@ class Steering:
         return offsets
 
     def _done(self, partner: float, period: float) -> float:
-        """Return the part of what was wanted that the partner seems to do, 0 to 1."""
+        """Return the part of the wanted difference that the partner seems to make, 0 to 1."""
         kept = math.exp(-period / MEMORY)
         self._product = kept * self._product + period * partner * self._wanted
         self._square = kept * self._square + period * self._wanted**2
         return min(max(self._product / (self._square + 1e-4), 0.0), 1.0)
 
     def _wanting(self, observation: Observation, seen: float) -> float:
-        """Return the wanted height difference [m] beside the one that is seen."""
+        """Return the wanted height difference [m], given the seen one."""
         places: list[float] = observation[BallSenses.PLACE].tolist()
         speed = (places[-1] - places[0]) / (FRAME * (HISTORY - 1))
         lead, rate = self._manner.lead, self._manner.haste
@@ -164,8 +166,8 @@ class Steering:
 class BallPartner:
     """The second person: keeps the table level, and steers the ball as the first does.
 
-    It follows the other end as :class:`.Partner` does. If it does not know the target, it joins in
-    what it feels of the other's wrists.
+    It follows the other end as :class:`.Partner` does. If it does not know the target, it follows
+    the torque that it feels from the other's wrists.
     """
 
     def __init__(

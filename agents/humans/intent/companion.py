@@ -1,4 +1,4 @@
-"""The second person of the human-human baseline: feels where the first means the table to be."""
+"""The second person of the human-human baseline, who feels where the first wants the table."""
 
 import math
 from typing import Final
@@ -20,16 +20,17 @@ SUPPORT: Final = 1.717
 """Half of the table's weight [N], which the hands feel when nothing else pulls."""
 
 FEELING: Final = PoseFilterParameters(switch=0.015, pitch_noise=0.05, path_noise=0.1, haste=0.5)
-"""A person's touch is coarser than a robot's sensors, and a person changes an opinion of the
-partner more slowly: chosen, such that a lift does not depend on the step of the physics."""
+"""A person's touch is coarser than a robot's sensors, and a person's estimate of the partner
+changes more slowly. The values are chosen such that a lift does not depend on the time step of the
+physics."""
 
 
 class Companion:
-    """Keeps the far end where the other person means it to be, as a person would.
+    """Keeps the far end where the other person wants it, as a person would.
 
-    Sight of the other end is one visual delay old, the felt force one haptic delay; where the other
-    is by now follows from the seen velocity. A :class:`.PoseFilter` tells the intended height, and
-    the hand is a person's own (:class:`.ScriptedHuman`).
+    Sight of the other end is one visual delay old, the felt force one haptic delay; the present
+    height of the other end is extrapolated with the seen velocity. A :class:`.PoseFilter` estimates
+    the intended height, and the hand moves as a person's (:class:`.ScriptedHuman`).
     """
 
     def __init__(self) -> None:
@@ -60,7 +61,7 @@ class Companion:
         return self._hand.act(meant)
 
     def _look(self, heights: list[float]) -> None:
-        """Take the newest heights of the other end, one a frame [m]."""
+        """Add the newest heights of the other end, one per frame [m]."""
         smoothing = -math.expm1(-FRAME / VELOCITY_MEMORY)
         for height in heights:
             self._velocity += smoothing * ((height - self._height) / FRAME - self._velocity)

@@ -15,8 +15,8 @@ class LeadingManner:
 
     wrist: float
     """Share of the intended pitch that the wrists turn to. A person with little of it leads by
-    waiting rather than by torque. It is negative if the wrists turn along with the forearms: who
-    raises a hand from the elbow raises its front, whatever the table is to do."""
+    waiting rather than by torque. It is negative if the wrists turn along with the forearms: a
+    person who raises a hand from the elbow tilts it up, whatever the table should do."""
     lead: float
     """How far the wrists are ahead of the hands [s]; negative if they follow."""
     patience: float
@@ -27,8 +27,8 @@ class LeadingManner:
 SHARES: Final = (-0.4, 1.2)
 LEADS: Final = (-0.1, 0.2)
 PATIENCES: Final = (0.02, 0.08)
-"""Ranges of the population, uniform and independent: chosen, wide enough that people differ in what
-tells their intention."""
+"""Ranges of the population, uniform and independent: chosen, wide enough that people differ in how
+their intention shows."""
 
 MANNERS: Final[Mapping[str, LeadingManner]] = {
     "S1": LeadingManner(wrist=1.2, lead=0.1, patience=0.06),
@@ -41,7 +41,7 @@ MANNERS: Final[Mapping[str, LeadingManner]] = {
 
 
 def leading_manner(subject: Subject) -> LeadingManner:
-    """Return a person's manner: of the five as stated, of anybody else drawn by the name."""
+    """Return a person's manner: for the five subjects as stated, for others drawn by name."""
     if subject.name in SUBJECTS:
         return MANNERS[subject.name]
     kind, _, number = subject.name.partition("-")

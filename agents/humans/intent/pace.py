@@ -1,4 +1,4 @@
-"""The pace at which a person goes through a plan: slower while the far end is off its way."""
+"""The pace at which a person goes through a plan: slower while the far end is off its path."""
 
 from typing import Final
 
@@ -10,13 +10,13 @@ from .. import Subject
 from .manner import leading_manner
 
 CATCHING_UP: Final = 1.25
-"""Fastest pace, of a person who is late."""
+"""Fastest pace, for a person who is late; 1 is the plan's own."""
 
 
 class Pace:
     """The time within a plan for each frame of an episode.
 
-    A person who sees the far end e from where it should be by then goes through the plan at
+    A person who sees the far end at a distance e from its planned height goes through the plan at
 
         min(max(2 - e / patience, 0), 1)
 
@@ -43,7 +43,7 @@ class Pace:
         Parameters
         ----------
         frames
-            How many there are.
+            Number of these frames.
         far_end
             Height of the far end [m], newest last.
         """
@@ -65,9 +65,9 @@ class Pace:
 
 
 def planned_at(series: NDArray[np.float64], time: float) -> float:
-    """Return a series of values at the end of each frame, at a time in frames, interpolated.
+    """Return the interpolated value, at a time in frames, of a series of values at frame ends.
 
-    Before its first frame and after its last it is 0 and its last value.
+    Before its first frame it is 0, after its last frame the last value.
     """
     place = time - 1.0
     last = len(series) - 1

@@ -32,7 +32,7 @@ EXCURSIONS: Final = 2
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PosePlan(Plan):
-    """A plan with the intended heights of the far end, too."""
+    """A plan that also has the intended heights of the far end."""
 
     far: NDArray[np.float64]
     """(n,) intended height [m] of the far end at the end of each frame, read-only."""
@@ -49,8 +49,8 @@ class PosePart(NamedTuple):
 class Posing:
     """Lifts the table level, moves it to other poses and back, and lowers it.
 
-    Each excursion has one intent, or changes from one to another half-way: all ends move together,
-    the near end alone (a pivot, to pour), or the ends in opposite directions.
+    Each excursion has one intent, or changes from one to another half-way: both ends move together,
+    the near end moves alone (a pivot, as to pour), or the ends move in opposite directions.
     """
 
     intents: ClassVar[tuple[str, ...]] = tuple(SHARES)
@@ -93,7 +93,7 @@ class Posing:
         )
 
     def _excursion(self, base: float, rng: np.random.Generator) -> list[PosePart]:
-        """Return the parts of a way out that keeps both ends within reach."""
+        """Return the parts of an outward movement that keeps both ends within reach."""
         while True:
             way = [
                 PosePart(

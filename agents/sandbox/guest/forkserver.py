@@ -49,7 +49,8 @@ def main(handle: int) -> None:
     orders.send(json.dumps(restrictions.namespaces).encode())
     with contextlib.ExitStack() as stack:
         if not restrictions.namespaces:
-            # Made and removed here: this process outlives its owner, which may be killed.
+            # The fork server makes and removes it, since it outlives its owner, which may be
+            # killed.
             scratch = tempfile.TemporaryDirectory(prefix="colift-", ignore_cleanup_errors=True)
             restrictions = replace(restrictions, scratch=Path(stack.enter_context(scratch)))
         while True:

@@ -64,7 +64,7 @@ def _attempts(secrets: dict[str, Any]) -> Iterator[tuple[str, Callable[[], objec
         yield f"changes attributes of {path}", partial(os.setxattr, path, "user.x", b"x")
         yield f"changes times of {path}", partial(os.utime, path)
         yield f"changes rights of {path}", partial(path.chmod, 0o755)
-    # This access would be recorded, if accesses were.
+    # This access would show up if the kernel recorded accesses.
     with shared.open("rb") as file:
         file.read()
         yield "locks files of others", lambda: fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
@@ -106,7 +106,7 @@ def _called(numbers: dict[str, int], *arguments: int | bytes) -> None:
 
 
 def _namespace() -> str:
-    """Return the name of the own process namespace; empty if unknown."""
+    """Return the name of this process's namespace of processes; empty if unknown."""
     try:
         return os.readlink("/proc/self/ns/pid")  # noqa: PTH115
     except OSError:

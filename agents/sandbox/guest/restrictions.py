@@ -31,7 +31,7 @@ class Restrictions:
     """The restrictions of a policy's process."""
 
     namespaces: str = ""
-    """``root``: made by the superuser; ``user``: by anybody; empty: none."""
+    """``root``: made by the superuser; ``user``: made by any user; empty: none."""
     landlock: bool
     readable: tuple[Path, ...]
     """Paths that it may read."""
@@ -59,7 +59,7 @@ def enter_root(restrictions: Restrictions) -> int:
     """
     linux.mount("none", "/", "", MS_REC | MS_PRIVATE)
     secure = MS_NOSUID | MS_NODEV | MS_NOEXEC
-    # Inside a container that covers parts of /proc this is refused: then the old one serves.
+    # Inside a container that covers parts of /proc this is refused: the old /proc is used then.
     with contextlib.suppress(OSError):
         linux.mount("proc", "/proc", "proc", secure)
     processes = os.open("/proc", os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
@@ -109,8 +109,8 @@ def drop_privileges(restrictions: Restrictions) -> None:
     """Restrict this process and all that it will start; raise OSError if the kernel refuses."""
     if restrictions.namespaces == "root":
         linux.become(NOBODY, NOBODY)
-        # Without this capability the user nobody could not read private folders. It holds in the
-        # process's own user namespace only.
+        # Without this capability the user ``nobody`` could not read private folders. It is valid in
+        # the process's own user namespace only.
         linux.drop_capabilities(1 << linux.CAP_DAC_READ_SEARCH)
     else:
         linux.drop_capabilities()
@@ -124,7 +124,7 @@ def drop_privileges(restrictions: Restrictions) -> None:
 
 
 def _rules(restrictions: Restrictions) -> list[tuple[Path, int]]:
-    """Return what Landlock allows."""
+    """Return the paths that Landlock allows, with their rights."""
     shown = (Path("/"),) if restrictions.namespaces else restrictions.readable
     rules = [(path, landlock.READ) for path in shown]
     rules += [(Path(each), landlock.READ_FILE | landlock.WRITE_FILE) for each in DEVICES]
@@ -141,7 +141,7 @@ def _set_limits(restrictions: Restrictions) -> None:
         resource.RLIMIT_NOFILE: limits.files,
         resource.RLIMIT_CPU: limits.cpu_seconds,
         resource.RLIMIT_DATA: limits.memory,
-        # Addresses that are only reserved, as by libraries and threads, are not used.
+        # RESERVED is for addresses that libraries and threads reserve without using them.
         resource.RLIMIT_AS: limits.memory + RESERVED,
     }
     if restrictions.namespaces:

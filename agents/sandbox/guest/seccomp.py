@@ -2,7 +2,7 @@
 
 All others are refused: among them calls that leave a trace for a later lift or reveal an earlier
 one (attributes, times and locks of shared files, the page cache, counters of the kernel), that take
-memory of which no process is charged (sockets, memory files, System V), that start programs, make
+memory that is charged to no process (sockets, memory files, System V), that start programs, make
 namespaces or change the processor, and all calls of the x32 interface, whose numbers differ.
 """
 
@@ -88,7 +88,7 @@ _UNLESS: Final = {
 def install() -> bool:
     """Filter this process and its descendants, irrevocably; return whether that works here.
 
-    The process must have given up new privileges before (``PR_SET_NO_NEW_PRIVS``).
+    The process must have renounced new privileges before (``PR_SET_NO_NEW_PRIVS``).
     """
     machine = os.uname().machine
     if machine not in _ARCHITECTURE:

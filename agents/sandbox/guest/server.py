@@ -69,8 +69,8 @@ def serve_forks(handle: int, policy: Assignment) -> None:
 
     This process belongs to the policy: anything that the module starts or shares on import survives
     an episode. Therefore an audit plays episodes again, in another order and in fresh sandboxes.
-    The answer to the first message is ``[1, "loaded"]``, or the reason of a failure. Each order
-    brings the policy's ends of a connection and of the output.
+    The answer to the first message is ``[1, "loaded"]``, or the reason for a failure. Each order
+    carries the policy's ends of a connection and of the output.
     """
     orders = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET, 0, handle)
     orders.recv(_ORDER)
@@ -121,7 +121,7 @@ class _Server:
             return self._make()
         except (ActionError, InputError) as error:
             return ["failed", str(error)[:REASON]]
-        except BaseException as error:  # SystemExit and KeyboardInterrupt too are the policy's.
+        except BaseException as error:  # Including SystemExit and KeyboardInterrupt.
             with contextlib.suppress(BaseException):
                 print(_own_traceback(error), end="", file=sys.stderr)
             return ["failed", _safe_text(error)]

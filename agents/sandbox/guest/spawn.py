@@ -37,7 +37,7 @@ class Ends(NamedTuple):
 
 
 def spawn(restrictions: Restrictions, ends: Ends, serve: Callable[[int], None]) -> None:
-    """Start the processes of an episode and return at once; the ends are theirs, and closed here.
+    """Start the processes of an episode, return at once, and close the ends, which are theirs now.
 
     The superuser forks the first process directly into its namespace. Any other user must first
     enter a user namespace, which cannot be undone: an intermediate process does that.
@@ -96,13 +96,13 @@ def _supervise(restrictions: Restrictions, ends: Ends, serve: Callable[[int], No
     if child == 0:
         os.close(here)
         _guarded(ends.status, partial(_serve, restrictions, ends, serve, there))
-    signal.signal(signal.SIGPIPE, signal.SIG_IGN)  # A side that has gone must not end the watch.
+    signal.signal(signal.SIGPIPE, signal.SIG_IGN)  # A closed connection must not end the watch.
     for end in (there, ends.data, ends.output):
         os.close(end)
     if os.read(here, 1) and restrictions.namespaces == "root":
         for name in ("uid_map", "gid_map"):
             _tell(processes, f"{child}/{name}", f"0 0 1\n{NOBODY} {NOBODY} 1\n")
-    # In a control group that is full the kernel ends the policy, not the processes that watch it.
+    # If a control group is full, the kernel should end the policy, not the processes that watch it.
     with contextlib.suppress(OSError):
         _tell(processes, f"{child}/oom_score_adj", "1000")
     with contextlib.suppress(OSError):

@@ -1,4 +1,4 @@
-"""The watch over a policy's processes: their total use, the reason of their end, their end."""
+"""The watch over a policy's processes: their total use, the reason for their end, their end."""
 
 import contextlib
 import itertools
@@ -19,7 +19,7 @@ _PAGE: Final = os.sysconf("SC_PAGE_SIZE")
 _TICKS: Final = os.sysconf("SC_CLK_TCK")
 _PARENT, _USER, _SYSTEM, _THREADS, _RESIDENT = 1, 11, 12, 17, 21
 _PASSES: Final = 3
-"""Passes over the threads when they are moved: one may start another meanwhile."""
+"""Passes over the threads when they are moved: a thread may start another meanwhile."""
 
 
 @dataclass(frozen=True)
@@ -29,9 +29,9 @@ class Watch:
     child: int
     """The policy's first process."""
     status: int
-    """A stream socket. The reason of the end is written to it: ``exit CODE``, ``signal NUMBER``,
+    """A stream socket. The reason for the end is written to it: ``exit CODE``, ``signal NUMBER``,
     ``memory BYTES``, ``processes NUMBER`` or ``processor SECONDS``. Each number read from it is the
-    one processor that the policy may use from then on."""
+    only processor that the policy may use from then on."""
     processes: int
     """Handle of a /proc with the processes."""
     limits: Limits
@@ -54,7 +54,8 @@ class Watch:
                     break
                 self._move(int(word.split()[-1]))
             report = self._ended() or self._excess()
-        # The status first: the other side waits for it, and ending thousands may take a while.
+        # The status is sent first: the other side waits for it, and ending thousands of processes
+        # may take a while.
         if report:
             with contextlib.suppress(OSError):
                 os.write(self.status, f"{report}\n".encode())
@@ -90,14 +91,14 @@ class Watch:
         return ""
 
     def _proportional(self, process: int, figures: list[int]) -> int:
-        """Return the memory of a process, each page divided by how many share it [bytes].
+        """Return the memory of a process, each page divided by the number of its sharers [bytes].
 
         Files in memory are counted as such.
         """
         try:
             words = self._read(f"{process}/smaps_rollup").split()
         except PermissionError:
-            return figures[_RESIDENT] * _PAGE  # A process that hides is not assumed to share.
+            return figures[_RESIDENT] * _PAGE  # A hidden process is not assumed to share.
         except OSError:
             return 0
         sizes = dict(itertools.pairwise(words))

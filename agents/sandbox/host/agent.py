@@ -82,7 +82,7 @@ class RemoteAgent:
 
     @property
     def printed(self) -> str:
-        """The last 10,000 characters of the policy's output in this episode."""
+        """Return the last 10,000 characters of the policy's output in this episode."""
         return self._connection.output.text
 
     def reset(self, seed: int) -> None:

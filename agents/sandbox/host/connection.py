@@ -1,4 +1,4 @@
-"""A connection to a policy's process: requests with deadlines, output, reason of its end."""
+"""A connection to a policy's process: requests with deadlines, output, reason for its end."""
 
 import contextlib
 import os
@@ -20,7 +20,7 @@ _REPORT_SECONDS: Final = 1.0
 
 _SLICE: Final = struct.pack("ll", 0, 5000)
 """Time for an answer before the output is read [s, us]: a policy that fills the pipe waits that
-long. Waiting for both at once would make every step longer."""
+long. Waiting for answer and output at once would make every step longer."""
 
 _END_SECONDS: Final = 5.0
 """Time limit for the processes of an episode to end [s]."""
@@ -38,8 +38,8 @@ _UNSEEN: Final = frozenset({"Cc", "Cf", "Cn", "Co", "Cs", "Zl", "Zp"})
 def clean(text: str) -> str:
     """Return an untrusted text without invisible characters, except line ends and tabs.
 
-    Invisible are control characters, marks and isolates of the direction of text, separators of
-    lines and paragraphs, and private and unassigned characters.
+    Invisible characters are control characters, marks and isolates of the direction of text,
+    separators of lines and paragraphs, and private and unassigned characters.
     """
     shown = _SEQUENCE.sub("", text.encode(errors="replace").decode())
     if shown.isascii() and shown.isprintable():
@@ -91,7 +91,7 @@ class Connection:
     limits: Limits
     """The policy's budgets."""
     sure: bool
-    """Whether the policy cannot end the process that watches it."""
+    """Whether it is certain that the policy cannot end the process that watches it."""
     shared: bool = False
     """Whether the processes outlive this episode, unless it fails."""
     failure: PolicyError | EvaluatorFault | None = None
@@ -141,7 +141,7 @@ class Connection:
             self.status.send(f"{processor}\n".encode(), socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
 
     def _answer(self, end: float) -> list[Any] | None:
-        """Return the next answer, None if it does not come before the time ``end``."""
+        """Return the next answer; None if it does not come before the time ``end``."""
         while time.monotonic() < end:
             answer = self._channel.fetch()
             if answer is not None:

@@ -71,7 +71,7 @@ def working_levels() -> tuple[str, ...]:
 
 
 def choose(*, verifiable: bool = False) -> Choice:
-    """Return the strongest level that works here, and why stronger ones do not.
+    """Return the strongest level that works here, with the reasons why stronger ones do not.
 
     With ``verifiable`` only the levels of :data:`VERIFIABLE` are considered. Raise EvaluatorFault
     with all reasons if none works.
@@ -101,8 +101,8 @@ def check_level(name: str) -> None:
 def fault(name: str) -> str | None:
     """Return the reason why a level does not work here, None if it does: a probe tries it.
 
-    A failure counts after :data:`TRIES` attempts, and for a minute. Raise InputError if there is no
-    such level.
+    A failure counts after :data:`TRIES` attempts, and is remembered for a minute. Raise InputError
+    if there is no such level.
     """
     check_level(name)
     until, reason = _found.get(name, (-math.inf, None))
@@ -136,7 +136,7 @@ def _tried(name: str) -> str | None:
 
 
 def holes(name: str) -> list[str]:
-    """Return the forbidden actions that a policy can do at a level: a probe tries them.
+    """Return the forbidden actions that succeed at a level: a probe tries them.
 
     Raise EvaluatorFault or PolicyError if the level does not work here.
     """
@@ -152,7 +152,7 @@ def holes(name: str) -> list[str]:
         secret, shared = Path(directory, "secret"), Path(seen, "shared")
         for path in (secret, shared):
             path.write_text("colift")
-        os.utime(shared, (1, 2))  # Read before written: the next access would be recorded.
+        os.utime(shared, (1, 2))  # The kernel records the next access.
         local.bind(str(Path(directory, "socket")))
         local.listen()
         files = (secret, "/etc/shadow", *(AGENTS / each for each in _SECRETS))

@@ -26,7 +26,7 @@ _local = threading.local()
 
 @dataclass(frozen=True, kw_only=True)
 class SandboxedPolicy:
-    """A policy in a sandbox, each episode in a fresh process; goes to worker processes.
+    """A policy in a sandbox, each episode in a fresh process; can be sent to worker processes.
 
     It is a :class:`colift.agents.spec.AgentSpec`. Its methods raise EvaluatorFault if no sandbox
     can be started.

@@ -40,7 +40,7 @@ class View:
         found = list(self.readable)
         for path in found:
             if path in self.hidden:
-                continue  # Even if more is hidden within it.
+                continue  # A hidden path covers everything within it.
             if any(path in each.parents for each in self.hidden):
                 found += sorted(path.iterdir())
             else:
@@ -55,7 +55,7 @@ class View:
 
 def view(folder: Path | None) -> View:
     """Return the view of a policy with a folder (absolute, resolved), or with none."""
-    # The packages of this environment, and the folders that needed ones really come from.
+    # The packages of this environment, and the folders from which the needed ones really come.
     named = [Path(sysconfig.get_path(name)) for name in ("purelib", "platlib")]
     used = [Path(str(module.__file__)).parents[1] for module in (np, msgpack)]
     packages = tuple(each for each in _distinct([*named, *used]) if each.is_dir())
@@ -94,8 +94,8 @@ _THREADS: Final = ("OMP", "OPENBLAS", "MKL", "BLIS", "NUMEXPR", "VECLIB_MAXIMUM"
 def environment() -> dict[str, str]:
     """Return the environment variables of a sandboxed process.
 
-    They are the same everywhere, but for those of this process that choose numerical code: a policy
-    computes the same bits inside and outside.
+    They are the same everywhere, except those of this process that choose numerical code, so that a
+    policy computes the same bits inside and outside.
     """
     return {
         **{name: os.environ[name] for name in _KERNELS if name in os.environ},

@@ -225,7 +225,7 @@ REFUSED = {
     ),
     "whole numbers": (
         picked(inputs=[value("seen", [5], TensorProto.INT64)]),
-        "'seen', which is no tensor of float or double",
+        "'seen', which is not a tensor of float or double",
     ),
     "a large state": (
         picked(
