@@ -51,7 +51,7 @@ class Link:
     jitter_mean: float = 0.0
     """Mean of the jitter [s]."""
     jitter_deviation: float = 0.0
-    """Standard deviation of the jitter [s]; 0 for a constant one."""
+    """Standard deviation of the jitter [s]; 0 for a constant jitter."""
     loss: float = 0.0
     """Share of messages that are lost, in [0, 1]."""
     burst: float = 1.0
@@ -108,7 +108,7 @@ class Channel:
     """From the policy to the robot: commands."""
 
     def plain(self) -> dict[str, Any]:
-        """Return all numbers as JSON has them."""
+        """Return all numbers, ready for JSON."""
         return dataclasses.asdict(self)
 
     def __str__(self) -> str:

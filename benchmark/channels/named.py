@@ -20,8 +20,8 @@ JITTER_DEVIATION: Final = 0.0066
 that ITU-T Y.1541 (classes 0 and 1) allows a network. Mean and family are chosen."""
 
 LOSS: Final = 0.01
-"""Loss of ``home`` and ``satellite``: chosen, as of a busy radio link. A network of the classes 0
-to 4 of ITU-T Y.1541 loses 10^-3 at most, which is one message in seven lifts."""
+"""Loss of ``home`` and ``satellite``: chosen, typical of a busy radio link. A network of the
+classes 0 to 4 of ITU-T Y.1541 loses 10^-3 at most, which is one message in seven lifts."""
 
 CHANNELS: Final[Mapping[str, Channel]] = {
     # Chosen: an idle switched network.

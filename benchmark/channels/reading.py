@@ -20,7 +20,7 @@ NUMBERS: Final = tuple(each.name for each in fields(Link))
 def read_channel(path: Path) -> Channel:
     """Return the channel of a TOML file.
 
-    Its tables are ``down`` and ``up``, their keys the fields of :class:`.Link`; one that is left
+    Its tables are ``down`` and ``up``, their keys the fields of :class:`.Link`; a key that is left
     out has its default.
 
     Raises
@@ -55,7 +55,7 @@ def parse_channel(content: Mapping[str, Any], where: str, *, whole: bool = False
     where
         Its origin, for messages.
     whole
-        Whether every key must be there, and every number a float.
+        Whether every key must be there, and every number must be a float.
 
     Raises
     ------

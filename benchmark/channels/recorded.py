@@ -1,4 +1,4 @@
-"""Channels as bundles have them: their numbers, and a hash of the code that follows from these."""
+"""Channels in bundles: their numbers, and a hash of the code that uses them."""
 
 from collections.abc import Mapping
 from typing import Any, Final
@@ -14,12 +14,12 @@ CODE: Final = "code"
 
 
 def recorded(channel: Channel) -> dict[str, Any]:
-    """Return all numbers of a channel, and the hash of the code from these to the policy's lift."""
+    """Return all numbers of a channel, and the hash of the code that applies them to a lift."""
     return {**channel.plain(), CODE: _code()}
 
 
 def parse_recorded(content: Mapping[str, Any], where: str) -> Channel:
-    """Return the channel of what :func:`recorded` returns.
+    """Return the channel from the content that :func:`recorded` returns.
 
     Parameters
     ----------

@@ -40,8 +40,8 @@ def schedule(channel: Channel, frames: int, seed: int) -> Iterator[Turn]:
     policy answers at once. At the beginning of each step the robot takes the answer to the newest
     observation among those that have arrived by then, unless it had a newer one before.
 
-    Every delay is a whole number of frames, the nearest: the world moves by frames. A message that
-    arrives in the frame in which a step begins is in time for it.
+    Every delay is rounded to a whole number of frames, since the world moves by frames. A message
+    that arrives in the frame in which a step begins is in time for it.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def schedule(channel: Channel, frames: int, seed: int) -> Iterator[Turn]:
     frames
         Frames per step.
     seed
-        See :func:`channel_seed`. Message k of a link is lost or late as the seed and the link say,
+        See :func:`channel_seed`. The seed and the link decide whether message k is lost or late,
         whatever happens to the others.
     """
     down, up = (

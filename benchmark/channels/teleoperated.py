@@ -17,16 +17,16 @@ ANSWERED: Final = "answered"
 
 
 class Teleoperated:
-    """The robot's side of a channel, with the policy at the other.
+    """The robot's side of a channel, with the policy at the other side.
 
-    A message to the robot is a set-point, independent of those that were lost: the command that the
-    policy saw, plus its action a. In step k the robot takes the newest answer, to observation i, as
-    a change of its present command u,
+    A message to the robot is a set-point, independent of lost messages: the command that the policy
+    saw, plus its action a. In step k the robot takes the newest answer, to observation i, as a
+    change of its present command u,
 
         a_k = a - (u_k - u_i),
 
-    and holds its command, a_k = 0, if there is no newer one than before. The seat clips a_k to the
-    speed of the hands, as any action. Without delay a_k is a, to the bit.
+    and holds its command, a_k = 0, if there is no newer answer than before. The seat clips a_k to
+    the speed of the hands, like any action. Without delay a_k is a, to the bit.
 
     The policy's own internals are not recorded; the only one is :data:`ANSWERED`.
 
@@ -55,7 +55,7 @@ class Teleoperated:
         self._answered: int | None = None
 
     def act(self, observation: Observation) -> Action:
-        """Return the change of the command that the newest answer makes [m].
+        """Return the change of the command by the newest answer [m].
 
         Raises
         ------
@@ -80,7 +80,7 @@ class Teleoperated:
 
     @property
     def printed(self) -> str:
-        """The end of the policy's output, if it is captured."""
+        """Return the end of the policy's output, if it is captured."""
         return self._policy.printed if isinstance(self._policy, Printing) else ""
 
 

@@ -31,7 +31,7 @@ class Drawing:
     """Whether each lift has a new person, or that of the scenario."""
 
     def lift(self, seed: int) -> tuple[Scenario, int]:
-        """Return scenario and seed of a lift; pure in ``seed``, of which any integer will do."""
+        """Return scenario and seed of a lift; pure in ``seed``, which may be any integer."""
         scenario = self.scenarios[derive_seed(seed, "drawn behaviour") % len(self.scenarios)]
         if self.new_people:
             scenario = replace(scenario, subject=Subject.draw(_training_seed(seed, "drawn person")))
@@ -55,14 +55,14 @@ def make_drawing(
     Parameters
     ----------
     scenario, subject
-        As of :func:`.parallel_env`; :data:`ANY` or :data:`DRAW` is drawn.
+        As for :func:`.parallel_env`; :data:`ANY` or :data:`DRAW` is drawn.
     partner, control_period, latency, task
-        As of :func:`.make_scenario`.
+        As for :func:`.make_scenario`.
 
     Raises
     ------
     InputError
-        If something is to be drawn for another task than ``level``, or as :func:`.make_scenario`.
+        If something is to be drawn for a task other than ``level``, or as :func:`.make_scenario`.
     """
     if scenario != ANY and subject != DRAW:
         return None

@@ -37,19 +37,19 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
     === ======================================================================
     0   height of the human's table end [m]: motion capture, ``latency`` old
     1   height of the robot's table end [m]: the same sample
-    2   height of the own hand [m]: encoders, age 0
-    3   own hand command [m], age 0
+    2   height of the robot's hand [m]: encoders, age 0
+    3   command of the robot's hand [m], age 0
     4   time [s]
     === ======================================================================
 
     Robot's action, shape ``(1,)`` or a plain number: change of the hand command in this step [m],
     cut to +-0.04 for a period of 100 ms (0.4 m/s; see :func:`~colift.agents.actions.action_limit`).
 
-    Human's observation for ``n`` frames a step (10 for a period of 100 ms), slices of
+    Human's observation for ``n`` frames per step (10 for a period of 100 ms), slices of
     :class:`~colift.agents.agent.HumanObservation`, histories oldest first:
 
     ============ =============================================================
-    0 to 9       height of the own end [m] in the last ten frames
+    0 to 9       height of the human's own end [m] in the last ten frames
     10 to 19     its velocity [m/s]
     20 to 29     height of the other end [m], as old as the visual delay
     30 to 39     force of the hands on the table [N], as old as the haptic delay
@@ -116,7 +116,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         self._scene: Scene | None = None
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Let copies and pickles be new environments, to be reset: no two share a world."""
+        """Return the parts of a new environment, to be reset: copies do not share a world."""
         make = partial(type(self), reward=self._reward, drawing=self._drawing)
         return make, (self.lift.scenario, self.render_mode)
 
@@ -133,7 +133,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
     ) -> tuple[dict[str, Observation], dict[str, dict[str, Any]]]:
         """Begin an episode; the same ``seed`` gives the same plan and noise, bit for bit.
 
-        If lifts are drawn, it gives the same person and behaviour, too, and the ``infos`` have the
+        If lifts are drawn, it also gives the same person and behaviour, and the ``infos`` have the
         name of the drawn ``scenario`` and the ``seed`` of its lift.
 
         Without a seed the episode follows from the last seed given, or from the system's
@@ -142,7 +142,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         Raises
         ------
         InputError
-            If an option names a setting such as ``subject``: those are settled when the
+            If an option names a setting such as ``subject``: settings are fixed when the
             environment is made. Other options are ignored.
         """
         check_options(options, others=True)
@@ -265,10 +265,10 @@ def parallel_env(
         ``None``, ``"rgb_array"`` or ``"human"``.
     reward
         ``"level"``, the height difference at the end of a step [m], or ``"score"``, the mean square
-        over its frames [cm2]. For another task than ``level`` the first is the task's own reward.
+        over its frames [cm2]. For tasks other than ``level`` the first is the task's own reward.
     task
-        Name of the task, such as ``"level"`` or ``"intent"``; it decides on the observations, their
-        bounds, the rewards and the end. Lifts are drawn for ``level`` alone.
+        Name of the task, such as ``"level"`` or ``"intent"``; it determines the observations, their
+        bounds, the rewards and the end. Lifts are drawn for ``level`` only.
 
     Raises
     ------

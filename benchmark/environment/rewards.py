@@ -20,7 +20,8 @@ SCORE: Final = "score"
 REWARDS: Final = (LEVEL, SCORE)
 
 UNIT: Final = 1e-4
-"""Square error that costs 1 [m2]: a step 10 mm apart, the level of two humans, costs 1."""
+"""Square error that costs 1 [m2]: a step with the ends 10 mm apart, about the error of two
+humans."""
 
 
 @runtime_checkable
@@ -54,8 +55,9 @@ def score_rewards(lift: Lift) -> tuple[float, float]:
         r_\text{robot} = -\frac1n \sum_t (Z_{1t} - Z_{2t})^2, \qquad
         r_\text{human} = r_\text{robot} - \frac1n \sum_t (Z_{1t} - Z^*_t)^2.
 
-    The sum of the robot's rewards over the K steps of an episode is - K RMSE^2, as a drop pays for
-    the frames left as the score does, :data:`.FAILED_FRAME_MM` in each: dropping never earns.
+    The sum of the robot's rewards over the K steps of an episode is - K RMSE^2, since a drop costs
+    :data:`.FAILED_FRAME_MM` for each remaining frame, as in the score: dropping the table never
+    pays.
     """
     world, task, size = lift.world, lift.task, lift.frames_per_step
     human = np.array(world.human_end[-size:])

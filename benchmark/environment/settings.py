@@ -1,4 +1,4 @@
-"""Agents, spaces and settings that the views of the environment share."""
+"""Agents, spaces and settings shared by the views of the environment."""
 
 from collections.abc import Mapping
 from typing import Any, Final
@@ -23,11 +23,11 @@ SETTINGS: Final = (
     "reward",
     "task",
 )
-"""What an environment is made with, and keeps."""
+"""Settings with which an environment is made, and which it keeps."""
 
 
 def action_space(lift: Lift, agent: str) -> Box:
-    """Return an agent's actions: one number of the range of its seat for each that is due [m]."""
+    """Return an agent's action space: the numbers that its seat needs, in its range [m]."""
     if agent == HUMAN:
         return Box(*REFERENCE_RANGE, (lift.frames_per_step,), np.float64)
     return Box(
@@ -36,7 +36,7 @@ def action_space(lift: Lift, agent: str) -> Box:
 
 
 def observation_space(lift: Lift, agent: str) -> Box:
-    """Return an agent's observations, within the bounds that the task states."""
+    """Return an agent's observation space, with the bounds that the task states."""
     if agent == ROBOT and lift.seat.is_robot:
         low, high = lift.task.robot_bounds()
     else:
@@ -45,14 +45,14 @@ def observation_space(lift: Lift, agent: str) -> Box:
 
 
 def check_names(**names: object) -> None:
-    """Raise an InputError if a setting that is a name is anything but a string."""
+    """Raise an InputError if a setting that is a name is not a string."""
     for setting, value in names.items():
         if not isinstance(value, str):
             raise InputError(f"{setting} must be one name, a string, got {value!r}")
 
 
 def check_times(**times: object) -> None:
-    """Raise an InputError if a setting that is a time [s] is no number."""
+    """Raise an InputError if a setting that is a time [s] is not a number."""
     for setting, value in times.items():
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise InputError(f"{setting} must be a number of seconds, got {value!r}")
@@ -66,7 +66,7 @@ def check_options(options: Mapping[str, Any] | None, *, others: bool) -> None:
     options
         The options of ``reset``.
     others
-        Whether options that name no setting are let pass: PettingZoo's own tests give some.
+        Whether options that name no setting are accepted: PettingZoo's own tests give some.
     """
     for name in options or {}:
         if name in SETTINGS:

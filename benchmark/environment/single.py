@@ -25,7 +25,7 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
     render_mode
         ``None``, ``"rgb_array"`` or ``"human"``.
     settings
-        Those of :func:`.parallel_env` but ``partner``, which is a NAO here.
+        Those of :func:`.parallel_env` except ``partner``, which is a NAO here.
 
     Raises
     ------

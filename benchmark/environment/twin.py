@@ -25,7 +25,8 @@ from .rewards import REWARDS, SCORE, UNIT
 Array = NDArray[Any]
 
 POOL: Final = 1000
-"""Lifts that an environment draws from by default; they are played again with other actions."""
+"""Number of lifts from which an environment draws by default; they are played again with other
+actions."""
 
 
 class TwinEnv(VectorEnv[Array, Array, Array]):
@@ -33,7 +34,7 @@ class TwinEnv(VectorEnv[Array, Array, Array]):
 
     Observations, actions and rewards are those of :class:`.RobotEnv`, in single precision. The
     lifts are those of the engine on the same scenarios and seeds, drawn at the first reset; the
-    results are the twin's, and no scores.
+    results are the twin's, and not scores.
 
     A lift that has ended begins anew with the next step, whose action is ignored (Gymnasium's
     ``AutoresetMode.NEXT_STEP``).
@@ -41,13 +42,13 @@ class TwinEnv(VectorEnv[Array, Array, Array]):
     Parameters
     ----------
     num_envs
-        How many lifts at once.
+        Number of lifts at once.
     scenario, subject, control_period, latency
-        As of :func:`.parallel_env`; by default behaviours and people are drawn.
+        As for :func:`.parallel_env`; by default behaviours and people are drawn.
     reward
         ``"level"`` or ``"score"``.
     pool
-        How many lifts to draw from.
+        Number of lifts from which to draw.
 
     Raises
     ------
@@ -159,7 +160,7 @@ class TwinEnv(VectorEnv[Array, Array, Array]):
         return share
 
     def _observation(self) -> Array:
-        """Return what the robots observe (n, 5)."""
+        """Return the robots' observations (n, 5)."""
         view = _observe(self._state, self._due().noise, self._body.latency, self._period)
         views = np.array(view).T
         views[:, RobotObservation.TIME] = self._number * self._period

@@ -27,7 +27,7 @@ Single = NDArray[np.float32]
 
 
 class History(gymnasium.Wrapper[Observation, Action, Observation, Action], RecordConstructorArgs):
-    """Observations with the past: the five numbers of a step are not a state.
+    """Observations with the past, since the five numbers of a step alone are not a state.
 
     An observation is the inputs of :class:`.Senses`, in metres: four heights, relative to the
     human's end, and the changes of the command and of the human's end in the last steps.
@@ -35,7 +35,7 @@ class History(gymnasium.Wrapper[Observation, Action, Observation, Action], Recor
     Parameters
     ----------
     env
-        :class:`.RobotEnv`, or wrapped by others that leave observations alone.
+        :class:`.RobotEnv`, also inside wrappers that do not change observations.
     steps
         Steps of the human's motion, at least 1.
     """
@@ -71,13 +71,12 @@ class HoldingPace(
     """Actions as corrections [m] of the change that holds the human's last pace.
 
     Without a correction the hand goes where the human's end will be if it moves on as in the last
-    step, as the policy ``extrapolate`` does: a learner begins with that, and not with standing
-    still.
+    step, as the policy ``extrapolate`` does: a learner begins with that instead of standing still.
 
     Parameters
     ----------
     env
-        :class:`History`, or wrapped by others that leave observations alone.
+        :class:`History`, also inside wrappers that do not change observations.
     """
 
     def __init__(self, env: gymnasium.Env[Observation, Action]) -> None:
@@ -151,7 +150,7 @@ class Scaled(gymnasium.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
 def training_view(
     env: gymnasium.Env[Observation, Action], *, steps: int = STEPS, pace: bool = True
 ) -> gymnasium.Env[Single, Single]:
-    """Return the environment with the past, near one, and, with ``pace``, from a moving start.
+    """Return the environment with the past, scaled to numbers near one.
 
     A wrapper for ``gymnasium.make_vec(..., wrappers=[training_view])``.
 
@@ -177,15 +176,15 @@ def training_env(
     pace: bool = True,
     **settings: Any,
 ) -> gymnasium.Env[Single, Single]:
-    """Return the robot's side of the lift as learners take it best.
+    """Return the robot's side of the lift in the form that suits learners best.
 
     Parameters
     ----------
     scenario, subject, reward
-        As of :func:`.parallel_env`, from which the defaults differ: a new person and any behaviour
-        at each reset, and the reward of the score.
+        As for :func:`.parallel_env`, with other defaults: a new person and any behaviour at each
+        reset, and the reward of the score.
     steps, pace
-        As of :func:`training_view`.
+        As for :func:`training_view`.
     settings
         ``control_period``, ``latency`` [s] and ``render_mode``.
 

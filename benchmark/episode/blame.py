@@ -1,4 +1,4 @@
-"""Errors of a lift in the words of its causes: the task, the behaviour, and their code."""
+"""Errors of a lift, described by their causes: the task, the behaviour, and their code."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -26,7 +26,7 @@ def task_title(scenario: Scenario) -> str:
 def blaming_plugins(scenario: Scenario, seed: int) -> Iterator[None]:
     """Turn the errors of another package's task or behaviour into one that names it.
 
-    Such an error would come again: it is no failure of the machine.
+    Such an error would recur: it is not a failure of the machine.
 
     Raises
     ------
@@ -45,7 +45,7 @@ def blaming_plugins(scenario: Scenario, seed: int) -> Iterator[None]:
 
 
 def _cause(scenario: Scenario, seed: int, error: Exception) -> str | None:
-    """Return an error in words with its cause; None if colift's own code alone was at work."""
+    """Return an error in words with its cause; None if only colift's own code was involved."""
     human, lift = scenario.human, f"{scenario.name}, seed {seed}"
     fault = plan_fault(human, scenario.subject, derive_seed(seed, f"plan/{scenario.name}"))
     if fault is not None:

@@ -16,12 +16,12 @@ from .task import Bounds, Task
 
 
 def behaviour_fault(behaviour: object) -> str | None:
-    """Return why an object is not a behaviour, or None; its plans are not tried."""
+    """Return the reason why an object is not a behaviour, or None; its plans are not tried."""
     return object_fault(behaviour, Behaviour)
 
 
 def plan_fault(behaviour: Behaviour, subject: Subject, seed: int) -> str | None:
-    """Return why a behaviour has no plan for a subject and a seed, or None."""
+    """Return the reason why a behaviour has no plan for a subject and a seed, or None."""
     try:
         plan: object = behaviour.plan(subject, seed)
     except Exception as error:
@@ -37,7 +37,7 @@ def plan_fault(behaviour: Behaviour, subject: Subject, seed: int) -> str | None:
 
 
 def task_fault(task: object) -> str | None:
-    """Return why an object is not a task, or None; no lift is played with it."""
+    """Return the reason why an object is not a task, or None; no lift is played with it."""
     fault = object_fault(task, Task)
     if fault is not None:
         return fault
@@ -51,7 +51,7 @@ def task_fault(task: object) -> str | None:
 
 
 def observation_fault(lift: Lift) -> str | None:
-    """Return what is wrong with the present observations of a lift, or None."""
+    """Return the fault of the present observations of a lift, or None."""
     task, frames = lift.task, lift.frames_per_step
     holder = "robot" if lift.seat.is_robot else "partner"
     bounds = task.robot_bounds() if lift.seat.is_robot else task.human_bounds(frames)
@@ -85,7 +85,7 @@ def _size(array: Observation) -> str:
 
 
 def rewards_fault(lift: Lift) -> str | None:
-    """Return what is wrong with the rewards of the step just made, or None."""
+    """Return the fault of the rewards of the step just made, or None."""
     rewards: object = lift.task.rewards(lift)
     if np.shape(cast(Any, rewards)) != (2,) or not np.isfinite(cast(Any, rewards)).all():
         return f"rewards() returned {rewards!r:.80}; it must return two finite numbers"
@@ -93,7 +93,7 @@ def rewards_fault(lift: Lift) -> str | None:
 
 
 def episode_fault(metrics: Metrics, episode: Episode) -> str | None:
-    """Return what is wrong with what a task made of an episode, or None."""
+    """Return the fault of a task's outcome of an episode, or None."""
     failure: object = episode.failure
     if failure is not None and not (isinstance(failure, str) and failure):
         return f"failure() returned {failure!r:.80}; it must return a reason or None"
@@ -108,7 +108,7 @@ def episode_fault(metrics: Metrics, episode: Episode) -> str | None:
 
 
 def scores_fault(metrics: Metrics, scores: Scores) -> str | None:
-    """Return what is wrong with the scores of an episode, or None."""
+    """Return the fault of the scores of an episode, or None."""
     missing = [name for name in metrics if name not in scores]
     surplus = [str(name) for name in scores if name not in metrics]
     if missing or surplus:

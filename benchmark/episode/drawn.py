@@ -23,10 +23,10 @@ class DrawnSeries:
     label: str
     """Its name in legends, such as ``"intended far end"``."""
     where: Literal["robot", "human", "place"] = "robot"
-    """At whose end its height is marked; or it is a place on the table: how far from the middle
-    towards the robot [m]."""
+    """The end at which the height is marked; or ``place``, a place on the table: its distance from
+    the middle towards the robot [m]."""
     goal: bool = False
-    """Whether the robot's end, or what lies at the other place, should be there."""
+    """Whether it is the intended height of the robot's end, or the intended place of the ball."""
 
 
 def intended_far_end(drawn: Sequence[DrawnSeries]) -> DrawnSeries | None:
@@ -35,7 +35,7 @@ def intended_far_end(drawn: Sequence[DrawnSeries]) -> DrawnSeries | None:
 
 
 def ball_and_target(drawn: Sequence[DrawnSeries]) -> tuple[DrawnSeries, DrawnSeries] | None:
-    """Return the place of what lies on the table, and the one where it should be, if both are."""
+    """Return the place of the ball and its intended place, if the task has both."""
     there = {each.goal: each for each in drawn if each.where == "place"}
     return (there[False], there[True]) if len(there) == 2 else None
 
@@ -43,8 +43,8 @@ def ball_and_target(drawn: Sequence[DrawnSeries]) -> tuple[DrawnSeries, DrawnSer
 def shown_error(drawn: Sequence[DrawnSeries], trace: Trace) -> NDArray[np.float64]:
     """Return the error that pictures show (n,) [m].
 
-    It is the distance of what lies on the table from where it should be, or that of the robot's end
-    from its goal, or, in a task that has neither, the height difference of the ends.
+    It is the distance of the ball from its intended place, or that of the robot's end from its goal
+    or, in a task with neither, the height difference of the ends.
     """
     both, goal = ball_and_target(drawn), intended_far_end(drawn)
     if both is not None:
@@ -54,7 +54,7 @@ def shown_error(drawn: Sequence[DrawnSeries], trace: Trace) -> NDArray[np.float6
 
 
 def error_words(drawn: Sequence[DrawnSeries]) -> str:
-    """Return what :func:`shown_error` is, in words."""
+    """Return a description of the error of :func:`shown_error`."""
     both, goal = ball_and_target(drawn), intended_far_end(drawn)
     if both is not None:
         return f"{both[0].label} from the {both[1].label}, towards the robot"

@@ -22,10 +22,11 @@ class Episode:
     seed: int
     scores: Scores
     failure: str | None
-    """Why the episode ended early, or nothing if it did not."""
+    """Reason why the episode ended early; None if it did not."""
     trace: Trace
     step_times: tuple[float, ...]
-    """Duration of each call of the policy [s]; with the next, all that differs between two runs."""
+    """Duration of each call of the policy [s]; only this and the next field differ between two
+    runs."""
     policy_time: float = 0.0
     """Total duration of the policy [s]: construction, reset and all steps, a failed last one
     included. Not kept in files."""
@@ -36,8 +37,8 @@ class Episode:
 def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
     """Play one episode and score it.
 
-    It returns in every case: an exception or an unusable action of the partner ends the episode
-    with the reason, and each remaining frame counts as the worst.
+    It always returns: an exception or an unusable action of the partner ends the episode with the
+    reason, and each remaining frame counts with the worst error.
 
     Parameters
     ----------
@@ -51,7 +52,7 @@ def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
     Raises
     ------
     EvaluatorFault
-        If the partner's machine failed, and not the partner.
+        If the machine failed, and not the partner.
     """
     lift.reset(seed)
     human, frames = lift.scripted_human(), lift.frames_per_step

@@ -35,7 +35,8 @@ from .metric import Metrics
 from .recorder import Recorder
 
 SIMULATES: Final[tuple[Root, ...]] = (Lift, Recorder, Partner, lift_in_kept_world)
-"""The code from a plan and actions to a trace; the last has the world of a level table."""
+"""The code from a plan and actions to a trace; the last entry includes the world of a level
+table."""
 
 PLANS: Final[tuple[Root, ...]] = (Smooth, Pause, Jerky, ChangingGoal, Recorded)
 """The code from a seed to a human's plan."""
@@ -47,8 +48,9 @@ STATED: Final[tuple[Root, ...]] = (
     (calibration, "CALIBRATION"),
     (level_metrics, "LEVEL_METRICS"),
 )
-"""What the code uses and the digest states elsewhere, or not at all: subjects are in the scenarios;
-how metrics are shown changes no score, and their limits are among the numbers."""
+"""Definitions that the code uses, but that the digest states elsewhere or not at all: subjects are
+in the scenarios; the presentation of metrics changes no score, and their limits are among the
+numbers."""
 
 
 def numbers() -> Mapping[str, Any]:
@@ -131,7 +133,7 @@ def _limits(metrics: Metrics) -> dict[str, float]:
 
 @functools.cache
 def _metrics(kind: type) -> tuple[Root, ...]:
-    """Return the table of metrics of a task's class: how metrics are shown changes no score.
+    """Return the table of metrics of a task's class: their presentation changes no score.
 
     It is a constant of any module of the package, under one name or several.
     """

@@ -1,7 +1,7 @@
 """One world for the scenarios of a run, one after the other.
 
-A new world takes as long as half a lift. A person takes over from another in it, bit for bit as in
-a new one (:class:`.SharedWorld`).
+Making a new world takes as long as half a lift. Therefore one person replaces another in the same
+world, bit for bit as in a new one (:class:`.SharedWorld`).
 """
 
 import contextlib
@@ -15,15 +15,15 @@ from .lift import Lift, Staging, make_lift
 from .scenario import Scenario
 
 _kept: Final[list[tuple[FarEnd, SharedWorld]]] = []
-"""The world that the last lift has left, with the holder of its far end."""
+"""The world left by the last lift, with the holder of its far end."""
 
 
 @contextlib.contextmanager
 def lift_in_kept_world(scenario: Scenario) -> Iterator[Lift]:
-    """Yield a lift, in the world that the last one has left if the same holds the far end there.
+    """Yield a lift, in the world of the last lift if the far end has the same holder.
 
-    Its world is left for the next one, unless an error ends the context. A task with a world or
-    a lift of its own has a new one.
+    Its world is left for the next one, unless an error ends the context. A task with its own world
+    or lift gets a new world.
     """
     task = scenario.task
     if isinstance(task, Staging) or type(task).world is not Level.world:
@@ -33,7 +33,7 @@ def lift_in_kept_world(scenario: Scenario) -> Iterator[Lift]:
     lift = Lift(scenario, world=_taken)
     try:
         yield lift
-    except GeneratorExit:  # Nobody asks for more episodes.
+    except GeneratorExit:  # No more episodes are requested.
         _keep(lift)
         raise
     except BaseException:

@@ -47,7 +47,7 @@ class Level:
 
     The robot has :class:`.RobotObservation` and not the human's intention. The human has
     :class:`.HumanObservation` with the intended heights. A second human in the robot's place has
-    the same senses and means to be at the height at which it sees the other end.
+    the same senses and intends to be at the seen height of the other end.
     """
 
     name: ClassVar[str] = "level"
@@ -107,14 +107,14 @@ class Level:
         return None
 
     def series(self, lift: Playing) -> Mapping[str, NDArray[np.float64]]:
-        """Return none: everything is in the fields of :class:`.Trace`."""
+        """Return no series: everything is in the fields of :class:`.Trace`."""
         return {}
 
     def score(self, lift: Playing, trace: Trace, *, failed: bool) -> Scores:
         """Return the scores of :data:`.LEVEL_METRICS`.
 
-        A failed episode keeps the frames it has for force and work; it has no smoothness and no
-        lag.
+        For a failed episode, force and work are computed from the frames that it has; it has no
+        smoothness and no lag.
         """
         human, robot, horizon = trace.human_end, trace.robot_end, lift.horizon
         felt = trace.human_force - WEIGHT_SHARE

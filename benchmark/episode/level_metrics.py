@@ -5,10 +5,10 @@ from typing import Final
 from .metric import Metric, MetricWords, metric_table
 
 REACHED: Final = 0.02
-"""The human has reached the intended height within this distance of it [m]."""
+"""Distance from the intended height within which the human has reached it [m]."""
 
 MOSTLY_CLIPPED: Final = 0.5
-"""Share of clipped actions above which they are hardly in metres."""
+"""Share of clipped actions above which the actions are probably not in metres."""
 
 LEVEL_METRICS: Final = metric_table(
     (

@@ -27,9 +27,9 @@ class Lift:
 
     A step is one control period of the robot: ``frames_per_step`` frames. The robot's action
     changes its hand command, which moves at constant speed over the period; the human's action
-    is a hand reference for each frame. A step is made whole, by :meth:`step`, or frame by frame
-    while a person moves: :meth:`commands`, :meth:`move` for each frame, :meth:`end`. The bits are
-    the same.
+    is a hand reference for each frame. A step is made as a whole, by :meth:`step`, or frame by
+    frame while a person moves: :meth:`commands`, :meth:`move` for each frame, :meth:`end`. The
+    results are equal bit for bit.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ class Lift:
         self.end(commands[-1])
 
     def commands(self, partner: list[float]) -> Sequence[float]:
-        """Return the heights to reach at the far end, one a frame, for an action of its holder."""
+        """Return the heights to reach at the far end, one per frame, for its holder's action."""
         return self.seat.commands(self, partner)
 
     def move(self, human: Sequence[float], commands: Sequence[float]) -> None:
@@ -129,7 +129,7 @@ class Lift:
         self.world.advance(within_range(human), commands)
 
     def end(self, command: float) -> None:
-        """End the control period, all of whose frames have been made, with its last command [m]."""
+        """End the control period after all of its frames, with its last command [m]."""
         self.command = command
         self.frame += self.frames_per_step
         self.dropped = self.task.failure(self)
@@ -207,7 +207,7 @@ class Lift:
         view[HumanObservation.OWN_VELOCITY] = velocity[-HISTORY:]
         view[HumanObservation.OTHER_END] = other[seen - HISTORY : seen]
         view[HumanObservation.HAND_FORCE] = force[felt - HISTORY : felt]
-        # Beyond a truncated horizon there is nothing more to intend than to stay.
+        # Beyond a truncated horizon the person intends to stay.
         view[HumanObservation.TARGET] = target if len(target) else self.target[-1]
         view[HumanObservation.TIME] = self.frame * FRAME
         return view
@@ -224,13 +224,13 @@ def _delays(person: Subject) -> tuple[int, int]:
 
 @runtime_checkable
 class Staging(Protocol):
-    """A task that is played in lifts of a class of its own."""
+    """A task with its own class of lifts."""
 
     def lift(self, scenario: Scenario) -> Lift:
         """Return the lift of a scenario of the task."""
 
 
 def make_lift(scenario: Scenario) -> Lift:
-    """Return the lift of a scenario, of the class that its task asks for."""
+    """Return the lift of a scenario, of the class that its task requires."""
     task = scenario.task
     return task.lift(scenario) if isinstance(task, Staging) else Lift(scenario)

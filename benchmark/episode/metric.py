@@ -1,4 +1,4 @@
-"""The table of metrics: how each score is named, shown and ranked, wherever it is shown."""
+"""The table of metrics: the name, presentation and ranking of each score, for every use."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ class MetricWords:
     """A metric in sentences, titles and pictures."""
 
     question: str = "Who is best?"
-    """The title of a board that is ranked by it."""
+    """Title of a board that is ranked by the metric."""
     praise: tuple[str, str, str] = ("good", "better", "best")
     """Positive, comparative and superlative of something with good values."""
     noun: str = ""
@@ -36,20 +36,20 @@ class MetricWords:
     method: str = ""
     """Its definition for the page on what numbers mean, in sentences; its meaning if empty."""
     absent: str = ""
-    """What a robot does in a lift without a value."""
+    """Behaviour of a robot in a lift without a value, as a predicate."""
     present: str = "that have a value"
-    """Which lifts have a value."""
+    """Clause that describes the lifts with a value."""
     note: str | None = None
-    """Below a table, what its column is; its meaning if None, nothing if empty."""
+    """Explanation of its column below a table; its meaning if None, nothing if empty."""
     caption: str = ""
-    """The same where headings have no units, as a sentence; symbol and unit if empty."""
+    """The same as a sentence, for headings without units; symbol and unit if empty."""
     reading: str = ""
     """How to read it, in sentences; symbol, meaning and direction if empty."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Metric:
-    """How one score is shown."""
+    """The presentation of one score."""
 
     name: str
     """Key in JSON and CSV."""
@@ -64,17 +64,18 @@ class Metric:
     better: Literal["less", "more", "near zero"] = "less"
     """Which values are better."""
     missing: Literal["never", "worst", "left out"] = "left out"
-    """What an episode without a value means: it does not occur, it ranks last, or the mean is over
-    the other episodes."""
+    """Treatment of an episode without a value: it does not occur, it ranks last, or the mean is
+    over the other episodes."""
     shown: Literal["board", "run", "file"] = "file"
-    """Where it has a column: on boards, in comparisons and in a run's table; in a run's table; only
-    in files. All are in ``results.json`` and ``episodes.csv``."""
+    """Places with a column: boards, comparisons and a run's table (``board``); a run's table
+    (``run``); or only files (``file``). All metrics are in ``results.json`` and
+    ``episodes.csv``."""
     limit: float | None = None
     """Value above which the episode has missed its goal, if the metric decides that."""
     meaning: str
     """The definition in one sentence."""
     words: MetricWords = MetricWords()
-    """How sentences and pictures name it."""
+    """Its names in sentences and pictures."""
 
     @property
     def heading(self) -> str:
@@ -112,11 +113,11 @@ class Metric:
         return f"{self.symbol}: {self.meaning}. {which} is {self.words.praise[1]}.{worst}"
 
     def merit(self, value: float) -> float:
-        """Return a number that is the larger, the better a value is."""
+        """Return a number that is larger for better values."""
         return {"less": -value, "more": value, "near zero": -abs(value)}[self.better]
 
     def text(self, value: float | None) -> str:
-        """Return a value as tables show it."""
+        """Return a value as shown in tables."""
         return "none" if value is None else f"{value:.{self.digits}f}"
 
 
@@ -136,10 +137,10 @@ def metric_table(metrics: Iterable[Metric], *, drawn: tuple[DrawnSeries, ...] = 
     Parameters
     ----------
     metrics
-        The leading one first.
+        The metrics, the leading one first.
     drawn
-        Series that the task adds to a trace, and that pictures of a lift show. How results are
-        shown is stated here, not in the task's class, and so changes no digest.
+        Series that the task adds to a trace, and that pictures of a lift show. Presentation is
+        stated here, not in the task's class, so that it changes no digest.
     """
     table = MetricTable({metric.name: metric for metric in metrics})
     table.drawn = drawn
@@ -159,7 +160,7 @@ def on_boards(metrics: Metrics) -> tuple[Metric, ...]:
 
 
 def second_axis(metrics: Metrics) -> Metric:
-    """Return the metric that pictures show beside the leading one: the first of boards.
+    """Return the metric that pictures show beside the leading one: the first on boards.
 
     Raises
     ------
@@ -176,7 +177,7 @@ def second_axis(metrics: Metrics) -> Metric:
 
 
 def notes(metrics: Iterable[Metric]) -> str:
-    """Return what the columns of some metrics are, as sentences; equal ones in one."""
+    """Return the notes on the columns of some metrics, as sentences; equal notes are joined."""
     said: dict[str, list[str]] = {}
     for metric in metrics:
         note = metric.meaning if metric.words.note is None else metric.words.note

@@ -1,7 +1,7 @@
 """Metrics of one episode: pure functions from recorded traces to one number each.
 
 Every trace is sampled at 100 Hz. Heights are displacements of the table's two ends [m] from its
-rest height: Z1 the human's end, Z2 the robot's. NaN stands for "this episode has none".
+rest height: Z1 the human's end, Z2 the robot's. NaN means that the episode has no value.
 """
 
 import math
@@ -16,7 +16,7 @@ from ...agents.errors import InputError
 from ...robots.arithmetic import dot
 
 FAILED_FRAME_MM: Final = 250.0
-"""Height difference [mm] that a frame after a failure counts: holding still in a 0.20 m lift
+"""Height difference that counts for each frame after a failure [mm]: holding still in a 0.20 m lift
 costs less."""
 
 MIN_MOTION: Final = 0.005
@@ -29,10 +29,10 @@ STROKE_TAIL: Final = 0.3
 """Time [s] after a stroke of the human in which the robot may still be completing it."""
 
 MIN_LAG: Final = -0.3
-"""Shortest delay of the robot [s] that is searched for; negative when the robot leads."""
+"""Least delay of the robot in the search [s]; negative when the robot leads."""
 
 MAX_LAG: Final = 1.0
-"""Longest delay of the robot [s] that is searched for."""
+"""Largest delay of the robot in the search [s]."""
 
 Stroke = tuple[int, int]
 """One movement of the human: its first frame and the frame after its last."""
@@ -51,7 +51,7 @@ def rmse_mm(human_end: ArrayLike, robot_end: ArrayLike, *, horizon: int | None =
         Heights Z1 and Z2 [m] at 100 Hz, shape (T,).
     horizon
         Frames H the episode should have had; T by default. Each of the H - T frames that a failure
-        cut off counts ``FAILED_FRAME_MM``, so that giving up early never pays.
+        cut off counts with ``FAILED_FRAME_MM``, so that giving up early never pays.
 
     Returns
     -------
@@ -140,8 +140,8 @@ def stroke_smoothness(
 
     Speed is the magnitude of the central difference of height. As the robot lags behind the human,
     the window of each stroke is extended by ``STROKE_TAIL`` (0.3 s), but not beyond the start of
-    the next stroke or the end of the trace. The windows come from the human alone: all robots are
-    scored over the same ones.
+    the next stroke or the end of the trace. The windows depend on the human alone, so that all
+    robots are scored over the same ones.
 
     Parameters
     ----------
@@ -161,9 +161,9 @@ def stroke_smoothness(
     -------
     float
         Mean over the strokes; NaN for the whole episode if there is no stroke, if the trace ends
-        before a stroke does (the lift failed), or if this end moves less than ``MIN_MOTION``, or
-        than ``MIN_SHARE`` of what the human moves, in any of them. Holding still never earns
-        smoothness, nor does creeping, not even in one stroke out of many.
+        before a stroke does (the lift failed), or if in any of them this end moves less than
+        ``MIN_MOTION``, or less than ``MIN_SHARE`` of the human's movement. Holding still or
+        creeping, even in a single stroke, never counts as smooth.
 
     Raises
     ------
@@ -215,11 +215,12 @@ def human_force_n(force: ArrayLike) -> float:
 
 
 def human_work_j(force: ArrayLike, velocity: ArrayLike) -> float:
-    r"""Return the mechanical work that passes through the human's hands, either way.
+    r"""Return the mechanical work that passes through the human's hands, in either direction.
 
     .. math:: W = \int |F v| \, dt
 
-    by the trapezoidal rule. Absolute, as muscles pay for lowering a load too.
+    by the trapezoidal rule. The absolute value is taken since lowering a load also costs muscles
+    energy.
 
     Parameters
     ----------
@@ -259,8 +260,8 @@ def robot_lag_ms(human_end: ArrayLike, robot_end: ArrayLike) -> float:
     -------
     float
         Delay [ms], negative if the robot leads. A maximum at the edge of the range is returned as
-        it is: the delay is that long at least. NaN if either end moves less than ``MIN_MOTION``
-        or the velocities correlate at no delay.
+        it is: the true delay is at least that long. NaN if either end moves less than
+        ``MIN_MOTION`` or the velocities correlate at no delay.
 
     Raises
     ------
@@ -287,7 +288,7 @@ def robot_lag_ms(human_end: ArrayLike, robot_end: ArrayLike) -> float:
 def _error_mm(
     human_end: ArrayLike, robot_end: ArrayLike, horizon: int | None
 ) -> tuple[NDArray[np.float64], int]:
-    """Return Z1 - Z2 [mm] frame by frame, and how many frames are missing up to the horizon."""
+    """Return Z1 - Z2 [mm] for each frame, and the number of frames missing up to the horizon."""
     if horizon and np.size(human_end) == np.size(robot_end) == 0:
         return np.empty(0), horizon
     human, robot = _pair("human_end", human_end, "robot_end", robot_end)

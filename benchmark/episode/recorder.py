@@ -20,8 +20,8 @@ class Recorder:
 
         h(k) = BLAKE2b(h(k - 1), actions of step k, state of the world after it), h(-1) empty
 
-    The hash is over the bits of the float64 numbers: two episodes with equal last hashes are equal,
-    and otherwise the first different hash marks the first different step.
+    The hash covers the bits of the float64 numbers: two episodes with equal last hashes are equal;
+    otherwise the first different hash marks the first different step.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class Recorder:
     def step(
         self, human: Sequence[float], partner: Sequence[float], internals: Mapping[str, float]
     ) -> None:
-        """Record the step just made: the two actions and the partner's explanation of its own."""
+        """Record the step just made: both actions, and the partner's explanation of its own."""
         numbers = (*human, *partner, *self._lift.world.state())
         before = self._hashes[-1] if self._hashes else b""
         message = before + struct.pack(f"<{len(numbers)}d", *numbers)

@@ -21,7 +21,7 @@ class Simulated:
     trace: Trace
     """The trace, without a policy's internals."""
     scripted: NDArray[np.float64]
-    """(m, n) the scripted human's action in each step, on its observation in this replay [m]."""
+    """(m, n) the scripted human's action in each step, from its observation in this replay [m]."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -29,7 +29,8 @@ class Replay(Simulated):
     """Everything that follows from an episode's actions."""
 
     failure: str | None
-    """Why the episode ended early: a drop, or the claimed failure of the policy."""
+    """Reason why the episode ended early: a drop, or the claimed failure of the policy; None if it
+    did not."""
     scores: Scores
 
 
@@ -39,7 +40,7 @@ class ReplayError(InputError):
     def __init__(self, step: int, message: str, found: Simulated) -> None:
         super().__init__(step, message, found)
         self.step = step
-        """The first step that shows it."""
+        """The first step that shows the fault."""
         self.message = message
         self.found = found
         """The simulation up to that step."""
@@ -57,11 +58,11 @@ def replay(
 ) -> Replay:
     """Simulate the episode ``seed`` from both agents' actions alone.
 
-    The world obeys the given actions. In each step the scripted human is also asked for its action
-    in this world: a log with other human actions is not from this benchmark, even if the rest fits.
+    The world follows the given actions. In each step the scripted human also computes its action in
+    this world: a log with other human actions is not from this benchmark, even if the rest fits.
 
     A drop of the table follows from the actions. A failure of the policy does not: the claim is
-    accepted if the actions end there, and each missing frame counts as the worst.
+    accepted if the actions end there, and each missing frame counts with the worst error.
 
     Parameters
     ----------
@@ -70,16 +71,15 @@ def replay(
     seed
         The episode's seed.
     human, partner
-        Actions of the human's end, shape (m, n), and of the robot's end, as :class:`.Trace` has
-        them.
+        Actions of the human's end, shape (m, n), and of the robot's end, as in :class:`.Trace`.
     claimed
         The claimed failure, or None.
 
     Raises
     ------
     ReplayError
-        If an action cannot be one, if there are more than the episode has steps, or if they end
-        too early without the policy having failed.
+        If an action is not possible, if there are more actions than the episode has steps, or if
+        they end too early although the policy did not fail.
     """
     lift.reset(seed)
     scripted_human, recorder = lift.scripted_human(), Recorder(lift)

@@ -14,8 +14,8 @@ CONTROL_PERIOD: Final = 0.1
 """Default control period [s]: the time of one arm movement in the paper (section II.A)."""
 
 LATENCY: Final = 0.1
-"""Default age of the motion-capture sample when the robot decides [s]: in the paper the robot
-gets a sample only once its last action is complete (section II.A)."""
+"""Default age of the motion-capture sample when the robot decides [s]: in the paper the robot gets
+a sample only when its last action is complete (section II.A)."""
 
 LONGEST_LATENCY: Final = 0.49
 LONGEST_PERIOD: Final = 0.5
@@ -23,7 +23,7 @@ LONGEST_PERIOD: Final = 0.5
 
 @dataclass(frozen=True, kw_only=True)
 class Scenario:
-    """Everything that defines an episode but its seed.
+    """Everything that defines an episode, except its seed.
 
     Raises
     ------
@@ -40,7 +40,7 @@ class Scenario:
     subject: Subject
     """The human."""
     partner: str = "nao"
-    """Hands of the robot's end: a name of :data:`.SEATS`."""
+    """Holder of the robot's end: a name of :data:`.SEATS`."""
     control_period: float = CONTROL_PERIOD
     """Time between two of the robot's decisions [s]."""
     latency: float = LATENCY

@@ -16,7 +16,7 @@ from ..world import BodyParameters, FarEnd, HumanFarEnd, NaoFarEnd
 from .task import Playing, Task
 
 REFERENCE_RANGE: Final = (-0.2, 0.5)
-"""Heights that a human's hand reference is clipped to [m]."""
+"""Range of heights to which a human's hand reference is clipped [m]."""
 
 
 def body_parameters(person: Subject) -> BodyParameters:
@@ -62,7 +62,7 @@ def hand_commands(actions: ArrayLike, control_period: float) -> NDArray[np.float
     Parameters
     ----------
     actions
-        Changes of the command [m] as the policy gave them, shape (m, 1); they are held to the
+        Changes of the command [m] as the policy gave them, shape (m, 1); they are clipped to the
         hand's speed and stroke, as in the episode.
     control_period
         Time of a step [s].
@@ -171,7 +171,7 @@ class HumanSeat:
         return task.partner_observation(lift)
 
     def clipped(self, actions: NDArray[np.float64], limit: float) -> float:
-        """Return NaN: no reference is out of a person's reach."""
+        """Return NaN: a person's references have no limit of speed."""
         return math.nan
 
 

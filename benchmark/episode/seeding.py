@@ -1,6 +1,7 @@
 """Seeds for the roles of an episode, derived by a keyed hash.
 
-A role gets an integer, never a generator: a spawned NumPy generator carries its parent's entropy.
+A role gets an integer, never a generator, since a spawned NumPy generator reveals its parent's
+entropy.
 """
 
 import hashlib
@@ -11,7 +12,7 @@ SEED_BITS = 63
 def derive_seed(seed: int, role: str) -> int:
     """Return the seed of ``role`` in the episode ``seed``: BLAKE2b of both.
 
-    The roles' seeds are independent of each other. Equal in any process and on any platform.
+    The roles' seeds are independent of each other, and the same in any process and on any platform.
 
     Parameters
     ----------

@@ -116,7 +116,7 @@ def dimensionless_jerk(speed: ArrayLike, *, fs: float = 100.0) -> float:
     -------
     float
         Jerk, dimensionless, zero or negative; NaN for a profile that does not move or is shorter
-        than ``MIN_SAMPLES``. Only a constant speed, cut out of a movement, has zero.
+        than ``MIN_SAMPLES``. It is zero only for a constant speed, cut out of a movement.
 
     Raises
     ------
@@ -137,8 +137,8 @@ def ldlj(speed: ArrayLike, *, fs: float = 100.0) -> float:
 
     .. math:: \mathrm{LDLJ} = -\ln |\mathrm{DJ}|
 
-    with :func:`dimensionless_jerk` (Balasubramanian et al. 2015). A minimum-jerk movement has
-    -5.32.
+    with :func:`dimensionless_jerk` (Balasubramanian et al. 2015). The value of a minimum-jerk
+    movement is -5.32.
 
     Parameters
     ----------
@@ -150,8 +150,8 @@ def ldlj(speed: ArrayLike, *, fs: float = 100.0) -> float:
     Returns
     -------
     float
-        Log dimensionless jerk; NaN where the jerk is NaN, or zero to rounding: the logarithm of
-        nothing would be the best score of all.
+        Log dimensionless jerk; NaN if the jerk is NaN, or zero up to rounding, whose logarithm
+        would be the best score of all.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The seam of tasks: observations, rewards, end and scores of an episode."""
+"""The interface of tasks: observations, rewards, end and scores of an episode."""
 
 from collections.abc import Mapping
 from typing import Protocol
@@ -17,7 +17,7 @@ Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 class Playing(Protocol):
-    """A lift in progress, as tasks and seats see it; :class:`.Lift` is the implementation."""
+    """A lift in progress, as seen by tasks and seats; :class:`.Lift` is the implementation."""
 
     world: World
     """The physical world, with its read-outs."""
@@ -46,7 +46,7 @@ class Playing(Protocol):
         """Return the human's senses, laid out as :class:`.HumanObservation`, with a target [m]."""
 
     def partner_view(self, target: Observation) -> Observation:
-        """Return the same of a second human at the robot's end."""
+        """Return the same for a second human at the robot's end."""
 
     def seen_by_partner(self) -> float:
         """Return the height of the human's end [m] that a second human sees."""
@@ -93,7 +93,7 @@ class Task(Protocol):
         """Return the rewards of the human and of the robot for the step just made."""
 
     def failure(self, lift: Playing) -> str | None:
-        """Return why the episode ends after the step just made, or None if it goes on."""
+        """Return the reason why the episode ends after the step just made, or None."""
 
     def series(self, lift: Playing) -> Mapping[str, NDArray[np.float64]]:
         """Return the series that the task adds to a trace, (n,) each, one number per frame."""

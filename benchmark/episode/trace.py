@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 Series = NDArray[np.float64]
 
 ADDED: Final = "task/"
-"""What the names of a task's own series begin with, in files and messages."""
+"""Prefix of the names of a task's own series, in files and messages."""
 
 BY_STEP: Final = ("action", "human_action")
 """The series with a row per step; the others have a number per frame."""
@@ -20,7 +20,7 @@ BY_STEP: Final = ("action", "human_action")
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Trace:
-    """The record that an episode's scores are computed from; n frames at 100 Hz, m steps.
+    """The record from which an episode's scores are computed; n frames at 100 Hz, m steps.
 
     A failed episode ends early: n is then shorter than the horizon.
     """
@@ -34,11 +34,11 @@ class Trace:
     human_force: Series
     """(n,) force of the human's hands on the table [N], upwards positive."""
     robot_force: Series
-    """(n,) the same of the robot's hands [N]."""
+    """(n,) force of the robot's hands on the table [N], upwards positive."""
     target: Series
     """(n,) the human's intended height [m]."""
     action: Series
-    """(m, k) the actions of the robot's end as given: of a NAO, changes of the command [m]."""
+    """(m, k) the actions of the robot's end as given: for a NAO, changes of the command [m]."""
     human_action: Series
     """(m, k) the actions of the human's end as given: hand references [m]."""
     state: NDArray[np.uint8]

@@ -12,21 +12,21 @@ START: Final = "start: "
 """Prefix of a failure's reason if the policy could not be made or reset."""
 
 STEP: Final = "step "
-"""Prefix if the policy failed in a step; the reason of a dropped table has neither prefix."""
+"""Prefix if the policy failed in a step; the reason for a dropped table has neither prefix."""
 
 
 def policy_seed() -> int:
-    """Return the seed that a policy is reset with: the same in every episode, public or hidden.
+    """Return the seed for resetting a policy: the same in every episode, public or hidden.
 
-    A policy's seed must reveal nothing about the episode. One derived from the episode's seed
-    would: the public seeds are few enough to try them all. A policy that wants to vary between
-    episodes can use its first observation, which carries the sensors' noise.
+    A policy's seed must reveal nothing about the episode. A seed derived from the episode's would:
+    the public seeds are few enough to try them all. A policy that wants to vary between episodes
+    can use its first observation, which carries the sensors' noise.
     """
     return derive_seed(0, "policy")
 
 
 class Turns:
-    """Asks a partner for its actions; an error of the partner ends the turns with a reason.
+    """Requests a partner's actions; an error of the partner ends the turns with a reason.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class Turns:
         self._explaining = partner if isinstance(partner, Explaining) else None
         self._size = size
         self.failure: str | None = None
-        """Why the partner cannot go on."""
+        """Reason why the partner cannot go on; None if it can."""
         self.times: list[float] = []
         """Duration of each turn that returned [s]."""
         self.total = 0.0

@@ -22,7 +22,7 @@ from ..episode.task import Task
 RECORDED = "recorded"
 
 PLAYED = "played"
-"""The behaviour of live lifts; it needs their hands, so that it is not registered."""
+"""The behaviour of live lifts; it is not registered, since it needs their recorded hands."""
 
 
 def make_subject(name: str) -> Subject:

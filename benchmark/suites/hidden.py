@@ -1,8 +1,8 @@
 """Hidden suites: people and plans derived from a season secret.
 
-The behaviours are the public ones; everything else is new. What is derived from a secret cannot
-be told from chance without it, and the commitment, published beforehand, proves afterwards that
-the board did not choose its secret to favour anyone.
+The behaviours are the public ones; everything else is new. Without the secret, the derived seeds
+cannot be distinguished from random ones. The commitment, published beforehand, proves afterwards
+that the board did not choose its secret to favour anyone.
 """
 
 import dataclasses
@@ -16,10 +16,10 @@ from ...agents.humans import Subject
 from .suite import Suite
 
 SECRET_BYTES: Final = 32
-"""Length of a new secret: as many bits as SHA-256 keeps apart."""
+"""Length of a new secret [bytes]: as many bits as a hash of SHA-256."""
 
 SEED_BYTES: Final = 16
-"""Length of a hidden seed: 128 bits, beyond any search."""
+"""Length of a hidden seed [bytes]: 128 bits, beyond any search."""
 
 
 def new_secret() -> bytes:
@@ -28,7 +28,7 @@ def new_secret() -> bytes:
 
 
 def commitment(secret: bytes) -> str:
-    """Return SHA-256(secret), 64 hexadecimal digits: may be published, gives nothing away."""
+    """Return SHA-256(secret), 64 hexadecimal digits: it may be published and reveals nothing."""
     return hashlib.sha256(_checked(secret)).hexdigest()
 
 
@@ -53,8 +53,8 @@ def hidden_suite(suite: Suite, secret: bytes) -> Suite:
         seed(k) = HMAC(secret, "lift", suite's name and digest, k)
 
     128 bits each. Plan and noise of a lift follow from its seed and the scenario's name
-    (:meth:`.Lift.reset`), and the person's seed is in that name: so each lift of each scenario has
-    numbers of its own.
+    (:meth:`.Lift.reset`), and the person's seed is in that name, so that each lift of each scenario
+    has its own random numbers.
 
     Parameters
     ----------

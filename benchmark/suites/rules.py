@@ -10,7 +10,7 @@ from ..episode.scenario import Scenario
 
 
 def scenarios_fault(scenarios: Sequence[object]) -> str | None:
-    """Return why scenarios are not those of a suite, or None.
+    """Return the reason why scenarios cannot form a suite, or None.
 
     There must be one, with distinct names, and all must have the same task: its metrics are the
     columns of every table.
@@ -38,7 +38,7 @@ def scenarios_fault(scenarios: Sequence[object]) -> str | None:
 
 
 def seeds_fault(seeds: Iterable[Any]) -> str | None:
-    """Return why seeds are not those of a suite, or None: distinct whole numbers from 0."""
+    """Return the reason why seeds cannot be a suite's, or None: distinct whole numbers from 0."""
     if not isinstance(seeds, tuple | list):
         return f"must have its seeds in a tuple, got {article(seeds)}"
     if not seeds:

@@ -33,8 +33,8 @@ class Suite:
     Raises
     ------
     InputError
-        If there is no scenario or no seed, the scenarios have different tasks or equal names, or
-        a seed is negative, no integer or given twice.
+        If there is no scenario or no seed, the scenarios have different tasks or equal names, or a
+        seed is negative, not an integer, or given twice.
     """
 
     name: str
@@ -61,9 +61,9 @@ class Suite:
     def digest(self) -> str:
         """SHA-256 (16 hexadecimal digits) over everything that changes a number.
 
-        Scenarios with all parameters of behaviour and subject, seeds, the declared
-        :func:`.numbers`, and the code that plays and scores, without names and words.
-        Results of different digests never share a table.
+        It covers the scenarios with all parameters of behaviour and subject, the seeds, the
+        declared :func:`.numbers`, and the code that plays and scores, without names and words.
+        Results with different digests never share a table.
         """
         content = {
             "numbers": plain(numbers()),
@@ -88,7 +88,7 @@ class Suite:
         return dataclasses.replace(self, name=name, seeds=tuple(range(start, stop)))
 
     def with_behaviours(self, behaviours: Sequence[str]) -> "Suite":
-        """Return the suite's subjects and seeds, each subject with each of other behaviours.
+        """Return a suite of the same subjects and seeds, each subject with each of the behaviours.
 
         Raises
         ------
@@ -141,7 +141,7 @@ class Suite:
 
 
 def plain_name(name: str) -> str:
-    """Return a name in plain ASCII: no two suites have names that look alike."""
+    """Return a name in plain ASCII, so that no two suites have names that look alike."""
     plain = re.sub(r"[^A-Za-z0-9 ._()\[\]:,+-]", "_", name)
     return " ".join(plain.split())[:LONGEST_SUITE_NAME].strip()
 
@@ -173,7 +173,7 @@ def recorded_suite(path: Path) -> Suite:
     Raises
     ------
     InputError
-        If the file cannot be used; the message says where and why.
+        If the file cannot be used; the message states the place and the reason.
     """
     subjects = list(SUBJECTS.values())
     scenarios = tuple(

@@ -18,15 +18,16 @@ SENSED_FRAMES: Final = 5
 
 FORCE_NOISE: Final = 0.05
 """Standard deviation of a sensed force [N], see :class:`.HapticObservation`: an assumption, some
-ten times the resolution of small six-axis sensors, for what a wrist's own motion adds."""
+ten times the resolution of small six-axis sensors, to include the effect of a wrist's own
+motion."""
 
 TORQUE_NOISE: Final = 0.002
-"""The same of a torque [Nm]."""
+"""Standard deviation of a sensed torque [Nm]."""
 
 
 FINER: Final = Physics(step=0.0025)
-"""The physics of the tasks with touch. People and policies who decide by what they feel amplify
-small differences: at the usual step two people of ``agree-v1`` are 4 % off in the mean (``colift
+"""The physics of the tasks with touch. People and policies that act on touch amplify small
+differences: at the usual step the mean error of two people on ``agree-v1`` is 4 % off (``colift
 bench --convergence --suite agree-v1``)."""
 
 

@@ -1,4 +1,4 @@
-"""Rehearsed lifts: a robot that knows where its end should be, and learns how to get it there."""
+"""Rehearsed lifts: a robot that knows its end's intended path, and learns the commands for it."""
 
 from collections.abc import Callable
 from typing import Final
@@ -15,7 +15,7 @@ from ..episode.seat import hand_commands
 from ..episode.trace import Trace
 
 REHEARSALS: Final = 5
-"""How often an episode is played; the best time counts. It changes little after the third."""
+"""Number of rehearsals of an episode; the best one counts. It changes little after the third."""
 
 BUMPS: Final = (0.012, 0.005)
 """Heights of the bumps that :func:`refine` tries [m]."""
@@ -27,7 +27,7 @@ BUMP_SPACING: Final = 25
 """Frames between two bumps."""
 
 FORESIGHT: Final = 0.6
-"""How far ahead commands are planned [s]: farther ones do not change the next."""
+"""Horizon over which commands are planned [s]: a longer one does not change the next command."""
 
 
 class Foreknowing:
@@ -36,7 +36,7 @@ class Foreknowing:
     Parameters
     ----------
     path
-        (n,) height for the command in each frame [m]; its last stays.
+        (n,) height for the command in each frame [m]; after the path, its last height remains.
     frames
         Frames in a control period.
     """
@@ -67,10 +67,10 @@ def rehearse_lift(
 ) -> Episode:
     """Return the best of some rehearsals of an episode, as in iterative learning control.
 
-    The first time the robot follows a path, and each further time its own last command plus what
-    its end missed then, an arm's lag earlier. So it comes to know how this human moves with this
-    robot, and how the arm sags. What remains is what a hand cannot do that ramps from period to
-    period.
+    In the first rehearsal the robot follows a path, in each further one its own last commands plus
+    the error of its end then, an arm's lag earlier. It thereby learns how this human moves with
+    this robot, and how the arm sags. The error that remains is due to the hand's ramps from period
+    to period.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def rehearse_lift(
     first
         Returns the first path of the robot's end [m], (horizon,), for a lift that has been reset.
     missed
-        Returns how far the robot's end was too low in each frame of a trace [m].
+        Returns the distance by which the robot's end was too low in each frame of a trace [m].
     """
     lift.reset(seed)
     lag = round(ARM_LAG / FRAME)
@@ -97,10 +97,10 @@ def rehearse_lift(
 
 
 def refine(lift: Lift, seed: int, episode: Episode) -> Episode:
-    """Return the best of many rehearsals, each with a bump more in the commands of the best so far.
+    """Return the best of many rehearsals, each with another bump in the best commands so far.
 
-    It is a descent by coordinates, which are the heights of bumps all along the lift, up and down,
-    from large ones to small ones.
+    This is a coordinate descent over the heights of bumps along the lift, up and down, from large
+    to small.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def refine(lift: Lift, seed: int, episode: Episode) -> Episode:
     seed
         The episode's seed.
     episode
-        The one to begin with.
+        The episode to begin with.
     """
     frames = lift.frames_per_step
     best, path = episode, frame_commands(episode.trace, frames)
@@ -142,14 +142,14 @@ def frame_commands(trace: Trace, frames: int) -> NDArray[np.float64]:
 
 
 def raised(trace: Trace, missed: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
-    """Return the commands of a trace, raised by what was missed an arm's lag later [m].
+    """Return the commands of a trace, raised by the error an arm's lag later [m].
 
     Parameters
     ----------
     trace
         The trace of a rehearsal.
     missed
-        How far the robot's end was too low in each frame [m].
+        Distance by which the robot's end was too low in each frame [m].
     frames
         Frames in a control period.
     """

@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 from .table import GRAVITY, TABLE_LENGTH
 
 ROLLING: Final = 5 / 7
-"""Share of the downhill pull that accelerates a solid sphere which rolls without slipping; the rest
+"""Share of the downhill pull that accelerates a solid sphere rolling without slipping; the rest
 spins it."""
 
 
@@ -15,7 +15,7 @@ class TableMotion(NamedTuple):
     """The motion of the table during one physics step."""
 
     pitch: float
-    """p in the middle of the step [rad], positive with the far end up."""
+    """p at the middle of the step [rad], positive with the far end up."""
     pitch_rate: float
     """p' [rad/s]."""
     turn: float
@@ -42,14 +42,14 @@ class Ball:
         w' = 5/7 (r p'^2 - (g + a) sin(p + s / R) + b cos(p)) - c r',    r' = w + e p',
 
     with the radius of curvature R of the centre's path along the groove, and the rolling friction
-    c. The table carries its weight, m g cos(p), at s. The ball's inertia moves the table as little
-    as a lift's acceleration of 0.3 m/s2 adds to its weight, 3 %, and is left out.
+    c. The table carries its weight, m g cos(p), at s. The effect of the ball's inertia on the
+    table, 3 % of its weight at a lift's acceleration of 0.3 m/s2, is neglected.
     """
 
     mass: float = 0.17
-    """m [kg], a billiard ball's (World Pool-Billiard Association: 156 to 170 g)."""
+    """m [kg], that of a billiard ball (World Pool-Billiard Association: 156 to 170 g)."""
     radius: float = 0.0286
-    """e [m], the same ball's: 57.15 mm across."""
+    """e [m], that of the same ball: 57.15 mm across."""
     friction: float = 0.15
     """c [1/s], an assumption: a ball on felt loses half of its speed in five seconds."""
     curvature: float = 0.0
@@ -60,8 +60,8 @@ class Ball:
     ) -> tuple[float, float]:
         """Return s [m] and w [m/s] a physics step later.
 
-        The leapfrog method: half of the way, all of the acceleration, the other half. It is of
-        second order and conserves energy on the mean.
+        The leapfrog method moves the ball for half of the step, then accelerates it, then moves it
+        for the other half. It is of second order and conserves energy on average.
 
         Parameters
         ----------
@@ -83,5 +83,5 @@ class Ball:
         return middle + (step * later + shift) / 2, later
 
     def load(self, pitch: float) -> float:
-        """Return what the ball presses on the table at a pitch [rad], m g cos(p) [N]."""
+        """Return the force of the ball on the table at a pitch [rad], m g cos(p) [N]."""
         return self.mass * GRAVITY * math.cos(pitch)

@@ -17,8 +17,8 @@ _ONE_AT_A_TIME: Final = threading.Lock()
 def silent() -> Iterator[None]:
     """Discard the output of C code to stdout.
 
-    The C library's stream is exchanged, which the GNU C library allows, and not the file
-    descriptor: Python's own output, in any thread, and inherited descriptors are unaffected.
+    The C library's stream is exchanged, which the GNU C library allows, not the file descriptor, so
+    that Python's own output, in any thread, and inherited descriptors are unaffected.
     """
     with _ONE_AT_A_TIME:
         stdout = ctypes.c_void_p.in_dll(_C, "stdout")

@@ -38,7 +38,7 @@ class BulletWorld:
     human
         The person at the near end.
     far_end
-        Who holds the other end: :class:`.NaoFarEnd`, :class:`.HumanFarEnd`.
+        Holder of the other end: :class:`.NaoFarEnd`, :class:`.HumanFarEnd`.
     physics
         Time step and solver.
     """

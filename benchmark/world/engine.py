@@ -28,7 +28,7 @@ def new_client(physics: Physics) -> int:
     client: int = pybullet.connect(pybullet.DIRECT)
     pybullet.setGravity(0, 0, -GRAVITY, physicsClientId=client)
     solver = {"numSolverIterations": physics.iterations} if physics.iterations else DIRECT
-    with silent():  # It reports each change of the solver.
+    with silent():  # PyBullet reports each change of the solver.
         pybullet.setPhysicsEngineParameter(
             fixedTimeStep=physics.step, physicsClientId=client, **solver
         )
@@ -58,6 +58,6 @@ def load_urdf_text(client: int, text: str, position: Vector) -> int:
 
 
 def disconnect(client: int) -> None:
-    """Disconnect a client; one that is gone already is left alone."""
+    """Disconnect a client; do nothing if it is gone already."""
     if pybullet.isConnected(physicsClientId=client):
         pybullet.disconnect(physicsClientId=client)

@@ -1,4 +1,4 @@
-"""The world of tasks with touch: wrists that mean to pitch the table, torques, a rolling ball."""
+"""The world of tasks with touch: wrists with an intended pitch, torques, a rolling ball."""
 
 import math
 from collections.abc import Sequence
@@ -26,7 +26,7 @@ from .table import (
 from .world import HISTORY_FRAMES, FarEnd
 
 FAR_GRIP_STIFFNESS: Final = 1.0
-"""Pitch stiffness of the grip at the far end [Nm/rad], a tenth of the human's: an assumption, of
+"""Pitch stiffness of the grip at the far end [Nm/rad], a tenth of the human's: an assumption for
 fingers that hold an edge without clamping it."""
 
 FAR_GRIP_DAMPING: Final = 0.03
@@ -40,16 +40,16 @@ _TORQUE: Final = pybullet.TORQUE_CONTROL
 class HapticWorld(BulletWorld):
     """The world of :class:`.BulletWorld` with torques at both grips.
 
-    The wrists of the person turn towards an intended pitch, and the person's reflexes even out only
-    what differs from the intended height difference; both are 0 unless :meth:`intend` is called.
-    The grip at the far end resists pitching a little, so that a torque can be sensed there. A ball
-    may roll on the table; people carry half of its weight, as of the table's, without feeling it as
-    a disturbance.
+    The wrists of the person turn towards an intended pitch, and the person's reflexes correct only
+    deviations from the intended height difference; both intentions are 0 unless :meth:`intend` is
+    called. The grip at the far end resists pitching a little, so that a torque can be sensed there.
+    A ball may roll on the table; people carry half of its weight, like that of the table, without
+    feeling it as a disturbance.
 
     Parameters
     ----------
     human, far_end, physics
-        As of :class:`.BulletWorld`.
+        As for :class:`.BulletWorld`.
     ball
         The ball, if there is one; it starts at rest in the middle.
     """
@@ -84,14 +84,14 @@ class HapticWorld(BulletWorld):
         self._far_felt = [WEIGHT_SHARE] * HISTORY_FRAMES
         self.robot_torque = [0.0] * HISTORY_FRAMES
         """Torque of the far hands on the table about their grip [Nm], positive if it raises the far
-        end; with a row per frame, as the other read-outs."""
+        end; with one entry per frame, like the other read-outs."""
         self.ball_place = [0.0] * HISTORY_FRAMES
         """Place of the ball on the table [m], from the middle towards the far end."""
         self.ball_speed = [0.0] * HISTORY_FRAMES
-        """Speed of its centre along the table [m/s]."""
+        """Speed of the ball's centre along the table [m/s]."""
 
     def intend(self, differences: Sequence[float], pitches: Sequence[float]) -> None:
-        """Take the person's intention for the frames of the next :meth:`advance`.
+        """Set the person's intention for the frames of the next :meth:`advance`.
 
         Parameters
         ----------

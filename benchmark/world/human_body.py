@@ -9,7 +9,7 @@ from .table import GRIP_STIFFNESS, TABLE_LENGTH, WEIGHT_SHARE
 from .world import HISTORY_FRAMES
 
 REFLEX_LIMIT: Final = 0.02
-"""Largest shift of the reference by a reflex [m]: reflexes even out small differences and do not
+"""Largest shift of the reference by a reflex [m]: reflexes correct small differences and do not
 overrule the intended height."""
 
 MUSCLE_TIME: Final = 0.05
@@ -23,7 +23,8 @@ class BodyParameters:
     Raises
     ------
     ValueError
-        If a delay is negative or longer than the kept history, or mass or stiffness not positive.
+        If a delay is negative or longer than the kept history, or mass or stiffness is not
+        positive.
     """
 
     stiffness: float
@@ -79,8 +80,8 @@ class HumanBody:
     def __init__(self, parameters: BodyParameters, step: float) -> None:
         """Prepare the gains for a physics step of ``step`` [s].
 
-        The engine's velocities are those of mid-step; taking the damper there too (half of the
-        velocity before the step, half of the one after) makes the step second-order accurate.
+        The engine's velocities are those of mid-step; evaluating the damper there too (as the mean
+        of the velocities before and after the step) makes the step second-order accurate.
         """
         implicit = 1 + step * parameters.damping / parameters.mass / 2
         self._gain_height = parameters.stiffness / implicit
@@ -103,8 +104,8 @@ class HumanBody:
         Parameters
         ----------
         own, other, force
-            Histories, newest last: heights of the own and of the other end [m], and the force of
-            the hands on the table [N].
+            Histories, newest last: heights of the person's and of the other end [m], and the force
+            of the hands on the table [N].
         """
         wanted = self._visual_gain * (other[self._seen] - own[self._seen])
         wanted -= self._haptic_gain * (force[self._felt] - WEIGHT_SHARE)
@@ -123,7 +124,7 @@ class HumanBody:
         reference, rate
             Reference at the beginning of the step [m] and its rate [m/s], reflex included.
         height, velocity
-            Of the hands, at the beginning of the step [m, m/s].
+            Height and velocity of the hands at the beginning of the step [m, m/s].
         """
         return (
             self._gain_height * (reference - height)

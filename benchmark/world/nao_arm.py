@@ -8,17 +8,17 @@ from .bullet import pybullet
 from .engine import Vector, load_urdf_text
 
 _HAND: Final = (HAND_OFFSET_X, 0.0, -HAND_OFFSET_Z)
-"""The hand point in the frame of the last arm joint [m]; none of it is sideways."""
+"""The hand point in the frame of the last arm joint [m]; it has no sideways offset."""
 
 _ZEROS: Final = [0.0] * len(ARM)
 _ONES: Final = [1.0] * len(ARM)
 
 
 class NaoArm:
-    """One arm on a torso that does not move: a body of its own, with five joints.
+    """One arm on a torso that does not move: a separate body with five joints.
 
-    Two bodies of five joints take the engine a fifth less time than one of ten: no constraint of
-    one arm has to be propagated through the joints of the other.
+    The engine needs a fifth less time for two bodies of five joints than for one of ten, since
+    constraints of one arm do not have to be propagated through the joints of the other.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class NaoArm:
         )
 
     def drive(self, angles: list[float], gains: list[float], efforts: list[float]) -> None:
-        """Set the motors, which keep what was set: angles [rad], gains, largest torques [N m]."""
+        """Set the motors, which keep their settings: angles [rad], gains, largest torques [N m]."""
         pybullet.setJointMotorControlArray(
             self._body,
             self._joints,

@@ -14,21 +14,21 @@ from .servo import SERVO, Servo
 from .table import PITCH, WEIGHT_SHARE
 
 _HALF: Final = len(ARM)
-"""Joints of one arm: of the angles of both, the left arm's come first."""
+"""Number of joints of one arm; in lists of both arms, the left arm's angles come first."""
 
 
 class NaoArms:
     """Both arms of the NAO, their servos, and the hands' hold of the table.
 
-    The engine's joint motors are rigid up to the motors' torque limits. What a proportional
-    servo of stiffness k adds is sag: a torque t displaces its joint by t / k. It enters through
-    the set-point: with J = dz/dq of the hands, an arm whose weight turns its joints with the
-    torques g(h), and which carries half of the load F that the hands bear, gives way by
+    The engine's joint motors are rigid up to the motors' torque limits. A proportional servo of
+    stiffness k adds sag: a torque t displaces its joint by t / k. It enters through the set-point:
+    with J = dz/dq of the hands, an arm whose weight turns its joints with the torques g(h), and
+    which carries half of the load F on the hands, yields by
 
         sag(h, F) = sum_i J_i (J_i F / 2 - g_i(h)) / k.
 
-    A constant offset makes up for the sag at rest under the table's weight (see :class:`.Servo`);
-    elsewhere along the stroke a little of it remains.
+    A constant offset compensates for the sag at rest under the table's weight (see
+    :class:`.Servo`); elsewhere along the stroke a little of it remains.
     """
 
     REST_GRIP: ClassVar[Vector] = (GRIP_X, 0.0, REST_Z)
@@ -43,7 +43,7 @@ class NaoArms:
         self._compliance: list[float] = compliance.sum(axis=1).tolist()
         gain = -math.expm1(-physics.step / servo.time)
         self._gains = [gain] * _HALF
-        # A set-point that ramps is followed with the servo's time constant at any step size.
+        # A ramping set-point is followed with the servo's time constant at any step size.
         self._ahead = (physics.step / gain - servo.time) / FRAME
         self._yielding = -math.expm1(-FRAME / servo.load_time)
         angles = path.joint_angles(0.0)
@@ -85,7 +85,7 @@ class NaoArms:
         Returns
         -------
         float
-            No force: the motors' is the engine's to find.
+            0: the engine itself computes the force of the motors.
         """
         previous = self._previous
         row = int(previous + (self._target - previous) * (begin + self._ahead) + 0.5)

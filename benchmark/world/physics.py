@@ -13,14 +13,14 @@ class Physics:
     Raises
     ------
     ValueError
-        If a frame is not a whole number of steps, or there are less than no iterations.
+        If a frame is not a whole number of steps, or the number of iterations is negative.
     """
 
     step: float = 0.01
-    """Physics step [s]. The convergence study (``colift bench --convergence``) is its reason."""
+    """Physics step [s], chosen by the convergence study (``colift bench --convergence``)."""
 
     iterations: int = 0
-    """Iterations of the sequential-impulse solver a step, for the convergence study; with 0 the
+    """Iterations of the sequential-impulse solver per step, for the convergence study; with 0 the
     constraints are solved directly."""
 
     def __post_init__(self) -> None:

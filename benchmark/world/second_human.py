@@ -44,7 +44,7 @@ class SecondHuman:
     def prepare(
         self, command: float, own: list[float], other: list[float], force: list[float]
     ) -> None:
-        """Take the reference for the end of the next frame [m] and advance the reflexes.
+        """Accept the reference for the end of the next frame [m] and advance the reflexes.
 
         ``own``, ``other`` and ``force`` are the histories of :meth:`.HumanBody.reflex`.
         """
@@ -57,9 +57,9 @@ class SecondHuman:
         Parameters
         ----------
         begin
-            When the physics step begins, as a fraction of the frame.
+            Beginning of the physics step, as a fraction of the frame.
         height, velocity
-            Of the far end at that time [m, m/s].
+            Height and velocity of the far end at that time [m, m/s].
         """
         change = self._reference - self._previous
         reference = self._previous + change * begin

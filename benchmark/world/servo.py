@@ -13,15 +13,15 @@ class Servo:
     thread (20 ms)."""
 
     stiffness: float = 18.0
-    """Torque that displaces a joint, over the displacement [Nm/rad]. An assumption: the arm
-    motors' nominal torque (0.55 Nm at the shoulder) gives 1.75 degrees."""
+    """Torque that displaces a joint, divided by the displacement [Nm/rad]. An assumption: the arm
+    motors' nominal torque (0.55 Nm at the shoulder) displaces a joint by 1.75 degrees."""
 
     load_time: float = 0.03
-    """Time constant with which a joint gives way to a changing load [s], an assumption."""
+    """Time constant with which a joint yields to a changing load [s], an assumption."""
 
     weight_offset: bool = True
-    """Whether the set-point makes up for the sag at rest under the table's weight, as the paper's
-    authors had to (section II.B)."""
+    """Whether the set-point compensates for the sag at rest under the table's weight, which the
+    paper's authors had to do as well (section II.B)."""
 
 
 SERVO: Final = Servo()

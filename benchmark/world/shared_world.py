@@ -1,4 +1,4 @@
-"""A world in which one person takes over from another."""
+"""A world in which one person replaces another."""
 
 from .bullet import pybullet
 from .bullet_world import BulletWorld
@@ -8,14 +8,13 @@ from .world import FarEnd
 
 
 class SharedWorld(BulletWorld):
-    """A world that can take one person after another: a new world takes 20 ms.
+    """A world for one person after another, since making a new world takes 20 ms.
 
-    The person's mass is changed in the engine; with it, everything is as in a new world, bit for
-    bit.
+    The person's mass is changed in the engine; everything is then as in a new world, bit for bit.
     """
 
     def with_person(self, human: BodyParameters, far_end: FarEnd) -> "SharedWorld":
-        """Exchange the person, and return the world, which is to be reset.
+        """Exchange the person, and return the world, which must then be reset.
 
         Parameters
         ----------
@@ -30,7 +29,7 @@ class SharedWorld(BulletWorld):
                 self._tree,
                 link,
                 mass=human.mass,
-                localInertiaDiagonal=inertia,  # Else the engine derives one from the mass.
+                localInertiaDiagonal=inertia,  # Otherwise derived from the mass.
                 physicsClientId=self.client,
             )
         self._mass = human.mass

@@ -3,14 +3,14 @@
 Ground - slide (x) - hands (z) - pitch hinge - table. The tree carries the human's end; the
 holder of the far end closes the loop. The tree's three joints:
 
-* x slides freely: a tilting table needs a few millimetres of it, and a human's arms give that.
+* x slides freely: a tilting table needs a few millimetres of slide, to which a human's arms yield.
 * z is the height of the human's hands; its mass is the arm's apparent mass.
 * pitch is the table's inclination in the human's grip.
 
 A table on a free pin would transmit nothing. A two-handed grip on its edge resists pitching, so
 that a height difference is felt: 60 mm over 0.8 m are 75 mrad, 0.75 Nm, about 1 N at the hands.
 The far end has no such stiffness with either holder: the NAO's fingers do not resist pitching, and
-the wrists of a following person give way. A height difference therefore feels the same with both.
+the wrists of a following person yield. A height difference therefore feels the same with both.
 """
 
 from typing import Final
@@ -23,8 +23,8 @@ TABLE_MASS: Final = 0.35
 the 0.33 kg that each of the NAO's two arms can hold at full reach."""
 
 GRIP_STIFFNESS: Final = 10.0
-"""Pitch stiffness of a two-handed human grip [Nm/rad]. An assumption: two wrists of some
-5 Nm/rad each, the order found for relaxed to lightly tensed wrists."""
+"""Pitch stiffness of a two-handed human grip [Nm/rad]. An assumption: two wrists of some 5 Nm/rad
+each, the order of magnitude found for relaxed to lightly tensed wrists."""
 
 GRIP_DAMPING: Final = 0.3
 """Pitch damping of that grip [Nm s/rad]: about half critical for the table about the grip."""
@@ -58,7 +58,7 @@ def table_urdf(hand_mass: float, far_mass: float = 0.0) -> str:
     about_grip = TABLE_INERTIA + far_mass * TABLE_LENGTH**2
     pitch_inertia = about_grip - mass * centre**2
     small = 1e-3
-    # PyBullet reads an empty range as no limit, which spares the solver its rows.
+    # PyBullet reads an empty range as no limit, which saves rows of the solver.
     free = '<limit lower="1" upper="-1" effort="1000" velocity="10"/>'
     return f"""<robot name="human_and_table">
   <link name="ground"><inertial><mass value="1"/>

@@ -1,4 +1,4 @@
-"""The seam of the physics: a world that is stepped frame by frame, and the hands at its far end."""
+"""The interface of the physics: a world stepped frame by frame, and the hands at its far end."""
 
 from collections.abc import Sequence
 from typing import Final, Protocol
@@ -35,7 +35,7 @@ class World(Protocol):
     robot_force: list[float]
     """Force of the hands at the far end on the table."""
     hand_height: float
-    """Present height of the hands at the far end; of a NAO, from its encoders."""
+    """Present height of the hands at the far end; for a NAO, from its encoders."""
 
     def reset(self) -> None:
         """Restore the state of rest, bit for bit the same each time."""
@@ -48,7 +48,7 @@ class World(Protocol):
         human_reference
             The height that the human's arms pull towards at the end of each frame [m].
         robot_reference
-            The same at the far end [m]; for a NAO, the commanded height of its hands.
+            The height at the far end likewise [m]; for a NAO, the commanded height of its hands.
         """
 
     def state(self) -> tuple[float, ...]:

@@ -1,4 +1,4 @@
-"""A lift whose holders have a private hurdle each."""
+"""A lift in which each holder has a private hurdle."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +9,7 @@ from ..haptic import HapticLift
 
 
 class AgreeLift(HapticLift):
-    """A lift on whose way both ends may have a hurdle; with other plans there is none."""
+    """A lift in which each end may have a hurdle on the way; other plans have none."""
 
     def reset(self, seed: int) -> None:
         """Begin the episode ``seed``, as :meth:`.HapticLift.reset`."""
@@ -19,7 +19,7 @@ class AgreeLift(HapticLift):
         self.human_hurdle: Hurdle | None = own
         """The human's hurdle, or None."""
         self.robot_hurdle: Hurdle | None = other
-        """The one of the robot's end, or None."""
+        """The hurdle of the robot's end, or None."""
         whole = 0, self.horizon
         self.agreeing = slice(*(plan.agreeing if isinstance(plan, HurdlePlan) else whole))
         """The frames in which there is something to agree on."""
@@ -31,7 +31,7 @@ class AgreeLift(HapticLift):
         return human
 
     def secret(self, hurdle: Hurdle | None) -> Secret:
-        """Return a hurdle as its holder has it now; all 0 if there is none."""
+        """Return a hurdle as its holder knows it now; all 0 if there is none."""
         if hurdle is None:
             return Secret(0.0, 0.0, 0.0, 0.0)
         start, stop = ((frame - self.frame) * FRAME for frame in hurdle[1:])

@@ -1,4 +1,4 @@
-"""The oracle of two hurdles: knows both secrets and how the human will move. It cheats."""
+"""The oracle of two hurdles: it knows both secrets and the human's coming motion. It cheats."""
 
 from typing import Final, NamedTuple
 
@@ -13,22 +13,22 @@ from ..rehearsal import Foreknowing, raised
 from .lift import AgreeLift
 
 STARTS: Final = 5
-"""Times at which a detour to the robot's hurdle is tried to begin, over its window."""
+"""Number of starting times, over its window, that are tried for a detour to the robot's hurdle."""
 
 DURATIONS: Final = (0.45, 0.8)
-"""Durations of its way [s]."""
+"""Durations of the way there [s]."""
 
 STAYS: Final = (0.15, 0.4)
-"""How long it stays there [s]."""
+"""Durations of the stay there [s]."""
 
 REHEARSALS: Final = 3
-"""How often each of the best detours is then rehearsed to be more level."""
+"""Number of further rehearsals of each of the best detours, to be more level."""
 
 KEPT: Final = 2
-"""How many of the best detours are rehearsed."""
+"""Number of the best detours that are rehearsed."""
 
 LEAD: Final = 0.1
-"""How far the present motion is extrapolated while it is new [s]."""
+"""Time by which the present motion is extrapolated while it is new [s]."""
 
 RETURN: Final = 0.2
 """Time in which the command returns from a detour to the human's height [s]."""
@@ -46,14 +46,14 @@ class Detour(NamedTuple):
 
 
 class Knowing:
-    """Keeps level by the true present motion, but for a detour to the robot's hurdle.
+    """Keeps level by the true present motion, except for a detour to the robot's hurdle.
 
     Parameters
     ----------
     lift
         The lift that it plays, whose world it reads.
     detour
-        The way to the hurdle, or None to go nowhere.
+        The detour to the hurdle, or None for no detour.
     """
 
     def __init__(self, lift: AgreeLift, detour: Detour | None) -> None:
@@ -90,9 +90,10 @@ class Knowing:
 def foreknow_agreement(lift: Lift, seed: int) -> Episode:
     """Return the episode of a seed, played by the oracle.
 
-    It tries detours to its own hurdle at all times of the window, with the true present motion of
-    the human in sight, and rehearses the best ones as :func:`.rehearse` does: outside of the detour
-    each command is the last one plus the height difference that was left, an arm's lag earlier.
+    It tries detours to its own hurdle at all times of the window, using the true present motion of
+    the human, and rehearses the best ones as :func:`.rehearse_lift` does: outside the detour each
+    command is that of the last rehearsal plus the remaining height difference, an arm's lag
+    earlier.
     """
     assert isinstance(lift, AgreeLift)
     lift.reset(seed)
@@ -124,7 +125,7 @@ def detours(lift: AgreeLift) -> list[Detour | None]:
 
 
 def _more_level(episode: Episode, detour: Detour | None, frames: int) -> NDArray[np.float64]:
-    """Return the path to command next: more level, but for the detour."""
+    """Return the path to command next: more level, except in the detour."""
     left = episode.trace.human_end - episode.trace.robot_end
     if detour is not None:
         left[detour.start : detour.start + detour.way + detour.stay] = 0.0

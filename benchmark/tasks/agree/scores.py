@@ -1,4 +1,4 @@
-"""Scores of hurdles: how near the whole table came to them, how soon, and who led it there."""
+"""Scores of hurdles: the table's distance from them, the time to pass them, and the leader."""
 
 import math
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ PASSED: Final = 0.01
 """Root mean square distance of both ends from a hurdle within which the table passes it [m]."""
 
 CROSSING: Final = 0.3
-"""Time before a crossing over which the power of leading is averaged [s]: that of Chackochan and
+"""Time before a crossing over which the power of leading is averaged [s], as in Chackochan and
 Sanguineti (2019)."""
 
 Heights = NDArray[np.float64]
@@ -42,7 +42,7 @@ def distance(hurdle: Hurdle, near: Heights, far: Heights) -> Heights:
 
 
 def missed_mm(hurdle: Hurdle | None, near: Heights, far: Heights) -> float:
-    """Return by how much the table misses a hurdle: the least :func:`distance` [mm].
+    """Return the distance by which the table misses a hurdle: the least :func:`distance` [mm].
 
     NaN without a hurdle; :data:`.FAILED_FRAME_MM` if the lift ended before its window opened.
     """
@@ -55,8 +55,8 @@ def missed_mm(hurdle: Hurdle | None, near: Heights, far: Heights) -> float:
 def agreement_rmse_mm(errors: Sequence[float], frames: int, horizon: int) -> float:
     r"""Return the root mean square of a lift's errors [mm], those that are NaN left out.
 
-    Each of the frames that a failure cut off counts :data:`.FAILED_FRAME_MM`, each other one the
-    root mean square of the errors.
+    Each of the frames that a failure cut off counts with :data:`.FAILED_FRAME_MM`, each other frame
+    with the root mean square of the errors.
     """
     known = np.array([error for error in errors if not math.isnan(error)])
     square = float(dot(known, known)) / len(known) if len(known) else 0.0
@@ -66,8 +66,8 @@ def agreement_rmse_mm(errors: Sequence[float], frames: int, horizon: int) -> flo
 def agreement_ms(hurdles: Sequence[Hurdle | None], near: Heights, far: Heights) -> float:
     """Return the time from the opening of the first window until the last hurdle is passed [ms].
 
-    A hurdle counts as passed within :data:`PASSED`, at the end of its window if never. NaN without
-    hurdles.
+    A hurdle counts as passed within :data:`PASSED`, or at the end of its window if it is never
+    passed. NaN without hurdles.
     """
     given = [hurdle for hurdle in hurdles if hurdle is not None]
     if not given:
@@ -80,11 +80,11 @@ def agreement_ms(hurdles: Sequence[Hurdle | None], near: Heights, far: Heights) 
 
 
 def leading_mw(hurdle: Hurdle | None, own: Heights, power: Heights, other: Heights) -> float:
-    """Return by how much the holder of an end leads the other to its own hurdle.
+    """Return the power with which the holder of an end leads the other to its own hurdle.
 
     The leadership index is a hand's mean power in the 0.3 s before its end crosses its own hurdle
-    (Chackochan and Sanguineti 2019); here less that of the other hands in the same time, so that
-    what accelerates the table drops out.
+    (Chackochan and Sanguineti 2019); here the other hands' mean power in the same time is
+    subtracted, so that the power that accelerates the table drops out.
 
     Parameters
     ----------

@@ -29,15 +29,15 @@ from .table import AGREE_METRICS
 BEHAVIOURS = ("abreast", "ahead", "behind", "own_hurdle", "other_hurdle", "no_hurdle")
 
 MOST_UNCERTAIN: Final = 1.0
-"""Largest uncertainty of the far end's speed [m/s]: nothing of it is known."""
+"""Largest uncertainty of the far end's speed [m/s]: its speed is then practically unknown."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Agree(Haptic):
     """Lift together, and pass a private hurdle of each on the way, with the whole table.
 
-    The robot has :class:`.AgreeObservation`, with its own hurdle and not the human's. The human and
-    the second human have their own hurdle, and :class:`.HumanObservation`; see
+    The robot has :class:`.AgreeObservation`, with its own hurdle but not the human's. The human and
+    the second human each have their own hurdle and :class:`.HumanObservation`; see
     :func:`.with_secret`.
 
     Raises
@@ -47,8 +47,8 @@ class Agree(Haptic):
     """
 
     uncertainty: float = 0.01
-    """Standard deviation of the speed of the far end that people perceive [m/s]: how little they
-    know of each other."""
+    """Standard deviation of the error of the perceived speed of the far end [m/s]: the less people
+    know about each other, the larger it is."""
 
     name: ClassVar[str] = "agree"
     metrics: ClassVar[Metrics] = AGREE_METRICS
@@ -96,7 +96,7 @@ class Agree(Haptic):
     def rewards(self, lift: Playing) -> tuple[float, float]:
         """Return minus the height difference and the distances from the open hurdles [m].
 
-        The human's reward counts the own hurdle alone, the robot's both.
+        The human's reward counts only the human's hurdle, the robot's counts both.
         """
         assert isinstance(lift, AgreeLift)
         near, far = lift.world.human_end[-1], lift.world.robot_end[-1]

@@ -14,14 +14,14 @@ from ...world.table import TABLE_LENGTH
 from ..haptic import HapticLift
 
 STEEPEST_MEANT: Final = 0.5
-"""Largest intended pitch's sine; what people mean stays far inside it."""
+"""Largest sine of an intended pitch; people's intentions stay far below it."""
 
 
 class BallLift(HapticLift):
-    """A lift whose human has a target for the ball, too.
+    """A lift whose human also has a target for the ball.
 
-    The human means the height difference that the own end makes: reflexes even out what differs
-    from it, and the wrists turn with its pitch, as the person's manner has it
+    The human intends the height difference that the human's own end makes: reflexes correct
+    deviations from it, and the wrists turn with its pitch according to the person's manner
     (:class:`.SteeringManner`).
     """
 
@@ -34,7 +34,7 @@ class BallLift(HapticLift):
         self.shown = shown
         """Whether both know the target."""
         self.place = np.concatenate((place, np.full(self.horizon - len(place), place[-1])))
-        """(horizon,) where the ball should be at the end of each frame [m]."""
+        """(horizon,) intended place of the ball at the end of each frame [m]."""
         rng = np.random.default_rng(self.role_seed("ball sensor"))
         self._ball_noise = rng.normal(0.0, MOCAP_NOISE, HISTORY_FRAMES + self.horizon).tolist()
         manner = steering_manner(self.scenario.subject)
@@ -60,12 +60,12 @@ class BallLift(HapticLift):
         super().move(human, commands)
 
     def coming_places(self) -> Observation:
-        """Return where the ball should be [m] at the end of each of the next ten frames."""
+        """Return the intended place of the ball [m] at the end of each of the next ten frames."""
         coming = np.arange(self.frame, self.frame + HISTORY)
         return np.asarray(self.place[np.minimum(coming, self.horizon - 1)])
 
     def ball_view(self) -> tuple[float, float, float]:
-        """Return the robot's view of the ball: its place, its target, whether that is known."""
+        """Return the robot's view: the ball's place, its target, and whether that is known."""
         age = self.scenario.latency_frames
         noise = self._ball_noise[self.frame + HISTORY_FRAMES - 1 - age]
         target = float(self.coming_places()[0]) if self.shown else 0.0

@@ -1,4 +1,4 @@
-"""The oracle of the ball: it knows the plan, the target, and what the human will do."""
+"""The oracle of the ball: it knows the plan, the target, and the human's coming motion."""
 
 from functools import cache
 from typing import Final, NamedTuple
@@ -16,18 +16,18 @@ from ...world.table import GRAVITY, TABLE_LENGTH
 from .lift import BallLift
 
 REHEARSALS: Final = 10
-"""How often an episode is rehearsed; the best time counts."""
+"""Number of rehearsals of an episode; the best one counts."""
 
 NEARER: Final = 0.6
-"""Part of the way from the ball's path of the last rehearsal to the target that the next one goes:
-a person who steers much answers a large change by a larger one."""
+"""Part of the distance between the ball's last path and the target by which the next rehearsal
+moves the path: a person who steers much answers a large change with a larger one."""
 
 STEPS: Final = 15
 """Periods ahead over which commands are planned."""
 
 BENDS: Final = 3.0
 """Cost of a bend of the command, relative to a distance of the ball of its size that lasts for a
-frame. A person who steers much makes plans of little cost unstable."""
+frame. With a person who steers much, plans become unstable at a small cost."""
 
 KEPT: Final = 0.97
 """Part of the human's deviation from the last rehearsal that is expected to last for a frame."""
@@ -39,20 +39,21 @@ class Law(NamedTuple):
     """The matrices of :func:`_law`."""
 
     reply: Array
-    """(n, n) place of the ball in each coming frame by the height difference in each [1]."""
+    """(n, n) effect of the height difference in each coming frame on the ball's place in each
+    [m/m]."""
     gain: Array
-    """(n,) next command by the place that is missing in each frame."""
+    """(n,) weight, in the next command, of the ball's distance from the path in each frame."""
     change: float
-    """Next command by the last change of the command."""
+    """Weight, in the next command, of the last change of the command."""
 
 
 @cache
 def _law(frames: int) -> Law:
-    """Return the matrices of the plan for periods of so many frames.
+    """Return the matrices of the plan for periods of ``frames`` frames.
 
-    The ball's place in the coming n frames is what it would be on a level table, plus ``reply`` d
-    with the height difference d = u - z1. The coming commands' changes from the present one
-    minimise the squared distance from the path and :data:`BENDS` times their squared bends.
+    The ball's place in the coming n frames is that on a level table plus ``reply`` d, with the
+    height difference d = u - z1. The coming commands' changes from the present one minimise the
+    squared distance from the path and :data:`BENDS` times their squared bends.
     """
     count = STEPS * frames
     time = np.arange(count)
@@ -73,7 +74,7 @@ def _law(frames: int) -> Law:
 
 
 class Foreseeing:
-    """Commands that best bring the ball along a path, with all that is and will be known.
+    """Commands that best bring the ball along a path, with full knowledge of present and future.
 
     Parameters
     ----------
@@ -82,7 +83,7 @@ class Foreseeing:
     human
         (horizon,) height of the human's end in each frame [m], as it was in the last rehearsal.
     path
-        (horizon,) where the ball should be at the end of each frame [m].
+        (horizon,) intended place of the ball at the end of each frame [m].
     """
 
     def __init__(self, lift: BallLift, human: Array, path: Array) -> None:
@@ -112,9 +113,9 @@ class Foreseeing:
 def foresee(lift: Lift, seed: int) -> Episode:
     """Return the episode of a seed, played by the oracle.
 
-    It is rehearsed, from an episode of :class:`.BallGame` on: each time the oracle expects the
-    human's end to move as the last time, and means to bring the ball nearer to its target. It sees
-    the true state of the world without delay.
+    It is rehearsed, starting from an episode of :class:`.BallGame`: each time the oracle expects
+    the human's end to move as in the last rehearsal, and brings the ball nearer to its target. It
+    sees the true state of the world without delay.
     """
     assert isinstance(lift, BallLift)
     best = last = run_episode(lift, BallGame(), seed)

@@ -1,4 +1,4 @@
-"""Scores of steering: how near the ball is to its target, how soon, and with how many turns."""
+"""Scores of steering: the ball's distance from its target, its time to settle, and its turns."""
 
 import math
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ NEAR: Final = 0.02
 """Distance from the target [m] within which the ball counts as there (Liu et al. 2022)."""
 
 LEAST_PEAK: Final = 0.03
-"""Speed [m/s] that a peak of the ball's velocity has at least, and by which it stands out."""
+"""Least speed of a peak of the ball's velocity, and least prominence of the peak [m/s]."""
 
 Series = NDArray[np.float64]
 
@@ -31,7 +31,7 @@ def missed_rmse_mm(missed: Series, horizon: int) -> float:
     missed
         Place of the ball less the target's [m], shape (T,).
     horizon
-        Frames H that the episode should have had; each that a failure cut off counts
+        Frames H that the episode should have had; each that a failure cut off counts with
         :data:`.FAILED_FRAME_MM`.
 
     Returns
@@ -44,12 +44,12 @@ def missed_rmse_mm(missed: Series, horizon: int) -> float:
 
 
 def ways(target: Series) -> Iterator[slice]:
-    """Yield the frames of each target after the first: from its first movement to the next's.
+    """Yield the frames of each target after the first: from its first movement to that of the next.
 
     Parameters
     ----------
     target
-        Where the ball should be [m], shape (T,).
+        Intended place of the ball [m], shape (T,).
     """
     moving = np.diff(target, prepend=target[:1]) != 0.0
     starts = np.flatnonzero(moving & ~np.concatenate(([False], moving[:-1])))
@@ -59,11 +59,10 @@ def ways(target: Series) -> Iterator[slice]:
 
 
 def ball_settling_ms(missed: Series, target: Series) -> float:
-    """Return the time from when the target begins to move until the ball stays at it.
+    """Return the time from the beginning of the target's movement until the ball stays at it.
 
-    It counts as being there within :data:`NEAR`.
-
-    A target that is never reached to stay counts its whole time.
+    The ball is at the target within :data:`NEAR`. If it never comes to stay there, the target's
+    whole time counts.
 
     Parameters
     ----------
@@ -106,7 +105,7 @@ def velocity_peaks(place: Series, target: Series) -> tuple[float, float]:
 
 
 def _peaks(place: Series) -> list[float]:
-    """Return the speeds [m/s] at the turning points of the velocity, either way."""
+    """Return the speeds [m/s] at the turning points of the velocity, in either direction."""
     found: list[float] = []
     low = high = 0.0
     rising = falling = True

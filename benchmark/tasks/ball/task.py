@@ -33,15 +33,15 @@ BALL: Final = Ball()
 """The ball of the suite."""
 
 FELL: Final = "the ball rolled off the table"
-"""Why a lift without the ball ends."""
+"""Reason for the end of a lift in which the ball is lost."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class BallSteering(Haptic):
     """Steer the ball to its target place on the table, while the human lifts and lowers it.
 
-    The robot has :class:`.BallObservation`, with the target if both know it. The human has what it
-    sees of the ball (:class:`.BallSenses`), and :class:`.HumanObservation`.
+    The robot has :class:`.BallObservation`, with the target if both know it. The human has
+    :class:`.BallSenses`, the seen ball, and :class:`.HumanObservation`.
     """
 
     name: ClassVar[str] = "ball"
@@ -63,12 +63,12 @@ class BallSteering(Haptic):
         return np.concatenate((lift.haptic_view(), lift.ball_view()))
 
     def human_observation(self, lift: Playing) -> Observation:
-        """Return what the human sees of the ball, and the human's senses."""
+        """Return the human's view of the ball, and the human's senses."""
         assert isinstance(lift, BallLift)
         return lift.person_view(super().human_observation(lift), far=False)
 
     def partner_observation(self, lift: Playing) -> Observation:
-        """Return the same of a second human in the robot's place."""
+        """Return the same for a second human in the robot's place."""
         assert isinstance(lift, BallLift)
         return lift.person_view(super().partner_observation(lift), far=True)
 

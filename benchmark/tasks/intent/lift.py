@@ -12,11 +12,11 @@ from ..haptic import HapticLift
 
 
 class IntentLift(HapticLift):
-    """A lift whose human has an intended height for the far end, too.
+    """A lift whose human also has an intended height for the far end.
 
-    The human goes through the plan at a pace of its own (:class:`.Pace`). The human's reflexes even
-    out what differs from the intended height difference, and the wrists turn with the intended
-    pitch, as the person's manner has it (:class:`.LeadingManner`).
+    The human goes through the plan at a variable pace (:class:`.Pace`). The human's reflexes
+    correct deviations from the intended height difference, and the wrists turn with the intended
+    pitch according to the person's manner (:class:`.LeadingManner`).
     """
 
     def reset(self, seed: int) -> None:
@@ -40,7 +40,7 @@ class IntentLift(HapticLift):
         return np.array([planned_at(self.target, time) for time in self._times])
 
     def _plan_ahead(self) -> None:
-        """Settle the pace of the coming step."""
+        """Determine the pace of the coming step."""
         self._times = self._pace.coming(self.frames_per_step, self.world.robot_end)
         self._moved = 0
 

@@ -1,4 +1,4 @@
-"""Scores of poses: how near the ends are to where the human means them to be, and how soon."""
+"""Scores of poses: the ends' distances from their intended heights, and the times to settle."""
 
 import math
 from collections.abc import Sequence
@@ -28,7 +28,7 @@ def pose_rmse_mm(missed: Sequence[Heights], horizon: int) -> float:
     missed
         For each end, its height less the intended one [m], shape (T,) each.
     horizon
-        Frames H that the episode should have had; each that a failure cut off counts
+        Frames H that the episode should have had; each that a failure cut off counts with
         :data:`.FAILED_FRAME_MM`.
 
     Returns
@@ -42,10 +42,10 @@ def pose_rmse_mm(missed: Sequence[Heights], horizon: int) -> float:
 
 
 def settling_ms(missed: Heights, strokes: Sequence[Stroke]) -> float:
-    """Return the time from the beginning of a movement until the far end stays where it should be.
+    """Return the time from the beginning of a movement until the far end stays at its goal.
 
-    It counts as being there within :data:`NEAR`, until :data:`.STROKE_TAIL` after the movement. One
-    that is never there counts the whole time.
+    The far end is at its goal within :data:`NEAR` of the intended height; it is observed until
+    :data:`.STROKE_TAIL` after the movement. If it never stays there, the whole time counts.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def settling_ms(missed: Heights, strokes: Sequence[Stroke]) -> float:
 def peak_mm(missed: Heights, strokes: Sequence[Stroke]) -> float:
     """Return the largest distance of the far end from its intended height in a movement [mm].
 
-    The mean over the movements; arguments as of :func:`settling_ms`.
+    It is the mean over the movements; arguments as for :func:`settling_ms`.
     """
     peaks = [1000 * float(np.abs(window).max()) for window in _windows(missed, strokes)]
     return math.fsum(peaks) / len(peaks) if peaks else math.nan
@@ -83,7 +83,7 @@ def opposing_work_j(force: Heights, velocity: Heights) -> float:
     Parameters
     ----------
     force
-        Force of the hands on the table beyond what it weighs there [N], shape (T,).
+        Force of the hands on the table beyond their part of its weight [N], shape (T,).
     velocity
         Velocity of the hands [m/s], shape (T,).
     """

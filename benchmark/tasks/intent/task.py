@@ -31,9 +31,9 @@ BEHAVIOURS = ("together", "pivot", "counter", "switching")
 class Intent(Haptic):
     """Bring the table to the pose that the human intends: level, pivoted, or turned.
 
-    The robot has :class:`.HapticObservation`: it sees where the human's end goes, and feels what
-    the human's wrists do. The human has :class:`.HumanObservation`, and goes through the plan no
-    faster than the far end follows.
+    The robot has :class:`.HapticObservation`: it sees the motion of the human's end, and feels the
+    torque of the human's wrists. The human has :class:`.HumanObservation`, and slows down if the
+    far end does not follow.
     """
 
     name: ClassVar[str] = "intent"
@@ -45,7 +45,7 @@ class Intent(Haptic):
         return IntentLift(scenario)
 
     def human_observation(self, lift: Playing) -> Observation:
-        """Return the human's senses and the own end's intended heights in the coming step."""
+        """Return the human's senses and intended heights of the human's end in the coming step."""
         assert isinstance(lift, IntentLift)
         return lift.human_view(lift.intended())
 
@@ -85,7 +85,7 @@ class Intent(Haptic):
 
 
 def _missed(lift: Playing) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return how far the ends are above their intended heights in the last frame [m]."""
+    """Return the heights of the ends above their intended ones in the last frame [m]."""
     assert isinstance(lift, IntentLift)
     last = lift.frame - 1
     return (
