@@ -1,1 +1,1 @@
-"""The admission of a suite: whether its lifts need coordination, by figures."""
+"""The admission of a suite: measures of whether its lifts need coordination."""

@@ -44,9 +44,9 @@ class Admission:
     suite: str
     digest: str
     means: Mapping[str, float]
-    """Mean RMSE of everybody who played [mm]."""
+    """Mean RMSE of each player: policies, two people and the oracle [mm]."""
     by_person: Mapping[str, Mapping[str, float]]
-    """The same with each person [mm]."""
+    """Mean RMSE of each player with each person [mm]."""
     criteria: tuple[Criterion, ...]
 
     @property
@@ -85,7 +85,7 @@ def admission_of(
     pairs
         The result of :func:`.cross_play`; none: no pair was trained.
     executor, progress
-        As of :func:`.run_suite`.
+        As for :func:`.run_suite`.
 
     Raises
     ------

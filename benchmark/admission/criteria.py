@@ -1,4 +1,4 @@
-"""The criteria of admission, each a figure, a bar and what it means."""
+"""The criteria of admission, each with a figure, a bar and its meaning."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -17,13 +17,13 @@ from .published import Published
 from .variance import variance_shares
 
 ROOM: Final = 3.0
-"""How many times the error of the oracle the best level-keeper must have."""
+"""Least error of the best level-keeper, as a multiple of the oracle's."""
 
 INTERACTION: Final = 0.2
 """Least share of the variance that is interaction of policy and human."""
 
 IDLE: Final = 2.0
-"""How many times the error of the human-human baseline a robot that does nothing must have."""
+"""Least error of a robot that does nothing, as a multiple of the human-human baseline's."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,15 +32,15 @@ class Criterion:
 
     letter: str
     what: str
-    """What must hold, in words."""
+    """The condition in words."""
     figure: float | None
-    """What was measured; None if there was nothing to measure."""
+    """The measured figure; None if there was nothing to measure."""
     bar: str
-    """What it must be."""
+    """The limit of the figure, in words."""
     passed: bool | None
-    """Whether it is; None if there was nothing to measure."""
+    """Whether the figure is within the limit; None if there was nothing to measure."""
     detail: str
-    """The figures behind it, in words."""
+    """The underlying figures, in words."""
 
 
 def room(oracle: float, keepers: Mapping[str, Run]) -> Criterion:
@@ -58,16 +58,16 @@ def room(oracle: float, keepers: Mapping[str, Run]) -> Criterion:
 
 
 def interaction(runs: Mapping[str, Run], trained: Mapping[str, Run]) -> Criterion:
-    """Return whether it depends on the person which policy is good.
+    """Return whether the best policy depends on the person.
 
     Parameters
     ----------
     runs
-        Of policies that were made by hand, each with a view of its own of what people do.
+        Runs of policies designed by hand, each with its own assumptions about people.
     trained
-        Of policies that were trained with the suite's population. They are reported, and do not
-        count: one that has learned to get along with everybody leads everywhere, and its lead is
-        variance of policies, however different the people are.
+        Runs of policies that were trained with the suite's population. They are reported, but do
+        not count: a policy that has learned to cooperate with everybody leads everywhere, and its
+        lead adds to the variance of policies, however different the people are.
     """
     people = list(dict.fromkeys(each.subject for each in next(iter(runs.values())).episodes))
 
@@ -92,7 +92,7 @@ def interaction(runs: Mapping[str, Run], trained: Mapping[str, Run]) -> Criterio
 
 
 def rank_changes(runs: Mapping[str, Run]) -> Criterion:
-    """Return whether two policies are better than each other, each with some person."""
+    """Return whether two policies exist, each better than the other with some person."""
     changes = []
     for one, other in combinations(runs, 2):
         better = _better_with(runs[one], runs[other])
@@ -109,7 +109,7 @@ def rank_changes(runs: Mapping[str, Run]) -> Criterion:
 
 
 def conventions(played: NDArray[np.float64] | None) -> Criterion:
-    """Return whether pairs that were trained apart are better with themselves than across.
+    """Return whether pairs that were trained apart do better with their own partners.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Published figures of two people, to hold the simulated pair of a task to."""
+"""Published figures of two people, as references for the simulated pair of a task."""
 
 import dataclasses
 import math
@@ -18,16 +18,16 @@ from ..tasks.intent.task import Intent
 
 @dataclass(frozen=True, kw_only=True)
 class Published:
-    """A published figure of two people, and the same of a run of the human-human baseline."""
+    """A published figure of two people, and its counterpart in the human-human baseline."""
 
     what: str
     """The figure in words."""
     unit: str
     low: float
     high: float
-    """The interval that is published, or follows from what is."""
+    """The interval that was published, or follows from published figures."""
     source: str
-    """Who published it, and how the interval follows."""
+    """The publication, and the derivation of the interval."""
     measure: Callable[[Run], float]
     """Returns the figure of a run."""
 
@@ -40,7 +40,7 @@ class Published:
 
 
 def negotiation_s(run: Run) -> float:
-    """Return how much longer two people take to a pose that has to be found out [s].
+    """Return the additional time that two people need for a pose that has to be inferred [s].
 
     The mean time to the right pose where the far end stays or moves the other way, less that where
     the table stays level.
@@ -57,12 +57,12 @@ def negotiation_s(run: Run) -> float:
 
 
 def roles_mw(run: Run) -> float:
-    """Return by how much more people lead to their own hurdles if they know less of each other.
+    """Return the increase in leading to one's own hurdle with less information about the partner.
 
     The pair plays the lifts with two secrets, with the seeds below :data:`CROSSING_SEEDS`, twice:
-    as they are, and with an uncertainty of :data:`LITTLE_KNOWN`. Of the hurdles that are crossed
-    both times, which are few in a suite, the figure is the mean difference of the power with which
-    their holders lead [mW], at the lower end of its 95 % interval.
+    as they are, and with an uncertainty of :data:`LITTLE_KNOWN`. The figure is the mean difference
+    of the power with which the holders of hurdles lead [mW], at the lower end of its 95 % interval,
+    over the hurdles that are crossed both times. A suite alone has few of these.
     """
     suite = run.suite.with_seeds(0, CROSSING_SEEDS)
     both = [each for each in suite.scenarios if each.behaviour in ("abreast", "ahead", "behind")]
@@ -78,7 +78,7 @@ def roles_mw(run: Run) -> float:
 
 
 def _leading_mw(run: Run) -> NDArray[np.float64]:
-    """Return how far the holder of each end leads [mW], (lifts, 2)."""
+    """Return the power with which the holder of each end leads [mW], (lifts, 2)."""
     return np.array(
         [[each.scores["human_leads_mw"], each.scores["robot_leads_mw"]] for each in run.episodes]
     )

@@ -1,4 +1,4 @@
-"""The shares of policy, of human and of the match of both in the variance of errors."""
+"""The shares of policy, human and their interaction in the variance of errors."""
 
 from dataclasses import dataclass
 
@@ -13,11 +13,11 @@ class VarianceShares:
     """Shares of the variance of a table of policies (rows) and humans (columns); their sum is 1."""
 
     policy: float
-    """Of the row means: some policies are better with everybody."""
+    """Share of the row means: some policies are better with everybody."""
     human: float
-    """Of the column means: some humans are harder for every policy."""
+    """Share of the column means: some humans are harder for every policy."""
     interaction: float
-    """Of what is left: some policies suit some humans."""
+    """Share of the rest: some policies suit some humans."""
 
 
 def variance_shares(table: ArrayLike) -> VarianceShares:

@@ -1,1 +1,1 @@
-"""Bounds on any policy: one that knows the future, and one that learned all there is to see."""
+"""Bounds on any policy: one that knows the future, and one learned from all observations."""

@@ -1,4 +1,4 @@
-"""The value of each part of `anticipate`: the policy without it, on lifts with new people."""
+"""The value of each part of `anticipate`: the policy without that part, with new people."""
 
 import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -27,17 +27,17 @@ class Variant:
     """The policy without one of its parts."""
 
     name: str
-    """What it lacks."""
+    """The part that it lacks."""
     window: dict[str, int] = field(default_factory=dict)
-    """What differs in the window of its inputs."""
+    """Differences in the window of its inputs."""
     hidden: Sequence[int] = HIDDEN
     """Units of its hidden layers."""
     first_round: bool = False
     """Whether it learns from the first round only."""
     only: Sequence[str] = CURRICULUM
-    """Ways to move of the people that it learns from."""
+    """Behaviours of the people that it learns from."""
     parameters: dict[str, Any] = field(default_factory=dict)
-    """What differs in its parameters."""
+    """Differences in its parameters."""
 
     @property
     def learns(self) -> bool:
@@ -69,9 +69,9 @@ class Ablation:
     rmse_mm: float
     sparc: float
     worse_mm: Estimate | None
-    """RMSE minus that of the whole, lift by lift; none for the whole itself."""
+    """RMSE minus that of the whole, lift by lift; None for the whole itself."""
     rougher: Estimate | None
-    """SPARC of the whole minus its own, over the lifts in which both move along."""
+    """SPARC of the whole minus that of the variant, over the lifts in which both move along."""
 
 
 def variants(first: Lesson, last: Lesson, *, seed: int = 0) -> Iterator[AnticipationSpec]:
@@ -80,7 +80,7 @@ def variants(first: Lesson, last: Lesson, *, seed: int = 0) -> Iterator[Anticipa
     Parameters
     ----------
     first, last
-        What the first and the last round of learning led to.
+        Results of the first and the last round of learning.
     seed
         Seed of the fits.
     """
@@ -100,7 +100,7 @@ def variants(first: Lesson, last: Lesson, *, seed: int = 0) -> Iterator[Anticipa
 
 
 def narrowed(data: TrainingData, window: FeatureWindow) -> TrainingData:
-    """Return training data for a narrower window: the first of its inputs."""
+    """Return training data for a narrower window: the first inputs only."""
     return dataclasses.replace(data, inputs=data.inputs[:, : window.size])
 
 

@@ -9,13 +9,13 @@ from .causal import CAUSAL_BOUND, causal_run, has_causal_bound
 from .oracle import ORACLE, ORACLES, oracle_run
 
 BOUNDS: Final[Mapping[str, Bound]] = {CAUSAL_BOUND: causal_run, ORACLE: oracle_run}
-"""The bounds by name. They are in no registry: no board can take them."""
+"""The bounds by name. They are in no registry, so that no board can accept them."""
 
 
 def suite_bounds(suite: Suite) -> Mapping[str, Bound]:
     """Return the bounds of a suite by name, as far as its task has them.
 
-    The causal bound is left out if the suite's latency or control period is another than its own.
+    The causal bound is left out if it was learned with another latency or control period.
     """
     has_oracle = suite.scenarios[0].task.name in ORACLES
     known = {CAUSAL_BOUND: has_causal_bound(suite), ORACLE: has_oracle}

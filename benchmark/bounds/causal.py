@@ -1,4 +1,4 @@
-"""The causal bound, learned from all that can be seen."""
+"""The causal bound, learned from all observations."""
 
 import hashlib
 from collections.abc import Callable
@@ -28,19 +28,20 @@ BOUNDED: Final = (LEVEL.name, *TASK_SENSES)
 """Names of the tasks for which a causal bound was learned."""
 
 LEARNED_TIMING: Final = (LATENCY, CONTROL_PERIOD)
-"""Latency and control period with which it was learned [s]."""
+"""Latency and control period with which the bound was learned [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class CausalBound(InProcess):
     """The causal bound of a task, as :class:`.AgentSpec`.
 
-    It is an estimate, not a proof: the lowest error known of a policy with a policy's observation,
-    the paper's latency and control period. It has the equations of the task's learned policy
+    It is an estimate, not a proof: the lowest known error of a policy with a policy's observations,
+    at the paper's latency and control period. It has the equations of the task's learned policy
     (:class:`.Learned`, or :class:`.TouchController`), and was trained in the same way, by gradients
-    through the twin's lifts, for the error alone: nothing was given away for smoothness, for other
-    people than the benchmark's, or for other arms. That of a level table saw its own hand with
-    0.1 mm of noise; a policy that relies on exact encoders may come lower, but no robot has them.
+    through the twin's lifts, for the error alone: nothing was traded for smoothness, for people
+    other than the benchmark's, or for other arms. The bound of a level table saw its own hand with
+    0.1 mm of noise; a policy that relies on exact encoders may reach a lower error, but no robot
+    has them.
     """
 
     name: str = CAUSAL_BOUND

@@ -13,7 +13,7 @@ from .causal import CAUSAL_BOUND
 
 POLICY: Final = "learned"
 RIVALS: Final = ("anticipate", "blend", "reactive")
-"""The best policy before it, and the paper's."""
+"""The best policy before `learned`, and the paper's."""
 
 TO_HUMAN_HUMAN: Final = {"smooth": 0.70, "pause": 0.70, "jerky": 1.15, "changing_goal": 0.70}
 TO_HUMAN_HUMAN_OVER_ALL: Final = 0.75
@@ -30,7 +30,7 @@ TO_BLEND: Final = 0.35
 """Largest RMSE over that of `blend`, on smooth and on recorded lifts."""
 
 WINS: Final = 0.98
-"""Smallest fraction of the recorded lifts in which it is more level than `blend`."""
+"""Smallest fraction of the recorded lifts in which `learned` is more level than `blend`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,7 +42,7 @@ class PolicyClaim:
     ci95: Interval | None
     limit: float
     least: bool = False
-    """Whether the limit is the least the value may be; else the most."""
+    """Whether the limit is the least allowed value; otherwise it is the largest."""
 
     @property
     def holds(self) -> bool:
@@ -53,8 +53,9 @@ class PolicyClaim:
 def claims(results: PairedResults) -> tuple[PolicyClaim, ...]:
     """Return the claims, measured on the policy, its rivals and the bounds.
 
-    The causal bound and the rivals are needed, and the human-human baseline is always there. On
-    recorded lifts neither the human-human baseline nor the bound is a limit: people follow no plan.
+    The results must have the causal bound and the rivals; the human-human baseline is always there.
+    On recorded lifts neither the human-human baseline nor the bound is a limit: people follow no
+    plan.
     """
     by_name = {policy.name: policy for policy in results.policies}
     strata = results.human_human.strata
@@ -106,7 +107,7 @@ def claims(results: PairedResults) -> tuple[PolicyClaim, ...]:
 
 
 def _kinder(by_name: dict[str, PolicyResults], results: PairedResults) -> Iterator[PolicyClaim]:
-    """Yield the claims that it moves more smoothly, and is no harder on the human's hands."""
+    """Yield the claims that it moves more smoothly, with no more force at the human's hands."""
     for name in ("blend", "reactive"):
         smoother = [_values(by_name[other], "sparc") for other in (POLICY, name)]
         moved = ~(np.isnan(smoother[0]) | np.isnan(smoother[1]))

@@ -1,4 +1,4 @@
-"""Lifts with people that nothing was learned from or tuned on."""
+"""Lifts with people on whom nothing was learned or tuned."""
 
 from typing import Final
 
@@ -17,16 +17,16 @@ def held_out_suite(people: int, lifts: int, first_seed: int = FIRST_SEED) -> Sui
     Parameters
     ----------
     people
-        How many: ``Subject.draw`` of the seeds from ``first_seed`` on.
+        Number of people: ``Subject.draw`` of the seeds from ``first_seed`` on.
     lifts
-        Lifts with each on each behaviour, on the seeds from ``first_seed`` on.
+        Number of lifts with each person on each behaviour, with the seeds from ``first_seed`` on.
     first_seed
         From :data:`FIRST_SEED` on.
 
     Raises
     ------
     InputError
-        If there is nobody, no lift, or the seed is one to learn from.
+        If there are no people or no lifts, or the seed is one for learning.
     """
     if people < 1 or lifts < 1:
         raise InputError(f"at least 1 person and 1 lift are needed, got {people} and {lifts}")

@@ -1,4 +1,4 @@
-"""The oracle: knows what the human will do, and has the same arm. It is no policy: it cheats."""
+"""The oracle: it knows the human's plan, with the same arm. It is not a policy: it cheats."""
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
@@ -40,8 +40,8 @@ def foreknow(lift: Lift, seed: int) -> Episode:
 def foreknow_hurdles(lift: Lift, seed: int) -> Episode:
     """Return the episode of a seed with hurdles, played by the oracle.
 
-    It has tried its own ways (:func:`.foreknow_agreement`), and what a policy would do that knows
-    no secret; the better of these it has rehearsed further (:func:`.refine`).
+    It tries its own ways (:func:`.foreknow_agreement`) and those of a policy that knows no private
+    hurdle, and rehearses the better of them further (:func:`.refine`).
     """
     causal = run_episode(lift, CausalBound(task=Agree.name).make(), seed)
     known = foreknow_agreement(lift, seed)
@@ -54,7 +54,7 @@ ORACLES: Final[Mapping[str, Callable[[Lift, int], Episode]]] = {
     Intent.name: foreknow_pose,
     BallSteering.name: foresee,
 }
-"""What an oracle does by task: it returns the episode of a lift with a seed."""
+"""Oracles by task: each returns the episode of a lift with a seed."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,7 +77,7 @@ def oracle_run(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> Run:
-    """Return the oracle's episodes on a suite; ``executor`` and ``progress`` as of run_suite.
+    """Return the oracle's episodes on a suite; ``executor`` and ``progress`` as for run_suite.
 
     Raises
     ------

@@ -18,10 +18,10 @@ from .anticipation_spec import AnticipationSpec
 from .oracle import ORACLE, oracle_run
 
 LATENCIES: Final = (0.0, 0.05, 0.1, 0.15, 0.2)
-"""At the paper's control period [s]."""
+"""Latencies at the paper's control period [s]."""
 
 PERIODS: Final = (0.02, 0.04, 0.06, 0.08, 0.1)
-"""At the paper's latency [s]."""
+"""Control periods at the paper's latency [s]."""
 
 FIXED: Final = ("reactive", "blend")
 """Policies that are not learned anew for each timing: they have no parameters that depend on it."""
@@ -50,7 +50,7 @@ def timings() -> tuple[Timing, ...]:
 
 
 def lifts_to_play(suite: Suite, lifts: int) -> int:
-    """Return how many lifts :func:`sweep` plays, for a progress bar."""
+    """Return the number of lifts that :func:`sweep` plays, for a progress bar."""
     return len(timings()) * (ROUNDS * lifts + len(NAMES) * suite.size) + suite.size
 
 
@@ -63,14 +63,14 @@ def sweep(
 ) -> Iterator[Swept]:
     """Yield the scores of each policy and of the oracle at each timing.
 
-    `anticipate` is learned for each timing, as the shipped one and on its seeds: what is known of
-    people depends on when one looks. From fewer lifts than the shipped one it is somewhat worse
-    than it could be; from a hundred or so it may even sway.
+    `anticipate` is learned for each timing, in the way and on the seeds of the shipped one, since
+    the forecast depends on the timing. Learned from fewer lifts than the shipped one, it is
+    somewhat worse than it could be; with about a hundred lifts it may even oscillate.
 
     Parameters
     ----------
     suite
-        The episodes, at any timing; seeds and people that are not learned from.
+        The episodes, at any timing; with seeds and people that are not used for learning.
     lifts
         Lifts of a round of learning, at each timing.
     executor, progress
@@ -97,7 +97,7 @@ def human_human_rmse(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
 ) -> float:
-    """Return the mean RMSE of the human-human baseline [mm]: it has no such timing."""
+    """Return the mean RMSE of the human-human baseline [mm]; it does not depend on the timing."""
     run = human_human_run(suite, executor=executor, progress=progress)
     return float(np.mean([episode.scores["rmse_mm"] for episode in run.episodes]))
 

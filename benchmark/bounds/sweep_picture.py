@@ -39,7 +39,7 @@ def sweep_figure(swept: Sequence[Swept], human_human: float, title: str) -> Figu
     human_human
         Mean RMSE of the human-human baseline [mm], a line.
     title
-        What stands above.
+        Text above the picture.
     """
     figure = Figure(figsize=(8.0, 4.2), dpi=130, facecolor=PAPER, layout="constrained")
     FigureCanvasAgg(figure)

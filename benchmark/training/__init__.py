@@ -1,1 +1,1 @@
-"""Training of the shipped policies, and the data they are trained on."""
+"""Training of the shipped policies, and the data on which they are trained."""

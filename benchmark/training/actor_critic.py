@@ -1,4 +1,4 @@
-"""Proximal policy optimisation of one agent, by what it sensed and earned: network and update. JAX.
+"""Proximal policy optimisation of one agent, from its inputs and rewards. Needs JAX.
 
 The policy is moved by the clipped objective along estimated advantages (J. Schulman et al.,
 "Proximal policy optimization algorithms", arXiv:1707.06347, and "High-dimensional continuous
@@ -28,7 +28,7 @@ class Experience(NamedTuple):
     action: jax.Array
     """Corrections before the tanh."""
     log_density: jax.Array
-    """Of the action, as it was drawn."""
+    """Logarithm of the density from which the action was drawn."""
     value: jax.Array
     """Estimated sum of the rewards to come."""
     reward: jax.Array
@@ -42,7 +42,7 @@ class Learner(NamedTuple):
     parameters: Tree
     """``policy`` and ``value``, two networks, and ``log_noise``."""
     memory: Tree
-    """Of the optimiser."""
+    """State of the optimiser."""
 
 
 class Decision(NamedTuple):
@@ -55,7 +55,7 @@ class Decision(NamedTuple):
 
 
 def start(settings: PpoSettings, inputs: int, key: jax.Array) -> Tree:
-    """Return the first parameters: no correction on average, and no idea of a value."""
+    """Return the first parameters: the mean correction and the estimated value are 0."""
     keys, hidden = jax.random.split(key, 6), settings.hidden
     layer = jax.nn.initializers.orthogonal(2**0.5)
 
@@ -79,13 +79,13 @@ def start(settings: PpoSettings, inputs: int, key: jax.Array) -> Tree:
 
 
 def new_learner(settings: PpoSettings, inputs: int, key: jax.Array) -> Learner:
-    """Return an agent that has learned nothing."""
+    """Return an agent that has not learned anything."""
     parameters = start(settings, inputs, key)
     return Learner(parameters, optimiser(settings).init(parameters))
 
 
 def optimiser(settings: PpoSettings) -> optax.GradientTransformation:
-    """Return Adam with a rate that falls to zero in a line, and bounded gradients."""
+    """Return Adam with a rate that falls linearly to zero, and bounded gradients."""
     falling = optax.linear_schedule(
         settings.rate, 0.0, settings.updates * settings.epochs * settings.batches
     )
@@ -151,7 +151,7 @@ def objective(
 
 
 def learn(settings: PpoSettings, learner: Learner, played: Experience, key: jax.Array) -> Learner:
-    """Return the agent after some passes through what it played, in an order drawn by the key."""
+    """Return the agent after some passes through its experience, in an order drawn by the key."""
     advantage = advantages(settings, played)
     aim = advantage + played.value
     total = played.valid.sum()

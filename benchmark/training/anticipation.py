@@ -1,9 +1,10 @@
-"""Learning to anticipate: a perceptron of how people move on, fitted to lifts with new people.
+"""Learning to anticipate: a perceptron that forecasts motion, fitted to lifts of new people.
 
 It is learned in rounds, as in dataset aggregation (S. Ross, G. Gordon, D. Bagnell, "A reduction of
 imitation learning and structured prediction to no-regret online learning", AISTATS 2011): people
-give in to the robot, so that they move a little differently with each policy. In the first round
-the robot extrapolates, in each further one it anticipates with what was learned from all before.
+yield to the robot, so that they move a little differently with each policy. In the first round the
+robot extrapolates; in each further one it anticipates with the model learned from all earlier
+rounds.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -24,13 +25,14 @@ from .data import LEADS, ROAMING, Timing, TrainingData, training_data
 from .scikit import import_sklearn, reproducible_fit
 
 CURRICULUM: Final = (*BEHAVIOURS, ROAMING)
-"""Behaviours of the people learned from, in turn."""
+"""Behaviours of the people in the training data, in turn."""
 
 FIRST_SEED: Final = TRAINING_SEEDS[0]
 """Seed of the first lift, far from those of the suites, the calibration and the demonstrations."""
 
 LAST_SEED: Final = TRAINING_SEEDS[-1]
-"""Last seed to learn from: from 200000 on, policies are compared on people that none has met."""
+"""Last seed for learning: from 200000 on, policies are compared on people that none of them has
+met."""
 
 LIFTS: Final = 1500
 """Lifts per round."""
@@ -48,16 +50,16 @@ BATCH: Final = 512
 """Samples of a step of the fit."""
 
 CHUNK: Final = 100_000
-"""Most samples that are looked at in one go when the fit is judged: more would fill the memory."""
+"""Most samples that are evaluated at once when the fit is judged: more would fill the memory."""
 
 
 def fit(
     data: TrainingData, *, hidden: Sequence[int] = HIDDEN, seed: int = 0
 ) -> tuple[Perceptron, NDArray[np.float64]]:
-    """Fit a perceptron to training data, by Adam on the mean squared error; a line, exactly.
+    """Fit a perceptron to training data by Adam, or a linear map exactly, in mean squared error.
 
-    Every outcome counts alike: errors are relative to those of the best linear function. The fit
-    is scikit-learn's, in one thread, so that the same data give the same bits.
+    All outcomes have equal weight: errors are relative to those of the best linear function. The
+    fit is scikit-learn's, in one thread, so that the same data give the same bits.
 
     Returns
     -------
@@ -144,11 +146,11 @@ def collect_training_data(
 
 
 class Lesson(NamedTuple):
-    """What a round of learning led to."""
+    """The result of a round of learning."""
 
     model: Anticipation
     data: TrainingData
-    """All that it was learned from."""
+    """All data from which it was learned."""
 
 
 def learn_anticipation(
@@ -162,7 +164,7 @@ def learn_anticipation(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
 ) -> Iterator[Lesson]:
-    """Yield what was learned after each round; the last is the result.
+    """Yield the lesson of each round; the last one is the result.
 
     Parameters
     ----------
@@ -175,9 +177,9 @@ def learn_anticipation(
     first_seed
         Seed of the first lift.
     behaviours
-        How the people move, see :func:`.scenario`.
+        Behaviours of the people, see :func:`.scenario`.
     executor
-        Plays the lifts; none: in this process.
+        Plays the lifts; None plays them in this process.
     progress
         Called with the number of lifts that were finished since the last call.
 
@@ -238,7 +240,7 @@ def learned(
 
 
 def window_for(timing: Timing) -> FeatureWindow:
-    """Return the window of a robot: as many values as at the paper's timing, or 1.2 s."""
+    """Return the window for a timing: as many values as at the paper's, or 1.2 s."""
     period = timing.control_period
     return FeatureWindow(
         interval=period, velocities=max(FeatureWindow.velocities, round(1.2 / period))

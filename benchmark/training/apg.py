@@ -1,10 +1,10 @@
 """Analytic policy gradients: a recurrent policy by gradients through whole lifts of the twin.
 
 The loss is that of a :class:`.GradientLesson`, such as :mod:`.level_lesson`.
-The variation of the arms grows from the first update to the last: arms that vary much from the
-beginning lead to a policy that is less exact with all of them.
-Nothing is estimated: the gradient is that of the lifts themselves (compare J. Freeman et al.,
-"Brax", NeurIPS 2021, on short-horizon actor-critic and analytic gradients).
+The variation of the arms grows from the first update to the last: with a large variation from the
+beginning, the policy becomes less exact with all arms. Nothing is estimated: the gradient is that
+of the lifts themselves (compare J. Freeman et al., "Brax", NeurIPS 2021, on short-horizon
+actor-critic and analytic gradients).
 """
 
 from collections.abc import Iterator
@@ -21,7 +21,7 @@ from .lesson import BatchDraw, GradientLesson
 from .lessons import lesson_of
 
 LARGEST_GRADIENT: Final = 5.0
-"""Norm to which gradients are cut."""
+"""Norm to which gradients are clipped."""
 
 
 class Learner(NamedTuple):
@@ -43,7 +43,7 @@ class Update(NamedTuple):
 
 
 def optimiser(settings: ApgSettings) -> optax.GradientTransformation:
-    """Return Adam with its schedule and the cut of the gradients."""
+    """Return Adam with its schedule and the clipping of gradients."""
     warm = max(settings.updates // 20, 1)
     schedule = optax.warmup_cosine_decay_schedule(
         0.1 * settings.rate, settings.rate, warm, max(settings.updates, warm + 1)
@@ -54,7 +54,7 @@ def optimiser(settings: ApgSettings) -> optax.GradientTransformation:
 def first_learner(
     settings: ApgSettings, seed: int, lesson: GradientLesson | None = None
 ) -> Learner:
-    """Return the learner before the first update; arguments as of :func:`updates`."""
+    """Return the learner before the first update; arguments as for :func:`updates`."""
     network = (lesson or lesson_of(settings.task)).first(settings, seed)
     return Learner(network, optimiser(settings).init(network), 0)
 
@@ -70,16 +70,14 @@ def updates(
 
     Parameters
     ----------
-    settings
-        Of the training.
-    seed
-        Of the first weights and of the batches; the lifts are the same for all.
+    settings The settings of the training. seed
+        Seed of the first weights and of the batches; the lifts are the same for all seeds.
     learner
-        Where to go on; none: from the beginning.
+        The learner to continue from; None starts from the beginning.
     pool
-        The drawn lifts; none: draw them.
+        The drawn lifts; None draws them.
     lesson
-        Another lesson than that of the settings' task.
+        A lesson to use instead of that of the settings' task.
     """
     lesson = lesson or lesson_of(settings.task)
     learner = learner or first_learner(settings, seed, lesson)
@@ -99,7 +97,7 @@ def updates(
 
 
 def _finished(function: Any, *arguments: Any) -> Any:
-    """Return what a function of JAX returns, once it has been computed."""
+    """Return the result of a function of JAX, once it has been computed."""
     result = function(*arguments)
     for leaf in jax.tree.leaves(result):
         leaf.block_until_ready()

@@ -25,13 +25,11 @@ POINTS: Final = 20
 def train_apg(
     settings: ApgSettings, course: Course, progress: Callable[[int], None] = lambda many: None
 ) -> None:
-    """Train, or go on where the course was interrupted, and write the policy.
+    """Train, or continue where the course was interrupted, and write the policy.
 
     Parameters
     ----------
-    settings
-        Of the training.
-    course
+    settings The settings of the training. course
         Its folder and seed.
     progress
         Called with the number of updates since the last call.

@@ -20,7 +20,7 @@ SOME_TASKS: Final = {
     "smoothness": TASKS[:1],
     "gentleness": TASKS[:1],
 }
-"""Settings that the training of some tasks alone uses, with these tasks."""
+"""Settings that only the training of some tasks uses, with these tasks."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +38,7 @@ class ApgSettings:
     updates: int = 800
     """Steps of the optimiser."""
     lifts: int = 4000
-    """Lifts that batches are drawn from."""
+    """Lifts from which batches are drawn."""
     batch: int = 256
     """Lifts of an update."""
     units: int = 64
@@ -46,19 +46,19 @@ class ApgSettings:
     rate: float = 3e-3
     """Learning rate at its highest; it rises for 5 % of the updates, then falls as a cosine."""
     wide: float = 0.2
-    """Of a level table: share of lifts with people, bodies and sensors from wide ranges. Of tasks
-    with hurdles and poses: how much longer the ranges of people's manners are than the
-    population's. A ball's people always have the population's, since others fling it about."""
+    """For a level table: share of lifts with people, bodies and sensors from wide ranges. For tasks
+    with hurdles and poses: extension of the ranges of people's manners beyond the population's.
+    With a ball, people always have the population's manners, since others fling it about."""
     varied: float = 0.2
     """Variation of the arms in the last update; see :meth:`varied_in`."""
     encoders: float = 1e-4
-    """Noise of the own hand's height and command, as the policy sees them [m], which the benchmark
-    does not have: no more than a NAO's joints can tell (12 bits a turn, at 0.2 m). Without it a
-    policy learns to rely on micrometres. Of a level table alone."""
+    """Noise of the observed height and command of the robot's hand [m], which the benchmark does
+    not have: at most the resolution of a NAO's joints (12 bits per turn, at 0.2 m). Without it a
+    policy learns to rely on micrometres. Only for a level table."""
     smoothness: float = 0.05
-    """Cost of bends, relative to the RMSE; of a level table alone."""
+    """Cost of bends, relative to the RMSE; only for a level table."""
     gentleness: float = 0.0
-    """Cost of the force at the human's hands [mm/N]; of a level table alone."""
+    """Cost of the force at the human's hands [mm/N]; only for a level table."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
@@ -87,7 +87,7 @@ class ApgSettings:
         return self.varied * (update + 1) / self.updates
 
     def of_loss(self) -> "ApgSettings":
-        """Return the settings that the loss of a batch depends on, with the defaults of others."""
+        """Return the settings that affect the loss of a batch, with defaults for the others."""
         others = ("updates", "rate", "varied")
         return replace(self, **{name: getattr(ApgSettings, name) for name in others})
 
@@ -98,7 +98,7 @@ def pair_settings(task: str) -> ApgSettings:
     Raises
     ------
     InputError
-        If the task is none with touch, or has no twin.
+        If the task is not one with touch, or has no twin.
     """
     paired = TASKS[1:]
     if task not in paired:

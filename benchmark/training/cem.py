@@ -51,8 +51,8 @@ class CemSettings:
     inertia: float = 0.2
     """Share of the old distribution in the new one."""
     noise: float = 0.1
-    """Deviation added to the elite's in the first generation, relative to the initial one; it
-    falls to zero, and keeps the distribution from narrowing on the chances of a few lifts."""
+    """Deviation added to the elite's in the first generation, relative to the initial one; it falls
+    to zero, and keeps the distribution from narrowing too early on a few lifts."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
@@ -79,9 +79,9 @@ def train_cem(
     Parameters
     ----------
     settings, course
-        What is trained, and where it is written.
+        Settings of the training, and the folder for its results.
     executor
-        Plays the lifts; none: in this process.
+        Plays the lifts; None plays them in this process.
     progress
         Called with the number of lifts, for all candidates, that were finished since the last call.
 
@@ -164,7 +164,7 @@ def unpack(settings: CemSettings, parameters: Array) -> Weights:
 
 
 def policy(settings: CemSettings, parameters: Array) -> MakeAgent:
-    """Return what makes the policy of a vector of parameters.
+    """Return a function that makes the policy of a vector of parameters.
 
     Raises
     ------

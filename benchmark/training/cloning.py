@@ -1,4 +1,4 @@
-"""Behaviour cloning: the actions of a data set, fitted by least squares. Needs JAX: import it late.
+"""Behaviour cloning: the actions of a data set, fitted by least squares; a late import, for JAX.
 
     minimise  mean (pi(s) - a)^2 over the steps (s, a) of the data,
 
@@ -24,7 +24,7 @@ def learning(settings: CloneSettings, data: OfflineData, seed: int) -> Learning:
     Parameters
     ----------
     settings, data
-        How, and from what, it learns.
+        Settings and data of the training.
     seed
         Seed of the first weights.
     """
@@ -33,7 +33,7 @@ def learning(settings: CloneSettings, data: OfflineData, seed: int) -> Learning:
     optimiser = optax.adam(optax.cosine_decay_schedule(settings.rate, settings.updates))
 
     def loss(actor: Layers, inputs: jax.Array, actions: jax.Array) -> jax.Array:
-        """Return the mean square of the policy's distance from the data."""
+        """Return the mean square of the policy's deviation from the data."""
         return jnp.mean((jnp.tanh(forward(actor, inputs)) - actions) ** 2)
 
     def update(

@@ -1,9 +1,9 @@
 """Fictitious co-play on the twin: a robot for people whom it has not met, without data of people.
 
-A population of people is made by self-play: from several trainings with different seeds, the person
-of the beginning, of half of the updates and of the end is kept, so that habits and skills differ.
-Then a robot is trained with all of them, who no longer learn (D. Strouse et al., "Collaborating
-with humans without human data", NeurIPS 2021).
+A population of people is made by self-play: from each of several trainings with different seeds,
+the person at the beginning, half-way and at the end is kept, so that habits and skills differ. Then
+a robot is trained with all of them, who no longer learn (D. Strouse et al., "Collaborating with
+humans without human data", NeurIPS 2021).
 """
 
 import functools
@@ -29,7 +29,7 @@ class Stage(NamedTuple):
     """The state of a training by co-play."""
 
     pair: Pair
-    """The pair that learns by self-play; at last, the robot that learns with the population."""
+    """The pair that learns by self-play; in the end, the robot that learns with the population."""
     population: Tree
     """Parameters of the people who were kept, each array with the first axis (3 * population)."""
 
@@ -41,7 +41,7 @@ def train_co_play(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda updates: None,
 ) -> None:
-    """Train a population and a robot, and write this into the folder of the course; or resume it.
+    """Train a population and a robot, or resume this, and write the robot into the course's folder.
 
     The points of the curve are errors in the engine with the benchmark's people, from whom nothing
     is learned: of the robots of the self-play, then of the one that is written.
@@ -49,9 +49,9 @@ def train_co_play(
     Parameters
     ----------
     settings, course
-        What is trained, and where it is written.
+        Settings of the training, and the folder for its results.
     executor
-        Plays the lifts of the curve; none: in this process.
+        Plays the lifts of the curve; None plays them in this process.
     progress
         Called with the number of updates that were finished since the last call.
 
@@ -102,7 +102,7 @@ def train_co_play(
 
 
 def first_stage(settings: CoPlaySettings, seed: int) -> Stage:
-    """Return the state of the beginning: nobody has learned, and nobody is kept."""
+    """Return the initial state: nobody has learned, and nobody is kept."""
     pair = new_pair(settings, seed)
     places = KEPT * settings.population
     return Stage(
@@ -127,7 +127,7 @@ def _compiled(settings: CoPlaySettings) -> Callable[[Learner, Tree, Body, jax.Ar
 def _update(
     settings: CoPlaySettings, robot: Learner, population: Tree, arms: Body, key: jax.Array
 ) -> Learner:
-    """Return the robot after lifts with people of the population, each with as many."""
+    """Return the robot after lifts with the population, with equally many for each person."""
     goals, noise, order = jax.random.split(key, 3)
     member = jnp.arange(settings.lifts) % (KEPT * settings.population)
     chosen = jax.tree.map(lambda leaf: leaf[member], population)

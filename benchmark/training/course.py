@@ -60,7 +60,7 @@ class Course:
 
     @property
     def policy(self) -> Path:
-        """The folder of the trained policy: there when the training has ended."""
+        """The folder of the trained policy: it exists when the training has ended."""
         return self.folder / f"seed-{self.seed}"
 
     @property
@@ -76,12 +76,12 @@ class Course:
         point
             The next point.
         state
-            Everything that the training goes on from.
+            Everything from which the training continues.
 
         Raises
         ------
         InputError
-            If a number is not finite, or a file cannot be written; the files are then as before.
+            If a number is not finite, or a file cannot be written; the files are then unchanged.
         """
         for name, value in {**state, "rmse_mm": np.array(point.rmse_mm)}.items():
             check_finite(name, value)
@@ -105,7 +105,7 @@ class Course:
         Parameters
         ----------
         shapes
-            The arrays that the state must have; None: it is not checked.
+            The arrays that the state must have; with None it is not checked.
 
         Raises
         ------
@@ -158,7 +158,7 @@ def open_course(
     trainer
         Its name.
     settings
-        A dataclass of plain values: everything but the seed that the result depends on.
+        A dataclass of plain values: everything on which the result depends, except the seed.
     seed
         Its seed.
     report
@@ -190,7 +190,7 @@ def open_course(
 
 
 def _check_same(path: Path, known: Any, wanted: Mapping[str, Any]) -> None:
-    """Raise an InputError that names what differs between two trainings."""
+    """Raise an InputError that names the first difference between two trainings."""
     if not isinstance(known, dict):
         raise InputError(f"{path}: not the settings of a training")
     for name in {**wanted, **known}:
@@ -230,7 +230,7 @@ def write_whole(path: Path, content: bytes) -> None:
 
 
 def put_in_place(made: Path, folder: Path) -> None:
-    """Put a folder that is complete in the place of another, or of nothing."""
+    """Move a complete folder to a place, replacing another there if any."""
     shutil.rmtree(folder, ignore_errors=True)
     made.replace(folder)
 

@@ -1,4 +1,4 @@
-"""Training data for anticipation: lifts with simulated people, looked at again."""
+"""Training data for anticipation: lifts with simulated people, sampled several times."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -23,22 +23,22 @@ from .roaming import Roaming
 Array = NDArray[np.float64]
 
 LEADS: Final = tuple(round(0.05 * i, 2) for i in range(10))
-"""Times from now that are foreseen [s]: the foresight of the policy, and a little."""
+"""Times from now to forecast [s]: the policy's horizon, and a little more."""
 
 ROAMING: Final = "roaming"
 """Name of the behaviour :class:`.Roaming`, which is in no registry."""
 
 LOOKS: Final = 5
-"""Times at which each period of a lift is looked at, as if the robot had decided then."""
+"""Number of times at which each period of a lift is sampled, as if the robot had decided then."""
 
 DISTURBANCE: Final = (0.002, 0.6)
-"""Size [m] and persistence a step of the random disturbance of the robot's command in half of the
+"""Size [m] and persistence per step of the random disturbance of the robot's command in half of the
 lifts, so that the model can separate reactions to the robot from joint motion."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Timing:
-    """When a robot sees and acts."""
+    """Latency and control period of a robot."""
 
     latency: float = LATENCY
     """Age of the seen heights [s]."""
@@ -53,15 +53,15 @@ class TrainingData:
     inputs: NDArray[np.float32]
     """(n, window.size) inputs of :class:`.FeatureHistory`."""
     outcomes: NDArray[np.float32]
-    """(n, leads + 6) how far the human's end was above its newest seen height at each of the leads
-    [m], the mode now (:func:`.modes`), and how far it rose until the stroke's end [m]."""
+    """(n, leads + 6) height of the human's end above its newest seen height at each of the leads
+    [m], the present mode (:func:`.modes`), and the rise until the stroke's end [m]."""
 
     seeds: NDArray[np.int64]
-    """(n,) the lift that it was."""
+    """(n,) seed of the lift of each sample."""
 
     @classmethod
     def join(cls, parts: Sequence["TrainingData"]) -> "TrainingData":
-        """Return all of it in one."""
+        """Return the parts joined into one."""
         return cls(
             inputs=np.concatenate([part.inputs for part in parts]),
             outcomes=np.concatenate([part.outcomes for part in parts]),
@@ -75,7 +75,7 @@ def scenario(seed: int, behaviours: Sequence[str], timing: Timing) -> Scenario:
     Parameters
     ----------
     seed
-        Of the person and the lift.
+        Seed of the person and the lift.
     behaviours
         Names of registered behaviours, and ``roaming``: :class:`.Roaming`.
     timing
@@ -102,10 +102,10 @@ def training_data(
     behaviours: Sequence[str],
     timing: Timing,
 ) -> TrainingData:
-    """Return what the lift of a seed shows; without a model, the robot extrapolates.
+    """Return the data from the lift of a seed; without a model, the robot extrapolates.
 
-    A lift of a few seconds holds some seventy decisions. It is looked at :data:`LOOKS` times as
-    often, as if the periods had begun at other frames, with sensor noise of its own.
+    A lift of a few seconds has some seventy decisions. It is sampled :data:`LOOKS` times as often,
+    as if the periods had begun at other frames, each time with new sensor noise.
     """
     lift = Lift(scenario(seed, behaviours, timing))
     lift.reset(seed)
@@ -155,7 +155,7 @@ def window_inputs(heights: Array, window: FeatureWindow) -> Array:
     Parameters
     ----------
     heights
-        (n,) what was seen of the human's end in each step [m].
+        (n,) seen height of the human's end in each step [m].
 
     Returns
     -------

@@ -1,7 +1,7 @@
 """Demonstrations: lifts of two simulated people, as a robot could learn from them.
 
-The file begins with comment lines (``#``) that say where it comes from; then come a header and a
-row for each control period of each lift:
+The file begins with comment lines (``#``) that state its origin, followed by a header and a row for
+each control period of each lift:
 
 ================ ====== ==========================================================================
 lift                    number of the lift, its seed
@@ -18,8 +18,8 @@ partner_m_s      m/s    its velocity at this time
 ================ ====== ==========================================================================
 
 The demonstrator stands at the robot's end. Heights are displacements from the table's rest height.
-The demonstrator decides once a control period, and so the velocity of that end varies within one:
-at the times of the samples it is about a quarter below its mean.
+The demonstrator decides once per control period. The velocity of that end therefore varies within a
+period: at the times of the samples it is about a quarter below its mean.
 """
 
 import csv
@@ -49,7 +49,7 @@ FIRST_SEED: Final = 60_000
 """Seed of the first demonstration, far from those of the suites and of the calibration."""
 
 LIFTS: Final = 400
-"""Lifts that a robot learns from: 100 of each behaviour, each by another person."""
+"""Lifts from which a robot learns: 100 of each behaviour, each by another person."""
 
 SERIES: Final = (
     "seen_human_m",
@@ -60,7 +60,7 @@ SERIES: Final = (
     "partner_m_s",
 )
 DIGITS: Final = 6
-"""Decimals of every number, in a file and out of it: micrometres."""
+"""Decimals of every number, in files and in memory: micrometres."""
 
 COLUMNS: Final = ("lift", "behaviour", "subject", "t_s", *SERIES)
 
@@ -70,11 +70,11 @@ class Demonstration:
     """One lift of two simulated people, one sample per control period."""
 
     lift: int
-    """Its seed."""
+    """Number of the lift, its seed."""
     behaviour: str
-    """How the leading person moves."""
+    """Behaviour of the leading person."""
     subject: str
-    """Who leads."""
+    """Name of the leading person."""
     times: NDArray[np.float64]
     """(n,) time of each sample [s]."""
     series: NDArray[np.float64]
@@ -129,8 +129,8 @@ def demonstrations(
     Raises
     ------
     InputError
-        If there is no lift, or a suite is played with one of the seeds: who learns from a test
-        knows it.
+        If there is no lift, or a suite has one of the seeds: a policy must not learn from test
+        lifts.
     """
     if lifts < 1:
         raise InputError(f"lifts must be at least 1, got {lifts}")
@@ -165,8 +165,8 @@ def read_demonstrations(path: Path) -> tuple[Demonstration, ...]:
     Raises
     ------
     InputError
-        If the file cannot be read, a column is missing, a value is no number, or the samples of a
-        lift are not evenly spaced in time; the message says where.
+        If the file cannot be read, a column is missing, a value is not a number, or the samples of
+        a lift are not evenly spaced in time; the message states the place.
     """
     lifts: dict[tuple[str, ...], list[list[float]]] = {}
     for name, row in _rows(path):

@@ -1,8 +1,9 @@
 """Implicit Q-learning, offline reinforcement learning without unseen actions. Needs JAX.
 
 A value V and action values Q1, Q2 are learned from the actions of the data alone, V as an
-expectile: nearly the best that the robots of the data did in a state. The policy pi is a clone in
-which better actions weigh more. With u = min_i Qi'(s, a) - V(s) and slow copies Qi' of Qi,
+expectile: nearly the best value that the robots of the data reached in a state. The policy pi is a
+clone in which better actions have more weight. With u = min_i Qi'(s, a) - V(s) and slow copies Qi'
+of Qi,
 
     V   minimises  |tau - [u < 0]| u^2,
     Qi  minimises  (r + gamma (1 - ended) V(s') - Qi(s, a))^2,
@@ -10,8 +11,8 @@ which better actions weigh more. With u = min_i Qi'(s, a) - V(s) and slow copies
 
 I. Kostrikov, A. Nair, S. Levine, "Offline reinforcement learning with implicit Q-learning", ICLR
 2022. Three things are adapted: rewards are in centimetres, advantages are relative to their mean
-size, so that beta means the same in every set, and gamma looks a third of a second ahead: the
-effect of a command has ended by then.
+size, so that beta has the same meaning in every set, and gamma looks a third of a second ahead,
+when the effect of a command has ended.
 """
 
 from typing import Any, Final, NamedTuple
@@ -26,7 +27,7 @@ from .offline_settings import IqlSettings
 from .perceptron import Layers, forward, new_layers
 
 CENTIMETRES: Final = 100.0
-"""Rewards are of the order of one then."""
+"""Scale of the rewards [1/m], which are then of the order of one."""
 
 LARGEST_WEIGHT: Final = 20.0
 """Bound of an action's weight."""
@@ -59,7 +60,7 @@ def learning(settings: IqlSettings, data: OfflineData, seed: int) -> Learning:
     Parameters
     ----------
     settings, data
-        How, and from what, it learns.
+        Settings and data of the training.
     seed
         Seed of the first weights.
     """
@@ -76,7 +77,7 @@ def learning(settings: IqlSettings, data: OfflineData, seed: int) -> Learning:
     optimiser = optax.adam(optax.cosine_decay_schedule(settings.rate, settings.updates))
 
     def loss(networks: Networks, slow: tuple[Layers, Layers], *rows: jax.Array) -> jax.Array:
-        """Return the sum of the three losses; none has a slope in the networks of another."""
+        """Return the sum of the three losses; none has a gradient in the networks of another."""
         seen, done, rewards, coming, ended = rows
         value = forward(networks.value, seen)[:, 0]
         advantage = jnp.minimum(*(worth(each, seen, done) for each in slow)) - value

@@ -13,8 +13,8 @@ STILL: Final = 0.02
 """Speed below which a person is still [m/s]: a tenth of a lift's peak, four times a tremor's."""
 
 AHEAD: Final = 0.3
-"""Time between the two velocities that define a mode [s]: the reach of an action taken now, the
-latency of its observation included."""
+"""Time between the two velocities that define a mode [s]: the time until an action taken now has
+its effect, including the latency of its observation."""
 
 HALF: Final = 3
 """Half of the frames over which a velocity is taken, to smooth out a tremor."""

@@ -1,4 +1,4 @@
-"""A lesson: the lifts that a network learns from by gradients, and the policy that it becomes."""
+"""A lesson: the lifts and the loss from which a network learns by gradients, and its policy."""
 
 from collections.abc import Mapping
 from types import ModuleType
@@ -25,7 +25,7 @@ class BatchDraw(NamedTuple):
 
 
 class GradientLesson(Protocol):
-    """What gradients are taken of."""
+    """The lifts and the loss of which gradients are taken."""
 
     def __hash__(self) -> int: ...
 
@@ -42,19 +42,17 @@ class GradientLesson(Protocol):
 
         Parameters
         ----------
-        network
-            The policy's.
-        pool
+        network The policy's network. pool
             The drawn lifts.
         settings
             Of the training.
         draw
-            Of the batch.
+            Draw of the batch.
         """
 
 
 class PolicyLesson(GradientLesson, Protocol):
-    """A lesson that a policy comes of: one file of weights, and what is to be said of it."""
+    """A lesson whose result is a policy: one file of weights, and its description."""
 
     @property
     def package(self) -> ModuleType:
@@ -77,7 +75,7 @@ class PolicyLesson(GradientLesson, Protocol):
 
 
 def first_network(inputs: int, units: int, seed: int, outputs: int = 1) -> GatedNetwork:
-    """Return a network to begin with: small random weights, and no output yet but little."""
+    """Return a network to begin with: small random weights, with a small output."""
     rng = np.random.default_rng(seed)
 
     def weights(rows: int, columns: int) -> jax.Array:

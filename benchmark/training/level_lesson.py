@@ -6,8 +6,8 @@ The loss of a batch is the mean over its lifts of
 
 the score [mm], the root mean square of the second differences of the command [mm], and that of the
 force at the human's hands beyond half of the table's weight [N].
-The weight is 1 but for people with wide habits (:mod:`.pool`), whose force does not count: a robot
-that is to be gentle with people whom it cannot foresee follows late.
+The weight is 1 except for people with wide habits (:mod:`.pool`), whose force does not count: a
+robot that learns to be gentle with people whom it cannot predict follows late.
 """
 
 from functools import partial
@@ -33,11 +33,11 @@ class LevelLesson:
     package: ModuleType = submission
 
     def first(self, settings: ApgSettings, seed: int) -> GatedNetwork:
-        """Return a network that corrects the line by little."""
+        """Return a network that hardly corrects the line."""
         return first_network(INPUTS, settings.units, seed)
 
     def draw(self, settings: ApgSettings) -> Pool:
-        """Return lifts with people of the benchmark's and of wide habits."""
+        """Return lifts with people of the benchmark's population and of wide habits."""
         return draw_pool(settings.lifts, settings.wide)
 
     def steps(self, pool: Pool) -> float:

@@ -1,4 +1,4 @@
-"""Data for offline learning: the steps of a Minari data set, as networks take them."""
+"""Data for offline learning: the steps of a Minari data set, as inputs of networks."""
 
 import hashlib
 import importlib
@@ -40,7 +40,7 @@ class OfflineData:
     coming: Single
     """(n, 22) inputs after each step."""
     ended: Single
-    """(n,) 1 after a step that dropped the table: nothing follows."""
+    """(n,) 1 after a step that dropped the table, which ends the lift; else 0."""
     centre: NDArray[np.float64]
     """(22,) mean of the inputs [m]."""
     deviation: NDArray[np.float64]
@@ -93,7 +93,7 @@ def read_data(folder: Path) -> OfflineData:
 
 
 def _check_spaces(folder: Path, observations: Any, actions: Any) -> None:
-    """Refuse a set of other observations or actions than the robot's."""
+    """Refuse a set with observations or actions other than the robot's."""
     low, high = LEVEL.robot_bounds()
     limit = action_limit(CONTROL_PERIOD)
     for kind, space, bounds in (

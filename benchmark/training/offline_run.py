@@ -1,7 +1,7 @@
 """A training from a data set: blocks of updates, checkpoints, and the policy at the end. Needs JAX.
 
-Nothing of it depends on the engine: offline, a learner sees the file alone. The curve has errors in
-the engine, which are for the reader.
+The training does not depend on the engine: offline, a learner sees only the file. The errors of the
+curve come from the engine, for information only.
 """
 
 import time
@@ -30,16 +30,16 @@ POINTS: Final = 4
 
 @dataclass(frozen=True, kw_only=True)
 class Learning:
-    """An algorithm with its data: what :func:`train_offline` repeats."""
+    """An algorithm with its data, for :func:`train_offline`."""
 
     start: Any
-    """The state of the beginning: arrays in tuples and lists."""
+    """The initial state: arrays in tuples and lists."""
     arrays: tuple[jax.Array, ...]
     """The arrays of the data that it needs."""
     update: Callable[[Any, tuple[jax.Array, ...], jax.Array], Any]
     """Returns the state after one more update, from the arrays; the key draws some of their rows.
 
-    It must not hold the arrays itself: they would be compiled into the code."""
+    It must not contain the arrays itself, since they would be compiled into the code."""
     actor: Callable[[Any], Layers]
     """Returns the layers of the policy of a state."""
     about: str
@@ -63,13 +63,13 @@ def train_offline(
     Parameters
     ----------
     learning, data
-        How, and from what, it learns.
+        Algorithm and data of the training.
     course
-        Where the policy is written.
+        The course, in whose folder the policy is written.
     updates, batch
         Number of updates, and steps of the data in each.
     executor
-        Plays the lifts of the curve; None does so in this process.
+        Plays the lifts of the curve; None plays them in this process.
     progress
         Called with the number of updates that were made since the last call.
 

@@ -10,11 +10,11 @@ IQL: Final = "iql"
 """Names of the trainers."""
 
 BLOCK: Final = 500
-"""Updates that are made in one go."""
+"""Updates that are made at once."""
 
 
 def check_updates(updates: int) -> None:
-    """Raise an InputError if a number of updates is no multiple of :data:`BLOCK`."""
+    """Raise an InputError if a number of updates is not a multiple of :data:`BLOCK`."""
     if updates < BLOCK or updates % BLOCK:
         raise InputError(f"updates must be a multiple of {BLOCK}, got {updates}")
 
@@ -68,7 +68,7 @@ class IqlSettings:
     gamma: float = 0.7
     """Discount per step."""
     expectile: float = 0.9
-    """tau: a half is the mean, 1 the best."""
+    """tau: 0.5 is the mean, 1 the best."""
     beta: float = 3.0
     """Weight of an advantage; 0 is behaviour cloning."""
     slow: float = 0.005

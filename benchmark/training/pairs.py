@@ -1,8 +1,8 @@
-"""Pairs of a person and a robot that learn together, and how they do with each other's partners.
+"""Pairs of a person and a robot that learn together, and their errors with other partners.
 
-The person adds to what the benchmark's people do (:class:`.LearningPerson`); the wrists show no
-intention by themselves. So what else tells the robot the intention is an agreement that each pair
-finds by itself. All of it is in the twin: no suite and no board takes part.
+The person adds to the actions of the benchmark's people (:class:`.LearningPerson`); the wrists show
+no intention by themselves. Any other signal of the intention is therefore a convention that each
+pair finds by itself. All of this is in the twin: no suite and no board is involved.
 """
 
 from collections.abc import Callable, Sequence
@@ -35,18 +35,18 @@ class TrainedPair(NamedTuple):
 
 @dataclass(frozen=True)
 class PairLesson:
-    """What gradients are taken of: the score of both, as of a :class:`.TouchLesson`."""
+    """The lifts and the loss of a pair: the common score, as for a :class:`.TouchLesson`."""
 
     of_robot: TouchLesson
 
     def first(self, settings: ApgSettings, seed: int) -> TrainedPair:
-        """Return a pair that has learned nothing."""
+        """Return a pair that has not learned anything."""
         inputs = SENSES + self.of_robot.twin.steps.knows
         person = first_network(inputs, settings.units, seed + 1_000_000, outputs=2)
         return TrainedPair(self.of_robot.first(settings, seed), person)
 
     def draw(self, settings: ApgSettings) -> Any:
-        """Return lifts with drawn people whose wrists show nothing."""
+        """Return lifts with drawn people whose wrists show no intention."""
         return self.of_robot.twin.quiet(self.of_robot.draw(settings))
 
     def loss(
@@ -86,9 +86,9 @@ def cross_play(
     Parameters
     ----------
     count
-        How many pairs: the seeds are 0 and up.
+        Number of pairs, with the seeds from 0.
     settings
-        Of their training; see :func:`.pair_settings`.
+        Settings of their training; see :func:`.pair_settings`.
     progress
         Called with the number of updates since the last call.
 

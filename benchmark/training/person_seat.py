@@ -1,8 +1,8 @@
-"""The person's seat on the twin for a learner: a private goal, its senses, its hand, its cost.
+"""The person's seat in the twin for a learner: a private goal, its senses, its hand, its cost.
 
-No behaviour of the benchmark is in here: no plan, no stroke, no motor noise, and no correction. A
-goal is a height and no movement; how the hand gets there is learned. The arms and reflexes of the
-drawn people remain, as they are part of the plant.
+It has no behaviour of the benchmark: no plan, no stroke, no motor noise, and no correction. A goal
+is a height without a movement; the way of the hand is learned. The arms and reflexes of the drawn
+people remain, as they are part of the plant.
 """
 
 from collections.abc import Iterable
@@ -24,29 +24,29 @@ STEPS: Final = 80
 """Length of a lift: 8 s."""
 
 CHANGES: Final = 0.05
-"""Probability of another goal in each step: one every 2 s."""
+"""Probability of a new goal in each step: one every 2 s on average."""
 
 FRAMES: Final = round(CONTROL_PERIOD / FRAME)
 """Frames of a step."""
 
 PACE: Final = 0.02
-"""Most by which an uncorrected hand moves in a step [m]: 0.2 m/s."""
+"""Largest movement of an uncorrected hand in a step [m]: 0.2 m/s."""
 
 CORRECTION: Final = 0.03
 """Largest correction of that movement in a step [m]: a hand makes up to 0.5 m/s."""
 
 SCALES: Final = (0.1, 0.1, 0.02, 0.02, 0.02, 0.02, 0.02, 5.0, 5.0)
-"""Scale of each input [m], of the last two [N]."""
+"""Scale of each input [m]; of the last two [N]."""
 
 CENTIMETRE: Final = 0.01
-"""[m]"""
+"""One centimetre [m]."""
 
 
 class Goals(NamedTuple):
     """n lifts without a plan."""
 
     goal: jax.Array
-    """(s, n) height that the person wants the own end at [m]."""
+    """(s, n) height that the person wants for the person's own end [m]."""
     noise: jax.Array
     """(s, 2, n) error of the motion capture at either end, for the robot [m]."""
     body: Body
@@ -54,12 +54,12 @@ class Goals(NamedTuple):
 
 
 def people(seeds: Iterable[int]) -> Body:
-    """Return the arms of the people of seeds."""
+    """Return the arms of the people with some seeds."""
     return bodies([body_parameters(make_subject(f"draw-{seed}")) for seed in seeds])
 
 
 def draw_goals(body: Body, key: jax.Array) -> Goals:
-    """Return a lift for each of n people: at first no goal but the rest, then now and then one."""
+    """Return a lift for each of n people: the goal is the rest height, then changes at times."""
     count = body.mass.shape[0]
     when, where, errors = jax.random.split(key, 3)
     heights = jax.random.uniform(where, (STEPS, count), minval=0.0, maxval=GOAL_RANGE[1])
@@ -74,11 +74,11 @@ class Past(NamedTuple):
     """A person's memory of the last step; all (n,)."""
 
     hand: jax.Array
-    """The hand's reference at its end [m]."""
+    """The hand's reference at the end of the step [m]."""
     seen: jax.Array
-    """Height of the other end above the own one, as it was seen [m]."""
+    """Seen height of the other end above the person's [m]."""
     felt: jax.Array
-    """Force of the hands beyond the weight, as it was felt [N]."""
+    """Felt force of the hands beyond the weight [N]."""
 
 
 def nothing_sensed(count: int) -> Past:
@@ -87,7 +87,7 @@ def nothing_sensed(count: int) -> Past:
 
 
 def sense(playing: LiftState, body: Body, past: Past, goal: jax.Array) -> tuple[Past, jax.Array]:
-    """Return the memory of what is sensed now, and the inputs (n, 9), scaled.
+    """Return the memory of the present senses, and the scaled inputs (n, 9).
 
     All of it is in the human's observation of the engine, :class:`.HumanObservation`.
 
@@ -128,5 +128,5 @@ def moved(past: Past, goal: jax.Array, action: jax.Array) -> tuple[Past, jax.Arr
 
 
 def cost(frames: Frames, goal: jax.Array) -> jax.Array:
-    """Return the mean distance of the own end from the goal over a step (n,) [cm]."""
+    """Return the mean distance of the person's end from the goal over a step (n,) [cm]."""
     return jnp.abs(frames.human_end - goal).mean(axis=0) / CENTIMETRE

@@ -1,4 +1,4 @@
-"""The lifts that gradients are taken on: drawn people, and of some of them widely drawn habits."""
+"""The lifts on which gradients are taken: drawn people, some with habits from wide ranges."""
 
 import dataclasses
 import math
@@ -27,31 +27,31 @@ from .validation import learning_seeds
 from .wandering import Wandering
 
 LONGEST: Final = 11.0
-"""Time after which a lift is cut off [s]: nine of ten end before."""
+"""Time after which a lift is cut off [s]: nine of ten end earlier."""
 
 WANDERING: Final = "wandering"
 """Name of the behaviour :class:`.Wandering`, which is in no registry."""
 
 WANDERERS: Final = 0.2
-"""Share of the wide lifts that are with a wanderer."""
+"""Share of the wide lifts with a wanderer."""
 
 LATENCY_OFF: Final = 0.01
-"""Most by which the sensors of a wide lift are earlier or later than the benchmark's [s]."""
+"""Largest deviation of a wide lift's latency from the benchmark's [s]."""
 
 NOISE: Final = (0.1, 2.0)
-"""Least and most further noise of their samples, over that of the benchmark."""
+"""Least and largest additional noise of their samples, relative to that of the benchmark."""
 
 LOST: Final = 0.05
-"""Most of their samples that are lost."""
+"""Largest share of their samples that are lost."""
 
 TYPICAL: Final = 6.0
 """Error of a straight line at which a wide lift has the weight 1 [mm]."""
 
 MOST_WEIGHT: Final = 4.0
-"""Largest weight of a lift, and the smallest's inverse."""
+"""Largest weight of a lift, and the inverse of the smallest."""
 
 CHUNK: Final = 1000
-"""Most lifts that are weighed at a time."""
+"""Most lifts whose weights are computed at once."""
 
 
 class Pool(NamedTuple):
@@ -59,7 +59,7 @@ class Pool(NamedTuple):
 
     lifts: Lifts
     common: int
-    """How many lifts are with people of the benchmark's population."""
+    """Number of lifts with people of the benchmark's population."""
     weight: jax.Array
     """(n,) weight of each lift in the loss."""
 
@@ -69,12 +69,10 @@ def draw_pool(count: int, wide: float, first_seed: int = FIRST_SEED) -> Pool:
 
     Parameters
     ----------
-    count
-        How many.
-    wide
+    count Number of lifts. wide
         Share of the lifts whose people have wide habits, bodies and sensors.
     first_seed
-        Seed of the first.
+        Seed of the first lift.
 
     Raises
     ------
@@ -90,10 +88,10 @@ def draw_pool(count: int, wide: float, first_seed: int = FIRST_SEED) -> Pool:
 
 
 def _weights(lifts: Lifts, common: int) -> jax.Array:
-    """Return the weights of lifts: 1, and for wide ones by how hard they are for a straight line.
+    """Return the weights of lifts: 1, and for wide ones by their difficulty for a straight line.
 
-    Their errors differ by an order of magnitude. Without weights, few quick ones would decide what
-    is learned, and the slow ones, of which people who lift together make many, would not count.
+    Their errors differ by an order of magnitude. Without weights, a few quick lifts would dominate
+    the learning, and the slow ones, which are frequent when people lift together, would not count.
     """
 
     @jax.jit
@@ -166,7 +164,7 @@ def cut(lift: DrawnLift) -> DrawnLift:
 
 
 class LearningBatch(NamedTuple):
-    """Lifts to learn from, with what differs from the benchmark."""
+    """Lifts to learn from, with their differences from the benchmark."""
 
     lifts: Lifts
     variation: ArmVariation
@@ -180,17 +178,17 @@ class LearningBatch(NamedTuple):
 def draw_batch(pool: Pool, settings: ApgSettings, draw: BatchDraw) -> LearningBatch:
     """Return a batch of the pool's lifts, with arms and the noise of sensors drawn anew.
 
-    A lift comes again many times in a training, and a network learns by heart what is always the
-    same in it.
+    A lift recurs many times in a training, and a network would memorise whatever is always the same
+    in it.
 
     Parameters
     ----------
     pool
         The lifts.
     settings
-        Of the training. Of the lifts, the share ``wide`` has wide habits and wide sensors.
+        Settings of the training. The share ``wide`` of the lifts has wide habits and wide sensors.
     draw
-        Of the batch.
+        Draw of the batch.
     """
     size, keys = draw.size, jax.random.split(draw.key, 9)
     many = round(settings.wide * size)
@@ -224,10 +222,8 @@ def draw_arms(varied: jax.Array, size: int, keys: jax.Array) -> ArmVariation:
     ----------
     varied
         Standard deviation of the logarithms.
-    size
-        How many.
-    keys
-        (2,) of the sag and of the gain.
+    size Number of arms. keys
+        (2,) random keys of the sag and of the gain.
     """
     sag, lag = (jnp.exp(varied * jax.random.normal(key, (size,))) for key in keys)
     return ArmVariation(sag=sag, lag=lag)

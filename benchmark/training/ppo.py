@@ -46,9 +46,9 @@ def train_ppo(
     Parameters
     ----------
     settings, course
-        What is trained, and where it is written.
+        Settings of the training, and the folder for its results.
     executor
-        Draws the lifts and plays those of the curve; none: in this process.
+        Draws the lifts and plays those of the curve; None does both in this process.
     progress
         Called with the number of updates that were finished since the last call.
 
@@ -85,7 +85,7 @@ def train_ppo(
 
 
 def start(settings: PpoSettings, seed: int) -> Learner:
-    """Return the robot of the beginning."""
+    """Return the robot before the first update."""
     key = jax.random.fold_in(jax.random.key(seed), 10**6)
     return new_learner(settings, FIXED + settings.steps, key)
 
@@ -101,7 +101,7 @@ def draw_pool_of(settings: PpoSettings, seed: int, executor: Executor | None = N
 
 
 def drawn_lift(seed: int) -> DrawnLift:
-    """Return the lift of a seed and its person, the beginning if it is long."""
+    """Return the lift of a seed and its person; of a long lift, the beginning."""
     return cut(twin_lifts.carried_out(scenario(seed, BEHAVIOURS, Timing()), seed))
 
 

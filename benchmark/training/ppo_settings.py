@@ -16,7 +16,7 @@ MOST_POPULATION: Final = 100
 """Largest population."""
 
 KEPT: Final = 3
-"""People who are kept from a training: of its beginning, its half and its end."""
+"""Number of people kept from a training: those at its beginning, half-way and at its end."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +30,7 @@ class PpoSettings:
     """
 
     updates: int = 120
-    """Times that lifts are played and learned from."""
+    """Number of rounds in which lifts are played and learned from."""
     pool: int = 3000
     """People who are drawn in the beginning, each for one lift."""
     lifts: int = 512
@@ -40,19 +40,19 @@ class PpoSettings:
     hidden: int = 64
     """Tanh units of each of its two layers."""
     epochs: int = 4
-    """Passes through what was played."""
+    """Passes through the lifts of an update."""
     batches: int = 32
     """Steps of the optimiser in a pass."""
     rate: float = 1e-3
-    """Learning rate in the beginning; it falls to zero in a line."""
+    """Initial learning rate; it falls linearly to zero."""
     discount: float = 0.9
-    """Weight of the next step's reward. An action shows within three steps."""
+    """Weight of the next step's reward. The effect of an action shows within three steps."""
     trace: float = 0.9
     """Weight of the next step in the estimate of an advantage."""
     clip: float = 0.2
     """Largest change of an action's probability that is rewarded, relative to 1."""
     noise: float = 0.3
-    """Deviation of the actions in the beginning, before the tanh: 0.3 are 9 mm."""
+    """Initial standard deviation of the actions, before the tanh: 0.3 is 9 mm."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
@@ -67,7 +67,7 @@ class PpoSettings:
 
 @dataclass(frozen=True, kw_only=True)
 class SelfPlaySettings(PpoSettings):
-    """Settings of a training with a person who learns, too; of the pool, the bodies are used.
+    """Settings of a training with a person who also learns; only the bodies of the pool are used.
 
     Raises
     ------
@@ -96,7 +96,7 @@ class CoPlaySettings(SelfPlaySettings):
     """
 
     population: int = 4
-    """Trainings by self-play, of which people are kept."""
+    """Number of trainings by self-play from which people are kept."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""

@@ -31,23 +31,21 @@ def run_updates(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda updates: None,
 ) -> State:
-    """Return the state after all updates; those up to the last checkpoint are not made again.
+    """Return the state after all updates; those up to the last checkpoint are not repeated.
 
     Parameters
     ----------
     course
         Keeps the checkpoints and the curve, whose errors are those of the engine.
     state
-        Of the beginning: arrays in named tuples and dictionaries.
+        The initial state: arrays in named tuples and dictionaries.
     update
         Returns the state after one more update, and the steps that were played for it. It is
         called with the number of the update, from 0, and depends on nothing else that changes.
-    updates
-        How many.
-    policy
+    updates Number of updates. policy
         Returns the weights of a state's robot.
     executor
-        Plays the lifts of the curve; none: in this process.
+        Plays the lifts of the curve; None plays them in this process.
     progress
         Called with the number of updates that were finished since the last call.
 

@@ -1,8 +1,8 @@
 """Learning the reactive controller online, in the world, while the human stands still.
 
-What the paper leaves open and how it is settled here: an iteration waits until the measurement
-reflects the action (with a measurement one action old the learner credits the wrong action and
-never converges); ties are broken at random; no action inclines the table by more than about 8 cm.
+The paper leaves some details open. Here an iteration waits until the measurement reflects the
+action (with a measurement one action old the learner credits the wrong action and never converges);
+ties are broken at random; no action inclines the table by more than about 8 cm.
 """
 
 import json
@@ -26,15 +26,16 @@ HEIGHT: Final = 0.13
 """Height at which the human stands still [m]: the middle of the robot's stroke."""
 
 RISE: Final = 3.0
-"""Time to get there together [s], before the learning begins."""
+"""Time for both ends to rise there before the learning begins [s]."""
 
 WAIT: Final = 24
-"""Control periods to wait after an action. The arm comes to rest within two; the person gives in
-to the inclined table at first and is back at the old height after some 2 s. The paper's learner
-took its time as well: about 5 minutes for 36 iterations, 8 s each."""
+"""Control periods to wait after an action. The arm comes to rest within two; the person yields to
+the inclined table at first and is back at the old height after some 2 s. The paper's learner was
+slow as well: about 5 minutes for 36 iterations, 8 s each."""
 
 TILT_LIMIT: Final = 0.08
-"""Largest height difference [m]: an action that leads beyond is carried out up to there only."""
+"""Largest height difference [m]: an action that would exceed it is carried out only up to this
+difference."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,10 +43,10 @@ class StandingHuman:
     """Rises to a height and stands still there."""
 
     duration: float
-    """Time of standing still [s]."""
+    """Duration of standing still [s]."""
 
     def plan(self, subject: Subject, seed: int) -> Plan:
-        """Return the plan; nothing of it is drawn."""
+        """Return the plan; nothing in it is random."""
         rise = HEIGHT * profile(np.arange(FRAME, RISE, FRAME) / RISE)
         still = np.full(round(self.duration / FRAME), HEIGHT)
         target = np.concatenate((rise, still))
@@ -57,12 +58,12 @@ class LearningTrial:
     """One learning phase from an empty Q-table."""
 
     table: NDArray[np.float64]
-    """(states, actions) the Q-table at the end; values in metres of tilt taken away."""
+    """(states, actions) the Q-table at the end; values in metres of removed height difference."""
     rewards: NDArray[np.float64]
     """(iterations,) reward of each action [m] (eq. 9)."""
     converged_at: int | None
-    """Iterations after which the greedy action was right in every state and stayed so; None if
-    it was not so at the end."""
+    """Iterations after which the greedy action was right in every state and stayed so; None if it
+    was not right at the end."""
 
 
 def learn(seed: int, *, iterations: int = 100, subject: str = "S1") -> LearningTrial:
@@ -75,7 +76,7 @@ def learn(seed: int, *, iterations: int = 100, subject: str = "S1") -> LearningT
     iterations
         Actions to try.
     subject
-        Who stands still.
+        Name of the subject who stands still.
     """
     person = SUBJECTS[subject]
     duration = iterations * (1 + WAIT) * 0.1 + 1.0
@@ -108,7 +109,7 @@ def learn(seed: int, *, iterations: int = 100, subject: str = "S1") -> LearningT
 
 
 def table_json(trial: LearningTrial, seed: int) -> str:
-    """Return the content of the shipped Q-table, with where it comes from."""
+    """Return the content of the shipped Q-table, with its origin."""
     content = {
         "table": trial.table.tolist(),
         "provenance": {
@@ -129,21 +130,21 @@ def learning_trials(
 
 
 class _Table:
-    """The table as the learner handles it: act, wait, look."""
+    """The learner's access to the table: act, wait, look."""
 
     def __init__(self, lift: Lift) -> None:
         self._lift = lift
         self._human = lift.scripted_human()
 
     def raise_together(self) -> Observation:
-        """Follow the human to where it stands still."""
+        """Follow the human to the height at which the human stands still."""
         for _ in range(round(RISE / 0.1) + 5):
             view = self._lift.partner_observation()
             self._move(view[RobotObservation.HUMAN_END] - view[RobotObservation.HAND_COMMAND])
         return self._lift.partner_observation()
 
     def act(self, change: float) -> Observation:
-        """Move the hand [m], wait, and return what is seen then."""
+        """Move the hand [m], wait, and return the observation after that."""
         self._move(change)
         for _ in range(WAIT):
             self._move(0.0)
@@ -154,7 +155,7 @@ class _Table:
 
     @staticmethod
     def difference(view: Observation) -> float:
-        """Return the human's end minus the own hand [m], as the reactive controller sees it."""
+        """Return the human's end minus the robot's hand [m], as the reactive controller sees it."""
         return float(view[RobotObservation.HUMAN_END] - view[RobotObservation.HAND_HEIGHT])
 
     @staticmethod

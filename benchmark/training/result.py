@@ -25,7 +25,7 @@ Made = TypeVar("Made")
 
 
 def usable(weights: Weights, make: Callable[[Weights], Made]) -> Made:
-    """Return what ``make`` builds from trained weights.
+    """Return the object that ``make`` builds from trained weights.
 
     Raises
     ------
@@ -61,13 +61,13 @@ def write_policy(
     course
         The course of the training.
     weights
-        The weights, as its policy reads them.
+        The weights, in the form that its policy reads.
     description, trained_on
         Entries of the manifest.
     package
         The package of its ``policy.py``.
     check
-        Raises an InputError if its policy could not use the weights.
+        Raises an InputError if the policy could not use the weights.
 
     Raises
     ------

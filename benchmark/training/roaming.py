@@ -1,4 +1,4 @@
-"""A person who lifts here and there: for robots to learn from, in no suite."""
+"""A person who lifts in irregular ways, for training robots only: it is in no suite."""
 
 import math
 from dataclasses import dataclass
@@ -13,27 +13,27 @@ from ...agents.humans.plan import Segment, assemble, move, still
 from ...agents.humans.stroke import Motion, replan, stroke
 
 LOWEST = -0.02
-"""Lowest height that is passed [m]: inside the robot's stroke."""
+"""Lowest height of the motion [m]: inside the robot's stroke."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Roaming:
-    """Moves from goal to goal, some given up half way, at a pace of its own.
+    """Moves from goal to goal, some of them given up half-way, at an individual pace.
 
-    Less regular than any of the suites' behaviours: heights, speeds, skews and rests are spread
-    more widely, so that a learner does not overfit to the habits of a few.
+    It is less regular than any of the suites' behaviours: heights, speeds, skews and rests are
+    spread more widely, so that a learner does not overfit to the habits of a few.
     """
 
     goals: tuple[int, int] = (2, 6)
     """Fewest and most goals before the last, which is the rest height."""
     peak_speed: tuple[float, float] = (0.05, 0.30)
-    """Lowest and highest pace of a lift [m/s], even in its logarithm; moves vary about it."""
+    """Lowest and highest pace of a lift [m/s], uniform in its logarithm; moves vary about it."""
     shortest: tuple[float, float] = (0.4, 0.8)
     """Shortest duration of a move [s], drawn for each."""
     skew: tuple[float, float] = (0.35, 0.65)
     """Range of the relative time of the highest speed."""
     given_up: float = 0.5
-    """Fraction of the moves that are given up for the next, after ``progress`` of them."""
+    """Fraction of the moves that are given up for the next, after the part ``progress``."""
     progress: tuple[float, float] = (0.3, 0.95)
     """Fraction of a move that is carried out before it is given up."""
     hold: tuple[float, float] = (0.1, 1.0)

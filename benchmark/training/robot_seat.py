@@ -1,7 +1,7 @@
-"""The robot's seat on the twin for a learner: its inputs, its correction of a line, its reward.
+"""The robot's seat in the twin for a learner: its inputs, its correction of a line, its reward.
 
 The inputs and the line are those of :mod:`.network.policy`, in JAX and for many lifts at a time:
-learning begins with a robot that moves along.
+learning begins with a robot that follows the human.
 """
 
 from typing import Final, NamedTuple
@@ -15,11 +15,11 @@ from ..episode.metrics import FAILED_FRAME_MM
 from ..twin.playing import Frames
 
 WORST: Final = (FAILED_FRAME_MM / 1000) ** 2
-"""Largest square height difference that is paid for [m2]: the twin's table is never dropped."""
+"""Largest square height difference that is counted [m2]: the twin's table is never dropped."""
 
 
 class PastSenses(NamedTuple):
-    """The past of n lifts; see :class:`.network.policy.Senses`, of which this is the twin."""
+    """The past of n lifts; the counterpart of :class:`.network.policy.Senses`."""
 
     seen: jax.Array
     """(steps, n) heights of the human's end, newest first [m]."""
@@ -28,7 +28,7 @@ class PastSenses(NamedTuple):
 
 
 def nothing_sensed(steps: int, count: int) -> PastSenses:
-    """Return the past of ``count`` lifts that have not begun, for inputs of so many steps."""
+    """Return the past of ``count`` lifts that have not begun, for inputs of ``steps`` steps."""
     return PastSenses(jnp.zeros((steps, count)), jnp.zeros((3, count)))
 
 
@@ -42,7 +42,7 @@ def sense(senses: PastSenses, view: jax.Array, first: jax.Array) -> tuple[PastSe
     view
         (5, n) observations of the robot.
     first
-        Whether it is the first one of the lifts: before it, everything stood still.
+        Whether it is the first observation of the lifts: before it, everything stood still.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def sense(senses: PastSenses, view: jax.Array, first: jax.Array) -> tuple[PastSe
 
 
 def scaled(metres: jax.Array) -> jax.Array:
-    """Return the inputs (n, 7 + steps) as the network takes them."""
+    """Return the inputs (n, 7 + steps), scaled for the network."""
     return metres / jnp.asarray(scales(metres.shape[1] - FIXED), jnp.float32)
 
 

@@ -1,10 +1,10 @@
 """Self-play on the twin: a robot and a person, two networks, learn from the same lifts.
 
-No data of people and no behaviour of the benchmark is used: see :mod:`.person_seat`. The robot is
-paid for the level of the table alone, as in the score; the person for that and for getting to its
-goal. Each learns by :func:`.actor_critic.learn` as if the other were a part of the world
-(independent learning, A. Tampuu et al., "Multiagent cooperation and competition with deep
-reinforcement learning", PLOS ONE 2017).
+No data of people and no behaviour of the benchmark is used: see :mod:`.person_seat`. The robot's
+reward is the level of the table alone, as in the score; the person's adds the distance to its goal.
+Each learns by :func:`.actor_critic.learn` as if the other were a part of the world (independent
+learning, A. Tampuu et al., "Multiagent cooperation and competition with deep reinforcement
+learning", PLOS ONE 2017).
 """
 
 import functools
@@ -60,9 +60,9 @@ def train_self_play(
     Parameters
     ----------
     settings, course
-        What is trained, and where it is written.
+        Settings of the training, and the folder for its results.
     executor
-        Plays the lifts of the curve; none: in this process.
+        Plays the lifts of the curve; None plays them in this process.
     progress
         Called with the number of updates that were finished since the last call.
 
@@ -98,7 +98,7 @@ def train_self_play(
 
 
 def new_pair(settings: SelfPlaySettings, seed: int) -> Pair:
-    """Return a pair that has learned nothing."""
+    """Return a pair that has not learned anything."""
     key = jax.random.fold_in(jax.random.key(seed), 2 * 10**6)
     person = new_learner(settings, len(person_seat.SCALES), key)
     return Pair(robot_start(settings, seed), person)
@@ -125,13 +125,13 @@ def collect(
     Parameters
     ----------
     settings
-        Of the training.
+        Settings of the training.
     robot, person
         The agents.
     lifts
         Goals, people and noise.
     key
-        Of the noise of the agents' actions.
+        Random key of the noise of the agents' actions.
     """
     count = lifts.goal.shape[1]
     latency = jnp.full(count, round(LATENCY / FRAME))

@@ -29,10 +29,10 @@ COMPONENTS: Final = 12
 """Gaussians of the mixture. Twice as many hardly lower the error on new people."""
 
 PAST: Final = 4
-"""Past velocities that the model looks at, one an interval."""
+"""Past velocities that the model uses, one per interval."""
 
 COMING: Final = 3
-"""Coming velocities that it predicts: as far as latency, period and the arm's lag reach."""
+"""Coming velocities that it predicts, over latency, period and the arm's lag."""
 
 FIRST_STIFFNESS: Final = 1.0
 """Stiffness in every situation before fine-tuning: that of the table."""
@@ -48,11 +48,11 @@ SEEN_AFTER: Final = round((CONTROL_PERIOD + LATENCY) / CONTROL_PERIOD)
 
 
 def windows(demonstration: Demonstration, interval: float) -> Array:
-    """Return what a lift shows of the leading person's motion, in the model's variables.
+    """Return the leading person's motion in a lift, in the model's variables.
 
-    A row for each sample that is followed by enough others: the seen height and the past
-    velocities, as a robot sees them, then the coming velocities, as they were; the first of them
-    leads from the seen height to the next one. Before the first sample the person stood still.
+    There is a row for each sample that is followed by enough others: the seen height and the past
+    velocities, as a robot sees them, then the true coming velocities; the first of them leads from
+    the seen height to the next one. Before the first sample the person stood still.
 
     Returns
     -------
@@ -78,7 +78,7 @@ def learn_task(
     Parameters
     ----------
     demonstrations
-        Lifts with samples at one and the same interval.
+        Lifts whose samples all have the same interval.
     components
         Gaussians of the mixture.
     seed
@@ -145,9 +145,9 @@ def fine_tune(
 ) -> LearnedTask:
     """Return the task with the impedance learned by lifting with simulated people: step two.
 
-    Each lift is with a new person, with one of the suites' behaviours, on seeds of their own. The
-    impedance adapts in every step (:func:`.adapt`) by the height difference that the robot sees
-    once its movement is over; the result is its mean over the second half of the lifts.
+    Each lift has a new person with one of the suites' behaviours, on separate seeds. The impedance
+    adapts in every step (:func:`.adapt`) by the height difference that the robot sees once its
+    movement is over; the result is its mean over the second half of the lifts.
 
     Raises
     ------

@@ -30,8 +30,7 @@ class TouchLesson:
 
     Parameters
     ----------
-    task
-        Its name.
+    task Name of the task.
     """
 
     package: ModuleType = submission
@@ -41,7 +40,7 @@ class TouchLesson:
         self.twin = TWINS[task]
 
     def first(self, settings: ApgSettings, seed: int) -> Any:
-        """Return a network that departs from level by little."""
+        """Return a network that hardly departs from level."""
         return first_network(inputs_of(self.task), settings.units, seed)
 
     def draw(self, settings: ApgSettings) -> Any:

@@ -1,4 +1,4 @@
-"""The twins of tasks with touch, as functions, with the manners that people may have in them."""
+"""The twins of tasks with touch, as functions, with the manners of their people."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, Final, NamedTuple
@@ -29,16 +29,16 @@ class TouchTwin(NamedTuple):
 
     behaviours: Sequence[str]
     draw: Callable[[Scenario, int], Any]
-    """Returns what is drawn for a lift."""
+    """Returns the drawn arrays of a lift."""
     stack: Callable[[Sequence[Any]], Any]
-    """Returns drawn lifts in one."""
+    """Returns drawn lifts, stacked."""
     steps: TouchSteps
     """The lifts, step by step."""
     manners: Callable[[Any, jax.Array, float], Any]
-    """Returns lifts with manners of their people that are drawn anew by a key, from ranges that are
-    longer than the population's by a share."""
+    """Returns lifts with new manners of their people, drawn by a key from ranges that are longer
+    than the population's by a given share."""
     quiet: Callable[[Any], Any]
-    """Returns lifts whose people's wrists show nothing of an intention."""
+    """Returns lifts in which the people's wrists show no intention."""
 
 
 def leading_anew(lifts: IntentLifts, key: jax.Array, wide: float) -> IntentLifts:
@@ -54,8 +54,8 @@ def leading_anew(lifts: IntentLifts, key: jax.Array, wide: float) -> IntentLifts
 def steering_anew(lifts: BallLifts, key: jax.Array, wide: float) -> BallLifts:
     """Return lifts with other manners (:class:`.SteeringManner`), all of the population's ranges.
 
-    Beyond them, people who steer with a robot who has learned nothing yet fling the ball about, and
-    gradients through such lifts overflow.
+    Beyond them, people who steer with an untrained robot fling the ball about, and gradients
+    through such lifts overflow.
     """
     drawn = jax.random.uniform(key, (len(RANGES), lifts.size))
     manner = {
@@ -92,7 +92,7 @@ def steering_quietly(lifts: BallLifts) -> BallLifts:
 
 
 def agreeing_quietly(lifts: AgreeLifts) -> AgreeLifts:
-    """Return the lifts: people with hurdles keep their wrists level."""
+    """Return the lifts unchanged: people with hurdles keep their wrists level."""
     return lifts
 
 
@@ -105,4 +105,4 @@ TWINS: Final = {
     ),
     "ball": TouchTwin(ROLLINGS, draw_ball, stack_ball, BALL_STEPS, steering_anew, steering_quietly),
 }
-"""By task."""
+"""The twins by task."""

@@ -1,4 +1,4 @@
-"""The error of policies in the engine, on lifts with people whom nobody has learned from."""
+"""The error of policies in the engine, on lifts with people who are not used for learning."""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
@@ -23,14 +23,14 @@ from .data import Timing, scenario
 Array = NDArray[np.float64]
 
 LEARNING_SEEDS: Final = TRAINING_SEEDS[:90_000]
-"""Seeds of the people and lifts that trainers learn from."""
+"""Seeds of the people and lifts from which trainers learn."""
 
 VALIDATION_SEEDS: Final = TRAINING_SEEDS[90_000:90_040]
 """Seeds of the people and lifts of a curve: ten of each behaviour."""
 
 
 def learning_seeds(count: int, first: int = LEARNING_SEEDS[0]) -> range:
-    """Return the seeds of so many lifts to learn from.
+    """Return the seeds of ``count`` lifts to learn from.
 
     Raises
     ------
@@ -60,11 +60,11 @@ def lift_errors(
     Parameters
     ----------
     policies
-        All play the same lifts.
+        The policies, which all play the same lifts.
     seeds
-        Of the lifts.
+        Seeds of the lifts.
     executor
-        Plays the lifts; none: in this process. The result is the same.
+        Plays the lifts; None plays them in this process, with the same result.
     progress
         Called with the number of lifts that all have played since the last call.
     """
@@ -81,7 +81,7 @@ def lift_errors(
 def lift_together(policies: Sequence[MakeAgent], seed: int) -> tuple[list[float], int]:
     """Return the RMSE of each policy in the lift of a seed [mm], and the steps of a lift.
 
-    The person is drawn by the seed, too. A dropped table counts as in the score.
+    The person is also drawn by the seed. A dropped table counts as in the score.
     """
     lift = Lift(scenario(seed, BEHAVIOURS, Timing()))
     errors = []
@@ -110,7 +110,7 @@ def task_error(policy: MakeAgent, make: Callable[[int], Scenario]) -> float:
     Parameters
     ----------
     policy
-        Makes it.
+        Makes the policy.
     make
         Returns the scenario of a seed.
     """

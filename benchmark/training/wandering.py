@@ -1,4 +1,4 @@
-"""People who move as in no suite: wide ranges of size, pace and persistence, to learn from."""
+"""People for training only, with wide ranges of size, pace and persistence that no suite has."""
 
 import math
 from dataclasses import dataclass
@@ -21,28 +21,28 @@ _FEWEST_FRAMES: Final = 25
 
 @dataclass(frozen=True, kw_only=True)
 class Wandering:
-    """Moves to goals near and far, at many paces, without or with rests, on a drifting hand.
+    """Moves to goals near and far, at many paces, with and without rests, with a drifting hand.
 
-    People who lift together move more slowly and with more interruptions than one who leads; the
-    ranges are wide enough to hold both, and are drawn per lift, so that a robot that remembers can
-    find out which person it has.
+    People who lift together move more slowly and with more interruptions than a single leader; the
+    ranges cover both. They are drawn per lift, so that a robot with a memory can find out which
+    kind of person it has.
     """
 
     distance: tuple[float, float] = (0.02, 0.28)
-    """Shortest and longest movement [m], even in its logarithm; its spread is drawn per lift."""
+    """Shortest and longest movement [m], uniform in its logarithm; its spread is drawn per lift."""
     speed: tuple[float, float] = (0.04, 0.45)
-    """Lowest and highest mean pace of a lift [m/s] at its peak, even in its logarithm."""
+    """Lowest and highest mean peak speed of a lift's movements [m/s], uniform in its logarithm."""
     interrupted: tuple[float, float] = (0.0, 0.5)
-    """Fewest and most of the movements that are given up on the way."""
+    """Smallest and largest share of the movements that are given up on the way."""
     resting: tuple[float, float] = (0.0, 0.6)
-    """Fewest and most of the movements that are followed by a rest."""
+    """Smallest and largest share of the movements that are followed by a rest."""
     rest: tuple[float, float] = (0.05, 1.5)
-    """Shortest and longest rest [s], even in its logarithm."""
+    """Shortest and longest rest [s], uniform in its logarithm."""
     drift: tuple[float, float] = (5e-4, 0.05)
-    """Lowest and highest speed of the hand's drift from its movement [m/s], even in its logarithm:
-    at the highest, a slow movement is lost in it."""
+    """Lowest and highest speed of the hand's drift from its movement [m/s], uniform in its
+    logarithm: at the highest, the drift hides a slow movement."""
     drift_time: tuple[float, float] = (0.15, 1.5)
-    """Shortest and longest correlation of that drift [s], even in its logarithm."""
+    """Shortest and longest correlation time of that drift [s], uniform in its logarithm."""
     farthest_drift: float = 0.06
     """Largest standard deviation of the drift [m]."""
 
@@ -76,7 +76,7 @@ class Wandering:
         return self._drifting(plan, rng)
 
     def _drifting(self, plan: Plan, rng: np.random.Generator) -> Plan:
-        """Return the plan with a smooth deviation that is nothing at both ends."""
+        """Return the plan with a smooth deviation that is zero at both ends."""
         count = len(plan.target)
         time = _even_in_log(self.drift_time, rng)
         size = min(_even_in_log(self.drift, rng) * time, self.farthest_drift)
@@ -99,6 +99,6 @@ def _even_in_log(limits: tuple[float, float], rng: np.random.Generator) -> float
 
 
 def _motion(state: NDArray[np.float64], goal: float, speed: float) -> NDArray[np.float64]:
-    """Return the motion to rest at a goal; the peak speed of a minimum jerk is 1.875 its mean."""
+    """Return the motion to rest at a goal; minimum jerk peaks at 1.875 times its mean speed."""
     frames = max(round(1.875 * abs(goal - float(state[0])) / speed / FRAME), _FEWEST_FRAMES)
     return replan(state, goal, frames * FRAME)

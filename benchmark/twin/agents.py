@@ -52,7 +52,7 @@ def play_agents(make: Callable[[], Agent], lifts: Sequence[tuple[Scenario, int]]
 
 
 def lift_rmse_mm(squares: Array, frames: Array) -> Array:
-    """Return the RMSE [mm] of sums of squared height differences [m2] over so many frames."""
+    """Return the RMSE [mm] of sums of squared height differences [m2] over ``frames`` frames."""
     return np.asarray(1000 * np.sqrt(squares / frames))
 
 
@@ -106,7 +106,7 @@ def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
 
 
 def _partner_views(pair: pair_plant.PairPlant, delay: int, size: int, step: int) -> Array:
-    """Return what each second person observes (n, HumanObservation.size(f))."""
+    """Return the observations of the second persons (n, HumanObservation.size(f))."""
     heights = np.asarray(pair.heights, np.float64)
     far = heights + np.asarray(pair.differences, np.float64)
     views = np.zeros((heights.shape[1], HumanObservation.size(size)))

@@ -30,7 +30,7 @@ class Obstacle(NamedTuple):
     start: jax.Array
     """First frame of its window."""
     stop: jax.Array
-    """Frame past its last."""
+    """Frame after its last."""
     given: jax.Array
     """1 if there is a hurdle."""
 
@@ -43,10 +43,10 @@ class AgreeLifts(NamedTuple):
     common: jax.Array
     """(s, n) the common height while the way rests there [m], 0 elsewhere."""
     times: jax.Array
-    """(s, 4, n) from the beginning of each step until the human's window opens and closes, and
-    until the first and the last moment to go there [s]."""
+    """(s, 4, n) times from the beginning of each step until the human's window opens and closes,
+    and until the earliest and the latest moment to set out [s]."""
     shown: jax.Array
-    """(s, 4, n) the robot's hurdle as the robot has it, see :class:`.Secret`."""
+    """(s, 4, n) the robot's hurdle as the robot knows it, see :class:`.Secret`."""
     gain: jax.Array
     """(s, f, n) signal-dependent noise of the person's hand, relative to its velocity."""
     tremor: jax.Array
@@ -56,7 +56,7 @@ class AgreeLifts(NamedTuple):
     sight: jax.Array
     """(s, n) error of the far end's speed as the person perceives it [m/s]."""
     uncertainty: jax.Array
-    """(n,) its standard deviation [m/s]."""
+    """(n,) standard deviation of that error [m/s]."""
     latency: jax.Array
     """(n,) age of the motion capture's sample in frames."""
     steps: jax.Array
@@ -64,9 +64,9 @@ class AgreeLifts(NamedTuple):
     human: Obstacle
     """The human's hurdle."""
     robot: Obstacle
-    """The robot's."""
+    """The robot's hurdle."""
     agreeing: jax.Array
-    """(2, n) first frame and frame past the last at the common height."""
+    """(2, n) first frame at the common height, and frame after the last."""
     body: Body
     """The people."""
     patience: jax.Array
@@ -78,7 +78,7 @@ class AgreeLifts(NamedTuple):
 
     @property
     def size(self) -> int:
-        """How many lifts."""
+        """Number of lifts."""
         return int(self.steps.shape[0])
 
 
@@ -99,12 +99,12 @@ class DrawnAgree(NamedTuple):
 
 
 def draw_agree(scenario: Scenario, seed: int) -> DrawnAgree:
-    """Return what is drawn for a lift: the same as :class:`.AgreeLift` plays.
+    """Return the drawn arrays of a lift, the same as :class:`.AgreeLift` plays.
 
     Raises
     ------
     InputError
-        If the task is another, or a second person holds the far end.
+        If it is another task, or a second person holds the far end.
     """
     task = scenario.task
     if type(task) is not Agree or scenario.partner != "nao":
@@ -142,7 +142,7 @@ def draw_agree(scenario: Scenario, seed: int) -> DrawnAgree:
 
 
 def common_heights(target: Array) -> Array:
-    """Return the common height (s,) [m] by a way (s, f), 0 in steps in which it does not rest.
+    """Return the common height (s,) [m] of a way (s, f); 0 in steps in which it does not rest.
 
     It is the height at the end of the first step of a rest, as a :class:`.Negotiator` takes it.
     """
@@ -162,12 +162,12 @@ def _until(hurdle: Hurdle | None, steps: int, size: int) -> Array:
 
 
 def stack_agree(drawn: Sequence[DrawnAgree]) -> AgreeLifts:
-    """Return lifts of one control period in one; shorter ones go on at rest.
+    """Return lifts of one control period, stacked; shorter ones continue at rest.
 
     Raises
     ------
     InputError
-        If there is none, or they have different control periods.
+        If there are no lifts, or they have different control periods.
     """
     common_size([lift.scenario.frames_per_step for lift in drawn])
     longest = max(len(lift.target) for lift in drawn)

@@ -19,7 +19,7 @@ _FARTHEST: Final = 200.0
 
 
 class AgreeMind(NamedTuple):
-    """What n people keep in mind; all (n,) but the chances."""
+    """The memory of n people; all (n,) except the chances."""
 
     chances: jax.Array
     """(1 + g, n) probabilities that the partner comes along, and of each of its goals."""
@@ -30,7 +30,7 @@ class AgreeMind(NamedTuple):
     rate: jax.Array
     """Its rate of change [m/s]."""
     begun: jax.Array
-    """Whether they have set out to the own hurdle, see :class:`.Precedence`."""
+    """Whether they have set out to their own hurdle, see :class:`.Precedence`."""
     served: jax.Array
     """Whether the partner has been at its goal."""
     yielded: jax.Array
@@ -38,9 +38,9 @@ class AgreeMind(NamedTuple):
     passed: jax.Array
     """Whether the table has passed their hurdle."""
     conflict: jax.Array
-    """How long both have been going to their own goals [s]."""
+    """Time for which both have been going to their own goals [s]."""
     rested: jax.Array
-    """How long the table has rested at a goal of the partner's [s]."""
+    """Time for which the table has rested at a goal of the partner's [s]."""
 
 
 def agree_minds(count: int) -> AgreeMind:
@@ -69,9 +69,9 @@ def believed(
     Parameters
     ----------
     chances
-        (1 + g, n) as they were.
+        (1 + g, n) probabilities before the motion.
     before, after, mine, common, noise
-        As of :meth:`.GoalBelief.update`, all (n,).
+        As for :meth:`.GoalBelief.update`, all (n,).
     period
         Time of the motion [s].
     """
@@ -81,7 +81,7 @@ def believed(
     goals = jnp.concatenate((mine[jnp.newaxis], common + jnp.asarray(GOALS)[:, jnp.newaxis]))
     deviation = (after - before - moved * (goals - before)) / spread
     squares = jnp.minimum(deviation**2, _FARTHEST)
-    # The likeliest goal has the weight 1: no other can make the sum vanish.
+    # The likeliest goal gets the weight 1, so that the sum cannot underflow to 0.
     squares = squares - jax.lax.stop_gradient(squares.min(axis=0))
     kept = (1 - change) * chances + change * _prior(len(mine))
     weighed = kept * jnp.exp(-0.5 * squares)
@@ -90,7 +90,7 @@ def believed(
 
 
 class AgreeSight(NamedTuple):
-    """What is due to n people in a step."""
+    """The input of n people in a step."""
 
     way: jax.Array
     """(f, n) the common way [m]."""
@@ -105,10 +105,10 @@ class AgreeSight(NamedTuple):
 def negotiated(
     mind: AgreeMind, lifts: AgreeLifts, due: AgreeSight, plant: Plant
 ) -> tuple[AgreeMind, jax.Array]:
-    """Return minds after a step, and the heights that the hands mean (f, n) [m].
+    """Return minds after a step, and the intended heights of the hands (f, n) [m].
 
-    It does what a :class:`.Negotiator` does. Decisions are those of single precision, and gradients
-    pass them by: a loss depends on what a person does, and not on how near a decision was.
+    This is the counterpart of :class:`.Negotiator`. Decisions are made in single precision and have
+    no gradient: a loss depends on a person's actions, not on how close a decision was.
     """
     size, body = len(due.way), lifts.body
     period = size * FRAME
@@ -154,7 +154,7 @@ def _precede(
     own: jax.Array,
     period: float,
 ) -> tuple[AgreeMind, jax.Array]:
-    """Return minds, and whether it is the own turn (n,); see :class:`.Precedence`."""
+    """Return minds, and whether it is their turn (n,); see :class:`.Precedence`."""
     start, stop, earliest, latest = due.times
     hurdle = lifts.human
     asked = (hurdle.given > 0.0) & (due.common > 0.0)

@@ -31,7 +31,7 @@ class AgreeState(NamedTuple):
     mind: AgreeMind
     """The people."""
     targets: jax.Array
-    """(DEPTH, n) history of the height that the hand meant to have [m], newest first."""
+    """(DEPTH, n) history of the hand's intended height [m], newest first."""
     step: jax.Array
     """() number of the coming step."""
 
@@ -67,10 +67,10 @@ def agree_view(state: AgreeState, lifts: AgreeLifts, due: AgreeDue) -> jax.Array
 
 
 def agree_known(state: AgreeState, lifts: AgreeLifts, due: AgreeDue) -> jax.Array:
-    """Return what n people know of their hurdle (5, n).
+    """Return the knowledge of n people about their hurdle (5, n).
 
-    The common height while the way rests there, the height of the own hurdle, the times until its
-    window opens and closes, and whether there is one.
+    The rows are the common height while the way rests there, the height of the person's hurdle, the
+    times until its window opens and closes, and whether there is a hurdle.
     """
     sight, own = due.sight, lifts.human
     heights = jnp.stack((10.0 * sight.common, 10.0 * own.height))
@@ -94,11 +94,11 @@ def agree_step(
     due
         The step's share of them.
     action
-        (n,) change of the command [m], cut to the hands' speed and stroke.
+        (n,) change of the command [m], clipped to the hands' speed and stroke.
     variation
-        Arms that differ from the benchmark's; none: its own.
+        Variation of the arms; None is the benchmark's arms.
     added
-        What learning people add; none: nothing.
+        Additions by learning people; None adds nothing.
     """
     size, body, plant = len(due.gain), lifts.body, state.haptic.plant
     mind, targets = negotiated(state.mind, lifts, due.sight, plant)
@@ -124,12 +124,12 @@ def agree_step(
 
 
 class AgreeSquares(NamedTuple):
-    """What a step adds to the score of n lifts, all (n,) [m2]."""
+    """Contribution of a step to the score of n lifts, all (n,) [m2]."""
 
     human: jax.Array
     """Least square distance of the table from the human's hurdle in its window."""
     robot: jax.Array
-    """The same of the robot's."""
+    """Least square distance of the table from the robot's hurdle in its window."""
     level: jax.Array
     """Sum of the squared height differences at the common height."""
 
@@ -144,7 +144,7 @@ def _passing(hurdle: Obstacle, frames: Frames, numbers: jax.Array) -> jax.Array:
 def agree_missed(
     state: AgreeState, lifts: AgreeLifts, due: AgreeDue, frames: Frames
 ) -> AgreeSquares:
-    """Return what a step adds to the score, of the state before it and its frames.
+    """Return the contribution of a step to the score, from the state before it and its frames.
 
     The gradient of a missed hurdle is that of the frame in which the table comes nearest.
     """
@@ -160,7 +160,7 @@ def agree_missed(
 
 
 def agree_score_mm(lifts: AgreeLifts, squares: AgreeSquares) -> jax.Array:
-    """Return the RMSE of the agreement (n,) [mm] of lifts by the squares of all steps (s, n)."""
+    """Return the RMSE of the agreement (n,) [mm] of lifts from the squares of all steps (s, n)."""
     given = lifts.human.given, lifts.robot.given
     missed = given[0] * squares.human.min(axis=0) + given[1] * squares.robot.min(axis=0)
     level = squares.level.sum(axis=0) / (lifts.agreeing[1] - lifts.agreeing[0])
@@ -177,4 +177,4 @@ AGREE_STEPS: Final = TouchSteps(
     missed=agree_missed,
     score_mm=agree_score_mm,
 )
-"""The task."""
+"""The steps of the task."""

@@ -1,7 +1,8 @@
 """The NAO's arms on their one path: set-point, sag, lag and bend as functions of a height.
 
 The joints follow the set-points on the path with one lag, so that they are at a weighted mean of
-where the path was. Of the heights s on the path with that mean and variance, the hands are at
+past points of the path. With the weighted mean and variance of the heights s of these points, the
+hands are at
 
     mean(s) + bend(mean(s)) var(s),        bend = J . q'' / 2,
 
@@ -57,7 +58,7 @@ _BEND: Final = _along_the_stroke((arm_path().levers * _SECOND / 2).sum(axis=1))
 
 
 class ArmVariation(NamedTuple):
-    """How arms differ from the benchmark's; 1 is the benchmark's own."""
+    """Variation of arms relative to the benchmark's, for which all factors are 1."""
 
     sag: jax.Array
     """(n,) factor of the sag by weight and load."""
@@ -101,7 +102,7 @@ def drive(
     force
         (n,) force of the hands on the table in the last frame [N].
     variation
-        Arms that differ from the benchmark's; none: its own.
+        Variation of the arms; None is the benchmark's arms.
     """
     load, target = prepared(arm, command, force, variation)
     return followed(arm, target, variation=variation)._replace(target=target, load=load)
@@ -114,7 +115,7 @@ def prepared(
     load = arm.load + _YIELDING * (force - arm.load)
     place = (command - _MIDDLE) / _HALF
     sag = _sag(place, load)
-    # At rest, the offset makes up for the sag under the table's weight.
+    # At rest, the offset compensates for the sag under the table's weight.
     rest_place = jnp.full_like(command, -_MIDDLE / _HALF)
     sag = sag - _sag(rest_place, jnp.full_like(load, WEIGHT_SHARE))
     if variation is not None:
@@ -129,12 +130,12 @@ def followed(
     step: float = FRAME,
     variation: ArmVariation | None = None,
 ) -> Arm:
-    """Return the arms a physics step later, the set-point of the last frame kept.
+    """Return the arms a physics step later; the set-point of the last frame is kept.
 
     Parameters
     ----------
     arm, variation
-        As of :func:`drive`.
+        As for :func:`drive`.
     target
         (n,) set-point for the end of the frame [m].
     begin

@@ -36,9 +36,9 @@ class BallLifts(NamedTuple):
     target: jax.Array
     """(s, f, n) planned height of the person's end at the end of each frame [m]."""
     place: jax.Array
-    """(s, f, n) where the ball should be at the end of each frame [m]."""
+    """(s, f, n) intended place of the ball at the end of each frame [m]."""
     coming: jax.Array
-    """(s, HISTORY, n) the same of the first ten frames from the beginning of each step on."""
+    """(s, HISTORY, n) the same for the first ten frames from the beginning of each step."""
     gain: jax.Array
     """(s, f, n) signal-dependent noise of the person's hand, relative to its velocity."""
     tremor: jax.Array
@@ -55,11 +55,11 @@ class BallLifts(NamedTuple):
     body: Body
     """The people."""
     manner: "Manner"
-    """How they steer."""
+    """Their manners of steering."""
 
     @property
     def size(self) -> int:
-        """How many lifts."""
+        """Number of lifts."""
         return int(self.steps.shape[0])
 
 
@@ -86,12 +86,12 @@ class DrawnBall(NamedTuple):
 
 
 def draw_ball(scenario: Scenario, seed: int) -> DrawnBall:
-    """Return what is drawn for a lift: the same as :class:`.BallLift` plays.
+    """Return the drawn arrays of a lift, the same as :class:`.BallLift` plays.
 
     Raises
     ------
     InputError
-        If the task or the ball is another, or a second person holds the far end.
+        If it is another task or ball, or a second person holds the far end.
     """
     task = scenario.task
     if type(task) is not BallSteering or task.ball != BALL or scenario.partner != "nao":
@@ -121,12 +121,12 @@ def draw_ball(scenario: Scenario, seed: int) -> DrawnBall:
 
 
 def stack_ball(drawn: Sequence[DrawnBall]) -> BallLifts:
-    """Return lifts of one control period in one; shorter ones go on at rest.
+    """Return lifts of one control period, stacked; shorter ones continue at rest.
 
     Raises
     ------
     InputError
-        If there is none, or they have different control periods.
+        If there are no lifts, or they have different control periods.
     """
     common_size([lift.scenario.frames_per_step for lift in drawn])
     steps = [len(lift.target) for lift in drawn]

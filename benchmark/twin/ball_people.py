@@ -1,4 +1,4 @@
-"""People who steer a ball, many at a time: how far they move the own end from the plan."""
+"""People who steer a ball, many at a time: the distance of their end from the plan."""
 
 import math
 from typing import NamedTuple
@@ -22,16 +22,16 @@ from .body import DEPTH, delayed
 
 
 class SteeringMind(NamedTuple):
-    """What n people keep in mind who steer; all (n,)."""
+    """The memory of n people who steer; all (n,)."""
 
     offset: jax.Array
-    """How far steering has the own end from the plan [m]."""
+    """Distance of the person's end from the plan, due to steering [m]."""
     wanted: jax.Array
     """Height difference that they wanted in the last step [m]."""
     product: jax.Array
-    """Of the regression of the partner's part, see :class:`.Steering`."""
+    """Sum of products in the regression of the partner's part, see :class:`.Steering`."""
     square: jax.Array
-    """Of the same."""
+    """Sum of squares in that regression."""
 
 
 def steering_minds(count: int) -> SteeringMind:
@@ -48,9 +48,9 @@ def steered(
     coming: jax.Array,
     size: int,
 ) -> tuple[SteeringMind, jax.Array]:
-    """Return minds after a step, and the own end's distances from the plan in it (f, n) [m].
+    """Return minds after a step, and the distances of their ends from the plan in it (f, n) [m].
 
-    It does what :class:`.Steering` does.
+    This is the counterpart of :class:`.Steering`.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def steered(
     plans
         (DEPTH, n) history of the planned height [m], newest first.
     coming
-        (HISTORY, n) where the ball should be at the end of each of the next frames [m].
+        (HISTORY, n) intended place of the ball at the end of each of the next frames [m].
     size
         Frames of the step, f.
     """

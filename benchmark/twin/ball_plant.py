@@ -1,4 +1,4 @@
-"""The plant with a ball on the table, which remembers where it was seen."""
+"""The plant with a ball on the table, which keeps the past places of the ball."""
 
 from typing import Final, NamedTuple
 
@@ -12,7 +12,7 @@ from .haptic_plant import HapticPlant, Meant, advance_haptic_plant, haptic_plant
 from .rolling import WEIGHT, Rolling
 
 PLACES: Final = DEPTH + HISTORY - 1
-"""Frames of the past of the ball: a person sees ten at a time."""
+"""Number of past places of the ball that are kept: a person sees ten at a time."""
 
 
 class BallPlant(NamedTuple):
@@ -41,7 +41,7 @@ def advance_ball_plant(
     commands: jax.Array,
     variation: ArmVariation | None = None,
 ) -> BallPlant:
-    """Return the lifts some frames later; the parameters are of :func:`.advance_haptic_plant`."""
+    """Return the lifts some frames later; parameters as for :func:`.advance_haptic_plant`."""
     haptic, ball, places = advance_haptic_plant(
         state.haptic, body, meant, commands, variation, state.ball
     )

@@ -83,9 +83,9 @@ def ball_view(state: BallState, lifts: BallLifts, due: BallDue) -> Any:
 
 
 def ball_known(state: BallState, lifts: BallLifts, due: BallDue) -> jax.Array:
-    """Return what n people know of the ball (3, n).
+    """Return the knowledge of n people about the ball (3, n).
 
-    Its place as they see it, and where it should be now and at the end of ten frames.
+    The rows are its seen place, and its intended places now and at the end of ten frames.
     """
     place = delayed(state.table.places[:DEPTH], lifts.body.seen, 1)
     return 5.0 * jnp.concatenate((place, due.coming[jnp.array([0, -1])]))
@@ -108,11 +108,11 @@ def ball_step(
     due
         The step's share of them.
     action
-        (n,) change of the command [m], cut to the hands' speed and stroke.
+        (n,) change of the command [m], clipped to the hands' speed and stroke.
     variation
-        Arms that differ from the benchmark's; none: its own.
+        Variation of the arms; None is the benchmark's arms.
     added
-        What learning people add; none: nothing.
+        Additions by learning people; None adds nothing.
     """
     size, body, plant = len(due.gain), lifts.body, state.haptic.plant
     mind, offsets = steered(state.mind, lifts, state.table, state.plans, due.coming, size)
@@ -154,8 +154,8 @@ def ball_missed(state: BallState, lifts: BallLifts, due: BallDue, places: jax.Ar
     """Return the sum of the ball's square distances in a step (n,) [m2].
 
     A ball that rolls off the table stays where it fell, and each frame of the steps after that
-    counts :data:`.FAILED_FRAME_MM`, as in the engine: the loss is finite. Its gradient comes from
-    the frames until then alone, in which the ball is already farther off than that.
+    counts with :data:`.FAILED_FRAME_MM`, as in the engine, so that the loss is finite. Its gradient
+    comes only from the frames until then, in which the ball is already farther off than that.
     """
     cut = len(places) * (FAILED_FRAME_MM / 1000) ** 2
     squares = jnp.where(state.lost > 0, cut, ((places - due.place) ** 2).sum(axis=0))
@@ -172,4 +172,4 @@ BALL_STEPS: Final = TouchSteps(
     missed=ball_missed,
     score_mm=mean_error_mm,
 )
-"""The task."""
+"""The steps of the task."""

@@ -16,7 +16,8 @@ DEPTH: Final = 26
 """Frames of the past that are kept: delays of up to 250 ms."""
 
 CHUNK: Final = 5
-"""Most frames that are made at once: reflexes must be older, so that they need none of these."""
+"""Most frames that are made at once: reflexes must have longer delays, so that they need none of
+these frames."""
 
 _ACTIVATION: Final = -math.expm1(-FRAME / MUSCLE_TIME)
 
@@ -46,7 +47,7 @@ def bodies(people: Sequence[BodyParameters], step: float = FRAME) -> Body:
     Raises
     ------
     InputError
-        If a delay is outside what the twin keeps.
+        If a delay is outside the range that the twin keeps.
     """
     visual = [round(each.visual_delay / FRAME) for each in people]
     haptic = [round(each.haptic_delay / FRAME) for each in people]
@@ -84,9 +85,9 @@ def delayed(history: jax.Array, delay: jax.Array, frames: int) -> jax.Array:
     delay
         (n,) delays in frames, of at least ``frames - 1``.
     frames
-        How many frames.
+        Number of frames.
     """
-    # Not a gather: the gradient of one takes XLA a copy of the history for each element.
+    # Not a gather: for its gradient, XLA would copy the history for each element.
     picked = (jnp.arange(DEPTH)[:, jnp.newaxis] == delay).astype(history.dtype)
     values = [(picked[i:] * history[: DEPTH - i]).sum(axis=0) for i in range(frames)]
     return jnp.stack(values)
@@ -98,15 +99,15 @@ def pushed(history: jax.Array, new: jax.Array) -> jax.Array:
 
 
 def wanted_shift(body: Body, difference: jax.Array, force: jax.Array) -> jax.Array:
-    """Return what the reflexes want the reference to be shifted by [m].
+    """Return the shift of the reference that the reflexes want [m].
 
     Parameters
     ----------
     body
         The people.
     difference, force
-        (..., n) height of the other end above the own [m], and force beyond the share of the
-        weight [N], as old as they are seen and felt.
+        (..., n) seen height of the other end above the person's [m], and felt force beyond the
+        share of the weight [N].
     """
     wanted = body.visual_gain * difference - body.haptic_gain * force
     return jnp.clip(wanted, -REFLEX_LIMIT, REFLEX_LIMIT)

@@ -24,7 +24,7 @@ PAIR: Final = "two humans"
 """Name of the human-human team."""
 
 PEOPLE: Final = range(210_000, 210_010)
-"""Seeds of people and lifts outside all suites, and of none that is learned from."""
+"""Seeds of people and lifts outside all suites, none of which is used for learning."""
 
 MEAN_LIMIT: Final = 0.003
 WORST_LIMIT: Final = 0.015
@@ -70,7 +70,7 @@ def policy_deviation(name: str, people: Sequence[int] = PEOPLE) -> TwinDeviation
     Parameters
     ----------
     name
-        Of the policy.
+        Name of the policy.
     people
         Seeds: each person makes one lift of each behaviour.
     """

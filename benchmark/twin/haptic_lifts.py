@@ -1,4 +1,4 @@
-"""Drawn arrays of all tasks with touch: sensors, the noise of a hand, and lifts in one."""
+"""Drawn arrays of all tasks with touch: sensors, the noise of a hand, and stacked lifts."""
 
 import math
 from collections.abc import Sequence
@@ -29,7 +29,7 @@ KEPT: Final = math.exp(-FRAME / LEAK)
 
 
 class Sensed(NamedTuple):
-    """What is drawn of a lift with touch whatever the task, for s steps of f frames."""
+    """The drawn arrays common to all tasks with touch, for s steps of f frames."""
 
     gain: Array
     """(s, f) signal-dependent noise of the person's hand, relative to its velocity."""
@@ -40,7 +40,7 @@ class Sensed(NamedTuple):
 
 
 def draw_sensed(scenario: Scenario, seed: int, steps: int) -> Sensed:
-    """Return the noise of sensors and hand in a lift of so many steps."""
+    """Return the noise of sensors and hand in a lift of ``steps`` steps."""
     name, size = scenario.name, scenario.frames_per_step
     frames = steps * size
     rng = np.random.default_rng(derive_seed(seed, f"sensor/{name}"))
@@ -57,16 +57,16 @@ def draw_sensed(scenario: Scenario, seed: int, steps: int) -> Sensed:
 
 
 def sampled_frames(scenario: Scenario, steps: int) -> NDArray[np.int64]:
-    """Return where the samples of the steps are in a lift's noise of the motion capture (s,)."""
+    """Return the indices of the steps' samples in a lift's motion-capture noise (s,)."""
     size = scenario.frames_per_step
     return size * np.arange(steps) + HISTORY_FRAMES - 1 - scenario.latency_frames
 
 
 def _hand_noise(scenario: Scenario, seed: int, frames: int) -> tuple[Array, Array]:
-    """Return gain and tremor of a person's hand (frames,), from what it does.
+    """Return gain and tremor of a person's hand (frames,), from its motion in two tests.
 
-    One that is to stay shows the tremor alone. One that is to move by 1 m in each frame shows
-    errors e, too, of which those of the last frame are kept in part: g_i = e_i - kept e_(i-1).
+    A hand that should stay shows only the tremor. A hand that should move by 1 m in each frame also
+    shows errors e, which include a part of the last frame's: g_i = e_i - kept e_(i-1).
     """
     size = scenario.frames_per_step
     ramp = np.arange(1.0, frames + 1)
@@ -85,12 +85,12 @@ def _hand(scenario: Scenario, seed: int) -> ScriptedHuman:
 
 
 def lengthened(values: Array, frames: int) -> Array:
-    """Return values (T,) with the last one repeated until there are so many."""
+    """Return values (T,), with the last one repeated up to ``frames`` values."""
     return np.concatenate((values, np.full(frames - len(values), values[-1])))
 
 
 def joined(arrays: Sequence[Array], many: int) -> jax.Array:
-    """Return arrays as one (many, ..., n), in single precision; shorter ones stay at their end."""
+    """Return arrays as one (many, ..., n), in single precision; shorter ones repeat their end."""
     filled = np.empty((many, *arrays[0].shape[1:], len(arrays)), np.float32)
     for index, array in enumerate(arrays):
         filled[: len(array), ..., index] = array

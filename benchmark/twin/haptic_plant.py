@@ -1,4 +1,4 @@
-"""The plant of tasks with touch: wrists that mean a pitch, a far grip, and what sensors feel."""
+"""The plant of tasks with touch: wrists with an intended pitch, a far grip, and sensors."""
 
 from typing import Final, NamedTuple
 
@@ -47,7 +47,7 @@ class Meant(NamedTuple):
     """A person's intention in some frames, each (frames, n)."""
 
     reference: jax.Array
-    """What the arms pull towards at the end of each, without the reflex [m]."""
+    """Height that the arms pull towards at the end of each frame, without the reflex [m]."""
     difference: jax.Array
     """The intended height of the far end above the near one [m]."""
     wrist: jax.Array
@@ -55,7 +55,7 @@ class Meant(NamedTuple):
 
 
 class Felt(NamedTuple):
-    """What some frames add to the histories of :class:`HapticPlant`, each (frames, ..., n)."""
+    """Additions of some frames to the histories of :class:`HapticPlant`, each (frames, ..., n)."""
 
     heights: jax.Array
     differences: jax.Array
@@ -65,7 +65,7 @@ class Felt(NamedTuple):
 
 
 def remembered(state: HapticPlant, moving: Moving, wrist: jax.Array, felt: Felt) -> HapticPlant:
-    """Return the lifts after some frames: how they move then, with what was seen and felt."""
+    """Return the lifts after some frames, from their motion and new entries of the histories."""
     plant = state.plant
     return HapticPlant(
         plant=Plant(
@@ -81,7 +81,7 @@ def remembered(state: HapticPlant, moving: Moving, wrist: jax.Array, felt: Felt)
 
 
 def shifts_of_reflex(state: HapticPlant, body: Body, count: int) -> jax.Array:
-    """Return where the people's reflexes want to shift their references in the next frames [m]."""
+    """Return the shifts of references that the people's reflexes want in the next frames [m]."""
     return wanted_shift(
         body,
         delayed(state.uneven, body.seen, count),
@@ -90,7 +90,7 @@ def shifts_of_reflex(state: HapticPlant, body: Body, count: int) -> jax.Array:
 
 
 Held = tuple[Moving, jax.Array, Rolling | None]
-"""How lifts move, the pitch that the wrists turn towards, and the balls, if there are any."""
+"""Motion of the lifts, pitch that the wrists turn towards, and balls, if there are any."""
 
 
 def advance_haptic_plant(
@@ -114,7 +114,7 @@ def advance_haptic_plant(
     commands
         (frames, n) commanded height of the far hands at the end of each frame [m].
     variation
-        Arms that differ from the benchmark's; none: its own.
+        Variation of the arms; None is the benchmark's arms.
     ball
         The balls on the tables, if there are any.
 
@@ -181,7 +181,7 @@ def advance_haptic_step(
     Parameters
     ----------
     state, body, meant, commands, variation
-        As of :func:`advance_haptic_plant`; the frames are made some at once.
+        As for :func:`advance_haptic_plant`; several frames are made at once.
     """
     near, far, size = [], [], len(commands)
     many = chunk(size)

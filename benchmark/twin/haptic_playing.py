@@ -16,7 +16,7 @@ from .playing import ramp
 
 
 class HandState(Protocol):
-    """What a step of the hand begins with."""
+    """State of the hand before a step."""
 
     @property
     def correction(self) -> jax.Array:
@@ -59,7 +59,7 @@ def sensed_by_hands(
     command
         (n,) command of the far hands [m].
     time
-        () since the lifts began [s].
+        () time since the lifts began [s].
     noise
         (4, n) error of the sensors.
     latency
@@ -90,7 +90,7 @@ def corrected_by_sight(
     Parameters
     ----------
     correction
-        (n,) as it was [m].
+        (n,) correction before the step [m].
     targets, heights
         (DEPTH, n) histories of the intended height and of the height [m], newest first.
     body
@@ -111,7 +111,7 @@ def noise_of_motion(
     Parameters
     ----------
     error
-        (n,) of the last frame [m].
+        (n,) error in the last frame [m].
     gain
         (f, n) noise relative to the velocity.
     before, targets
@@ -130,7 +130,8 @@ class MovedHand(NamedTuple):
     """The person's hand in a step."""
 
     references: jax.Array
-    """(f, n) what the arms pull towards in each frame [m], not yet cut to the range of heights."""
+    """(f, n) heights that the arms pull towards in each frame [m], not yet clipped to their
+    range."""
     correction: jax.Array
     """(n,) the voluntary correction at the end [m]."""
     error: jax.Array
@@ -140,7 +141,7 @@ class MovedHand(NamedTuple):
 def moved_hand(
     state: HandState, targets: jax.Array, heights: jax.Array, body: Body, noise: HandNoise
 ) -> MovedHand:
-    """Return the hand in a step of targets (f, n) [m]: what is meant, noise, and correction.
+    """Return the hand in a step of targets (f, n) [m], with noise and correction.
 
     Parameters
     ----------
@@ -163,7 +164,7 @@ def moved_hand(
 
 
 def commanded(command: jax.Array, action: jax.Array, size: int) -> jax.Array:
-    """Return the commands (f, n) [m] in a step by an action, cut to the hands' speed and stroke."""
+    """Return the commands (f, n) [m] in a step, clipped to the hands' speed and stroke."""
     limit = action_limit(size * FRAME)
     after = jnp.clip(command + jnp.clip(action, -limit, limit), *STROKE)
     return ramp(command, after, size)

@@ -42,13 +42,13 @@ class IntentLifts(NamedTuple):
     wrist: jax.Array
     """(n,) share of the intended pitch that the wrists show."""
     lead: jax.Array
-    """(n,) how far they are ahead, in frames."""
+    """(n,) lead of the wrists over the hands, in frames."""
     patience: jax.Array
     """(n,) see :class:`.LeadingManner` [m]."""
 
     @property
     def size(self) -> int:
-        """How many lifts."""
+        """Number of lifts."""
         return int(self.steps.shape[0])
 
 
@@ -62,12 +62,12 @@ class DrawnIntent(NamedTuple):
 
 
 def draw_intent(scenario: Scenario, seed: int) -> DrawnIntent:
-    """Return what is drawn for a lift: the same as :class:`.IntentLift` plays.
+    """Return the drawn arrays of a lift, the same as :class:`.IntentLift` plays.
 
     Raises
     ------
     InputError
-        If the task is another, or a second person holds the far end.
+        If it is another task, or a second person holds the far end.
     """
     if type(scenario.task) is not Intent or scenario.partner != "nao":
         raise InputError(
@@ -87,12 +87,12 @@ def draw_intent(scenario: Scenario, seed: int) -> DrawnIntent:
 
 
 def stack_intent(drawn: Sequence[DrawnIntent]) -> IntentLifts:
-    """Return lifts of one control period in one; shorter ones go on at rest.
+    """Return lifts of one control period, stacked; shorter ones continue at rest.
 
     Raises
     ------
     InputError
-        If there is none, or they have different control periods.
+        If there are no lifts, or they have different control periods.
     """
     size = common_size([lift.scenario.frames_per_step for lift in drawn])
     steps = [len(lift.sensed.gain) for lift in drawn]

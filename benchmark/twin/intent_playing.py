@@ -97,10 +97,10 @@ def intent_view(state: IntentState, lifts: IntentLifts, due: IntentDue) -> Any:
 
 
 def intent_known(state: IntentState, lifts: IntentLifts, due: IntentDue) -> jax.Array:
-    """Return what n people know of their intention (6, n).
+    """Return the knowledge of n people about their intention (6, n).
 
-    For three times ahead the intended height of the own end, then the intended difference of the
-    far one.
+    The rows are the intended heights of their end at three times ahead, then the intended
+    differences of the far end from it.
     """
     ahead = state.time + jnp.asarray(LOOKS_AHEAD)[:, jnp.newaxis]
     near = planned(lifts.near, ahead)
@@ -124,11 +124,11 @@ def intent_step(
     due
         The step's share of them.
     action
-        (n,) change of the command [m], cut to the hands' speed and stroke.
+        (n,) change of the command [m], clipped to the hands' speed and stroke.
     variation
-        Arms that differ from the benchmark's; none: its own.
+        Variation of the arms; None is the benchmark's arms.
     added
-        What learning people add; none: nothing.
+        Additions by learning people; None adds nothing.
     """
     size, body, plant = len(due.gain), lifts.body, state.haptic.plant
     times = paced(state, lifts, size)
@@ -176,4 +176,4 @@ INTENT_STEPS: Final = TouchSteps(
     missed=intent_missed,
     score_mm=mean_error_mm,
 )
-"""The task."""
+"""The steps of the task."""

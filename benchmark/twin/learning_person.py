@@ -11,44 +11,45 @@ from .playing import ramp
 from .rollout import Policy
 
 ADDED_HEIGHT: Final = 0.02
-"""Most that a learning person adds to the height of the hands [m]."""
+"""Largest addition of a learning person to the height of the hands [m]."""
 
 ADDED_PITCH: Final = 0.1
-"""Most that a learning person adds to the pitch that the wrists turn to [rad]."""
+"""Largest addition of a learning person to the pitch that the wrists turn to [rad]."""
 
 SENSES: Final = 3
-"""How many numbers :func:`person_senses` returns."""
+"""Number of values that :func:`person_senses` returns."""
 
 
 class LearningPerson(NamedTuple):
     """A person at the near end who has learned to add to what the hands do by themselves."""
 
     policy: Policy
-    """Returns memory and additions (2, n), each of at most 1, for a memory and what n people sense
-    and know, (k, n) of the order of 1."""
+    """Returns memory and additions (2, n), each of at most 1, for a memory and the senses and
+    knowledge of n people, (k, n) of the order of 1."""
     memory: Any
     """The memory at the beginning."""
 
 
 class Added(NamedTuple):
-    """What learning people add in the frames of a step, both (f, n)."""
+    """Additions of learning people in the frames of a step, both (f, n)."""
 
     height: jax.Array
-    """To the height of the hands [m]."""
+    """Addition to the height of the hands [m]."""
     pitch: jax.Array
-    """To the pitch that the wrists turn to [rad]."""
+    """Addition to the pitch that the wrists turn to [rad]."""
 
 
 def added_in_step(before: jax.Array, after: jax.Array, size: int) -> Added:
-    """Return what is added in so many frames, from the additions (2, n) before to those after."""
+    """Return the additions in ``size`` frames, from those (2, n) before the step to those after."""
     height, pitch = (ramp(a, b, size) for a, b in zip(before, after, strict=True))
     return Added(ADDED_HEIGHT * height, ADDED_PITCH * pitch)
 
 
 def person_senses(plant: Plant, body: Body) -> jax.Array:
-    """Return what n people sense (3, n), as late as they do, of the order of 1.
+    """Return the senses of n people (3, n), with their delays, of the order of 1.
 
-    Height of the own end and the difference of the far one, as seen, and the felt force.
+    The rows are the seen height of their end, the seen difference of the far one, and the felt
+    force.
     """
     (height,) = delayed(plant.heights, body.seen, 1)
     (difference,) = delayed(plant.differences, body.seen, 1)

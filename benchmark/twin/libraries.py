@@ -1,4 +1,4 @@
-"""JAX, an optional dependency: on the processor, one thread for each computation."""
+"""JAX, an optional dependency: on the CPU, with one thread for each computation."""
 
 import importlib
 import os
@@ -12,8 +12,8 @@ _ONE_THREAD = "--xla_cpu_multi_thread_eigen=false"
 def require_jax() -> None:
     """Import JAX and Optax, so that the modules that use them can be imported.
 
-    Each computation keeps to one thread: a sum that is split among threads has other bits for
-    another number of processors.
+    Each computation keeps to one thread, since the bits of a sum that is split among threads depend
+    on the number of processors.
 
     Raises
     ------

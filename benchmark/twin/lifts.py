@@ -22,14 +22,14 @@ from .body import CHUNK, DEPTH, Body, bodies
 Array = NDArray[np.float64]
 
 MODELLED: Final = ("nao", "human")
-"""Holders of the far end that the twin has."""
+"""Holders of the far end that the twin models."""
 
 
 class Lifts(NamedTuple):
     """n lifts of at most s steps of f frames, in single precision."""
 
     reference: jax.Array
-    """(s, f, n) what the person's hand would pull towards if nothing were missing [m]."""
+    """(s, f, n) height that the person's hand would pull towards without a height error [m]."""
     seen_target: jax.Array
     """(s, n) the intended height one visual delay before the step [m]."""
     noise: jax.Array
@@ -43,7 +43,7 @@ class Lifts(NamedTuple):
 
     @property
     def size(self) -> int:
-        """How many lifts."""
+        """Number of lifts."""
         return self.steps.shape[0]
 
     def longest(self) -> int:
@@ -57,7 +57,7 @@ def check_modelled(scenario: Scenario) -> None:
     Raises
     ------
     InputError
-        If the task, the holder of the far end, the behaviour or a delay is another.
+        If the task, the holder of the far end, the behaviour or a delay is not modelled.
     """
     if type(scenario.task) is not Level:
         raise InputError(f"the twin has the task level alone, not {scenario.task.name!r}")
@@ -81,7 +81,7 @@ def draw_lifts(lifts: Iterable[tuple[Scenario, int]]) -> Lifts:
     Raises
     ------
     InputError
-        If there is none, they have different control periods, or one is not modelled.
+        If there are no lifts, they have different control periods, or one is not modelled.
     """
     return stack([carried_out(scenario, seed) for scenario, seed in lifts])
 
@@ -120,7 +120,7 @@ def carried_out(scenario: Scenario, seed: int) -> DrawnLift:
 
 
 def hand_references(human: ScriptedHuman, target: Array, size: int) -> Array:
-    """Return the references (s, f) of a person who sees the hand where it was meant to be."""
+    """Return the references (s, f) of a person who sees the hand at its intended height."""
     meant = np.concatenate((np.zeros(HISTORY), target))
     view = np.zeros(HumanObservation.size(size))
     references = []
@@ -132,12 +132,12 @@ def hand_references(human: ScriptedHuman, target: Array, size: int) -> Array:
 
 
 def stack(drawn: Sequence[DrawnLift]) -> Lifts:
-    """Return lifts in one; shorter ones go on at rest.
+    """Return lifts, stacked; shorter ones continue at rest.
 
     Raises
     ------
     InputError
-        If there is none, or they have different control periods.
+        If there are no lifts, or they have different control periods.
     """
     sizes = {lift.target.shape[1] for lift in drawn}
     if len(sizes) != 1:
@@ -170,12 +170,12 @@ def stack(drawn: Sequence[DrawnLift]) -> Lifts:
 
 
 def chunk(size: int) -> int:
-    """Return into how many frames at once a step of ``size`` frames is divided."""
+    """Return the number of frames in each part of a step of ``size`` frames."""
     return next(many for many in range(CHUNK, 0, -1) if size % many == 0)
 
 
 def _seen(target: Array, delay: int) -> Array:
-    """Return the intended height a delay [frames] before each step (s,); at first, that of rest."""
+    """Return the intended height a delay [frames] before each step (s,); first, that of rest."""
     steps, size = target.shape
     frames = np.arange(steps) * size - 1 - delay
     return np.where(frames >= 0, target.ravel()[np.maximum(frames, 0)], 0.0)

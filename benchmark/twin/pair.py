@@ -8,7 +8,8 @@ the table m of length L and the second person's mass n at its end,
     S cos(q) z'' + (I - (S sin(q))^2 / X) q''          = L cos(q) G - k q - d q'
                                                          + S^2 sin(q) cos(q) q'^2 / X
 
-with the forces F and G of the two people beyond the weight that they bear at rest; x is eliminated.
+with the forces F and G of the two people beyond the weight that they carry at rest; x is
+eliminated.
 """
 
 from typing import Final, NamedTuple
@@ -32,24 +33,24 @@ _HALF_MOMENT: Final = TABLE_MASS * TABLE_LENGTH / 2
 
 
 class MovingPair(NamedTuple):
-    """What a frame changes; all (n,)."""
+    """The motion of the pairs, changed by each frame; all (n,)."""
 
     height: jax.Array
-    """Of the first person's end [m]."""
+    """Height of the first person's end [m]."""
     velocity: jax.Array
-    """Its velocity [m/s]."""
+    """Velocity of that end [m/s]."""
     pitch: jax.Array
-    """Of the table [rad]."""
+    """Pitch of the table [rad]."""
     pitch_rate: jax.Array
-    """[rad/s]"""
+    """Rate of the pitch [rad/s]."""
     reference: jax.Array
-    """What the first person's arms pull towards, with the reflex [m]."""
+    """Height that the first person's arms pull towards, with the reflex [m]."""
     far_reference: jax.Array
-    """The same of the second person [m]."""
+    """Height that the second person's arms pull towards, with the reflex [m]."""
     reflex: jax.Array
     """Shift of the first reference by the reflex [m]."""
     far_reflex: jax.Array
-    """Shift of the second [m]."""
+    """Shift of the second reference by the reflex [m]."""
 
 
 class PairPlant(NamedTuple):
@@ -88,7 +89,8 @@ def advance_pair(
     body, far_body
         The first and the second person of each lift.
     references, far_references
-        (frames, n) what their arms pull towards at the end of each, without the reflex [m].
+        (frames, n) heights that their arms pull towards at the end of each frame, without the
+        reflex [m].
     """
     count = len(references)
     shifts = wanted_shift(

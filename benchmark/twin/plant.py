@@ -1,7 +1,8 @@
 """A person and a NAO on one table, reduced to one degree of freedom.
 
-The NAO's hands pin the far end at their height h, so that of the table's motion only the height z
-of the person's hands is left. With s = (h - z) / L the sine of the pitch, to third order in s,
+The NAO's hands pin the far end at their height h, so that the only remaining coordinate of the
+table is the height z of the person's hands. With s = (h - z) / L the sine of the pitch, to third
+order in s,
 
     (M + m/4 + mu) z'' = K (r - z) + B (r' - z') + (k pitch + d pitch') (1 + s^2/2) / L
                          - (m/4 - mu) h'',        mu = m (1 + s^2) / 12 + (2 M + m/4) s^2.
@@ -33,18 +34,18 @@ _RATE_GAIN: Final = GRIP_DAMPING / _IMPLICIT
 
 
 class Moving(NamedTuple):
-    """What a frame changes; all (n,)."""
+    """The motion of the lifts, changed by each frame; all (n,)."""
 
     height: jax.Array
-    """Of the person's end [m]."""
+    """Height of the person's end [m]."""
     velocity: jax.Array
     """Its velocity [m/s]."""
     pitch: jax.Array
-    """Of the table [rad]."""
+    """Pitch of the table [rad]."""
     pitch_rate: jax.Array
-    """[rad/s]"""
+    """Rate of the pitch [rad/s]."""
     far_height: jax.Array
-    """Of the far end [m]."""
+    """Height of the far end [m]."""
     far_velocity: jax.Array
     """Its velocity [m/s]."""
     far_force: jax.Array
@@ -102,11 +103,12 @@ def advance_plant(
     body
         The people.
     references
-        (frames, n) what the person's arms pull towards at the end of each, without the reflex [m].
+        (frames, n) heights that the person's arms pull towards at the end of each frame, without
+        the reflex [m].
     commands
-        (frames, n) commanded height of the far hands at the end of each [m].
+        (frames, n) commanded height of the far hands at the end of each frame [m].
     variation
-        Arms that differ from the benchmark's; none: its own.
+        Variation of the arms; None is the benchmark's arms.
     """
     count = len(references)
     shifts = wanted_shift(
@@ -154,15 +156,15 @@ def after_physics_step(
     now
         The lifts.
     body
-        The people, for steps of this duration.
+        The people, with gains for steps of this duration.
     grip
         (n,) torque with which the grips resist the pitch [Nm].
     reference
-        (n,) what the person's arms pull towards at the end of the step, with the reflex [m].
+        (n,) height that the person's arms pull towards at the end of the step, with the reflex [m].
     arm
         The NAO's arms after the step.
     pressed
-        (n,) force on the height of the person's hands by loads on the table [N].
+        (n,) generalised force of loads on the table on the height of the person's hands [N].
     step
         Duration [s].
     """

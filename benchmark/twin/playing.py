@@ -64,7 +64,7 @@ def at_rest(count: int) -> LiftState:
 
 
 def due(lifts: Lifts, step: jax.Array) -> Due:
-    """Return what a step needs; after the last one, that of the last."""
+    """Return a step's share of the lifts; after the last step, that of the last."""
     return Due(lifts.reference[step], lifts.seen_target[step], lifts.noise[step])
 
 
@@ -117,9 +117,9 @@ def control_step(
     now
         The step's share of the lifts.
     action
-        (n,) change of the command [m], cut to the hands' speed and stroke.
+        (n,) change of the command [m], clipped to the hands' speed and stroke.
     variation
-        Arms that differ from the benchmark's; none: its own.
+        Variation of the arms; None is the benchmark's arms.
     """
     size = now.reference.shape[0]
     correction = corrected(playing.correction, playing.plant.heights, body, now.seen_target, size)
@@ -144,9 +144,10 @@ def hands_step(
     body
         The people.
     references
-        (f, n) what their hands pull towards in each frame [m], cut to the range of heights.
+        (f, n) heights that their hands pull towards in each frame [m]; they are clipped to their
+        range.
     action, variation
-        As of :func:`control_step`.
+        As for :func:`control_step`.
 
     Returns
     -------
@@ -196,7 +197,8 @@ def ramp(start: jax.Array, stop: jax.Array, size: int) -> jax.Array:
 def dropped(playing: LiftState, size: int) -> jax.Array:
     """Return whether each table (n,) was dropped in the step just made, of ``size`` frames.
 
-    The tests are those of :meth:`.Level.failure`; the hands never let go, so that there is no gap.
+    The tests are those of :meth:`.Level.failure`, except that of the gap: the twin's hands never
+    let go.
     """
     tilted = jnp.abs(playing.plant.differences[0]) > TABLE_LENGTH * math.sin(DROP_TILT)
     return tilted | (jnp.abs(playing.plant.moving.pulled) > GRIP_FORCE * size)

@@ -12,7 +12,7 @@ from ..world.table import GRAVITY, TABLE_LENGTH
 from .plant import Moving
 
 WEIGHT: Final = BALL.mass * GRAVITY
-"""Of a ball [N]; people and robots carry half of it each."""
+"""Weight of a ball [N]; the two holders carry half of it each."""
 
 _STEP: Final = FINER.step
 _HALF: Final = TABLE_LENGTH / 2
@@ -22,15 +22,15 @@ class Rolling(NamedTuple):
     """The balls of n lifts; all (n,)."""
 
     place: jax.Array
-    """s, from the middle towards the far end [m]."""
+    """s, place of the ball from the middle towards the far end [m]."""
     speed: jax.Array
-    """w, of the centre along the table [m/s]."""
+    """w, speed of the centre along the table [m/s]."""
     slide: jax.Array
     """Velocity of the person's end away from the far end [m/s]."""
 
 
 def pressed_by(ball: Rolling, pitch: jax.Array) -> jax.Array:
-    """Return the force (n,) of balls on the height of the person's hands, beyond their half [N]."""
+    """Return the force (n,) of balls on the height of the person's hands, beyond half [N]."""
     level = TABLE_LENGTH * jnp.cos(pitch)
     lever = (_HALF + ball.place) / level - jnp.cos(pitch)
     return WEIGHT * jnp.cos(pitch) * lever + WEIGHT / 2

@@ -38,12 +38,12 @@ JAX: Final = JaxFunctions()
 
 
 class Sensing(NamedTuple):
-    """How the sensors of n lifts differ from the benchmark's."""
+    """Variation of the sensors of n lifts relative to the benchmark's."""
 
     lost: jax.Array
     """(s, n) 1 where a sample is lost and the last one is seen again, else 0."""
     own: jax.Array
-    """(s, 2, n) error of the own hand's height and command, as the policy sees them [m]."""
+    """(s, 2, n) error of the observed height and command of the robot's hand [m]."""
 
 
 class Outcome(NamedTuple):
@@ -78,7 +78,7 @@ def rollout(
     variation: ArmVariation | None = None,
     sensing: Sensing | None = None,
 ) -> Outcome:
-    """Return the outcome of lifts with a policy; differentiable in all that it depends on.
+    """Return the outcome of lifts with a policy; differentiable in all arguments.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def rollout(
     lifts
         People, plans and noise.
     variation, sensing
-        How arms and sensors differ from the benchmark's; none: not at all.
+        Variation of arms and sensors; None is the benchmark's.
     """
     size, period = lifts.reference.shape[1], lifts.reference.shape[1] * FRAME
     count, longest = lifts.size, lifts.longest()

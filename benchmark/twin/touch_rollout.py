@@ -15,23 +15,25 @@ class TouchSteps(NamedTuple):
     """The lifts of a task with touch, step by step, as functions of n lifts."""
 
     at_rest: Callable[[int], Any]
-    """Returns the state of so many lifts before the first step."""
+    """Returns the state of a number of lifts before the first step."""
     shares: Callable[[Any], Any]
-    """Returns each step's share of lifts, with a first axis of steps."""
+    """Returns the shares of all steps in the lifts, with a first axis of steps."""
     view: Callable[[Any, Any, Any], jax.Array]
-    """Returns the robot's observations (k, n) of state, lifts and share."""
+    """Returns the robot's observations (k, n) from state, lifts and share."""
     known: Callable[[Any, Any, Any], jax.Array]
-    """Returns what the people know of their task (k, n), of state, lifts and share, of the order of
-    1."""
+    """Returns the people's knowledge about their task (k, n), from state, lifts and share, of the
+    order of 1."""
     knows: int
-    """How many numbers that is."""
+    """Number of rows of ``known``."""
     step: Callable[..., tuple[Any, Any]]
-    """Returns the state after a step, and its frames, of state, lifts, share, actions (n,) [m],
+    """Returns the state after a step, and its frames, from state, lifts, share, actions (n,) [m],
     variation of the arms and :class:`.Added`."""
     missed: Callable[[Any, Any, Any, Any], Any]
-    """Returns what a step adds to the score, of the state before it, lifts, share and frames."""
+    """Returns the contribution of a step to the score, from the state before it, lifts, share and
+    frames."""
     score_mm: Callable[[Any, Any], jax.Array]
-    """Returns the scores (n,) [mm] of lifts and of what their steps add, with a first axis."""
+    """Returns the scores (n,) [mm] from lifts and the contributions of their steps, with a first
+    axis of steps."""
 
 
 def touch_rmse_mm(
@@ -44,20 +46,18 @@ def touch_rmse_mm(
 ) -> jax.Array:
     """Return the scores (n,) [mm] of lifts with a policy; differentiable.
 
-    A table that is dropped is not modelled.
+    Drops of the table are not modelled.
 
     Parameters
     ----------
-    steps
-        The task.
-    policy, memory
+    steps The steps of the task. policy, memory
         The policy, and its memory at the beginning.
     lifts
         People, plans and noise.
     variation
-        Arms that differ from the benchmark's; none: its own.
+        Variation of the arms; None is the benchmark's arms.
     person
-        A person who has learned; none: the benchmark's.
+        A person who has learned; None is the benchmark's.
     """
     _, size, count = lifts.gain.shape
 
@@ -81,5 +81,5 @@ def touch_rmse_mm(
 
 
 def mean_error_mm(lifts: Any, squares: jax.Array) -> jax.Array:
-    """Return the RMSE (n,) [mm] by the sums of squares in each step (s, n) [m2]."""
+    """Return the RMSE (n,) [mm] from the sums of squares in each step (s, n) [m2]."""
     return 1000 * jnp.sqrt(squares.sum(axis=0) / (lifts.steps * lifts.gain.shape[1]) + 1e-12)
