@@ -1,4 +1,4 @@
-"""The result bundle: a folder with a policy's scores, and everything they follow from.
+"""The result bundle: a folder with a policy's scores, and everything from which they follow.
 
 ================== ===============================================================================
 file               content

@@ -106,7 +106,7 @@ def take_array(
     Raises
     ------
     InputError
-        If there is no such array, or its type or shape is another.
+        If there is no such array, or it has another type or shape.
     """
     if name not in arrays:
         raise InputError(f"{file}: {name} is missing")
@@ -166,5 +166,5 @@ def _array(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, file: str) -> NDArr
         size = math.prod(shape) * dtype.itemsize
         if size != entry.file_size - stream.tell():
             raise InputError(f"{what} claims the shape {shape}, but has another size")
-        # Without a size, zipfile would unpack everything before it compares sizes.
+        # If read without a size, zipfile would unpack everything before it compares sizes.
         return np.frombuffer(stream.read(size), dtype).reshape(shape)

@@ -25,7 +25,7 @@ from .table import one_line
 
 @dataclass(frozen=True, kw_only=True)
 class Results:
-    """The results of a run, as ``results.json`` has them."""
+    """The results of a run, as in ``results.json``."""
 
     colift: str
     """Version of colift."""
@@ -107,7 +107,7 @@ def real_time(p99_ms: float | None, suite: Suite) -> bool | None:
     """Return whether a policy keeps up with a real robot; None if it never acted.
 
     It does if the 99th percentile of its time per step [ms], over all steps of all lifts, is at
-    most :data:`.POLICY_SHARE` of the control period: so long does the real-time loop wait.
+    most :data:`.POLICY_SHARE` of the control period, the time that the real-time loop waits.
     """
     if p99_ms is None:
         return None
@@ -118,8 +118,8 @@ def real_time(p99_ms: float | None, suite: Suite) -> bool | None:
 def with_circumstances(content: Results, claimed: Mapping[str, Any], suite: Suite) -> Results:
     """Return results with those claims of a bundle that no simulation can verify.
 
-    They are the version of colift that wrote it, and the policy's times per step. (The policy's
-    name and digest, the isolation and the faults come with the run.)
+    These are the version of colift that wrote the bundle, and the policy's times per step. (The
+    policy's name and digest, the isolation and the faults come with the run.)
     """
     step_ms = StepTimes(**{name: claimed["summary"]["step_ms"][name] for name in ("p50", "p99")})
     return dataclasses.replace(

@@ -35,12 +35,12 @@ LARGEST: Final[Mapping[str, int]] = {
 
 
 def check_bundle_folder(folder: Path) -> None:
-    """Refuse a folder that a bundle cannot be written to, before any work is done.
+    """Refuse a folder to which a bundle cannot be written, before any work is done.
 
     Raises
     ------
     InputError
-        If it holds other files than a bundle's, or cannot be created or written to.
+        If it holds files other than a bundle's, or cannot be created or written to.
     """
     if folder.exists():
         if not folder.is_dir():
@@ -100,7 +100,7 @@ def read_files(folder: Path) -> dict[str, bytes]:
     Raises
     ------
     InputError
-        If there is no such folder, one of :data:`FILES` is missing, it holds anything else than
+        If there is no such folder, one of :data:`FILES` is missing, it holds anything other than
         plain files of a bundle, or a file is too large.
     """
     try:

@@ -14,7 +14,7 @@ from .arrays import Arrays, dump_arrays, parse_arrays, take_array
 from .files import INPUTS
 
 HANDS: Final = ("human", "far")
-"""The two ends; the arrays of the far one are there if a person held it in every lift."""
+"""The two ends; there are arrays of the far one only if a person held it in every lift."""
 
 _SCALARS: Final = ("offset", "delay")
 _SERIES: Final[Mapping[str, str]] = {"times": "<f8", "heights": "<f8", "frames": "<i8"}
@@ -24,7 +24,7 @@ MOST_BYTES: Final = 2**28
 
 
 def dump_inputs(scenarios: Sequence[Scenario]) -> bytes | None:
-    """Return the hands of live lifts as a file; None if the scenarios are no live lifts.
+    """Return the hands of live lifts as a file; None if the scenarios are not live lifts.
 
     ``cue`` has the kind and the seed of each lift's cues; then come, for each hand, ``offset`` and
     ``delay`` [s] of each lift, the number ``samples`` of its samples, and their ``times`` [s],
@@ -57,7 +57,7 @@ def parse_inputs(data: bytes, lifts: int) -> list[Played]:
     Raises
     ------
     InputError
-        If it is not such a file, or not of so many lifts.
+        If it is not such a file, or has another number of lifts.
     """
     arrays = parse_arrays(data, INPUTS, MOST_BYTES)
     cues = take_array(arrays, "cue", "<i8", (lifts, 2), INPUTS)

@@ -1,4 +1,4 @@
-"""JSON in one form: written, and read strictly."""
+"""JSON in a single form: its writing, and its strict reading."""
 
 import json
 import math
@@ -16,12 +16,12 @@ def dump_json(content: Any) -> bytes:
 
 
 def parse_json(data: bytes, file: str) -> dict[str, Any]:
-    """Return the object that a JSON text of :func:`dump_json` is.
+    """Return the object of a JSON text written by :func:`dump_json`.
 
     Raises
     ------
     InputError
-        If it is not an object, or in any other form, which other readers might understand
+        If it is not an object, or has any other form, which other readers might understand
         differently.
     """
     try:
@@ -60,7 +60,7 @@ def _without_repetition(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def pick(content: Any, path: str, kind: type[T] | tuple[type[T], ...], file: str) -> T:
-    """Return the value at a dotted path, of the type it must have (bool is no int here).
+    """Return the value at a dotted path, of the required type (a bool is not an int here).
 
     Raises
     ------
@@ -81,7 +81,7 @@ def of_type(value: Any, kind: type[T] | tuple[type[T], ...], what: str) -> T:
     Raises
     ------
     InputError
-        If its type is another; ``what`` begins the message.
+        If it has another type; ``what`` begins the message.
     """
     kinds = kind if isinstance(kind, tuple) else (kind,)
     if type(value) not in kinds:

@@ -70,7 +70,7 @@ def read_bundle(folder: Path) -> Bundle:
     Raises
     ------
     InputError
-        If it is not a bundle, damaged, or a file's hash is not the one in the manifest.
+        If it is not a bundle, is damaged, or a file's hash differs from the manifest's.
     """
     files = read_files(folder)
     bundle = parse(files)
@@ -80,7 +80,7 @@ def read_bundle(folder: Path) -> Bundle:
 
 
 def wrong_hashes(files: Mapping[str, bytes]) -> list[tuple[str, str]]:
-    """Return each file whose hash is not as the manifest has it, with the reason.
+    """Return each file whose hash differs from the manifest's, with the reason.
 
     Raises
     ------
@@ -176,7 +176,7 @@ def _results(data: bytes, *, acted: bool) -> dict[str, Any]:
 
 
 def _line(value: object, what: str) -> str:
-    """Return a text that may be printed in a line."""
+    """Return a text that may be printed on one line."""
     text = of_type(value, str, what)
     if len(text) > LONGEST_LINE or not text.isprintable():
         raise InputError(f"{what} must be at most {LONGEST_LINE} printable characters")

@@ -1,4 +1,4 @@
-"""The recipe from which the episodes of a bundle are made again."""
+"""The recipe for making the episodes of a bundle again."""
 
 import csv
 import io
@@ -35,15 +35,15 @@ FROM_NAMES: Final = (
     "its behaviours, subjects and task must be registered, with their own parameters, and its "
     "scenarios must have the same partner and timing"
 )
-"""Which suites have a recipe."""
+"""Condition on suites that have a recipe."""
 
 FILES: Final = {RECORDED: RECORDINGS, PLAYED: INPUTS}
-"""The file that a behaviour's trials come from."""
+"""The file with the trials of a behaviour."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Recipe:
-    """Names and numbers that make a suite, and those of the channel to the policy."""
+    """Names and numbers that define a suite, and those of the channel to the policy."""
 
     name: str
     """The suite's name."""
@@ -65,8 +65,8 @@ class Recipe:
     def of(cls, suite: Suite, channel: Channel | None = None) -> Self | None:
         """Return the recipe of a suite and a channel; None if it cannot be made from names.
 
-        That holds for behaviours and subjects that are not registered, or whose parameters were
-        changed, and for scenarios that differ in partner, control period, latency or task.
+        This is the case for behaviours and subjects that are not registered, or whose parameters
+        were changed, and for scenarios that differ in partner, control period, latency or task.
         """
         first = suite.scenarios[0]
         recipe = cls(

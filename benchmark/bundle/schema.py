@@ -28,7 +28,7 @@ INTERVAL: Final[Schema] = {
 def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
     """Return the JSON Schema of ``results.json``, the content of :meth:`.Results.plain`.
 
-    Every key is required but ``channel``, and no other key is allowed.
+    Every key except ``channel`` is required, and no other key is allowed.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def _of(kind: Schema, description: str) -> Schema:
 
 
 def _object(properties: Mapping[str, Schema], description: str = "") -> Schema:
-    """Return the schema of an object with these keys, no more and no less."""
+    """Return the schema of an object with exactly these keys."""
     made = {
         "type": "object",
         "properties": dict(properties),

@@ -80,13 +80,13 @@ def parse_table(
     metrics
         The metrics of the task.
     outdated
-        Whether another version of the metrics computed the scores. Then a table may have columns of
+        Whether another version of the metrics computed the scores. A table may then have columns of
         other metrics, which are left out, and lack some, whose scores are NaN.
 
     Raises
     ------
     InputError
-        If it is not a table that :func:`dump_table`, of that version, could have written.
+        If it is not a table that :func:`dump_table` of that version could have written.
     """
     try:
         rows = list(csv.reader(io.StringIO(data.decode(), newline=""), strict=True))
@@ -118,7 +118,7 @@ def parse_table(
 
 
 def _dump_rows(rows: Sequence[Sequence[str]]) -> bytes:
-    """Return fields as a CSV file: what :func:`dump_table` writes, but for the form of numbers."""
+    """Return fields as a CSV file, in the form of :func:`dump_table` except for numbers."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerows([one_line(field) for field in row] for row in rows)

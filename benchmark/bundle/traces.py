@@ -33,10 +33,10 @@ def dump_traces(traces: Sequence[Trace], places: Sequence[int]) -> Arrays:
     """Return the traces as arrays.
 
     ``places``, ``frames`` and ``steps`` (k,) are each episode's place in the suite, counted from 0,
-    and its numbers of frames and steps. Then follow the series of :class:`.Trace`; ``task/NAME``,
-    the series that the task adds; ``state``; and ``internals/NAME``, the policy's internals, NaN
-    where it reports none. Internals whose names have characters other than letters, digits and
-    ``_.-`` are left out.
+    and its numbers of frames and steps. They are followed by the series of :class:`.Trace`;
+    ``task/NAME``, the series that the task adds; ``state``; and ``internals/NAME``, the policy's
+    internals, NaN where it reports none. Internals whose names have characters other than letters,
+    digits and ``_.-`` are left out.
     """
     arrays: dict[str, NDArray[Any]] = {
         "places": np.array(places, dtype="<i8"),
@@ -56,7 +56,7 @@ def dump_traces(traces: Sequence[Trace], places: Sequence[int]) -> Arrays:
             trace.internals.get(name, np.full(len(trace.action), math.nan)) for trace in traces
         ]
         values = np.concatenate(parts).astype("<f8")
-        values[np.isnan(values)] = math.nan  # Any of the 2^53 NaNs becomes the same one.
+        values[np.isnan(values)] = math.nan  # All 2^53 NaNs become the same one.
         arrays[INTERNALS + name] = values
     return arrays
 

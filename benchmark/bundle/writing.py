@@ -34,8 +34,8 @@ def write_bundle(
 ) -> None:
     """Write the bundle of a run: everything, or nothing.
 
-    Equal runs give equal files, bit for bit, except for the step times in ``results.json``, and
-    with them its hash in the manifest.
+    Equal runs give equal files, bit for bit, except for the step times in ``results.json`` and,
+    therefore, its hash in the manifest.
 
     Parameters
     ----------

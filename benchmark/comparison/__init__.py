@@ -1,1 +1,1 @@
-"""Policies set against each other on the same episodes: ranks, differences, a picture, a page."""
+"""Comparison of policies on the same episodes: ranks, differences, a picture, a page."""

@@ -53,7 +53,7 @@ def picture_axis(axes: Axes) -> str:
 
 
 def picture_caption(axes: Axes) -> str:
-    """Return how to read the picture."""
+    """Return the sentences on how to read the picture."""
     leading, second = axes
     return (
         "Higher and further left is better. Bars are 95 % intervals. The line joins the Pareto "
@@ -82,7 +82,7 @@ def picture_title(comparison: Comparison) -> str:
 
 
 def verdict(comparison: Comparison) -> str:
-    """Return the best policy, those of its rank, and where it beats two people."""
+    """Return the best policy, those of its rank, and its results against two people."""
     overall = comparison.overall
     (_, more_level, most_level), _ = _praise(comparison)
     best, *others = overall.policies
@@ -147,7 +147,7 @@ def parts_caption(kind: str, rankings: Sequence[Ranking]) -> str:
 
 
 def marks_caption(mark: str, rankings: Sequence[Ranking]) -> str:
-    """Return the meaning of the mark of the best, or why there is none."""
+    """Return the meaning of the mark of the best, or the reason why there is none."""
     meaning = f"{mark}: the best policy, and those not significantly different from it."
     few = [ranking for ranking in rankings if not ranking.decisive]
     if not few:
@@ -162,7 +162,7 @@ def marks_caption(mark: str, rankings: Sequence[Ranking]) -> str:
 
 
 def undecided(overall: Ranking) -> str:
-    """Return why there are no ranks; empty if there are ranks."""
+    """Return the reason why there are no ranks; empty if there are ranks."""
     if overall.decisive:
         return ""
     return f"No ranks: {overall.episodes} lifts are too few for a significant difference at 5 %."

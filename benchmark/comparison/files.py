@@ -22,8 +22,8 @@ from .scatter.scene import make_scene
 def comparison_json(comparison: Comparison) -> dict[str, Any]:
     """Return the content of ``compare.json``: policies in the order of their mean RMSE.
 
-    ``policies`` are on all episodes, ``behaviours`` and ``subjects`` on a part of them each. The
-    fields of a policy are those of :class:`.RankedPolicy`. Where ``decisive`` is false, the
+    ``policies`` covers all episodes; each of ``behaviours`` and ``subjects`` covers a part of them.
+    The fields of a policy are those of :class:`.RankedPolicy`. Where ``decisive`` is false, the
     episodes are too few for any test, and all policies have rank 1.
     """
     suite = comparison.results.suite

@@ -20,7 +20,7 @@ def p_value(p: float) -> str:
 
 
 def probability(value: float) -> str:
-    """Return a probability; what is nearly certain as a bound."""
+    """Return a probability; one that is nearly 1 as a bound."""
     if value < 0.005:
         return "< 0.01"
     return "> 0.99" if value >= 0.995 else f"{value:.2f}"

@@ -28,19 +28,19 @@ class FrontPoint:
     kind: Literal["policy", "baseline", "bound"] = "policy"
 
     def merit(self, metric: Metric) -> tuple[float, float]:
-        """Sort key by the second metric: first the fewest lifts without, then the mean."""
+        """Return a sort key by the second metric: fewest lifts without it first, then the mean."""
         value = -math.inf if self.second is None else metric.merit(self.second.mean)
         return -self.missing, value
 
     def dominates(self, other: "FrontPoint", metric: Metric) -> bool:
-        """Whether it is at least as good in both, and better in one."""
+        """Return whether it is at least as good in both, and better in one."""
         mine = (-self.rmse_mm.mean, self.merit(metric))
         theirs = (-other.rmse_mm.mean, other.merit(metric))
         return mine[0] >= theirs[0] and mine[1] >= theirs[1] and mine != theirs
 
 
 def exact(value: float | None) -> Estimate | None:
-    """Return a mean of which no interval is known, as an estimate."""
+    """Return a mean without a known interval as an estimate."""
     return None if value is None else Estimate(mean=value, ci95=(value, value))
 
 

@@ -42,7 +42,7 @@ def over_channels(
     Parameters
     ----------
     policies, channels
-        Both by the names that tables use.
+        Policies and channels, by the names that tables use.
     suite, executor, progress
         As for :func:`.run_suite`.
     """

@@ -45,7 +45,7 @@ class PolicyResults:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PairedResults:
-    """Results of policies, baseline and bounds, episode by episode the same lifts."""
+    """Results of policies, baseline and bounds on the same lifts, episode by episode."""
 
     suite: Suite
     policies: tuple[PolicyResults, ...]

@@ -55,8 +55,8 @@ def play_policies(
     stored
         Results of policies that have played the suite before.
     bounds
-        Bounds to play, by name, if none are shipped for the suite; shipped ones are included
-        always.
+        Bounds to play, by name, if none are shipped for the suite; shipped ones are always
+        included.
     channel
         The channel of every policy, also of the stored ones; None is no channel.
 
@@ -91,7 +91,7 @@ def known_bounds(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> dict[str, Baseline]:
-    """Return the bounds that are shipped for a suite or, without these, what is played of each."""
+    """Return the shipped bounds of a suite or, if there are none, those that were played."""
     shipped = shipped_bounds(suite)
     if shipped is not None:
         return shipped
@@ -105,7 +105,7 @@ def play_bounds(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> dict[str, Baseline]:
-    """Return the results of each bound on a suite; arguments as of :func:`play_policies`."""
+    """Return the results of each bound on a suite; arguments as for :func:`play_policies`."""
     return {
         name: Baseline.of(play(suite, executor=executor, progress=progress))
         for name, play in bounds.items()

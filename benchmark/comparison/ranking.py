@@ -32,9 +32,9 @@ class MetricMean:
     """The mean of a metric that some lifts do not have."""
 
     estimate: Estimate | None
-    """Over the lifts that have one; None if none has."""
+    """Mean over the lifts that have a value; None if none has."""
     missing: int
-    """Lifts that have none."""
+    """Number of lifts without a value."""
 
     @property
     def mean(self) -> float | None:
@@ -78,7 +78,8 @@ class Ranking:
     policies: tuple[RankedPolicy, ...]
     """In the order of the mean RMSE, the best first."""
     decisive: bool
-    """Whether the episodes are enough to tell any policy from the best; else ranks say nothing."""
+    """Whether there are enough episodes to tell any policy from the best; otherwise ranks have no
+    meaning."""
 
     @property
     def human_human_rmse_mm(self) -> Estimate:
@@ -86,7 +87,7 @@ class Ranking:
         return self.references_rmse_mm[HUMAN_HUMAN_LABEL]
 
     def best(self, ranked: RankedPolicy) -> bool:
-        """Whether a policy shares the first rank, where the episodes are enough to tell."""
+        """Return whether a policy shares the first rank, if there are enough episodes to tell."""
         return self.decisive and ranked.rank == 1
 
 
@@ -100,7 +101,7 @@ def rank_policies(
     results
         Results of the policies, baseline and bounds.
     kind, name
-        What the episodes have in common.
+        Kind and name of the subset: a behaviour, a subject, or all.
     members
         Indices of the episodes, in the suite's order.
     """

@@ -19,7 +19,7 @@ from .paired_results import PolicyResults
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Stored:
-    """A bundle's scores, as it claims them, and the suite that they are of."""
+    """A bundle's scores, as it claims them, and their suite."""
 
     folder: Path
     policy: PolicyResults
@@ -41,7 +41,7 @@ def read_stored(folder: Path) -> Stored:
     Raises
     ------
     InputError
-        If it is damaged, not complete, or its scores are not those of this version of colift.
+        If it is damaged or incomplete, or its scores are not those of this version of colift.
     """
     try:
         bundle = read_bundle(folder)

@@ -62,7 +62,7 @@ def play(
 ) -> Iterator[Episode]:
     """Play the scenario with each seed, with a new policy object for each episode.
 
-    A channel is outside of the policy's sandbox.
+    A channel is outside the policy's sandbox.
 
     Raises
     ------
@@ -105,7 +105,7 @@ class _Unmade:
 
 
 def entered(stack: contextlib.ExitStack, policy: AgentSpec) -> Agent:
-    """Return a new agent of a policy, to be left with the stack.
+    """Return a new agent of a policy; leaving the stack closes it.
 
     The agent of a policy that cannot be made fails at its reset, with the same error.
     """
@@ -214,9 +214,9 @@ def run_batches(
     ------
     EvaluatorFault
         If the machine failed in :data:`ATTEMPTS` attempts at a batch, or the executor accepts no
-        more.
+        more calls.
     InputError
-        As :func:`play`, or if the origin of a worker is another; see :func:`.cluster.call`.
+        As :func:`play`, or if a worker has another origin; see :func:`.cluster.call`.
     """
     return _alone(batches, faults) if executor is None else _pooled(batches, executor, faults)
 

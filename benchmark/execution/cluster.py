@@ -15,7 +15,7 @@ from ...agents.errors import EvaluatorFault
 from .provenance import check_same_origin, origin
 
 LARGE: Final = 2**16
-"""Size from which a value is sent once, apart from the calls that contain it [bytes]."""
+"""Size from which a value is sent once, separately from the calls that contain it [bytes]."""
 
 _turn: Final = threading.Lock()
 
@@ -84,9 +84,9 @@ WATCH_SECONDS: Final = 0.2
 class Cluster(Executor):
     """The workers of a Dask cluster; see :func:`.connecting.dask_pool`.
 
-    Dask would retry a call whose worker died. Here the future fails instead, and the run decides.
-    Dask may also wait forever for results that were lost with the scheduler. Here every future then
-    fails, and no more calls are accepted.
+    Dask would retry a call whose worker died. Here the future fails instead, and the run decides
+    whether to try again. Dask may also wait forever for results that were lost with the scheduler.
+    Here every future then fails, and no more calls are accepted.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ class Cluster(Executor):
         return waiting
 
     def _sent(self, value: bytes) -> Any:
-        """Return the future of a large value: computed by a call, it is not lost with a worker."""
+        """Return the future of a large value, made by a call so that no worker can lose it."""
         import dask
 
         digest = hashlib.sha256(value).digest()
@@ -149,7 +149,7 @@ class Cluster(Executor):
             self._watch.join()
 
     def _watch_scheduler(self) -> None:
-        """Fail the waiting calls if the scheduler is lost, or if no worker has come."""
+        """Fail the waiting calls if the scheduler is lost, or if no worker has joined."""
         lonely = 0.0
         while not self._ended.wait(WATCH_SECONDS):
             if self._client.status != "running":

@@ -55,7 +55,7 @@ def dask_pool(address: str) -> Iterator[Cluster]:
 
 
 def _reach(address: str) -> None:
-    """Raise an InputError if there is no scheduler: a client that finds none leaves threads."""
+    """Raise an InputError if there is no scheduler: a client without one leaves threads behind."""
     try:
         kind = asyncio.run(asyncio.wait_for(_kind(address), CONNECT_SECONDS))
     except Exception as error:

@@ -67,16 +67,17 @@ def open_journal(bundle: Path, run: Mapping[str, str], *, resume: bool) -> Itera
     bundle
         The folder that the run will write.
     run
-        Everything its episodes depend on, by name: policy, suite, isolation, platform and so on.
+        Everything on which its episodes depend, by name: policy, suite, isolation, platform and so
+        on.
     resume
         Whether to continue an interrupted run.
 
     Raises
     ------
     InputError
-        If there is an interrupted run and ``resume`` is false, or none and it is true; if the
-        interrupted run differs from ``run``, with the difference in the message; if another process
-        writes to the journal; or if it cannot be written.
+        If there is an interrupted run and ``resume`` is false, or there is none and ``resume`` is
+        true; if the interrupted run differs from ``run``, with the difference in the message; if
+        another process writes to the journal; or if it cannot be written.
     """
     path = journal_path(bundle)
     if resume and not path.exists():
@@ -144,7 +145,7 @@ def record_of(episode: Episode) -> dict[str, Any]:
     trace = episode.trace
     return {
         **{each.name: getattr(episode, each.name) for each in fields(Episode)},
-        "seed": str(episode.seed),  # A hidden seed has more bits than a number in msgpack.
+        "seed": str(episode.seed),  # A hidden seed has more bits than msgpack's numbers.
         "scores": dict(episode.scores),
         "trace": {
             **{name: _packed(getattr(trace, name)) for name in (*Trace.series(), "state")},
@@ -215,5 +216,5 @@ def records(data: bytes) -> Iterator[tuple[Any, int]]:
 
 
 def _checksum(payload: bytes) -> int:
-    # With the length, so that zeros, which a crash can leave, are not a valid record.
+    # The length is included, so that zeros, which a crash can leave, are not a valid record.
     return zlib.crc32(payload, zlib.crc32(len(payload).to_bytes(4, "little")))

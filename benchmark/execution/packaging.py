@@ -41,7 +41,7 @@ class PackagedPolicy:
         return self.source_digest
 
     def check(self) -> None:
-        """Accept it: it was checked before it was packaged."""
+        """Do nothing: the policy was checked before it was packaged."""
 
     def paced(self, period: float) -> "PackagedPolicy":
         """Return the same policy with the time budgets of a control period [s]."""
@@ -69,7 +69,7 @@ class PackagedPolicy:
 def packaged(spec: AgentSpec) -> PackagedPolicy:
     """Return a policy with its files, to be run at the same isolation level everywhere.
 
-    Of ``file.py:Class`` the file alone is packaged, of a submission its folder; the module of
+    For ``file.py:Class`` only the file is packaged, for a submission its folder; the module of
     ``module:Class`` must be installed on the other machines.
 
     Raises

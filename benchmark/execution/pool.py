@@ -111,7 +111,7 @@ class LocalPool(Executor):
 
 
 class _Worker:
-    """A process that answers one call at a time; started at the first one."""
+    """A process that answers one call at a time; it is started at the first call."""
 
     def __init__(self) -> None:
         self.process: multiprocessing.process.BaseProcess | None = None
@@ -145,7 +145,7 @@ class _Worker:
         return process
 
     def kill(self) -> None:
-        """Kill the process, whose results are no longer needed; from any thread."""
+        """Kill the process, whose results are no longer needed; may be called from any thread."""
         self._ended, process = True, self.process
         if process is not None:
             process.kill()

@@ -22,7 +22,7 @@ from .batches import Batch
 from .packaging import PackagedPolicy
 
 POLICIES_ONLY: Final = ("vector_extensions", "linear_algebra")
-"""Entries on which only policies depend: no bit of a simulation or score does."""
+"""Entries on which only policies depend, but no bit of a simulation or score."""
 
 
 @functools.cache
@@ -31,7 +31,7 @@ def _fingerprint() -> tuple[tuple[str, str], ...]:
     return (
         ("machine", f"{platform.system()} {platform.machine()}"),
         ("processor", _processor()),
-        # NumPy's functions choose by these, and they differ in the last bit.
+        # NumPy chooses its functions by these, and their results differ in the last bit.
         ("vector_extensions", " ".join([*simd["baseline"], *simd.get("found", ())])),
         ("linear_algebra", _linear_algebra()),
         ("libc", " ".join(platform.libc_ver())),
@@ -82,7 +82,7 @@ def _linear_algebra() -> str:
 def _libm() -> str:
     """Return a hash of results of the C library's functions, whose code depends on the processor.
 
-    They differ in about one of a thousand last bits.
+    The results differ in about one of a thousand last bits.
     """
     one = (math.sin, math.cos, math.exp, math.expm1, math.log, math.asin, math.acos, math.atan)
     points = [(i + 0.5) / 4096 for i in range(4096)]

@@ -44,7 +44,7 @@ class InterruptedRunError(KeyboardInterrupt):
 
 
 def placed(policy: AgentSpec, executor: Executor | None) -> AgentSpec:
-    """Return the policy as an executor needs it: packaged if its machines do not share files.
+    """Return the policy as an executor needs it: packaged if machines do not share files.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def run_suite(
     done
         Episodes of an earlier run by their place in the suite; they are not played again.
     keep
-        Called with the place and the episode whenever one is finished.
+        Called with the place and the episode whenever an episode is finished.
     secret
         Determines the order of the episodes; see :func:`.shuffled_batches`. None plays them in
         the suite's order.

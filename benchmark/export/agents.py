@@ -11,7 +11,7 @@ from ..episode.scenario import CONTROL_PERIOD
 from ..episode.seeding import derive_seed
 
 FASTER: Final = 0.8
-"""How much higher than 1 the gain of ``proportional`` is: 1.8, its default."""
+"""Excess of the gain of ``proportional`` over 1: its default is 1.8."""
 
 NOISE: Final = 0.2
 """Standard deviation of the gain's relative error in a step: enough to see other actions too."""
@@ -37,7 +37,7 @@ class Follower:
         self._seed = derive_seed(seed, "set/follow")
 
     def reset(self, seed: int) -> None:
-        """Begin an episode; the lift's own seed settles it."""
+        """Begin an episode; it follows from the lift's own seed."""
         self._rng = np.random.default_rng(self._seed)
         self._share = float(self._rng.random())
 
@@ -54,7 +54,7 @@ class Follower:
 
 
 class Clipped:
-    """An agent whose changes of the command are cut to the hands' speed, as they are carried out.
+    """An agent whose changes of the command are clipped to the hands' speed, as in the lift.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ class Clipped:
 
 
 class SeededPartner:
-    """The second human of the human-human baseline, with noise of the lift's own.
+    """The second human of the human-human baseline, with noise from the lift's own seed.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ class SeededPartner:
         self._partner = Partner()
 
     def reset(self, seed: int) -> None:
-        """Begin an episode; the lift's own seed settles it."""
+        """Begin an episode; it follows from the lift's own seed."""
         self._partner.reset(self._seed)
 
     def act(self, observation: Observation) -> Action:

@@ -49,9 +49,9 @@ def card(
     about
         A paragraph on the lifts and the robot.
     people
-        Who lifts at the other end, and with which seeds.
+        The people at the other end, and their seeds.
     shows
-        Sentences on what can and cannot be concluded from it.
+        Sentences on the conclusions that the set allows, and those that it does not.
     licence
         Identifier of the licence.
     """

@@ -34,7 +34,8 @@ def check_format(form: str, view: str) -> None:
     Raises
     ------
     InputError
-        If so; the message lists the known ones, or has the command that installs the library.
+        If the format or view is unknown, or its library is missing; the message lists the known
+        ones, or has the command that installs the library.
     """
     if form not in FORMATS:
         raise InputError(f"--to must be {' or '.join(FORMATS)}, got {form!r:.80}")

@@ -22,11 +22,11 @@ from .observing import ObservedLift
 from .rules import NAMES, agent, rule
 
 FIRST_SEED: Final = 120_000
-"""Seed of the first lift and of its person: one of those for training, which no suite contains.
-Some of the lifts were among those from which ``learned`` was trained."""
+"""Seed of the first lift and of its person: one of the training seeds, which no suite contains.
+The training of ``learned`` used some of them, too."""
 
 MOST_LIFTS: Final = 10_000
-"""Largest set."""
+"""Number of lifts in the largest set."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -65,7 +65,7 @@ def set_plan(
     lifts
         Its size; results are compared on sets of 30, 300 and 3000 lifts.
     both
-        Whether the human's part is kept. People who hold the robot's end are not converted then.
+        Whether the human's part is kept. If so, people who hold the robot's end are not converted.
     recordings
         File of recordings, for the set that needs one.
 
@@ -108,9 +108,9 @@ def play_set(
 
 
 def set_digest(plan: list[SetLift]) -> str:
-    """Return a hash of all that decides a number of the lifts, but the agents at the robot's end.
+    """Return a hash of all that determines the lifts, except the agents at the robot's end.
 
-    It is made as that of a suite: engine, people, plans and seeds.
+    It is made like that of a suite, from engine, people, plans and seeds.
     """
     sha = hashlib.sha256()
     heads = {"numbers": plain(numbers()), "code": scores_hash()}
@@ -123,7 +123,7 @@ def set_digest(plan: list[SetLift]) -> str:
 def _turn(place: int, motions: tuple[Recording, ...]) -> int:
     """Return the number by which agents take turns; each round begins with the next one.
 
-    If they just alternated, behaviours and recordings would always meet the same of two agents.
+    If they simply alternated, each behaviour or recording would always meet the same of two agents.
     """
     return sum(divmod(place, len(motions) or len(BEHAVIOURS)))
 

@@ -22,7 +22,7 @@ def check_new(folder: Path, *, replace: bool) -> None:
     Raises
     ------
     InputError
-        If there is something else, or nothing can be written there.
+        If anything else is there, or nothing can be written there.
     """
     if folder.is_symlink() or folder.exists():
         if not folder.is_dir():

@@ -1,8 +1,8 @@
 """A LeRobot data set, format v3.0: Parquet files with a row for each step, and JSON.
 
 The layout is that of ``codebase_version`` v3.0 of https://github.com/huggingface/lerobot: many
-episodes a file, and tables of episodes and tasks in ``meta/``. Numbers are single precision there,
-as its models expect them. LeRobot keeps no observation after the last step.
+episodes per file, and tables of episodes and tasks in ``meta/``. Numbers are single precision
+there, as its models expect them. LeRobot keeps no observation after the last step.
 """
 
 import json
@@ -21,11 +21,11 @@ from .provenance import Provenance
 
 VERSION: Final = "v3.0"
 CHUNK_SIZE: Final = 1000
-"""Files a chunk, which is a folder."""
+"""Files per chunk, which is a folder."""
 FILE_MB: Final = 100
 """Largest data file that LeRobot's own writer makes [MB]."""
 MOST_ROWS: Final = 200_000
-"""Rows from which on a new data file is begun; it then has some 50 MB at most."""
+"""Rows after which a new data file is begun; a file then has at most some 50 MB."""
 
 FILE: Final = "chunk-{chunk_index:03d}/file-{file_index:03d}.parquet"
 DATA: Final = f"data/{FILE}"
@@ -41,12 +41,12 @@ Columns = dict[str, NDArray[Any]]
 
 
 def frame_rate(provenance: Provenance) -> int:
-    """Return the steps a second.
+    """Return the number of steps per second.
 
     Raises
     ------
     InputError
-        If it is no whole number, which LeRobot asks for.
+        If it is not a whole number, as LeRobot requires.
     """
     rate = 1 / provenance.control_period
     if abs(rate - round(rate)) > 1e-6:
@@ -61,13 +61,13 @@ def write_lerobot(folder: Path, lifts: Iterable[ExportedLift], provenance: Prove
     """Write lifts as a LeRobot data set into an empty folder.
 
     ``observation.state`` and ``action`` are the robot's, ``next.reward`` and ``next.done`` follow
-    the step. With both agents, ``human.observation`` and ``human.action`` are there, too: names
-    that no policy of LeRobot takes for its own input.
+    the step. With both agents, there are also ``human.observation`` and ``human.action``: names
+    that no policy of LeRobot takes as its own input.
 
     Raises
     ------
     InputError
-        If pyarrow is not installed, or the steps a second are no whole number.
+        If pyarrow is not installed, or the number of steps per second is not a whole number.
     """
     parquet = import_pyarrow("parquet")
     rate = frame_rate(provenance)
@@ -215,7 +215,7 @@ def _write(parquet: Any, path: Path, columns: Columns) -> None:
 
 
 def _arrow_columns(arrow: Any, columns: Columns) -> Iterator[tuple[str, Any]]:
-    """Yield the columns for Parquet: one number per row, or lists of one and the same length."""
+    """Yield the columns for Parquet: one number per row, or lists of the same length."""
     for name, values in columns.items():
         flat = arrow.array(values.reshape(-1))
         width = 1 if values.ndim == 1 else values.shape[1]

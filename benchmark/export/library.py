@@ -13,7 +13,7 @@ def import_minari(module: str = "") -> Any:
     Raises
     ------
     InputError
-        If Minari, or h5py that it stores arrays with, is not installed.
+        If Minari, or h5py, with which it stores arrays, is not installed.
     """
     _imported("h5py", "Minari's files need h5py")
     return _imported(f"minari.{module}".rstrip("."), "Minari data sets need minari")

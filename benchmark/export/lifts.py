@@ -1,4 +1,4 @@
-"""An exported lift: what both agents saw, did and got, step by step."""
+"""An exported lift: both agents' observations, actions and rewards, step by step."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ class AgentView:
     """One agent's part of a lift of m steps."""
 
     observations: Array
-    """(m + 1, k) the observation before each step, and the last after the end."""
+    """(m + 1, k) the observation before each step, and the one after the last."""
     actions: Array
     """(m, j) the action of each step."""
     rewards: Array
@@ -41,7 +41,7 @@ class ExportedLift:
     dropped: str | None
     """How the table was dropped, or None."""
     failure: str | None
-    """Why the lift ended early: a drop, or an error of the policy; None if it did not."""
+    """Reason why the lift ended early: a drop, or an error of the policy; None if it did not."""
     state: str
     """Hash of all actions and states of the lift; see :class:`.Recorder`."""
 

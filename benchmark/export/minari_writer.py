@@ -26,10 +26,11 @@ NAMESPACE: Final = "colift"
 """First part of a set's name in Minari."""
 
 AT_ONCE: Final = 50
-"""Lifts that are added in one go: each addition opens the file anew."""
+"""Lifts that are added at once, since each addition opens the file anew."""
 
 LARGEST_SEED: Final = 2**63
-"""Seeds from here on, of hidden suites, are stored as text: HDF5 has no longer integers."""
+"""Seeds from this value, those of hidden suites, are stored as text: HDF5 has no longer
+integers."""
 
 
 def write_minari(
@@ -44,7 +45,7 @@ def write_minari(
     Parameters
     ----------
     folder
-        The folder; the files come into ``data`` there.
+        The folder; the files are written to ``data`` in it.
     lifts
         The lifts, in order.
     spaces
@@ -61,7 +62,7 @@ def write_minari(
     buffer_module = import_minari("data_collector.episode_buffer")
     both = provenance.view == "both"
     storage = storage_module.MinariStorage.new(
-        (folder / DATA).absolute(),  # Minari loses its way with a relative path.
+        (folder / DATA).absolute(),  # Minari fails with a relative path.
         observation_space=Dict({**spaces.observations}) if both else spaces.observations[ROBOT],
         action_space=Dict({**spaces.actions}) if both else spaces.actions[ROBOT],
         env_spec=None if both else _environment(provenance),
@@ -106,7 +107,7 @@ def _infos(human: AgentView | None) -> dict[str, Any] | None:
 
 
 def _metadata(lift: ExportedLift) -> dict[str, Any]:
-    """Return what is stored with a lift: all that makes it again."""
+    """Return the metadata of a lift: everything from which it can be made again."""
     return {
         "scenario": lift.scenario,
         "behaviour": lift.behaviour,

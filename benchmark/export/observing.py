@@ -14,18 +14,18 @@ from .lifts import AgentView, ExportedLift, Spaces
 
 
 class ObservedLift(Lift):
-    """A lift that looks at the world with both agents' eyes before each step, and after the last.
+    """A lift that records both agents' observations before each step, and after the last.
 
     Parameters
     ----------
     scenario
         As for :class:`.Lift`.
     both
-        Whether the human's part is kept, too.
+        Whether the human's part is also kept.
     converted
-        Whether the holder of the robot's end is shown as a robot: with the robot's senses, and the
-        change of its reference over a step as its action. For a second human, who has ten
-        references a step.
+        Whether the holder of the robot's end is shown as a robot: with the robot's senses, and with
+        the change of its reference over a step as its action. This is for a second human, who has
+        ten references per step.
     """
 
     def __init__(self, scenario: Scenario, *, both: bool = False, converted: bool = False) -> None:
@@ -40,7 +40,7 @@ class ObservedLift(Lift):
         self._rewards: list[tuple[float, float]] = []
 
     def carry_out(self, human: list[float], partner: list[float]) -> None:
-        """Advance by one control period, and keep what was seen, done and rewarded."""
+        """Advance by one control period, and keep the observations, actions and rewards."""
         self._look()
         before = self.command
         super().carry_out(human, partner)
@@ -61,7 +61,7 @@ class ObservedLift(Lift):
         policy
             Name of the agent at the robot's end.
         failure
-            Why it ended early, or None.
+            Reason why it ended early, or None.
         state
             The hash of its last step; empty if there is none.
         """

@@ -17,7 +17,7 @@ VIEWS: Final = ("robot", "both")
 
 @dataclass(frozen=True, kw_only=True)
 class Provenance:
-    """Where the lifts of a data set come from."""
+    """The origin of the lifts of a data set."""
 
     name: str
     """Name of the data set: letters, digits, ``-`` and ``_``."""
@@ -29,12 +29,12 @@ class Provenance:
     suite: str
     """The suite, or the rule of the set."""
     suite_digest: str
-    """SHA-256 over all that decides a number of the lifts; see :attr:`.Suite.digest`."""
+    """SHA-256 over all that determines the lifts' numbers; see :attr:`.Suite.digest`."""
     colift: str = dataclasses.field(default_factory=lambda: version("colift"))
     """Version of colift that simulated the lifts."""
     task: str
     partner: str
-    """Hands at the robot's end: ``nao``, ``human`` or ``live``."""
+    """Holder of the robot's end: ``nao``, ``human`` or ``live``."""
     converted: bool
     """Whether a human's references at the robot's end were made into changes of a command."""
     control_period: float
@@ -54,7 +54,7 @@ class Provenance:
 
 
 def of_scenario(scenario: Scenario) -> dict[str, Any]:
-    """Return the fields of :class:`Provenance` that a scenario settles."""
+    """Return the fields of :class:`Provenance` that follow from a scenario."""
     return {
         "task": scenario.task.name,
         "partner": scenario.partner,

@@ -71,10 +71,10 @@ def proved_lifts(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
 ) -> Iterator[ExportedLift]:
-    """Yield the lifts of a bundle in its order, with what the agents saw.
+    """Yield the lifts of a bundle in its order, with the agents' observations.
 
-    Observations and rewards are in no bundle: they follow from the actions, by the replay. So each
-    lift is proved on the way.
+    Observations and rewards are in no bundle: they follow from the actions by replay, which also
+    proves each lift.
 
     Parameters
     ----------
@@ -85,14 +85,14 @@ def proved_lifts(
     both
         Whether the human's part is kept.
     executor
-        Replays the lifts; None does so in this process.
+        Replays the lifts; None replays them in this process.
     progress
         Called with the number of lifts that were replayed since the last call.
 
     Raises
     ------
     InputError
-        If the suite is not the one of this colift, or a replay differs from the bundle in a bit;
+        If the suite differs from that of this colift, or a replay differs from the bundle in a bit;
         the message names the lift, the step and the difference.
     """
     claimed = bundle.results["suite_digest"]
@@ -130,7 +130,7 @@ def _called(proof: Proof) -> list[ExportedLift]:
 
 
 def _other_platform(bundle: Bundle) -> str:
-    """Return the names of the differences of the bundle's platform from this one."""
+    """Return the names of the differences between the bundle's platform and this one."""
     there, here = bundle.platform, fingerprint()
     differ = {name for name in {**here, **there} if there.get(name) != here.get(name)}
     return one_line(", ".join(sorted(differ - set(POLICIES_ONLY))))

@@ -1,4 +1,4 @@
-"""The fixed sets for offline learning: which agents, and what a set can and cannot show."""
+"""The fixed sets for offline learning: their agents, and the conclusions that each set allows."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -22,9 +22,9 @@ class SetRule:
     about: str
     """The set in a sentence or two."""
     shows: tuple[str, ...]
-    """What it can and cannot show."""
+    """Sentences on the conclusions that the set allows, and those that it does not."""
     human: bool = False
-    """Whether a second human holds the robot's end, converted if it is alone in the set."""
+    """Whether a second human holds the robot's end, converted if the set has only this end."""
     recorded: bool = False
     """Whether people move as in recordings, which the user provides."""
 
@@ -99,7 +99,7 @@ CONVERTED: Final = (
     "reference in a step as the action. The person saw and felt more than that. These actions do "
     "not replay; the references of `--view both` do."
 )
-"""A further sentence on a set in which a human is shown as a robot."""
+"""Further sentences on a set in which a human is shown as a robot."""
 
 NAMES: Final[Mapping[str, str]] = {
     "follow": "copy..proportional, noisy",

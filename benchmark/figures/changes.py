@@ -1,4 +1,4 @@
-"""The change of a recorded file: lines of a text, pixels of a picture."""
+"""Changes of a recorded file: lines of a text, pixels of a picture."""
 
 import difflib
 import io
@@ -12,14 +12,14 @@ LINES: Final = 20
 
 
 def file_change(name: str, old: bytes | None, new: bytes) -> str:
-    """Return the difference of a file's content to the former, in words; empty if there is none.
+    """Return the difference between a file's former and present content, in words; else empty.
 
     Parameters
     ----------
     name
-        Name of the file; one of a text ends in ``.txt``.
+        Name of the file; that of a text file ends in ``.txt``.
     old, new
-        Former and present content; the former is None of a new file.
+        Former and present content; the former is None for a new file.
     """
     if old is None:
         return f"{name}: new"

@@ -21,7 +21,7 @@ COLUMNS: Final = 120
 """Width of the recorded tables [characters]."""
 
 EXAMPLES: Final = "examples"
-"""Folder of the clone that commands name."""
+"""Folder of the clone that the commands refer to."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +62,7 @@ def remake(root: Path, figure: RecordedFigure, recordings: Sequence[Path] = ()) 
     figure
         The figure.
     recordings
-        Files that stand for the figure's recordings, in its order; further ones are not used.
+        Files in place of the figure's recordings, in its order; further files are not used.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The origin of a figure: digests of all that its numbers depend on."""
+"""The origin of a figure: digests of all on which its numbers depend."""
 
 import functools
 import hashlib
@@ -22,7 +22,7 @@ SCRIPT: Final = re.compile(r"\bexamples/[\w/]+\.py\b")
 """A script of the clone in a command."""
 
 Origin = dict[str, str]
-"""Digests, by what they are of: ``suite standard-v1``, ``policy blend``, ``command``,
+"""Digests, by name: ``suite standard-v1``, ``policy blend``, ``command``,
 ``script examples/plot_plans.py``."""
 
 

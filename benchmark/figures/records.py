@@ -22,14 +22,14 @@ class FigureRecord:
 
 
 def read_records(folder: Path) -> dict[str, FigureRecord]:
-    """Return the records of the figures in a folder, by name; there are none at first."""
+    """Return the records of the figures in a folder, by name; empty without a file."""
     path = folder / RECORDS
     content = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
     return {name: FigureRecord(**record) for name, record in content.items()}
 
 
 def write_records(folder: Path, records: Mapping[str, FigureRecord], names: Iterable[str]) -> None:
-    """Write the records of the registered figures, in their order; those of others are dropped."""
+    """Write the records of the registered figures, in their order; other records are dropped."""
     content = {name: asdict(records[name]) for name in names if name in records}
     text = json.dumps(content, indent=1) + "\n"
     (folder / RECORDS).write_text(text, encoding="utf-8")
@@ -51,7 +51,8 @@ def reasons_due(
     Parameters
     ----------
     figure
-        The figure. One of the machine is due only if its command has changed or a file is missing.
+        The figure. A figure of the machine is due only if its command has changed or a file is
+        missing.
     origin
         Its origin, as the code is now.
     record

@@ -14,7 +14,7 @@ FOLDER: Final = Path("docs") / "figures"
 """Folder of the registry and of the recorded files, in a clone."""
 
 ALL: Final = "*"
-"""Stands for every registered policy."""
+"""Stand-in for every registered policy."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,11 +34,12 @@ class RecordedFigure:
     policies: tuple[str, ...] = ()
     """Policies that are played, or :data:`ALL`."""
     code: tuple[str, ...] = ()
-    """Other definitions that the numbers depend on, each as ``module:name`` without ``colift.``."""
+    """Other definitions on which the numbers depend, each as ``module:name`` without
+    ``colift.``."""
     machine: bool = False
     """Whether the numbers are speeds of a machine: they are made again only on request."""
     recordings: tuple[str, ...] = ()
-    """Names in the command of files of recorded lifts that colift does not contain."""
+    """Names, in the command, of files of recorded lifts that colift does not contain."""
 
     @property
     def files(self) -> tuple[str, ...]:
@@ -48,7 +49,7 @@ class RecordedFigure:
 
 
 def clone_folder() -> Path:
-    """Return the folder of the clone that this code belongs to.
+    """Return the folder of the clone to which this code belongs.
 
     Raises
     ------

@@ -16,12 +16,12 @@ class EmulatedLift(Lift):
     """Lifts in succession with a robot that is moved by joint angles.
 
     The person waits at rest for a request to lift, carries out a plan as in simulation, and waits
-    again. The world runs on between the lifts; nothing is put back.
+    again. The world continues between the lifts; nothing is put back.
 
     Parameters
     ----------
     scenario
-        The person and the lifts; its control period is replaced by one frame, the person's.
+        The person and the lifts; its control period is replaced by one frame, that of the person.
     servo
         The NAO's joint servos.
     """

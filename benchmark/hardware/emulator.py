@@ -1,4 +1,4 @@
-"""A laboratory that is not there: a NAO and a motion capture, over the real protocols.
+"""The emulator: a simulated NAO and motion capture, over the real protocols.
 
 A libqi server offers the NAOqi services, an outlet of the Lab Streaming Layer the markers; between
 them the simulated world runs in real time.
@@ -21,7 +21,7 @@ from .markers import MARKERS, Row
 from .services import Log
 
 BEHIND: Final = 0.1
-"""How far behind the clock the emulator may be [s]; further, it lets the time pass."""
+"""Longest lag of the emulator behind the clock [s]; beyond it, the lost time is skipped."""
 
 
 class Emulator:
@@ -30,13 +30,13 @@ class Emulator:
     Parameters
     ----------
     conditions
-        What is emulated.
+        The emulated conditions.
     url
-        Where the robot listens.
+        Address at which the robot listens.
     stream
         Name of the motion-capture stream.
     log
-        Called with a line for each thing that happens.
+        Called with a line for each event.
 
     Raises
     ------
@@ -90,7 +90,7 @@ class Emulator:
 
 
 def _pause(seconds: float) -> None:
-    # libqi looks at the signatures of all that a service holds, and a builtin has none.
+    # libqi inspects the signatures of all members of a service, and a builtin has none.
     time.sleep(seconds)
 
 
@@ -109,7 +109,7 @@ def _serve(url: str, services: dict[str, Any]) -> Any:
 
 
 def behind(service: Any, gate: threading.Event) -> Any:
-    """Return a service whose public methods first wait until a gate is open: a robot that hangs."""
+    """Return a service whose public methods wait until a gate opens, like a robot that hangs."""
 
     def waiting(method: Callable[..., Any]) -> Callable[..., Any]:
         @functools.wraps(method)
@@ -117,7 +117,7 @@ def behind(service: Any, gate: threading.Event) -> Any:
             gate.wait()
             return method(*arguments)
 
-        # libqi counts the arguments.
+        # libqi checks the number of arguments.
         own = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
         signature = inspect.signature(method)
         wait.__signature__ = signature.replace(  # type: ignore[attr-defined]
@@ -130,7 +130,7 @@ def behind(service: Any, gate: threading.Event) -> Any:
         for name, method in inspect.getmembers(service, inspect.ismethod)
         if not name.startswith("_")
     }
-    # Called in several threads, or one that waits would keep the others from waiting.
+    # Several threads call the methods: with one thread, a call that waits would block the others.
     return type(type(service).__name__, (), {"__qi_threading__": "multi", **methods})()
 
 

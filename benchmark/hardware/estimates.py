@@ -1,4 +1,4 @@
-"""Estimates from a trial: a laboratory's latency, sag and noise, for the simulated world."""
+"""Estimates from trials: a laboratory's latency, sag and noise, for the simulated world."""
 
 import math
 from collections.abc import Sequence
@@ -16,39 +16,39 @@ from ...robots.nao.kinematics import arm_path
 from ..world.table import WEIGHT_SHARE
 
 FEWEST: Final = 20
-"""Fewest steps and frames that an estimate is made from."""
+"""Fewest steps and frames from which an estimate is made."""
 
 LONGEST_DELAY: Final = 0.4
-"""Longest delay of the hands that is searched for [s]."""
+"""Longest delay of the hands in the search [s]."""
 
 LOWEST_MOTION: Final = 0.03
-"""Range of the commands [m] that it takes to see how the hands follow."""
+"""Least range of the commands from which the delay of the hands can be estimated [m]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Estimates:
-    """Numbers of a laboratory, and which of the world's each stands for."""
+    """Numbers of a laboratory, each with the world's parameter that it corresponds to."""
 
     capture_age: float
-    """Age of the newest frame when a step begins [s], median: with the arms' dead time, the lowest
-    ``latency`` that can be simulated for this laboratory."""
+    """Age of the newest frame when a step begins [s], median: together with the arms' dead time,
+    the lowest ``latency`` that can be simulated for this laboratory."""
     latency: float
-    """Time from the frame that the policy was given to the hands' setting out [s], median: the
-    ``latency`` of these trials."""
+    """Time from the policy's frame until the hands begin to move [s], median: the ``latency`` of
+    these trials."""
     follow_delay: float
-    """How long the robot's table end is behind its commands [s], each a ramp over its period."""
+    """Delay of the robot's table end behind its commands [s], each a ramp over its period."""
     servo_time: float
     """Time constant of the arms behind their set-points [s]: ``Servo.time``."""
     stiffness: float
     """Torque over displacement of a joint [Nm/rad]: ``Servo.stiffness``; infinite without sag."""
     sag: float
-    """How far the hands are below their set-points, mean [m]."""
+    """Mean distance of the hands below their set-points [m]."""
     capture_noise: float
     """Standard deviation of an end's height [m]: ``MOCAP_NOISE``."""
 
 
 def estimate_setup(trials: Sequence[LoggedTrial]) -> Estimates:
-    """Return the numbers that some trials give.
+    """Return the estimates from some trials.
 
     Raises
     ------
@@ -82,7 +82,7 @@ def _noise(trial: LoggedTrial) -> float:
     """Return the noise of a height from its third differences [m], which motion hardly enters.
 
     They have the variance 20 s^2 for white noise of the variance s^2; the median of their size is
-    0.6745 standard deviations, whatever a few jumps do.
+    0.6745 standard deviations, even with a few jumps.
     """
     frames = [sample for sample in trial.log.samples if seen(sample)]
     if len(frames) < FEWEST:
@@ -129,8 +129,8 @@ def _servo(trials: Sequence[LoggedTrial]) -> tuple[float, float, float]:
 
         s - h = C(h) / k + T v,    C(h) = sum_i J_i (J_i W / 2 - g_i),
 
-    with the levers J and gravity torques g of the arm path, and half the table's weight W: least
-    squares for 1/k and T over all steps.
+    with the levers J and gravity torques g of the arm path, and half the table's weight W: solved
+    for 1/k and T by least squares over all steps.
     """
     path = arm_path()
     rows, ahead = [], []

@@ -25,7 +25,7 @@ KINDS: Final = {
     "stream-end": "the stream is closed, for good",
     "motor-off": "the robot's motors have no stiffness",
 }
-"""The faults by name: what each does."""
+"""The faults by name, with their effects."""
 
 DEFAULTS: Final = {
     "slow": 10.0, "freeze": 4.0, "future-stamps": 5.0, "drift": 0.05, "latency": 0.25,
@@ -36,28 +36,28 @@ DEFAULTS: Final = {
 
 @dataclass(frozen=True, kw_only=True)
 class Fault:
-    """Something that goes wrong for a while."""
+    """A fault, for a period of time."""
 
     kind: str
     start: float
-    """When it begins [s], after the first lift or the request."""
+    """Start of the fault [s], after the first lift or the request."""
     duration: float
-    """How long it lasts [s]."""
+    """Duration of the fault [s]."""
     value: float
-    """How large it is; 0 for those that have no size."""
+    """Size of the fault; 0 for kinds without a size."""
 
     def active(self, time: float) -> bool:
-        """Return whether it goes wrong at a time [s]."""
+        """Return whether the fault is active at a time [s]."""
         return self.start <= time < self.start + self.duration
 
 
 def parse_fault(text: str) -> Fault:
-    """Return the fault of ``KIND@START[:DURATION[:VALUE]]``; without a duration it stays.
+    """Return the fault of ``KIND@START[:DURATION[:VALUE]]``; without a duration it remains.
 
     Raises
     ------
     InputError
-        If there is no such fault, or a number is none.
+        If there is no such fault, or a number is not valid.
     """
     kind, at, times = text.partition("@")
     if kind not in KINDS:
@@ -79,7 +79,7 @@ class Schedule:
     Parameters
     ----------
     planned
-        Their times count from the first lift.
+        Faults whose times count from the first lift.
     """
 
     def __init__(self, planned: Sequence[Fault] = ()) -> None:
@@ -87,12 +87,12 @@ class Schedule:
         self._faults: list[Fault] = []
 
     def lift_begins(self, now: float) -> None:
-        """Let the planned faults come, if this is the first lift."""
+        """Schedule the planned faults, if this is the first lift."""
         self._faults += [replace(fault, start=now + fault.start) for fault in self._planned]
         self._planned = ()
 
     def request(self, text: str, now: float) -> None:
-        """Let a fault come, whose time counts from now.
+        """Schedule a fault, whose time counts from now.
 
         Raises
         ------
@@ -103,7 +103,7 @@ class Schedule:
         self._faults.append(replace(fault, start=now + fault.start))
 
     def clear(self) -> None:
-        """End all faults that have come."""
+        """End all scheduled faults."""
         self._faults = []
 
     def active(self, now: float) -> list[Fault]:

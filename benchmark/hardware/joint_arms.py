@@ -17,8 +17,8 @@ from ..world.table import WEIGHT_SHARE
 _MIRROR: Final = np.array(MIRROR)
 
 SAME_POSTURE: Final = 0.02
-"""Change of a joint [rad] up to which levers and torques are taken to be the same: a tenth of a
-millimetre at the hand, and half of a frame's computing time."""
+"""Change of a joint [rad] up to which levers and torques are reused: the error is a tenth of a
+millimetre at the hand, and it saves half of a frame's computing time."""
 
 _KEPT: Final = 1000
 """Frames of history that the world keeps."""
@@ -27,12 +27,12 @@ _KEPT: Final = 1000
 class JointArms(NaoArms):
     """Both arms by ten set-points and ten stiffnesses, instead of by the hands' height.
 
-    A joint gives way by its torque over the servo's stiffness, as in :class:`.NaoArms`: here joint
-    by joint, at the angles that were commanded,
+    A joint yields by its torque over the servo's stiffness, as in :class:`.NaoArms`: here joint by
+    joint, at the commanded angles,
 
         q_i = c_i + (g_i - J_i F / 2) / k.
 
-    No offset makes up for the weight: the sender of the commands has to.
+    No offset compensates for the weight: the sender of the commands has to do that.
     """
 
     def __init__(self, client: int, tree: int, physics: Physics, servo: Servo) -> None:
@@ -45,12 +45,12 @@ class JointArms(NaoArms):
         super().__init__(client, tree, physics, servo)
 
     def reset(self) -> None:
-        """Hold what is commanded."""
+        """Hold the commanded posture."""
         self._load = WEIGHT_SHARE
         self._from = self._to = self._set_points()
 
     def _set_points(self) -> NDArray[np.float64]:
-        """Return the commanded angles with what the joints give way by [rad]."""
+        """Return the commanded angles plus the deflections of the joints [rad]."""
         sides = np.stack([self.commanded[:5], self.commanded[5:] * _MIRROR])
         if np.abs(sides - self._posture).max() > SAME_POSTURE:
             self._posture = sides
@@ -98,7 +98,7 @@ class JointWorld(BulletWorld):
         self._started = True
 
     def reset(self) -> None:
-        """Put everything to rest, once: real things stay where they are."""
+        """Put everything to rest, only once: real objects stay where they are."""
         if not self._started:
             super().reset()
 

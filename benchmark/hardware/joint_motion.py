@@ -12,7 +12,7 @@ from typing import Any, Final
 from ...robots.nao.facts import JOINTS
 
 TICK: Final = 0.02
-"""Cycle of ALMotion [s]: it takes commands in and moves set-points at 50 Hz."""
+"""Cycle of ALMotion [s]: it accepts commands and moves set-points at 50 Hz."""
 
 CHAINS: Final[Mapping[str, tuple[str, ...]]] = {
     "Head": ("HeadYaw", "HeadPitch"),
@@ -44,7 +44,7 @@ BODY: Final = (
 
 
 class MotionError(RuntimeError):
-    """What ALMotion refuses; the message is the answer to the caller."""
+    """A call that ALMotion refuses; the message is the answer to the caller."""
 
 
 def joint_names(names: str | Sequence[str]) -> list[str]:
@@ -96,8 +96,8 @@ def clipped(joint: str, angle: float) -> float:
 class JointMotion:
     """Set-points, targets and stiffnesses of all joints; any thread may call.
 
-    A target is moved to at a constant speed, the joint's greatest times a fraction, tick by tick.
-    NAOqi smooths the beginning and the end of it; how is not documented.
+    Set-points move to their targets at a constant speed, a fraction of the joint's greatest, tick
+    by tick. NAOqi smooths the beginning and the end of the motion, in a way that is not documented.
     """
 
     def __init__(self, start: Mapping[str, float]) -> None:
@@ -149,7 +149,7 @@ class JointMotion:
             self._moves.clear()
 
     def motors_off(self, off: bool) -> None:
-        """Take every motor's stiffness, or give it back: a fault."""
+        """Switch the stiffness of every motor off, or on again: a fault."""
         with self._lock:
             self._off = off
 
@@ -174,7 +174,7 @@ class JointMotion:
             return [self._measured.get(joint, self._set_points[joint]) for joint in names]
 
     def measure(self, angles: Mapping[str, float]) -> None:
-        """Take encoders' angles in."""
+        """Store the encoders' angles."""
         with self._lock:
             self._measured = dict(angles)
 

@@ -1,4 +1,4 @@
-"""The emulated laboratory, frame by frame, in whoever's time: a NAO, a person, a motion capture.
+"""The emulated laboratory, frame by frame, on any clock: a NAO, a person, a motion capture.
 
 The person begins a lift when the robot says "Go".
 """
@@ -33,12 +33,12 @@ from .services import (
 NAMES: Final = list(ARM_JOINTS)
 
 FAULTS: Final = "ColiftFaults"
-"""Name of the service that faults are requested of."""
+"""Name of the service that accepts requests for faults."""
 
 FRAMES_PER_TICK: Final = round(TICK / FRAME)
 
 FOREIGN_FRACTION: Final = 0.1
-"""Fraction of its greatest speed at which somebody else moves a joint: 0.8 rad/s."""
+"""Fraction of its greatest speed at which another client moves a joint: 0.8 rad/s."""
 
 CAPTURE_LATENCY: Final = 0.01
 """Time from a motion-capture frame to its sending [s]."""
@@ -46,16 +46,16 @@ CAPTURE_LATENCY: Final = 0.01
 
 @dataclass(frozen=True, kw_only=True)
 class Conditions:
-    """What is emulated."""
+    """The emulated conditions."""
 
     scenario: Scenario
-    """Who lifts how."""
+    """The person, the behaviour and the timing."""
     seed: int = 0
     """Seed of the first lift; each one after it has the next."""
     capture_latency: float = CAPTURE_LATENCY
     """Time from a motion-capture frame to its sending [s]."""
     faults: tuple[Fault, ...] = ()
-    """Faults, in seconds after the first lift began."""
+    """Faults; their times count from the beginning of the first lift [s]."""
 
 
 class Laboratory:
@@ -64,13 +64,11 @@ class Laboratory:
     Parameters
     ----------
     conditions
-        What is emulated.
-    now
-        Its time [s].
+        The emulated conditions. now Its time [s].
     pause
         Lets time pass [s], for calls that block.
     log
-        Called with a line for each thing that happens.
+        Called with a line for each event.
     """
 
     def __init__(
@@ -87,7 +85,7 @@ class Laboratory:
         self._reported: set[Fault] = set()
         self._markers = Markers(conditions.capture_latency)
         self.answering = threading.Event()
-        """Whether the robot answers where its joints are; callers wait for it."""
+        """Whether the robot answers calls for its joint angles; callers wait for it."""
         self.answering.set()
         self.services: dict[str, Any] = {
             "ALMotion": MotionService(self._motion, log, pause, self.answering),
@@ -98,15 +96,15 @@ class Laboratory:
             "ALSystem": SystemService(),
             FAULTS: FaultService(self.request, self._faults.clear),
         }
-        """NAOqi's services by name, and the one that faults are requested of."""
+        """NAOqi's services by name, and the service for requesting faults."""
 
     def _heard(self, text: str) -> None:
-        """Let the person begin when the robot says so."""
+        """Let the person begin when the robot says "Go"."""
         if text.rstrip(".! ").lower().endswith("go"):
             self._go.put(None)
 
     def request(self, fault: str) -> float:
-        """Let a fault come, whose time counts from now; return the time [s].
+        """Schedule a fault, whose time counts from now; return the time [s].
 
         Raises
         ------
@@ -127,7 +125,7 @@ class Laboratory:
         self._begin_lift()
         now = self._now()
         faults = self._active(now)
-        # The set-points of a tick are reached at its end, as by the robot's own interpolation.
+        # The set-points of a tick are reached at its end, as with the robot's own interpolation.
         fraction = (phase + 1) / FRAMES_PER_TICK
         commanded = self._before + (self._ahead - self._before) * fraction
         lifting = self._lift.lifting
@@ -144,7 +142,7 @@ class Laboratory:
         return self._markers.due(self._now())
 
     def _begin_lift(self) -> None:
-        """Let the person begin a lift if the robot has said so."""
+        """Let the person begin a lift if the robot has said "Go"."""
         if self._go.empty():
             return
         self._go.get()

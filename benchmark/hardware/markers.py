@@ -1,4 +1,4 @@
-"""The emulated motion capture: four markers on the table, and what the faults make of them."""
+"""The emulated motion capture: four markers on the table, and the effects of faults on them."""
 
 from collections import deque
 from collections.abc import Iterator, Sequence
@@ -19,7 +19,7 @@ MARKERS: Final = {
     "R1": (GRIP_X, 0.2),
     "R2": (GRIP_X, -0.2),
 }
-"""Where each marker is on the table at rest: x and y in the robot's frame [m]."""
+"""Place of each marker on the table at rest: x and y in the robot's frame [m]."""
 
 REST_HEIGHT: Final = TORSO_HEIGHT + REST_Z
 """Height of the table at rest above the floor [m]."""
@@ -33,12 +33,12 @@ Row = tuple[float, list[float]]
 
 
 class Markers:
-    """Captures the table frame by frame, and lets each frame out when it is due.
+    """Captures the table frame by frame, and releases each frame when it is due.
 
     Parameters
     ----------
     latency
-        How long the system takes from a frame to its sending [s].
+        Time from a frame to its sending [s].
     """
 
     def __init__(self, latency: float) -> None:
@@ -61,7 +61,7 @@ class Markers:
         human_end, robot_end
             Heights of the table's ends [m].
         faults
-            Those that are active.
+            The active faults.
         """
         active = {fault.kind: fault for fault in faults}
         if "swap" in active:
@@ -94,7 +94,7 @@ class Markers:
         self._frames += 1
         left_out = "slow" in active and self._frames % round(active["slow"].value)
         if "dropout" not in active and not left_out:
-            # A network may hold a frame up, but does not change the order.
+            # A network may delay a frame, but does not change the order.
             self._due = max(self._due, now + delay)
             self._waiting.append((self._due, (stamp, row)))
 

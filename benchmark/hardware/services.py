@@ -16,19 +16,19 @@ VERSION: Final = "2.8.7-emulated"
 """NAOqi of the NAO 6, marked as emulated."""
 
 SPEAKING: Final = 0.05
-"""How long the emulator takes to say a text [s]."""
+"""Time that the emulator takes to say a text [s]."""
 
 Log = Callable[[str], None]
-"""Takes a line for each thing that happens."""
+"""Takes a line for each event."""
 
 Pause = Callable[[float], None]
-"""Lets a time pass [s]."""
+"""Lets time pass [s]."""
 
 
 class MotionService:
     """ALMotion: the part of it that is documented in ``docs/guides/hardware.md``."""
 
-    # libqi would else call one method at a time, and a blocking one would block them all.
+    # Otherwise libqi would call one method at a time, and a blocking one would block all.
     __qi_threading__ = "multi"
 
     def __init__(
@@ -90,7 +90,7 @@ class MotionService:
         self._wait(self._motion.stiffening, joints)
 
     def _wait(self, going_on: Callable[[list[str]], bool], joints: list[str]) -> None:
-        """Wait as long as something goes on with the joints, or until all motion is killed."""
+        """Wait while the joints move or stiffen, or until all motion is killed."""
         self._killed.clear()
         while going_on(joints) and not self._killed.is_set():
             self._pause(TICK)
@@ -148,10 +148,10 @@ class MemoryService:
         self._data: dict[str, Any] = {}
 
     def insertData(self, key: str, value: Any) -> None:
-        """Keep a value by a key."""
+        """Store a value under a key."""
         known = self._data.get(key)
         self._data[key] = value
-        # A heartbeat changes only the last of some values: not worth a line of the log.
+        # A heartbeat changes only the last of several values, and is not logged.
         if not (isinstance(known, list) and isinstance(value, list) and known[:-1] == value[:-1]):
             self._log(f"memory {key}: {value}")
 
@@ -162,7 +162,7 @@ class MemoryService:
         return self._data[key]
 
     def getDataList(self, filter: str) -> list[str]:
-        """Return the keys that a text is part of."""
+        """Return the keys that contain a text."""
         return [key for key in list(self._data) if filter in key]
 
     def removeData(self, key: str) -> None:
@@ -191,7 +191,7 @@ class LifeService:
 
 
 class SpeechService:
-    """ALTextToSpeech: what the robot says, the person hears."""
+    """ALTextToSpeech: the person hears what the robot says."""
 
     def __init__(self, heard: Callable[[str], None], log: Log, pause: Pause) -> None:
         self._heard, self._log, self._pause = heard, log, pause
@@ -204,17 +204,17 @@ class SpeechService:
 
 
 class FaultService:
-    """ColiftFaults: lets something go wrong; a real robot has none such."""
+    """ColiftFaults: schedules faults; a real robot has no such service."""
 
     def __init__(self, request: Callable[[str], float], clear: Callable[[], None]) -> None:
         self._request, self._clear = request, clear
 
     def request(self, fault: str) -> float:
-        """Let a fault ``KIND@START[:DURATION[:VALUE]]`` come; return the emulator's time [s]."""
+        """Schedule a fault ``KIND@START[:DURATION[:VALUE]]``; return the emulator's time [s]."""
         return self._request(fault)
 
     def clear(self) -> None:
-        """Let what went wrong be right again, up to connections that were closed."""
+        """End all faults, except that closed connections stay closed."""
         self._clear()
 
 

@@ -1,7 +1,7 @@
 """The laboratory in simulated time, inside this process: no network, no extra, no waiting.
 
-The same adapter, loop and session work on it as on a robot. A call takes no time, and nothing
-happens but while somebody waits: so a trial is the same bit for bit, whatever else goes on.
+The same adapter, loop and session run on it as on a robot. A call takes no time, and time passes
+only while a caller waits, so that a trial is the same bit for bit, whatever else the machine does.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,11 +23,11 @@ class SimulatedLaboratory:
     Parameters
     ----------
     conditions
-        What is emulated.
+        The emulated conditions.
     button
         The operator's stop.
     log
-        Called with a line for each thing that happens.
+        Called with a line for each event.
     """
 
     url = "world"
@@ -53,7 +53,7 @@ class SimulatedLaboratory:
         return self._frames * FRAME
 
     def wait_until(self, time: float) -> str | None:
-        """Let the time pass; return how the stop button was pressed, or None."""
+        """Let the time pass; return the reason if the stop button was pressed, or None."""
         while self.now() < time - 1e-9 and self._button.reason is None:
             self._pass(FRAME)
         return self._button.reason
@@ -68,7 +68,7 @@ class SimulatedLaboratory:
                 self._pending.append(self._ends.sample(captured, row))
 
     def request(self, fault: str) -> float:
-        """Let a fault come, whose time counts from now; return the time [s]."""
+        """Schedule a fault, whose time counts from now; return the time [s]."""
         return self._laboratory.request(fault)
 
     def drain(self) -> list[Sample]:
@@ -79,12 +79,12 @@ class SimulatedLaboratory:
         return frames
 
     def set_rest(self, human_end: float, robot_end: float) -> None:
-        """Displace the zero of the ends' heights [m]."""
+        """Subtract these heights [m] from the ends' heights."""
         self._ends.set_rest(human_end, robot_end)
 
     @property
     def unseen(self) -> str:
-        """Which markers were not seen in the newest frame; see :class:`.MotionCapture`."""
+        """Return the markers not seen in the newest frame; see :class:`.MotionCapture`."""
         return self._ends.unseen
 
     def has(self, service: str) -> bool:

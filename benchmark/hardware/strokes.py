@@ -1,4 +1,4 @@
-"""The human's strokes in a measured trial, where no plan says when they are."""
+"""The human's strokes in a measured trial, found without a plan."""
 
 from typing import Final
 
@@ -9,8 +9,8 @@ from ...agents.agent import FRAME
 from ..episode.metrics import Stroke
 
 SMOOTHING: Final = 0.02
-"""Standard deviation [s] of the Gaussian kernel that takes the noise of the motion capture away
-before anything is differentiated: -3 dB at 6.6 Hz, above the movements of a hand."""
+"""Standard deviation [s] of the Gaussian kernel that removes the noise of the motion capture before
+differentiation: -3 dB at 6.6 Hz, above the movements of a hand."""
 
 ONSET_SHARE: Final = 0.05
 """Share of a trial's greatest speed above which the hand moves."""
@@ -19,14 +19,14 @@ LOWEST_SPEED: Final = 0.015
 """Speed below which the hand is still in any case [m/s]."""
 
 LONGEST_GAP: Final = 0.15
-"""A stop shorter than this does not end a stroke [s]."""
+"""Longest stop that does not end a stroke [s]."""
 
 SHORTEST_RISE: Final = 0.03
-"""Change of height below which a movement is no stroke [m]."""
+"""Change of height below which a movement is not a stroke [m]."""
 
 
 def smoothed(height: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return a height without the noise of single frames, as long as before, not shifted."""
+    """Return a height without the noise of single frames, of the same length and not shifted."""
     if not len(height):
         return height
     reach = round(4 * SMOOTHING / FRAME)

@@ -1,4 +1,4 @@
-"""The latency report of a session: how the real-time loop kept its time."""
+"""The latency report of a session: the timing of the real-time loop."""
 
 from collections import Counter
 from collections.abc import Sequence

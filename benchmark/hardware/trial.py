@@ -1,7 +1,7 @@
 """The episode of a recorded trial, with the metrics of the simulated ones.
 
-Motion capture knows heights, and nothing of forces or intentions: force, work, and how far the
-person meant to go have no value. Smoothness and lag are those of the filtered heights; see
+Motion capture gives heights, but no forces or intentions: force, work, and the distance to the
+intended height have no value. Smoothness and lag are those of the filtered heights; see
 :mod:`.strokes`.
 """
 
@@ -34,15 +34,15 @@ from ..world.table import TABLE_LENGTH
 from .strokes import find_strokes, smoothed
 
 HARDWARE: Final = "hardware"
-"""Name of the behaviour of whoever lifts in a laboratory."""
+"""Name of the behaviour of a person who lifts in a laboratory."""
 
 SHORTEST: Final = 6.0
-"""What a stopped trial is taken to have lasted at least [s], so that a stop never pays."""
+"""Least duration that is assumed for a stopped trial [s], so that a stop never pays."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Person:
-    """A real person, as :class:`colift.agents.humans.Behaviour`: the plan is nobody's to know."""
+    """A real person, as :class:`colift.agents.humans.Behaviour`: the plan is unknown."""
 
     def plan(self, subject: Subject, seed: int) -> Plan:
         """Raise: a person cannot be simulated."""
@@ -50,18 +50,18 @@ class Person:
 
 
 def hardware_suite(name: str, person: str, trials: int, *, period: float, latency: float) -> Suite:
-    """Return a suite that stands for trials in a laboratory: it can be named, and not be played.
+    """Return a suite that represents trials in a laboratory: it has a name, but cannot be played.
 
     Parameters
     ----------
     name
-        What was lifted with, such as a robot and its version.
+        Name of the set-up, such as a robot and its version.
     person
-        Who lifts.
+        Name of the person who lifts.
     trials
-        How many lifts there are to be; their seeds are their numbers.
+        Number of lifts; their seeds are their numbers.
     period, latency
-        Of the real-time loop [s].
+        Control period and latency of the real-time loop [s].
 
     Raises
     ------
@@ -84,10 +84,10 @@ def episode(log: TrialLog, *, person: str, number: int) -> Episode:
     Parameters
     ----------
     log
-        The trial. One that was stopped has failed, with the reason; as in simulation, the frames
-        that it lacks (here: up to :data:`SHORTEST`) count as the worst.
+        The trial. A stopped trial has failed, with the reason; as in simulation, its missing frames
+        (here up to :data:`SHORTEST`) count with the worst error.
     person
-        Who lifted.
+        Name of the person who lifted.
     number
         Number of the lift, from 0.
     """
@@ -120,7 +120,7 @@ def hardware_run(
 
 
 def _trace(log: TrialLog) -> Trace:
-    """Return what the motion capture and the loop saw, at 100 Hz from the first step on."""
+    """Return the data of the motion capture and the loop, at 100 Hz from the first step."""
     steps = log.steps
     per_step = round(log.period / FRAME)
     stop = steps[-1].deadline + log.period if steps else log.start

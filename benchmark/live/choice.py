@@ -12,16 +12,16 @@ from ..results.baselines import PARTNER_SPEC
 from .scenarios import MIXTURES
 
 SIMULATED: Final = "simulated person"
-"""The second person of the human-human baseline, simulated."""
+"""The simulated second person of the human-human baseline."""
 
 PERSON: Final = "person"
-"""A second person with arms of flesh."""
+"""A second real person, with simulated arms at the far end."""
 
 PERSON_AS_ROBOT: Final = "person as robot"
 """A second person who commands the NAO."""
 
 LIVE_DIGEST: Final = "live"
-"""Stands for a policy's digest where a person acted."""
+"""Digest that stands in for a policy's where a person acted."""
 
 MIXED: Final = "mixed"
 
@@ -32,13 +32,13 @@ class LivePartner:
 
     name: str
     seat: str
-    """Hands of the far end: a name of :data:`.SEATS`."""
+    """Holder of the far end: a name of :data:`.SEATS`."""
     spec: AgentSpec | None = None
     """The agent; None if a second person acts."""
 
     @property
     def people(self) -> int:
-        """How many real people lift."""
+        """Number of real people who lift."""
         return 1 if self.spec is not None else 2
 
 

@@ -9,17 +9,17 @@ from ...agents.errors import InputError
 PRESETS: Final = ("mouse", "touch", "pen", "keyboard", "gamepad")
 
 LONGEST_PLAYOUT_S: Final = 0.150
-"""Longest time by which a page may show frames later than they are made [s]."""
+"""Longest time by which a page may delay the display of frames [s]."""
 
 LONGEST_DELAY_S: Final = 0.150
 """Longest playout delay of samples [s]."""
 
 FIRST_DELAY_S: Final = dict.fromkeys(PRESETS, 0.030) | {"touch": 0.060, "pen": 0.060}
-"""Playout delay of samples before anything was measured [s]: a browser keeps what a finger does for
-its next picture, and hands over what a mouse does at once."""
+"""Playout delay of samples before anything was measured [s]: a browser holds back the events of a
+finger until its next picture, and passes on those of a mouse at once."""
 
 _KEPT: Final = 400
-"""Longest text that is kept of what a page says of itself [characters]."""
+"""Longest text that is kept of a page's description of itself [characters]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,11 +35,11 @@ class Grip:
     offset: float
     """Clock of the room minus clock of the page [s]."""
     playout: float
-    """How much later than they are made the page wants to show frames [s]."""
+    """Delay with which the page wants to show frames [s]."""
     delay: float | None = None
     """Playout delay of samples that the page asks for [s]; None leaves it to the room."""
     device: Mapping[str, Any] = field(default_factory=dict)
-    """What the page says of its input and its display; kept as it is."""
+    """The page's description of its input and its display; kept as it is."""
 
     @property
     def preset(self) -> str:
@@ -61,7 +61,7 @@ class Grip:
 def _number(content: Mapping[str, Any], name: str, low: float, high: float) -> float:
     value = content.get(name)
     if isinstance(value, int | float) and not isinstance(value, bool) and low <= value <= high:
-        return float(value)  # Not a number is in no range.
+        return float(value)  # NaN is in no range.
     raise InputError(f"{name} must be a number of {low:g} to {high:g} ms, got {value!r:.40}")
 
 

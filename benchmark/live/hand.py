@@ -9,7 +9,7 @@ from ...agents.humans.hand_log import FARTHEST, MOST_SAMPLES
 
 
 class LiveHand:
-    """A person's hand in one lift, from samples as they arrive to the log that proves them.
+    """A person's hand in one lift, from the arriving samples to the log that proves them.
 
     Parameters
     ----------
@@ -29,7 +29,8 @@ class LiveHand:
         self._next = 0
         self._sent = 0
         self.refused = 0
-        """HandSamples that could not be used: not finite, out of range, out of order, too many."""
+        """Number of samples that could not be used: not finite, out of range, out of order, too
+        many."""
 
     @property
     def samples(self) -> int:
@@ -48,7 +49,7 @@ class LiveHand:
 
     @property
     def used(self) -> int:
-        """HandSamples that were sent up to the newest one that the last reference depends on."""
+        """Number of samples sent up to the newest one on which the last reference depends."""
         count = self._resampler.used
         return self._numbers[count - 1] + 1 if count else 0
 
@@ -73,7 +74,7 @@ class LiveHand:
         return self._resampler.reference(frame)
 
     def log(self) -> HandLog:
-        """Return the samples that were used, with the frames that they arrived before."""
+        """Return the used samples, each with the frame before which it arrived."""
         return HandLog(
             offset=self._offset,
             delay=self._delay,

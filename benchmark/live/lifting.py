@@ -54,7 +54,7 @@ class Lifting:
         self.begin = begin
         self.delay = delay
         self.playout = max(grip.playout for grip in grips.values())
-        """How much later than they are made all pages show the frames [s]."""
+        """Delay with which all pages show the frames [s]."""
         self.punctuality = Punctuality(period=FRAME)
         self.hands = {
             end: LiveHand(grip.offset - begin, delay) for end, grip in sorted(grips.items())
@@ -87,7 +87,7 @@ class Lifting:
 
     @property
     def lag(self) -> float:
-        """What a network adds between the hand and the picture of a second person [s]."""
+        """Delay that a network adds between the hand and the picture of a second person [s]."""
         return self.delay + self.playout if len(self.hands) > 1 else 0.0
 
     @property
@@ -106,13 +106,13 @@ class Lifting:
         Returns
         -------
         list of (int, str or bytes)
-            For each frame a binary message to each end that a person holds; and to the human's end
-            the cues, as JSON, when they appear.
+            For each frame a binary message to each end that a person holds; and, when a cue
+            appears, a JSON message to the human's end.
 
         Raises
         ------
         EvaluatorFault
-            If the policy's process ended, and not by the policy's fault.
+            If the policy's process ended without a fault of the policy.
         """
         found: list[tuple[int, str | bytes]] = []
         lateness, before = now - self.due, self._made
@@ -134,7 +134,7 @@ class Lifting:
         return found
 
     def finish(self) -> tuple[Scenario, Episode]:
-        """Return the scenario with the hands that were seen, and the outcome."""
+        """Return the scenario with the recorded hands, and the outcome."""
         far = self.hands.get(1)
         human = Played(
             cue=self.cue, log=self.hands[0].log(), far=None if far is None else far.log()
@@ -154,7 +154,7 @@ class Lifting:
         )
 
     def quality(self) -> dict[str, Any]:
-        """Return how late frames were made, and how well the hands were seen."""
+        """Return measures of the lateness of frames and of the gaps in the hands' samples."""
         return {
             "lag_ms": round(1000 * self.lag, 3),
             "late": {

@@ -12,7 +12,7 @@ from ..episode.turns import Turns
 
 
 class Shown(NamedTuple):
-    """What a frame shows: both ends of the table of one and the same frame."""
+    """Content of a frame: both ends of the table at the same time."""
 
     frame: int
     """Frames since the beginning of the lift."""
@@ -87,7 +87,7 @@ class LiveLift:
         return shown
 
     def shown(self, ahead: int = 0) -> Shown:
-        """Return what the present frame shows, ``ahead`` frames into the step."""
+        """Return the content of the present frame, ``ahead`` frames into the step."""
         world = self.lift.world
         return Shown(
             self.lift.frame + ahead,

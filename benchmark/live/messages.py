@@ -29,7 +29,7 @@ _FRAME: Final = struct.Struct("<BBxxIfffI")
 
 @dataclass(frozen=True, kw_only=True)
 class HandSamples:
-    """HandSamples of a hand as a page sends them."""
+    """Samples of a hand, as sent by a page."""
 
     first: int
     """Number of the first sample since the grip."""
@@ -71,11 +71,11 @@ def dump_frame(shown: Shown, *, flags: int, used: int) -> bytes:
     Parameters
     ----------
     shown
-        What the frame shows.
+        Content of the frame.
     flags
         :data:`LATE` and :data:`STARVED`.
     used
-        HandSamples of the receiver's hand that have been used up to this frame.
+        Number of samples of the receiver's hand that have been used up to this frame.
     """
     return _FRAME.pack(
         FRAME_SHOWN,
@@ -89,7 +89,7 @@ def dump_frame(shown: Shown, *, flags: int, used: int) -> bytes:
 
 
 def parse_frame(message: bytes) -> tuple[Shown, int, int]:
-    """Return what a frame shows, its flags, and the samples that were used.
+    """Return the content of a frame, its flags, and the number of used samples.
 
     Raises
     ------

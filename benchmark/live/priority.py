@@ -1,23 +1,23 @@
-"""Order of what people wait for: the system runs the table first, then the way to it."""
+"""Priorities of threads: the frames of a lift first, then their relay to the pages."""
 
 import contextlib
 import os
 from typing import Final
 
 TABLE: Final = 2
-"""Of the frames of a lift: nothing must stop the table."""
+"""Priority of the frames of a lift: nothing must stop the table."""
 
 RELAY: Final = 1
-"""Of what carries them to the pages."""
+"""Priority of the relay of frames to the pages."""
 
 ORDINARY: Final = 0
-"""Of all other work, such as that of a browser on the same machine."""
+"""Priority of all other work, such as that of a browser on the same machine."""
 
 
 def take_turn(priority: int) -> None:
     """Let this thread run before those of a lower priority, if the system permits it.
 
-    Processes and threads that this one starts, as that of a foreign policy, are ordinary.
+    Processes and threads that this thread starts, such as that of a submitted policy, are ordinary.
     """
     if not hasattr(os, "sched_setscheduler"):
         return

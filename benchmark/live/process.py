@@ -23,12 +23,12 @@ MOST_AT_ONCE: Final = 100
 """Packets that are read between two frames."""
 
 SEND_S: Final = 1.0
-"""How long the room waits for a relay that takes nothing [s]; then it ends."""
+"""Time that the room waits for a relay that accepts nothing [s]; then it ends."""
 
 
 @dataclass(frozen=True)
 class RoomProcess:
-    """A room that runs, seen from the process that relays."""
+    """A running room, as seen by the process that relays."""
 
     socket: socket.socket
     """Packets to and from the room: a seat, a kind, and the message."""
@@ -70,13 +70,13 @@ def _run(connection: socket.socket, config: RoomConfig) -> None:
         while _turn(room, connection):
             pass
     except (BrokenPipeError, ConnectionResetError, TimeoutError):
-        pass  # The process that relays has ended, or takes nothing.
+        pass  # The process that relays has ended, or accepts nothing.
     finally:
         room.close()
 
 
 def _turn(room: Room, connection: socket.socket) -> bool:
-    """Wait for a message or the next frame, and answer; return whether to go on."""
+    """Wait for a message or the next frame, and answer; return whether to continue."""
     due = room.due
     timeout = 0.0 if room.has_work else None
     if due is not None:

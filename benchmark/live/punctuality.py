@@ -10,28 +10,28 @@ VOID_S: Final = 0.150
 """A gap longer than this makes a lift void [s]: the person saw the table stop."""
 
 VOID_SUM_S: Final = 0.300
-"""Marking gaps that are longer than this together make a lift void [s]."""
+"""Sum of marking gaps above which a lift is void [s]."""
 
 
 @dataclass(kw_only=True)
 class Punctuality:
-    """Lateness of frames: simulated time is real time, or a person's timing means nothing.
+    """Lateness of frames: a person's timing is meaningful only if simulated time is real time.
 
-    A frame that is late is made at once, and with it those that have become due; the lateness of
-    the first of them is a gap.
+    A late frame is made at once, together with those that have become due; the lateness of the
+    first of them is a gap.
     """
 
     period: float
     """Time of a frame [s]."""
     late: list[float] = field(default_factory=list)
-    """How late each frame was begun [s]."""
+    """Lateness of the beginning of each frame [s]."""
     worst: float = 0.0
     """Longest gap [s]."""
     total: float = 0.0
     """Sum of the gaps that mark the lift [s]."""
 
     def count(self, lateness: float, caught_up: int) -> None:
-        """Count a wake-up that was ``lateness`` [s] late and made so many frames."""
+        """Count a wake-up that was ``lateness`` [s] late and made ``caught_up`` frames."""
         self.late += [lateness - i * self.period for i in range(caught_up)]
         self.worst = max(self.worst, lateness)
         if lateness > MARKED_S:
@@ -39,7 +39,7 @@ class Punctuality:
 
     @property
     def frames(self) -> int:
-        """How many frames were begun more than a frame late."""
+        """Number of frames that were begun more than one frame late."""
         return sum(late > self.period for late in self.late)
 
     @property

@@ -1,8 +1,8 @@
 """A room: people, a table and a partner, as a machine of messages and times.
 
-It has no socket and no clock: its caller gives it messages and the time, and sends what it
-returns. So it runs in real time in a process, and in simulated time, bit for bit the same, in
-tests.
+It has no socket and no clock: its caller gives it messages and the time, and sends the messages
+that it returns. It can therefore run in real time in a process, and in simulated time, bit for bit
+the same, in tests.
 """
 
 import json
@@ -25,16 +25,16 @@ from .session import SessionFolder
 from .standing import Standing, ghost_rmse, rehearse
 
 AHEAD_S: Final = 0.5
-"""From the last closed hand to the first frame [s]: pages need the time to prepare."""
+"""Time from the last closed hand to the first frame [s]: pages need it to prepare."""
 
 
 SILENT_S: Final = 2.0
-"""How long nothing may be heard of a hand [s]: pages send samples of hands that rest, too."""
+"""Longest time without samples of a hand [s]: pages also send samples of resting hands."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class RoomConfig:
-    """What a room is made with."""
+    """The settings of a room."""
 
     folder: Path
     """The session's folder."""
@@ -72,7 +72,7 @@ class Room:
         return not self._prepared or self._standing is not None
 
     def join(self, seat: int) -> list[Message]:
-        """Return the messages when a person takes a seat; a page that was there is replaced."""
+        """Return the messages when a person takes a seat; an earlier page there is replaced."""
         found: list[Message] = []
         if seat in self._seats.people and self._lifts(seat):
             found = self._void("the page was opened again")
@@ -89,12 +89,12 @@ class Room:
         return lost or self._state()
 
     def receive(self, seat: int, message: str | bytes, now: float) -> list[Message]:
-        """Return the answers to a page's message; what cannot be used is answered by a fault.
+        """Return the answers to a page's message; an invalid message is answered by a fault.
 
         Parameters
         ----------
         seat
-            The sender's.
+            The sender's seat.
         message
             JSON, or a binary message.
         now
@@ -167,7 +167,7 @@ class Room:
     def _samples(self, seat: int, message: bytes, now: float) -> None:
         content, person = parse_samples(message), self._seats.people.get(seat)
         if self.due is None or self._lifting is None or person is None or person.grip is None:
-            return  # The hand has opened just now, or has closed before the other one.
+            return  # The hand has just opened, or has closed before the other one.
         hand = self._lifting.hands[self._seats.ends(self._choice.partner).index(seat)]
         person.send(content, hand, now)
 
@@ -203,7 +203,7 @@ class Room:
         return [*self._state(), (ALL, json.dumps(start))]
 
     def tick(self, now: float) -> list[Message]:
-        """Make the frames that are due at ``now`` [s], and return what the pages get."""
+        """Make the frames that are due at ``now`` [s], and return the messages to the pages."""
         lifting = self._lifting
         if lifting is None:
             return []
@@ -253,10 +253,10 @@ class Room:
         return [(ALL, json.dumps(end)), *self._state()]
 
     def work(self) -> list[Message]:
-        """Do a little between lifts: score the last one, warm the partner up, compare.
+        """Do some work between lifts: score the last one, warm up the partner, compare.
 
-        The first decision of a policy takes a second, while libraries are loaded: it must not be
-        that of a person's lift.
+        The first decision of a policy takes a second, while libraries are loaded: it must not fall
+        into a person's lift.
         """
         if self._lifting is not None:
             return self._end(self._lifting) if self._lifting.over else []

@@ -1,4 +1,4 @@
-"""The scenarios of live lifts: cues in their order, and people who are played again."""
+"""The scenarios of live lifts: cues in their order, and replays of people."""
 
 from pathlib import Path
 from typing import Final
@@ -14,12 +14,12 @@ from ..suites.suite import Suite, plain_name, recorded_suite
 from .session import lift_folders
 
 SEED: Final = 0
-"""The episode's seed: lifts differ by their trial, and so do their plans and their noise."""
+"""The episode's seed: lifts, with their plans and their noise, differ by their trial."""
 
 MIXTURES: Final[tuple[str, ...]] = (*KINDS, "mixed")
 
 GHOST_SUBJECT: Final = "S2"
-"""The simulated person whose arm real people have, and who plays their cues for comparison."""
+"""The simulated person whose arm real people use, and who lifts by the same cues for comparison."""
 
 
 def cue_of(seed: int, place: int, mixture: str) -> Cued:
@@ -28,11 +28,11 @@ def cue_of(seed: int, place: int, mixture: str) -> Cued:
     Parameters
     ----------
     seed
-        The session's.
+        The session's seed.
     place
-        How many lifts with this partner came before.
+        Number of earlier lifts with this partner.
     mixture
-        One kind for every lift, or ``mixed``: each run of three lifts has all kinds, in an order
+        One kind for every lift, or ``mixed``: each group of three lifts has all kinds, in an order
         that follows from the seed.
     """
     if mixture == "mixed":
@@ -71,12 +71,12 @@ def played_suite(session: Path) -> Suite:
     """Return a suite of a session's lifts: each person moves as in the lift, frame for frame.
 
     A lift keeps the movement and not the pointer's samples, which are personal data. Lifts that
-    ended early are left out: their movements have no end.
+    ended early are left out: their movements are incomplete.
 
     Raises
     ------
     InputError
-        If it is no session, has no complete lift, or a bundle cannot be read.
+        If it is not a session, has no complete lift, or a bundle cannot be read.
     """
     scenarios = tuple(
         Scenario(
@@ -94,7 +94,7 @@ def played_suite(session: Path) -> Suite:
 
 
 def _complete(bundle: Bundle) -> list[tuple[str, Played, list[float]]]:
-    """Return trial, person and references [m] of a bundle's lift, if it was not ended early."""
+    """Return trial, person and references [m] of a bundle's lift, if it did not end early."""
     scenario, episode = bundle.recipe.suite().scenarios[0], bundle.episodes[0]
     human = scenario.human
     if episode.failure is not None or not isinstance(human, Played):
@@ -108,6 +108,6 @@ def real_lifts(path: Path) -> Suite:
     Raises
     ------
     InputError
-        If the file or the session cannot be used; the message says why.
+        If the file or the session cannot be used; the message states the reason.
     """
     return played_suite(path) if path.is_dir() else recorded_suite(path)

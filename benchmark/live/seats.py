@@ -1,4 +1,4 @@
-"""The people of a room: who sits where, whose hand is closed, and what each is told."""
+"""The people of a room: their seats, their hands, and the messages to each."""
 
 import json
 from dataclasses import dataclass, field
@@ -11,16 +11,16 @@ from .hand import LiveHand
 from .messages import HandSamples
 
 ALL: Final = 255
-"""Stands for every seat in a message to the pages."""
+"""Stand-in for every seat in a message to the pages."""
 
 Message = tuple[int, str | bytes]
-"""A seat, and what is sent to it: JSON, or a binary message."""
+"""A seat, and the message to it: JSON or binary."""
 
 SPARE_S: Final = 0.002
 """Added to the playout delay that sufficed for 99 of 100 messages [s]."""
 
 LEAST_MESSAGES: Final = 50
-"""Messages of a moving hand from which its playout delay is learned."""
+"""Fewest messages of a moving hand from which its playout delay is learned."""
 
 ROLES: Final = ("leader", "follower")
 ENDS: Final = ("human", "far")
@@ -31,15 +31,15 @@ class SeatedPerson:
     """A person in a seat."""
 
     grip: Grip | None = None
-    """How the hand is closed; None if it is open."""
+    """Grip of the closed hand; None if it is open."""
     delays: dict[str, float] = field(default_factory=dict)
-    """Playout delay that was learned of each preset [s]."""
+    """Learned playout delay of each preset [s]."""
     expected: int = 0
     """Number of the next sample since the grip."""
     last: tuple[float, float] | None = None
     """The newest sample of the present lift."""
     heard: float = 0.0
-    """When samples came last, or the hand was closed [s]."""
+    """Time when samples last came, or the hand was closed [s]."""
     needed: list[float] = field(default_factory=list)
     """Playout delay with which each message of a moving hand would have been in time [s]."""
 
@@ -60,7 +60,7 @@ class SeatedPerson:
         Raises
         ------
         InputError
-            If samples before these are missing, or came already.
+            If samples before these are missing, or these have already come.
         """
         if self.grip is None or content.first != self.expected:
             raise InputError(
@@ -73,14 +73,14 @@ class SeatedPerson:
             hand.add(time, height)
         if not content.samples:
             return
-        # Until this message came, the hand was known up to the end of the last one; a frame that
-        # lacked what is in this one held its height, which is right if the hand did not move.
+        # Before this message, the hand was known only up to the end of the last one. Frames made in
+        # between held its last height, which is right if the hand did not move.
         if self.last is not None and self.last[1] != content.samples[0][1]:
             self.needed.append(now - self.last[0] - self.grip.offset)
         self.last = content.samples[-1]
 
     def let_go(self) -> None:
-        """Open the hand; learn from the lift how late samples arrive."""
+        """Open the hand; learn the lateness of samples from the lift."""
         if self.grip is not None and len(self.needed) >= LEAST_MESSAGES:
             most = sorted(self.needed)[int(0.99 * (len(self.needed) - 1))]
             self.delays[self.grip.preset] = min(max(most + SPARE_S, 0.0), LONGEST_DELAY_S)
@@ -96,7 +96,7 @@ class Seats:
         """Whether the second person leads."""
 
     def ends(self, partner: LivePartner) -> list[int]:
-        """Return the seats of those who lift: of the human's end, then of the far one."""
+        """Return the seats of the people who lift: the human's end, then the far one."""
         if partner.people == 1:
             return [0]
         return [1, 0] if self.swapped else [0, 1]
@@ -118,7 +118,7 @@ class Seats:
         return max(wished or [each.delay for each in people])
 
     def heard(self, partner: LivePartner) -> float:
-        """Return when the page was heard of which nothing has come for longest [s]."""
+        """Return the time of the last message of the page that has been silent for longest [s]."""
         return min(self.people[seat].heard for seat in self.ends(partner))
 
     def let_go(self) -> None:
@@ -127,7 +127,7 @@ class Seats:
             person.let_go()
 
     def told(self, partner: LivePartner, phase: str, room: dict[str, Any]) -> list[Message]:
-        """Return the state of the room for each person, with their own place in it."""
+        """Return the messages with the state of the room for each person, and their place in it."""
         ends = self.ends(partner)
         closed = [seat in self.people and self.people[seat].grip is not None for seat in ends]
         if phase == "waiting" and all(seat in self.people for seat in ends):
@@ -152,7 +152,7 @@ class Seats:
 
 
 def _sentence(phase: str, partner: LivePartner) -> str:
-    """Return what the people wait for."""
+    """Return a sentence on what the people wait for."""
     if phase == "preparing":
         return f"{partner.name} is getting ready."
     if phase == "lifting":

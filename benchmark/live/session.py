@@ -1,7 +1,8 @@
 """A session on disk: one bundle for each lift, a line for each event, and recordings.
 
-``recordings.csv`` has the hand's references of all complete lifts, to be played scaled and smoothed
-as any recording; a session's folder itself is played as it was, see :mod:`.people`.
+``recordings.csv`` has the hand's references of all complete lifts, which are scaled and smoothed
+when played, like any recording; a session's folder itself is played unchanged, see
+:mod:`.scenarios`.
 """
 
 import csv
@@ -31,11 +32,11 @@ MOST_PARTS: Final = 100
 """Most messages in which a page may report on a lift; each is short."""
 
 SESSION: Final = "session.json"
-"""What the web process knows of the session."""
+"""File with the web process's data on the session."""
 
 
 class SessionFolder:
-    """The lifts of a session, written when they end: a room that dies loses the one under way.
+    """The lifts of a session, written when they end: a room that dies loses only the present one.
 
     Parameters
     ----------
@@ -56,7 +57,7 @@ class SessionFolder:
         return max((int(path.name.partition("-")[0]) for path in self.lifts()), default=0) + 1
 
     def played_with(self, partner: str) -> int:
-        """Return how many finished lifts there are with a partner."""
+        """Return the number of finished lifts with a partner."""
         return sum(path.name.partition("-")[2] == folder_name(partner) for path in self.lifts())
 
     def save(self, number: int, partner: str, run: Run) -> Path:
@@ -81,17 +82,17 @@ class SessionFolder:
         _replace(path, text.getvalue())
 
     def timing(self, lift: Path, late: Sequence[float]) -> None:
-        """Write how late each frame of a lift was begun [s], beside its bundle."""
+        """Write the lateness of each frame of a lift [s], beside its bundle."""
         rounded = [round(1000 * each, 3) for each in late]
         _beside(lift).write_text(json.dumps({"room": {"late_ms": rounded}}) + "\n")
 
     def report(self, lift: Path, seat: int, content: Mapping[str, Any]) -> None:
-        """Add what a page reported of a lift, part by part, to its times.
+        """Add a page's report on a lift, part by part, to its times.
 
         Raises
         ------
         InputError
-            If it reports more than pages have to say.
+            If a page sends more than :data:`MOST_PARTS` parts.
         """
         beside = _beside(lift)
         reports = json.loads(beside.read_text())
@@ -136,7 +137,7 @@ def lift_folders(path: Path) -> list[Path]:
     Raises
     ------
     InputError
-        If it is no session.
+        If it is not a session.
     """
     if not is_session(path):
         raise InputError(f"{path}: not a session of live lifts: it has no folder {LIFTS}")

@@ -30,17 +30,17 @@ def rehearse(partner: LivePartner, scenario: Scenario) -> None:
 class Standing:
     """The RMSE of each policy with the hand of a live lift, one after the other.
 
-    A network delays what a second person sees, and not what a simulated robot sees. For a fair
-    comparison the policies see as much later.
+    A network delays a second person's view, but not a simulated robot's. For a fair comparison the
+    policies' view is delayed by the same time.
 
     Parameters
     ----------
     scenario
-        The scenario of the lift, with the hand that was seen.
+        The scenario of the lift, with the recorded hand.
     policies
         The policies by name.
     lag
-        What the network added for a second person [s].
+        Delay that the network added for a second person [s].
     """
 
     def __init__(
@@ -52,12 +52,12 @@ class Standing:
         self._found: list[dict[str, Any]] = []
 
     def next(self) -> dict[str, Any] | None:
-        """Play one policy more; return the standing when all have been played."""
+        """Play one more policy; return the standing when all have been played."""
         for name, spec in self._left:
             try:
                 self._found.append({"name": name, "rmse_mm": _rmse(spec, self._scenario)})
             except EvaluatorFault:
-                continue  # A policy without a process has no place.
+                continue  # A policy whose process fails has no place in the standing.
             return None
         people = dataclasses.replace(self._scenario, partner="human")
         return {

@@ -1,11 +1,11 @@
 """Fitting the few free numbers of the simulated set-up to the paper's results.
 
 The paper states neither the lift heights of its subjects nor Q, and only one RMSE of two people
-lifting together. Fitted are the mean lift height of each subject (so that ``reactive`` and
-``blend`` together have the error of the subject's row of Table I), q (so that the ratio of the two
-columns is the paper's), and the partner's lag (so that the human-human baseline has 6.531 mm). The
-paper gives eleven numbers for these seven; the rest of Table I is not fitted and shows how well the
-set-up reproduces the experiment.
+lifting together. The fitted numbers are the mean lift height of each subject (so that ``reactive``
+and ``blend`` together have the error of the subject's row of Table I), q (so that the ratio of the
+two columns is the paper's), and the partner's lag (so that the human-human baseline has 6.531 mm).
+The paper gives eleven numbers for these seven; the rest of Table I is not fitted and shows how well
+the set-up reproduces the experiment.
 """
 
 import dataclasses
@@ -40,7 +40,7 @@ SEEDS: Final = (50_000, 50_060)
 """Seeds of the calibration, far from those of the suites: 60 lifts per subject."""
 
 ROUNDS: Final = 4
-"""Rounds of the fit; each corrects all numbers at once by what the last one measured."""
+"""Rounds of the fit; each corrects all numbers at once by the errors of the last one."""
 
 RATIO_SLOPE: Final = -0.11
 """Change of the ratio of Table I's columns with the logarithm of q."""
@@ -153,8 +153,8 @@ def _measure(
 def _correct(fit: Fit) -> Calibration:
     """Return the numbers of the next round.
 
-    Errors are proportional to the speed of a lift, so heights are scaled by what the two cells of a
-    row miss on (geometric) average; q and the lag are corrected along slopes.
+    Errors are proportional to the speed of a lift, so heights are scaled by the (geometric) mean
+    relative error of the two cells of a row; q and the lag are corrected along slopes.
     """
     old = fit.calibration
     low, high = GOAL_RANGE

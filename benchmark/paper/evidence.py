@@ -1,4 +1,4 @@
-"""All that the report is made from, and how it is gathered."""
+"""The evidence for the report, and its collection."""
 
 import dataclasses
 import itertools
@@ -30,7 +30,7 @@ BLEND: Final = watched_blend()
 
 @dataclass(frozen=True, kw_only=True)
 class Effort:
-    """How many seeds, at most, a subject gets in each experiment beside Table I."""
+    """Largest number of seeds per subject in each experiment beside Table I."""
 
     pause: int = 10
     rest: int = 4
@@ -73,7 +73,7 @@ class Evidence:
     """Lifts that stop for 8 s on the way up."""
     jerky_reactive: Run
     jerky_blend: Run
-    """Lifts in fits and starts."""
+    """Lifts in irregular submovements."""
     forgetting: Mapping[float, Run]
     """Some of Table I's lifts with prediction, by forgetting factor."""
     timing: Mapping[TimingSetting, Run]
@@ -96,14 +96,14 @@ def collect_evidence(
         The lifts of Table I: one smooth scenario per subject. The other experiments have the same
         subjects and take the first of the same seeds.
     effort
-        How much of each experiment.
+        Size of each experiment.
     executor, progress
         As for :func:`.run_suite`; :func:`lift_count` is what ``progress`` adds up to.
 
     Raises
     ------
     KeyboardInterrupt
-        If it is interrupted; there is no report of half an experiment.
+        If it is interrupted; there is no report on an incomplete experiment.
     """
     effort = effort or Effort()
 

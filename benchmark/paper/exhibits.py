@@ -20,9 +20,9 @@ class Claim:
     claim: str
     """The statement, in words."""
     figure: str
-    """Where to look: the report's figure or table."""
+    """The report's figure or table with the evidence."""
     paper: str
-    """What the paper reports."""
+    """The paper's result."""
     criterion: str
     """Condition under which it holds."""
     measured: str
@@ -50,7 +50,8 @@ WIDTH: Final = 8.0
 
 PREDICTION: Final = "#009E73"
 CONFIDENCE: Final = "#8A4F9E"
-"""Told apart from the two ends with any kind of colour vision."""
+"""Colour of the confidence, distinguishable from those of the two ends with any kind of colour
+vision."""
 
 COLOURS: Final = {"human": HUMAN, "robot": ROBOT}
 
@@ -63,7 +64,7 @@ class Exhibit:
     """Name of its files, such as ``figure-4``."""
     title: str
     caption: str
-    """Content, and the point to note."""
+    """Content of the figure, and the point to note."""
     figure: Figure
     columns: Mapping[str, Sequence[float | str] | Sequence[float]]
     """The data, column by column, units in the names."""

@@ -66,11 +66,11 @@ def report_pages(
     Parameters
     ----------
     table, exhibits, claims
-        What the report shows.
+        Table, figures and claims of the report.
     drawn
         Each picture as PNG, by name.
     provenance
-        What the report was made from, in one line.
+        Origin of the report, in one line.
     """
     lines = table_rows(table)
     content = {
@@ -134,5 +134,5 @@ def _ours(cell: Reproduction, digits: str = ".2f") -> str:
 
 
 def claims_verdict(count: int, total: int) -> str:
-    """Return how many of the claims hold, as a sentence."""
+    """Return the number of claims that hold, as a sentence."""
     return f"{count} of {total} claims hold."

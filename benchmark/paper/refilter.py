@@ -14,9 +14,9 @@ Series = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Refiltered:
-    """What was expected of each sample before it was seen; n samples.
+    """The prediction of each sample before it was seen; n samples.
 
-    Nothing is expected of the first one: it stands as its own prediction, at rest.
+    The first sample has no prediction; it counts as its own, at rest.
     """
 
     height: Series
@@ -34,7 +34,7 @@ class Refiltered:
 def refilter(
     samples: ArrayLike, period: float, parameters: PredictorParameters | None = None
 ) -> Refiltered:
-    """Run the Kalman filter over samples and compare each with what was predicted.
+    """Run the Kalman filter over samples and return the prediction of each.
 
     Parameters
     ----------

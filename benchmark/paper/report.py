@@ -43,7 +43,7 @@ class Report:
     exhibits: list[Exhibit]
     claims: list[Claim]
     provenance: str
-    """What the report was made from, in one line."""
+    """Origin of the report, in one line."""
 
 
 def make_report(evidence: Evidence) -> Report:
@@ -60,7 +60,7 @@ def make_report(evidence: Evidence) -> Report:
 
 
 def claims_json(report: Report) -> list[dict[str, Any]]:
-    """Return the claims as ``claims.json`` holds them."""
+    """Return the claims, in the form of ``claims.json``."""
     return [dataclasses.asdict(claim) for claim in report.claims]
 
 
@@ -81,13 +81,13 @@ def write_report(report: Report, folder: Path) -> None:
 
 def _png(exhibit: Exhibit) -> bytes:
     buffer = io.BytesIO()
-    # Without the library's name and version in it, the same data give the same file.
+    # Without the library's name and version, equal data give equal files.
     exhibit.figure.savefig(buffer, format="png", metadata={"Software": None})
     return buffer.getvalue()
 
 
 def _write_csv(path: Path, exhibit: Exhibit) -> None:
-    """Write the columns; those that end early, and missing values, leave their cells empty."""
+    """Write the columns; the cells of missing values, and those below a short column, are empty."""
     columns = exhibit.columns
     length = max(len(values) for values in columns.values())
     with path.open("w", newline="", encoding="utf-8") as file:

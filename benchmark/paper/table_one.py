@@ -25,7 +25,7 @@ WITH_PREDICTION: Final = {"S1": 12.967, "S2": 16.591, "S3": 18.418, "S4": 15.391
 """Table I: average RMSE of each subject with the whole framework [mm]."""
 
 HUMAN_HUMAN_RMSE: Final = 6.531
-"""RMSE of the one pair of people [mm] (section V.A)."""
+"""RMSE of the paper's single pair of people [mm] (section V.A)."""
 
 MEDIAN_ITERATIONS: Final = 36
 """Median number of iterations until Q-learning converged (section IV.A)."""
@@ -40,7 +40,8 @@ FORGETTING: Final = 0.45
 """Forgetting factor that was found good (section IV.C)."""
 
 FORGETTING_FACTORS: Final = (0.05, 0.25, 0.45, 0.65, 0.85, 0.95)
-"""Forgetting factors to compare; the figure's are not all legible, these span its range."""
+"""Forgetting factors to compare; those in the paper's figure are not all legible, these span its
+range."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,7 +71,7 @@ class SubjectRow:
     difference: Estimate
     """With minus without, over the same lifts [mm]."""
     p: float
-    """p value of "prediction changes nothing", by sign flips over the lifts."""
+    """p value for the hypothesis that prediction changes nothing, by sign flips over the lifts."""
 
 
 @dataclass(frozen=True, kw_only=True)

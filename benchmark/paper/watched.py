@@ -1,4 +1,4 @@
-"""The watched blend policy, and its lifts step by step, next to what the human meant to do."""
+"""The watched blend policy, and its lifts step by step, with the human's plan."""
 
 import dataclasses
 import math
@@ -20,7 +20,7 @@ from ..execution.runner import Run
 
 
 class Watched:
-    """Acts as the blend policy does; its internals also hold the ``sample`` it acted on."""
+    """Acts as the blend policy does; its internals include the ``sample`` on which it acted."""
 
     def __init__(self, blend: Blend) -> None:
         self._blend = blend
@@ -35,12 +35,12 @@ class Watched:
         return self._blend.act(observation)
 
     def internals(self) -> dict[str, float]:
-        """Return the internals of the blend policy and the sample that was acted on [m]."""
+        """Return the internals of the blend policy and the sample on which it acted [m]."""
         return {**self._blend.internals(), "sample": self._sample}
 
 
 def watched_blend(forgetting: float | None = None) -> InMemorySpec:
-    """Return where the watched blend policy comes from.
+    """Return the specification of the watched blend policy.
 
     Parameters
     ----------
@@ -62,12 +62,12 @@ Series = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SampledLift:
-    """An episode, seen through the samples that the robot got; m steps."""
+    """An episode, described by the samples that the robot got; m steps."""
 
     scenario: Scenario
     episode: Episode
     plan: Plan
-    """What the human meant to do."""
+    """The human's plan."""
 
     @property
     def samples(self) -> Series:
@@ -85,7 +85,7 @@ class SampledLift:
         return self.one_step_ahead("prediction")
 
     def one_step_ahead(self, name: str) -> Series:
-        """Return an internal in the step in which it can be checked; NaN for the first."""
+        """Return an internal, moved to the step in which it can be checked; NaN for the first."""
         return np.concatenate(([np.nan], self.episode.trace.internals[name][:-1]))
 
     @property
@@ -117,7 +117,7 @@ class SampledLift:
 
     @property
     def first_motion(self) -> int:
-        """The first step whose sample shows the human on the move."""
+        """The first step whose sample shows the human moving."""
         return self.step_showing(self.plan.strokes[0][0])
 
 
@@ -135,5 +135,5 @@ def sampled_lifts(run: Run) -> list[SampledLift]:
 
 
 def rms(values: ArrayLike) -> float:
-    """Return the root mean square of the values, those that are missing (NaN) left out."""
+    """Return the root mean square of the values; missing ones (NaN) are left out."""
     return float(np.sqrt(np.nanmean(np.square(np.asarray(values, dtype=np.float64)))))

@@ -29,21 +29,21 @@ def scale(
     rounds: int = 5,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> dict[str, float]:
-    """Measure throughputs over that of a run in the local pool, all with two worker processes.
+    """Measure throughputs relative to a run in the local pool, all with two worker processes.
 
-    They take turns, and the median of the rounds counts.
+    The measurements take turns, and the median of the rounds counts.
 
     Parameters
     ----------
     policy
-        The name of what is run: the less time it takes, the more the rest shows.
+        Name of the policy: the less time it takes, the clearer the overhead.
     suite
-        What is run: a suite with shipped baselines.
+        The suite, which must have shipped baselines.
     rounds
-        How often each is run.
+        Number of rounds, with each of the three once.
     progress
-        Called with the number of episodes that were finished since the last call; in all they are
-        three times the suite's a round.
+        Called with the number of episodes that were finished since the last call; in all, three
+        times the suite's episodes per round.
 
     Returns
     -------
@@ -74,7 +74,7 @@ def scale(
 
 
 def _timed(call: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> tuple[float, T]:
-    """Return the wall time of a call [s], and what it returns."""
+    """Return the wall time of a call [s], and its result."""
     begin = time.perf_counter()
     result = call(*args, **kwargs)
     return time.perf_counter() - begin, result

@@ -31,10 +31,10 @@ STEPS: Final = (Physics(step=0.0025), Physics(step=0.005), PHYSICS)
 """The settings compared with it."""
 
 CONVERGED: Final = 3000
-"""Iterations of the reference for the solver: another one, at the task's step."""
+"""Iterations of the reference for the solver, at the task's step."""
 
 ITERATIONS: Final = (35, 200, 0)
-"""Those of the settings compared with it; 0 is the direct solver."""
+"""Iterations of the settings compared with it; 0 is the direct solver."""
 
 POLICIES: Final = ("anticipate", "blend", "copy", "random")
 """Two that predict, one that follows, and one that jerks the table."""
@@ -48,11 +48,11 @@ PLAYERS: Final[Mapping[str, Sequence[str]]] = {
     "agree": ("agree_game", "agree_admittance", PAIR),
     "ball": ("ball_game", "ball_calm", PAIR),
 }
-"""Who plays the lifts of each task; with touch a policy that infers the human's aim, one that does
-not, and two people."""
+"""Players of the lifts of each task; for tasks with touch, a policy that infers the human's aim,
+one that does not, and two people."""
 
 USUAL: Final = "quick-v1"
-"""The suite whose lifts are studied unless another is asked for."""
+"""The suite that is studied by default."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,7 +69,7 @@ class PhysicsDeviation:
     mean_error: float
     """Relative error of the mean RMSE, signed."""
     mean_spread: float
-    """Standard error of that, from the differences of the same lifts."""
+    """Standard error of the mean error, from the differences of the same lifts."""
     height_error_mm: float
     """Root mean square error of the two ends' heights [mm]."""
 
@@ -82,7 +82,7 @@ def study(name: str = USUAL) -> Iterator[PhysicsDeviation]:
     Raises
     ------
     InputError
-        If the suite has another task than those of :data:`PLAYERS`.
+        If the suite's task is not in :data:`PLAYERS`.
     """
     suite = make_suite(name)
     task = suite.scenarios[0].task
@@ -106,7 +106,7 @@ def solver_error() -> float:
 
 
 def physics_of(task: Task) -> Physics:
-    """Return the physics that a task is played with."""
+    """Return the physics with which a task is played."""
     return FINER if isinstance(task, Haptic) else PHYSICS
 
 

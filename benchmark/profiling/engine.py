@@ -32,7 +32,7 @@ def _seconds(action: Callable[[], object], times: int = 1) -> float:
 
 
 def naive_speed(steps: int = 400) -> float:
-    """Return simulated over wall seconds of the whole NAO as loaded, all joints, at 240 Hz."""
+    """Return simulated seconds per wall second of the whole NAO, with all joints, at 240 Hz."""
     client = pybullet.connect(pybullet.DIRECT)
     try:
         pybullet.setGravity(0, 0, -GRAVITY, physicsClientId=client)
@@ -49,8 +49,9 @@ def single_process(episodes: int = 20, rounds: int = 5) -> dict[str, float]:
     Returns
     -------
     dict
-        ``sim_speed`` simulated seconds per wall second; ``reset_share`` share of resetting an
-        episode; ``naive_nao_ratio`` the speed over :func:`naive_speed`. Medians over the rounds.
+        ``sim_speed``: simulated seconds per wall second; ``reset_share``: share of the time for
+        resetting an episode; ``naive_nao_ratio``: the speed relative to :func:`naive_speed`.
+        Medians over the rounds.
     """
     lift = Lift(make_scenario("smooth", "S1"))
 
@@ -77,12 +78,12 @@ def single_process(episodes: int = 20, rounds: int = 5) -> dict[str, float]:
 def two_workers_ratio(
     pool: Callable[[int], AbstractContextManager[Executor]], rounds: int = 3
 ) -> dict[str, float]:
-    """Measure the throughput of two worker processes over that of one, on ``standard-v1``.
+    """Measure the throughput of two worker processes relative to one, on ``standard-v1``.
 
     Parameters
     ----------
     pool
-        Returns a context manager that yields an executor of so many processes.
+        Returns a context manager that yields an executor with the given number of processes.
     rounds
         Pairs of runs; the median ratio counts.
     """
@@ -100,7 +101,7 @@ def two_workers_ratio(
 
 
 def endurance(episodes: int) -> Iterator[dict[str, float]]:
-    """Play so many episodes on one world and yield the figures after each hundred.
+    """Play episodes in one world and yield the figures after each hundred.
 
     Yields
     ------

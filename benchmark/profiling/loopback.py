@@ -1,4 +1,4 @@
-"""A Dask cluster on this machine, to measure and to test with."""
+"""A Dask cluster on this machine, for measurements and tests."""
 
 import contextlib
 import json
@@ -15,29 +15,29 @@ from typing import Final
 from ...agents.errors import EvaluatorFault
 
 START_SECONDS: Final = 180.0
-"""How long the processes may take to start [s]."""
+"""Longest time for the processes to start [s]."""
 
 IDLE_SECONDS: Final = 1800
 ORPHANED_SECONDS: Final = 60
-"""When a scheduler that is not used, and a worker without a scheduler, end by themselves [s]:
+"""Time after which an unused scheduler, and a worker without a scheduler, end by themselves [s]:
 the process that started them may have been killed."""
 
 LEAN: Final = {
     "DASK_DISTRIBUTED__ADMIN__TICK__INTERVAL": "1s",
     "DASK_DISTRIBUTED__WORKER__PROFILE__ENABLED": "False",
 }
-"""Settings of Dask's, as environment, by which its processes watch themselves less: by default that
-takes some percent of the processors."""
+"""Environment variables by which Dask's processes monitor themselves less: by default that takes a
+few percent of the processors."""
 
 END_SECONDS: Final = 10.0
-"""How long they may take to end before they are killed [s]."""
+"""Longest time for the processes to end before they are killed [s]."""
 
 
 @contextmanager
 def loopback_cluster(workers: int) -> Iterator[str]:
-    """Yield the address of a Dask scheduler on this machine that has so many worker processes.
+    """Yield the address of a Dask scheduler on this machine with some worker processes.
 
-    They are started by the commands that a user starts them by.
+    They are started by the same commands that a user would type.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def _dask(folder: Path, command: str, *options: str) -> Iterator["subprocess.Pop
             stdout=log,
             stderr=log,
             env={**LEAN, **os.environ},
-            # Ctrl-C is meant for the measuring process.
+            # Ctrl-C must reach only the measuring process.
             start_new_session=True,
         )
     try:

@@ -44,21 +44,21 @@ def default_scenarios() -> tuple[Scenario, ...]:
 def step_time(
     policy: AgentSpec, scenarios: Sequence[Scenario], seeds: tuple[int, ...] = SEEDS
 ) -> StepTime | None:
-    """Return what the calls of ``act`` take in whole episodes, in this process.
+    """Return the durations of the calls of ``act`` in whole episodes, in this process.
 
-    The first episode is played once before the clock counts: loading is not part of a step.
+    The first episode is played once before the measurement, since loading is not part of a step.
 
     Parameters
     ----------
     policy
-        Where the policy is.
+        The policy's specification.
     scenarios, seeds
         The episodes.
 
     Returns
     -------
     StepTime or None
-        None if no step came to an end: the policy fails.
+        None if no step was completed, since the policy fails.
 
     Raises
     ------

@@ -20,10 +20,10 @@ from ..episode.lift import Lift
 from ..suites.catalogue import make_scenario
 
 STEP_US: Final = 60.0
-"""What a step may cost [us]."""
+"""Largest aimed cost of a step [us]."""
 
 EPISODE_MS: Final = 30.0
-"""What an episode may cost [ms]."""
+"""Largest aimed cost of an episode [ms]."""
 
 ROUNDS: Final = 20
 """Pairs of episodes, one in this process and one isolated."""
@@ -40,7 +40,7 @@ class IsolationCost:
 
     @property
     def within_aim(self) -> bool:
-        """Whether both costs are as wanted."""
+        """Whether both costs are within the aims."""
         return self.step_us <= STEP_US and self.episode_ms <= EPISODE_MS
 
 
@@ -62,14 +62,14 @@ def isolation_cost(
     rounds: int = ROUNDS,
     progress: Callable[[int], None] = lambda rounds: None,
 ) -> IsolationCost:
-    """Return what a policy costs more than another: medians of the differences in paired episodes.
+    """Return the cost of isolation: medians of the differences in paired episodes.
 
     Parameters
     ----------
     plain
         The policy in this process.
     policy
-        The same, isolated.
+        The same policy, isolated.
     rounds
         Pairs of episodes.
     progress
@@ -90,7 +90,7 @@ def isolation_cost(
 
 
 def _once(lift: Lift, policy: AgentSpec, seed: int) -> tuple[float, float]:
-    """Return the median time of a step in an episode, and what an episode takes without any [s]."""
+    """Return the median time of a step in an episode, and the episode's time without steps [s]."""
     with policy.agent() as agent:
         times = run_episode(lift, agent, seed).step_times
     begin = time.perf_counter()

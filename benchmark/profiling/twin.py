@@ -1,4 +1,4 @@
-"""The speed of the twin over the engine's, measured in one run."""
+"""The speed of the twin relative to the engine's, measured in one run."""
 
 import statistics
 import time
@@ -23,9 +23,9 @@ UNITS: Final = 64
 
 THREADS: Final = 2
 LIFTS: Final = 512
-"""Lifts of a thread in a rollout."""
+"""Lifts per thread in a rollout."""
 GRADIENT_LIFTS: Final = 128
-"""Lifts of a thread in a gradient."""
+"""Lifts per thread in a gradient."""
 STEPS: Final = 60
 """Steps of each lift: all are cut to the same length, so that none is counted at rest."""
 DRAWN: Final = 64
@@ -36,14 +36,14 @@ Layers = list[tuple[jax.Array, jax.Array]]
 
 
 def twin_speed() -> dict[str, float]:
-    """Return the control steps per second of the twin over the engine's, with two threads.
+    """Return the control steps per second of the twin relative to the engine's, with two threads.
 
     Returns
     -------
     dict
-        ``twin_speed_ratio`` of whole lifts with a network of two layers of :data:`UNITS` in the
-        loop; ``twin_gradient_ratio`` of whole lifts and their gradient in the network's weights.
-        The engine plays ``copy``, whose own time is negligible, in one process. Medians of ratios.
+        ``twin_speed_ratio``: whole lifts with a network of two layers of :data:`UNITS` in the loop;
+        ``twin_gradient_ratio``: whole lifts and their gradient in the network's weights. The engine
+        plays ``copy``, whose own time is negligible, in one process. Medians of ratios.
     """
     pool = _drawn()
     layers = _layers()

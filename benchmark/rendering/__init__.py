@@ -1,1 +1,1 @@
-"""Pictures of a lift. Drawn in an engine of their own: looking never changes the dynamics."""
+"""Pictures of a lift, drawn in a separate engine, so that drawing never changes the dynamics."""

@@ -1,4 +1,4 @@
-"""The words of a picture: what lift it is, and how high the ends are now."""
+"""The words of a picture: its lift, and the present heights of the ends."""
 
 from collections.abc import Sequence
 from functools import cache
@@ -49,7 +49,7 @@ def title_strip(episode: Episode, policy: str, width: int, height: int) -> Image
 
 
 def _fitted(text: str, font: ImageFont.FreeTypeFont, room: float) -> str:
-    """Return the text, cut to what fits into ``room`` [pixels]."""
+    """Return the text, shortened to fit into ``room`` [pixels]."""
     if font.getlength(text) <= room:
         return text
     while text and font.getlength(f"{text}…") > room:
@@ -66,8 +66,8 @@ def readout(
 ) -> None:
     """Write a frame's time, the heights of both ends and their difference [mm] into a scene.
 
-    They stand in the upper left over a NAO, and in the middle between two people. The last frame
-    of a failed episode states the reason.
+    They are in the upper left above a NAO, and in the middle between two people. The last frame of
+    a failed episode states the reason.
     """
     trace = episode.trace
     human, robot = 1000 * float(trace.human_end[frame]), 1000 * float(trace.robot_end[frame])
@@ -104,5 +104,5 @@ def _at(trace: Trace, drawn: DrawnSeries, frame: int) -> float:
 
 
 def _millimetres(height: float) -> str:
-    """Return a height in whole millimetres, without a minus before nought."""
+    """Return a height in whole millimetres, without a minus sign before zero."""
     return f"{round(height)} mm".replace("-", "\N{MINUS SIGN}")

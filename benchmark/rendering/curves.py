@@ -1,4 +1,4 @@
-"""The heights of both ends over time, with a cursor. Drawn once; the cursor costs little."""
+"""The heights of both ends over time, drawn once, with a cursor that costs little."""
 
 from collections.abc import Mapping, Sequence
 from typing import Final
@@ -22,10 +22,10 @@ LETTERS: Final = 8.5
 """Size of letters at scale 1 [points]."""
 
 PALE: Final = 0.25
-"""Opacity of what is still to come."""
+"""Opacity of the part after the cursor."""
 
 DOTS: Final = (0, (1, 2))
-"""Dots of a place on the table, in millimetres from its middle."""
+"""Line style of a place on the table, in millimetres from its middle."""
 
 STYLES: Final[Mapping[str, str]] = {"human": HUMAN, "robot": ROBOT, "place": INK}
 """Colours of added series by their place."""
@@ -44,9 +44,9 @@ class Curves:
     width, height
         Size of the picture [pixels].
     partner
-        Name of what holds the far end, for the legend.
+        Name of the holder of the far end, for the legend.
     drawn
-        Series of the trace that are heights, or places on the table, to be drawn too.
+        Further series of the trace to draw: heights, or places on the table.
     scale
         Size of letters and lines; 1 suits a picture 640 pixels wide.
     """
@@ -145,7 +145,7 @@ class Curves:
         return Image.frombytes("RGBA", size, bytes(buffer)).convert("RGB")
 
     def at(self, frame: int) -> Image.Image:
-        """Return the curves with the cursor at a frame; what comes later is pale."""
+        """Return the curves with the cursor at a frame; the later part is pale."""
         picture = self._future.copy()
         reached = round(float(self._places[0][frame, 0]))
         picture.paste(self._past.crop((0, 0, reached, picture.height)))

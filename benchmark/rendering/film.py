@@ -31,7 +31,7 @@ TITLE, SCENE, CURVES = 36, 360, 204
 STILL_WIDTH: Final = 1290
 STILL_TITLE, STILL_SCENE, STILL_CURVES = 64, 426, 400
 GUTTER: Final = 6
-"""Between two scenes of a still [pixels]."""
+"""Gap between two scenes of a still [pixels]."""
 
 APART: Final = 60
 """Least distance of a still's moments [frames], in lifts that are long enough."""
@@ -94,8 +94,8 @@ def frames(
 def still_moments(episode: Episode, drawn: Sequence[DrawnSeries] = ()) -> list[int]:
     """Return the three frames that a still shows.
 
-    They are the start, the human's highest, and the largest error at a distance from both; of a
-    failed lift the start, the middle and the end.
+    They are the start, the human's highest point, and the largest error at a distance from both;
+    for a failed lift, the start, the middle and the end.
 
     Raises
     ------
@@ -158,7 +158,7 @@ def film_episode(
     Parameters
     ----------
     path
-        Where to; its suffix is the format.
+        The file; its suffix determines the format.
     episode, scenario, policy, fps
         As in :func:`frames`.
     drawn
@@ -187,7 +187,7 @@ def _counted(pictures: Iterator[Picture], drawn: Callable[[int], None] | None) -
 
 
 def _scene(partner: str, drawn: Sequence[DrawnSeries]) -> Scene:
-    """Return a scene with what the task adds to it."""
+    """Return a scene with the additions of the task."""
     return Scene(
         partner,
         intended=intended_far_end(drawn) is not None,

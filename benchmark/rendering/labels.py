@@ -1,4 +1,4 @@
-"""Positions of the labels of a scatter plot: near their points, and over nothing.
+"""Positions of the labels of a scatter plot: near their points, without covering anything.
 
 Each label has some hundred candidate boxes around its point. In turn, each takes its cheapest free
 box while the others stay, a few times: a discrete gradient descent, as compared with others by
@@ -25,7 +25,7 @@ CROSSED: Final = 30.0
 """Cost of a leader that crosses an obstacle or another label."""
 
 PASSES: Final = 4
-"""Turns of each label, at most."""
+"""Largest number of turns of each label."""
 
 
 def place_labels(
@@ -41,15 +41,15 @@ def place_labels(
     Parameters
     ----------
     points
-        The points that the labels belong to, shape (n, 2); the first have the first choice.
+        The points to which the labels belong, shape (n, 2); earlier points choose first.
     sizes
         Width and height of each label, shape (n, 2).
     obstacles
         Boxes that no label covers, such as markers, shape (m, 4).
     lines
-        Boxes that labels cover only if they would have to go far, shape (l, 4).
+        Boxes that labels cover only if the alternative is far away, shape (l, 4).
     bounds
-        Box that the labels stay within, shape (4,).
+        Box within which the labels stay, shape (4,).
     """
     anchors = np.asarray(points, dtype=np.float64).reshape(-1, 2)
     extents = np.asarray(sizes, dtype=np.float64).reshape(-1, 2)
@@ -85,7 +85,7 @@ def nearest(box: Array, point: ArrayLike) -> Array:
 
 
 def _candidates(point: Array, size: Array, unit: float, bounds: Array) -> tuple[Array, Array]:
-    """Return the boxes a label may take, shape (k, 4), and how far off each is, shape (k,).
+    """Return the boxes that a label may take, shape (k, 4), and their distances, shape (k,).
 
     The near ones come first, and among them those at the right, where one reads on.
     """
@@ -101,7 +101,7 @@ def _candidates(point: Array, size: Array, unit: float, bounds: Array) -> tuple[
 
 
 def _covers(boxes: Array, others: Array) -> NDArray[np.bool_]:
-    """Return whether each box shares room with each of the others, shape (k, m)."""
+    """Return whether each box overlaps each of the others, shape (k, m)."""
     left, top, right, bottom = boxes.T[:, :, None]
     covers: NDArray[np.bool_] = (
         (left < others[:, 2])
@@ -113,7 +113,7 @@ def _covers(boxes: Array, others: Array) -> NDArray[np.bool_]:
 
 
 def _crossings(point: Array, boxes: Array, others: Array) -> Array:
-    """Return how many other boxes the leader from the point to each box meets, shape (k,)."""
+    """Return the number of other boxes that the leader from the point to each box meets, (k,)."""
     way = nearest(boxes.T, point[:, None]).T - point
     way[np.abs(way) < 1e-9] = 1e-9
     # The parts of the leader, from 0 to 1, that lie between the sides of a box.

@@ -16,7 +16,7 @@ SKIN: Final = (0.93, 0.74, 0.61, 1.0)
 HAIR: Final = (0.32, 0.22, 0.15, 1.0)
 
 SHIRT: Final = None
-"""Stands for the colour of the shirt, which differs from person to person."""
+"""Stand-in for the colour of the shirt, which differs from person to person."""
 
 UPPER_ARM: Final = 0.29
 FOREARM: Final = 0.28
@@ -25,18 +25,18 @@ HALF_GRIP: Final = 0.15
 """Lengths [m] of a person of about 1.65 m."""
 
 SHOULDER: Final = (-0.260, 1.28)
-"""The shoulders ahead of the hands at rest, and above the floor [m]."""
+"""Place of the shoulders: ahead of the hands at rest, and above the floor [m]."""
 
 
 @dataclass(frozen=True)
 class Limb:
-    """A tapered rod with round ends, part of a person that does not move."""
+    """A tapered rod with round ends: a part of a person that does not move."""
 
     start: Place
     """Centre of the first ball: ahead of the hands, left of the middle, above the floor [m]."""
     stop: Place
     radii: tuple[float, float]
-    """Of the two balls [m]."""
+    """Radii of the two balls [m]."""
     colour: Colour | None
     depth: float = 1.0
     """Thickness seen from the side as a fraction of that seen from the front."""
@@ -80,7 +80,7 @@ class Mannequin:
     client
         The engine to draw in.
     hands
-        Where the middle between the hands is at rest [m].
+        Middle between the hands at rest [m].
     facing
         -1 if the person looks towards -x, 1 towards +x.
     floor
@@ -121,7 +121,7 @@ class Mannequin:
             lay(self._client, fist, wrist, hand)
 
     def _point(self, place: Place) -> Point:
-        """Return in the world what is ahead of the hands, left of the middle, above the floor."""
+        """Return the world's point of a place (ahead of the hands, left of middle, above floor)."""
         ahead, left, up = place
         point: Point = self._below + [self._facing * ahead, self._facing * left, up]
         return point
@@ -134,17 +134,17 @@ class Mannequin:
 
 
 def arm(shoulder: Point, hand: Point, forwards: Point, side: int) -> tuple[Point, Point]:
-    """Return where elbow and wrist are [m]; a hand out of reach straightens the arm.
+    """Return the points of elbow and wrist [m]; a hand out of reach straightens the arm.
 
     Parameters
     ----------
     shoulder, hand
-        Where they are [m].
+        Their points [m].
     forwards
         Unit vector in which the hands point.
     side
-        Which side of the person's middle it is: -1 or 1 along y. The elbow points down, back and
-        out to it.
+        The arm's side of the person's middle: -1 or 1 along y. The elbow points down, back and
+        outwards to that side.
     """
     wrist = hand - 0.04 * forwards
     outwards = np.array([-0.3 * math.copysign(1.0, forwards[0]), 0.4 * side, -1.0])
@@ -152,7 +152,7 @@ def arm(shoulder: Point, hand: Point, forwards: Point, side: int) -> tuple[Point
 
 
 def _elbow(shoulder: Point, hand: Point, outwards: Point) -> Point:
-    """Return where the elbow is, bent towards ``outwards``; a hand out of reach straightens it."""
+    """Return the elbow's point, bent to ``outwards``; a hand out of reach straightens the arm."""
     reach = hand - shoulder
     distance = float(np.linalg.norm(reach))
     along = (distance**2 + UPPER_ARM**2 - FOREARM**2) / (2 * distance)

@@ -1,7 +1,7 @@
 """Pages from Jinja templates, and their tables.
 
 A page that is one file requests nothing from elsewhere: its template extends ``page.html``, whose
-content security policy allows the style in it and no more.
+content security policy allows only the style in it.
 """
 
 import base64
@@ -48,11 +48,11 @@ def render(package: str, template: str, **content: Any) -> str:
     Parameters
     ----------
     package
-        The package with the folder ``templates`` that the template is in.
+        The package whose folder ``templates`` has the template.
     template
         Its name; text is escaped if it ends in ``.html``, ``.svg`` or ``.xml``.
     content
-        What the template shows, by name.
+        Content that the template shows, by name.
     """
     return templates(package).get_template(template).render(**content)
 

@@ -23,7 +23,7 @@ from .style import AIM, HUMAN, ROBOT, SKY, rgba
 Picture = NDArray[np.uint8]
 
 PEDESTAL: Final = 0.50
-"""Height of what the NAO stands on [m], so that its table is at a person's hands."""
+"""Height of the NAO's pedestal [m], such that its table is at a person's hands."""
 
 FLOOR: Final = -TORSO_HEIGHT - PEDESTAL
 RENDER_MODES: Final = (None, "human", "rgb_array")
@@ -43,10 +43,10 @@ EDGE: Final = 0.04
 """Half length of the coloured piece at each end of the table [m]."""
 
 EYE: Final = (0.18, -2.55, 0.42)
-"""Where the camera is [m]: to the right of the middle of the picture, before it, above it."""
+"""Place of the camera [m]: to the right of the middle of the picture, before it, above it."""
 
 HALF_HEIGHT: Final = 0.93
-"""What the camera has to show above and below the middle [m]: the person from head to foot."""
+"""Half of the height that the camera has to show [m]: the person from head to foot."""
 
 SMOOTHING: Final = 2
 """Pixels drawn for one pixel seen, in each direction: the renderer leaves edges jagged."""
@@ -78,7 +78,7 @@ class Scene:
     Parameters
     ----------
     partner
-        Who holds the robot's end.
+        Holder of the robot's end.
     intended
         Whether :meth:`intend` will show an intended pose of the table.
     ball
@@ -120,7 +120,7 @@ class Scene:
         )
         self._ends = 0.0, 0.0
         stands = [hands[0] + 0.37]
-        # The middle of the picture [m], and what has to be seen to its left and right.
+        # The middle of the picture [m], and the width to be shown on each side of it.
         self._middle, self._half_width = (middle, 1.08) if partner == "human" else (0.65, 0.92)
         self._person = Mannequin(client, hands, -1, FLOOR, rgba(HUMAN))
         self._second: Mannequin | None = None
@@ -206,7 +206,7 @@ class Scene:
     def picture(self, width: int = 640, height: int = 400) -> Picture:
         """Return the view from the side, shape ``(height, width, 3)``.
 
-        Everybody is seen whole, whatever the shape of the picture.
+        Everybody is shown from head to foot, whatever the shape of the picture.
         """
         wide, high = SMOOTHING * width, SMOOTHING * height
         eye = (self._middle + EYE[0], EYE[1], EYE[2])

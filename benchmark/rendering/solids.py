@@ -1,4 +1,4 @@
-"""Solids to draw with: boxes, discs and rounded limbs. They are seen and never collide.
+"""Solids for drawing, which never collide: boxes, discs and rounded limbs.
 
 The engine's own capsules and cylinders are coarse prisms with blurred edges; these meshes carry
 exact normals.
@@ -46,9 +46,9 @@ def limb(
     client
         The engine to draw in.
     length
-        From the first ball's centre, the origin, along z to the second's [m].
+        Distance from the first ball's centre, the origin, along z to the second's [m].
     radii
-        Of the two balls [m]; they differ by less than ``length``.
+        Radii of the two balls [m]; they differ by less than ``length``.
     colour
         Red, green, blue, opacity.
     depth
@@ -81,7 +81,7 @@ def lay(client: int, body: int, start: Point, stop: Point) -> None:
 
 
 def _revolved(client: int, rings: Point, depth: float, colour: Colour) -> int:
-    """Return a surface of revolution about z; a ring is radius, height and its normal's two."""
+    """Return a surface of revolution about z; a ring is radius, height and normal (2)."""
     around = np.linspace(0.0, 2 * math.pi, SIDES, endpoint=False)
     cos, sin = np.cos(around), np.sin(around)
     radius, height, outwards, upwards = (rings[:, i, None] for i in range(4))

@@ -7,19 +7,19 @@ from typing import Final
 import numpy as np
 
 FAR: Final = 3.0
-"""Values above so many times the median are off the scale: they would squeeze the others."""
+"""Multiple of the median above which values are off the scale: they would squeeze the others."""
 
 STEPS: Final = (1.0, 2.0, 5.0, 10.0)
 """Distances between ticks, up to a power of ten."""
 
 
 def far_limit(values: Sequence[float]) -> float:
-    """Return the greatest value that an axis is stretched for; 0 without values."""
+    """Return the greatest value that an axis has to cover; 0 without values."""
     return FAR * float(np.median(values)) if values else 0.0
 
 
 def round_step(breadth: float, most: int) -> float:
-    """Return the least round step that needs at most so many steps for a breadth."""
+    """Return the least round step that covers a breadth with at most ``most`` steps."""
     power = 10.0 ** math.floor(math.log10(breadth / most))
     return next(power * step for step in STEPS if power * step * most >= breadth)
 

@@ -1,4 +1,4 @@
-"""Pictures to files: GIF, MP4 and PNG."""
+"""Writing of pictures to files: GIF, MP4 and PNG."""
 
 import importlib
 from collections.abc import Callable, Iterable
@@ -17,7 +17,7 @@ COLOURS: Final = 256
 """Colours of a GIF, shared by its pictures, so that none flickers."""
 
 SAMPLES: Final = 5
-"""Pictures of a film that its colours are chosen from."""
+"""Number of pictures from which the colours of a film are chosen."""
 
 
 def check_film(path: Path) -> None:
@@ -122,7 +122,7 @@ def _write_png(path: Path, pictures: Iterable[Picture], fps: float) -> None:
 _WRITERS: Final = {".gif": _write_gif, ".mp4": _write_mp4, ".png": _write_png}
 
 SUFFIXES: Final = tuple(_WRITERS)
-"""Of the files that pictures can be written to."""
+"""Suffixes of the files to which pictures can be written."""
 
 
 def _writer(path: Path) -> Callable[[Path, Iterable[Picture], float], None]:

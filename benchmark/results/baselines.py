@@ -1,7 +1,7 @@
 """The baselines of every result: the human-human baseline, and the policies hold and copy.
 
-For the public suites the baselines are shipped, and with them the bounds (:mod:`.bounds`), which
-take minutes to play; for any other set of episodes they are played.
+For the public suites the baselines are shipped, together with the bounds (:mod:`.bounds`), which
+take minutes to play; for any other set of episodes the baselines are played.
 """
 
 import functools
@@ -37,7 +37,7 @@ PARTNER_SPEC: Final = InMemorySpec(name=HUMAN_HUMAN, factory=Partner, source=Par
 
 @runtime_checkable
 class Accompanied(Protocol):
-    """A task whose second human is an agent of its own."""
+    """A task with its own agent for the second human."""
 
     @property
     def second_human(self) -> type[Agent]:
@@ -54,7 +54,7 @@ def partner_spec(task: Task) -> AgentSpec:
 
 @dataclass(frozen=True, kw_only=True)
 class Baseline:
-    """What remains of a baseline's run: enough for paired comparisons of RMSE."""
+    """The stored part of a baseline's run: enough for paired comparisons of RMSE."""
 
     strata: tuple[Stratum, ...]
     """Behaviour and subject of each episode, in the suite's order."""
@@ -65,7 +65,7 @@ class Baseline:
 
     @classmethod
     def of(cls, run: Run) -> "Baseline":
-        """Return the baseline that a complete run is."""
+        """Return the baseline of a complete run."""
         return cls(
             strata=tuple(stratum(episode) for episode in run.episodes),
             rmse_mm=tuple(episode.scores["rmse_mm"] for episode in run.episodes),
@@ -78,7 +78,7 @@ class Baseline:
         )
 
     def plain(self) -> dict[str, Any]:
-        """Return the baseline as JSON has it."""
+        """Return the baseline, ready for JSON."""
         return {
             "strata": [list(key) for key in self.strata],
             "rmse_mm": list(self.rmse_mm),
@@ -146,9 +146,10 @@ def play_baselines(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> dict[str, Baseline]:
-    """Play the baselines on a suite's episodes; arguments as of :func:`.run_suite`.
+    """Play the baselines on a suite's episodes; arguments as for :func:`.run_suite`.
 
-    This process plays those of a suite once: its digest is that of all that could change them.
+    A process plays the baselines of a suite only once, since the suite's digest covers all that
+    could change them.
     """
     known = _played.get(suite.digest)
     if known is not None:
@@ -191,7 +192,7 @@ def _shipped(suite: Suite, kind: str) -> dict[str, Baseline] | None:
 
 @dataclass(frozen=True, kw_only=True)
 class ToShip:
-    """What is shipped for a suite."""
+    """The shipped results of a suite."""
 
     suite: Suite
     baselines: Mapping[str, Baseline]
@@ -206,9 +207,9 @@ def baselines_json(played: Sequence[ToShip], kept: Mapping[str, Any] | None = No
     Parameters
     ----------
     played
-        What has been played.
+        The suites, with the baselines and bounds that have been played.
     kept
-        Content of a file whose entries are kept, but those of the suites that have been played.
+        Content of a file whose entries are kept, except those of the suites that have been played.
     """
     names = {each.suite.name for each in played}
     others = {key: each for key, each in (kept or {}).items() if each["suite"] not in names}

@@ -1,4 +1,4 @@
-"""The numbers that stand for a policy, in words: the same wherever they are printed."""
+"""The headline numbers of a policy, in words: the same wherever they are printed."""
 
 from ..statistics import Interval
 from .summary import Summary

@@ -51,7 +51,7 @@ class Summary:
     """Whether the policy keeps up with a real robot; None if it never acted."""
 
     def plain(self) -> dict[str, Any]:
-        """Return the summary as JSON has it."""
+        """Return the summary, ready for JSON."""
         return {
             "episodes": self.episodes,
             "failed": self.failed,
@@ -82,7 +82,7 @@ class StratumScores:
     """Mean RMSE of the human-human baseline [mm]; None without this baseline."""
 
     def plain(self) -> dict[str, Any]:
-        """Return the scores as JSON has them."""
+        """Return the scores, ready for JSON."""
         return {
             "behaviour": self.behaviour,
             "subject": self.subject,
@@ -94,7 +94,7 @@ class StratumScores:
 
 
 def plain_estimate(estimate: Estimate) -> dict[str, Any]:
-    """Return an estimate as JSON has it."""
+    """Return an estimate, ready for JSON."""
     return {"mean": estimate.mean, "ci95": list(estimate.ci95)}
 
 

@@ -1,13 +1,13 @@
 """Statistics of a sample of episodes: averages, intervals, tests and ranks.
 
 The strata of a suite (subject x behaviour) are fixed; only the seeds within a stratum are a sample.
-So episodes are resampled within their stratum, never across, and an interval shows how far another
-draw of seeds would move the number, not how far other people or other behaviours would.
+Therefore episodes are resampled within their stratum, never across, and an interval shows how much
+another draw of seeds would change the number, not other people or other behaviours.
 
-Smoothness is missing (NaN) in episodes in which the robot did not move. Its summary is the mean of
-the episodes that have one *and* the count of those that do not: a ranking by smoothness ranks by
-that count first, and moving only when it is easy never helps. Intervals take no NaN: leave
-out the missing episodes, with their strata, first.
+Smoothness is missing (NaN) in episodes in which the robot did not move. Its summary is the mean
+over the episodes that have a value *and* the count of those that do not. A ranking by smoothness
+ranks by that count first, so that moving only when it is easy never helps. Intervals accept no NaN:
+leave out the missing episodes, with their strata, first.
 
 References
 ----------

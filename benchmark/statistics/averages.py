@@ -1,4 +1,4 @@
-"""Averages that hold up when some lifts fail, or have no value."""
+"""Averages that remain meaningful if some lifts fail or have no value."""
 
 from dataclasses import dataclass
 from typing import overload
@@ -17,7 +17,7 @@ class MeanWithMissing:
     mean: float | None
     """Mean over the episodes that have a value; None if none has."""
     missing: int
-    """Episodes without a value. Rank by this first."""
+    """Number of episodes without a value; a ranking goes by this first."""
 
 
 @overload
@@ -35,7 +35,7 @@ def interquartile_mean(values: ArrayLike, axis: int | None = None) -> float | Fl
     values
         Values, any shape.
     axis
-        Axis along which to take it; over all values by default.
+        Axis along which it is computed; by default over all values.
 
     Returns
     -------
@@ -65,7 +65,7 @@ def mean_with_missing(values: ArrayLike) -> MeanWithMissing:
     Parameters
     ----------
     values
-        One value an episode, shape (n,); NaN (or None) where there is none.
+        One value per episode, shape (n,); NaN (or None) where there is none.
 
     Returns
     -------

@@ -34,9 +34,9 @@ def stratified_bootstrap(
     variance. In simulations of 4 to 20 strata of 3 to 15 episodes, 95 % intervals of the mean
     covered 94 to 96 % for normal values. For moderately skewed ones (log-normal, sigma 0.5) they
     covered 93 to 94 %, but 90 to 92 % in four or five strata of three; for strongly skewed ones
-    (sigma 1) 89 to 93 %, and 84 to 88 % in five strata of two. With the errors that the
-    human-human baseline and ``copy`` make on the standard suite, 94 to 95 %; drawn as ``quick-v1``
-    has them, three in each of four strata of which one varies most, 89 to 93 %. The plain
+    (sigma 1) 89 to 93 %, and 84 to 88 % in five strata of two. With the errors of the human-human
+    baseline and of ``copy`` on the standard suite they covered 94 to 95 %; with draws as in
+    ``quick-v1``, three in each of four strata of which one varies most, 89 to 93 %. The plain
     percentile interval covers 86 to 88 % in strata of three.
 
     A stratum of one episode cannot vary: it is kept as it is and adds no width, so the interval of
@@ -45,7 +45,7 @@ def stratified_bootstrap(
     Parameters
     ----------
     values
-        One value an episode, shape (n,).
+        One value per episode, shape (n,).
     strata
         The stratum of each episode, for example ``(subject, behaviour)``; n of them.
     statistic

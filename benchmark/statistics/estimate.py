@@ -22,7 +22,7 @@ class Estimate:
     """95 % confidence interval, by bootstrap over the seeds within behaviour and subject."""
 
     def rounded(self, places: int) -> "Estimate":
-        """Return mean and interval rounded to so many decimals."""
+        """Return mean and interval rounded to ``places`` decimals."""
         low, high = self.ci95
         return Estimate(
             mean=round(self.mean, places), ci95=(round(low, places), round(high, places))
@@ -31,12 +31,12 @@ class Estimate:
 
 @dataclass(frozen=True, kw_only=True)
 class PairedDifference(Estimate):
-    """Mean difference of two policies on the same episodes, and how certain it is."""
+    """Mean difference of two policies on the same episodes, with its significance."""
 
     p: float
-    """p value of "they do not differ", by sign flips."""
+    """p value for the hypothesis that they do not differ, by sign flips."""
     share_better: float
-    """Share of the episodes in which the first is better (has less), ties counted half."""
+    """Share of the episodes in which the first is better (smaller), ties counted half."""
 
     @classmethod
     def of(cls, a: ArrayLike, b: ArrayLike, strata: Iterable[Hashable], p: float) -> Self:
@@ -48,7 +48,7 @@ class PairedDifference(Estimate):
 def mean_of(
     values: ArrayLike, strata: Iterable[Hashable], *, resamples: int = 2000, seed: int = 0
 ) -> Estimate:
-    """Return the mean with its 95 % interval; as :func:`.stratified_bootstrap`."""
+    """Return the mean with its 95 % interval; arguments as for :func:`.stratified_bootstrap`."""
     x = sample("values", values)
     ci95 = stratified_bootstrap(x, strata, resamples=resamples, seed=seed)
     return Estimate(mean=float(x.mean()), ci95=ci95)
@@ -65,7 +65,8 @@ def ratio_of_means(
 ) -> Estimate:
     """Return mean(numerator) / mean(denominator) with its 95 % interval.
 
-    Both means take the same resampled episodes: what makes an episode hard for both cancels.
+    Both means take the same resampled episodes, so that the common difficulty of an episode
+    cancels.
 
     Parameters
     ----------
@@ -107,14 +108,14 @@ def difference_of_means(
 ) -> Estimate:
     """Return mean(a) - mean(b), of different episodes, with its 95 % interval.
 
-    For the same episodes, :func:`paired_difference` says more.
+    For the same episodes, :func:`paired_difference` gives a narrower interval.
 
     Parameters
     ----------
     a, b
         Values of two sets of episodes, of shapes (n,) and (m,).
     strata_a, strata_b
-        The stratum of each episode; a stratum of one set is none of the other's.
+        The stratum of each episode; the strata of the two sets are different ones.
     resamples, confidence, seed
         As for :func:`stratified_bootstrap`.
 

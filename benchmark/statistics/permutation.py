@@ -21,16 +21,16 @@ from ...agents.errors import InputError
 from .samples import FloatArray, paired, sample
 
 BLOCK: Final = 32
-"""So many tests are made by one product of matrices."""
+"""Number of tests made by one product of matrices."""
 
 
 def paired_permutation_p(
     a: ArrayLike, b: ArrayLike, *, resamples: int = 10_000, seed: int = 0
 ) -> float:
-    """Return the two-sided p value of "a and b do not differ", by random sign flips.
+    """Return the two-sided p value for "a and b do not differ", by random sign flips.
 
-    If they did not, each difference a - b would be as likely with the other sign. The p value is
-    the share of sign flips, the observed signs among them, whose mean difference is at least as
+    Under this hypothesis, each difference a - b is equally likely with the other sign. The p value
+    is the share of sign flips, including the observed signs, whose mean difference is at least as
     far from zero; it is never below 1 / (resamples + 1) (Phipson & Smyth 2010).
 
     Parameters
@@ -76,7 +76,7 @@ def permutation_ps_against(
 
 @functools.lru_cache(maxsize=1)
 def _signs(episodes: int, resamples: int, seed: int) -> FloatArray:
-    # Drawing them takes ten times as long as a test; tests come in rows on the same episodes.
+    # Drawing the signs takes ten times as long as a test, and many tests are on the same episodes.
     signs = np.random.default_rng(seed).choice((-1.0, 1.0), (resamples, episodes))
     signs.setflags(write=False)
     return signs
@@ -97,8 +97,8 @@ def holm_correction(ps: ArrayLike) -> FloatArray:
 
     .. math:: \tilde p_{(i)} = \min\left(1, \max_{j \le i} \, (m - j + 1) \, p_{(j)}\right)
 
-    Calling those different whose corrected p value is at most 0.05 goes wrong anywhere among the
-    m in at most 5 % of the cases, however the tests depend on each other.
+    If differences are declared where the corrected p value is at most 0.05, the probability of any
+    error among the m is at most 5 %, however the tests depend on each other.
 
     Parameters
     ----------
@@ -108,7 +108,8 @@ def holm_correction(ps: ArrayLike) -> FloatArray:
     Returns
     -------
     array
-        Corrected p values in the order given, shape (m,): none below its own, none above 1.
+        Corrected p values in the order given, shape (m,): none below its uncorrected value, none
+        above 1.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Ranks that claim no more than the episodes show: indistinguishable policies share one."""
+"""Ranks that claim no more than the episodes show: indistinguishable policies share a rank."""
 
 from collections.abc import Mapping
 from typing import Final
@@ -19,8 +19,8 @@ def decisive(policies: int, episodes: int, *, level: float = LEVEL) -> bool:
     """Return whether :func:`rank_groups` can separate the best from any other at all.
 
     Of n episodes there are 2^n sign flips, and the smallest two-sided p value is 2^(1 - n): all
-    differences have the same sign. With k policies behind the best, Holm's correction makes k times
-    that of it. Three episodes are never enough, six are for one policy behind the best.
+    differences have the same sign. With k policies behind the best, Holm's correction multiplies
+    this by k. Three episodes are never enough; six are enough for one policy behind the best.
     """
     return (policies - 1) * 2.0 ** (1 - episodes) <= level
 
@@ -35,21 +35,21 @@ def rank_groups(
     """Return the policies in groups, best first; those of a group share a rank.
 
     In the order of their means, the first policy is the anchor of the first group. Its paired
-    permutation tests against all policies behind it, Holm-corrected, show which differ from
-    it. The policies up to the first that can join its group; that one is the next anchor, and so
-    on. The anchor of a group never moves: if each were compared with its neighbour instead, small
-    differences would chain, and the first and the last of a group could be far apart.
+    permutation tests against all policies behind it, Holm-corrected, show which of them differ from
+    it. The policies before the first that differs join its group; that policy is the next anchor,
+    and so on. The anchor of a group never moves: if each were compared with its neighbour instead,
+    small differences would chain, and the first and the last of a group could be far apart.
 
-    So every policy in a group is one that the episodes cannot tell from the group's best, and
-    the anchors of two neighbouring groups are distinguishable. Two policies of one group, or of
-    neighbouring groups, may still differ from each other either way: pairs are what
-    :func:`.paired_difference` is for.
+    The episodes therefore cannot distinguish any policy in a group from the group's best, and the
+    anchors of two neighbouring groups are distinguishable. Two policies of one group, or of
+    neighbouring groups, may still differ from each other in either direction; use
+    :func:`.paired_difference` for pairs.
 
     Parameters
     ----------
     errors
         Error of each policy in the same episodes in the same order, each of shape (n,); smaller is
-        better. Episodes that failed are in it, with the worst error.
+        better. Failed episodes are included, with the worst error.
     level
         Largest corrected p value at which two policies are distinguished.
     resamples, seed

@@ -1,4 +1,4 @@
-"""Samples: one value an episode, pairs on the same episodes, and resampling within strata."""
+"""Samples: one value per episode, pairs on the same episodes, and resampling within strata."""
 
 import functools
 import math
@@ -20,8 +20,8 @@ def sample(name: str, values: ArrayLike) -> FloatArray:
     Raises
     ------
     InputError
-        If there are none, they are not one number an episode, or one is not finite; the
-        message calls them ``name``.
+        If there are no values, not one number per episode, or one is not finite; the message calls
+        them ``name``.
     """
     x = np.asarray(values, dtype=np.float64)
     if x.ndim != 1 or x.size == 0:
@@ -73,7 +73,7 @@ def members_of(strata: Iterable[Hashable], episodes: int) -> Members:
 def resample(members: Members, resamples: int, seed: int) -> NDArray[np.intp]:
     """Return indices of resampled episodes, shape (resamples, n), drawn stratum by stratum.
 
-    The array is shared by all who ask for the same draw, and cannot be written to.
+    The array is shared by all callers with the same draw, and is read-only.
     """
     return _drawn(tuple(stratum.tobytes() for stratum in members), resamples, seed)
 
@@ -91,13 +91,13 @@ def _drawn(strata: tuple[bytes, ...], resamples: int, seed: int) -> NDArray[np.i
 
 
 def expanded(z: Deviate, members: Members) -> Deviate:
-    r"""Return where the resampled distribution reaches as far as the normal deviate z should.
+    r"""Return the deviate to use in the resampled distribution for the normal deviate z.
 
     .. math:: \sqrt{\tfrac{n}{n - c}} \; t_{\Phi(z), \, n - c}
 
-    for n episodes in c strata of two or more: the root corrects the variance of a resample, too
-    small by (m - 1) / m in a stratum of m episodes, and Student's t the uncertainty of that
-    variance (Hesterberg 2015). If no stratum has two episodes, z itself.
+    for n episodes in c strata of two or more: the root corrects the variance of a resample, which
+    is too small by (m - 1) / m in a stratum of m episodes, and Student's t accounts for the
+    uncertainty of that variance (Hesterberg 2015). If no stratum has two episodes, it is z itself.
     """
     sizes = [stratum.size for stratum in members if stratum.size > 1]
     dof = sum(sizes) - len(sizes)

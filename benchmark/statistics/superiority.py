@@ -1,4 +1,4 @@
-"""The probability that one policy is better than another, and how often it is.
+"""The probability that one policy is better than another, and the share of episodes in which it is.
 
 Better means smaller: the values are errors.
 
@@ -32,18 +32,18 @@ def probability_better(
     resamples: int = 2000,
     seed: int = 0,
 ) -> float:
-    r"""Return how sure it is that the mean of a is below that of b on such episodes.
+    r"""Return the probability that the mean of a is below that of b on such episodes.
 
-    The share of resamples in which the mean of the paired differences a - b is negative, ties
+    It is the share of resamples in which the mean of the paired differences a - b is negative, ties
     counted half, with the small-sample expansion of :func:`.stratified_bootstrap` undone:
 
     .. math:: P = \Phi(z), \quad \sqrt{\tfrac{n}{n - c}} \; t_{\Phi(z), \, n - c}
         = \Phi^{-1}\left(\frac{\#\{\bar d^* < 0\} + \tfrac12 \#\{\bar d^* = 0\} + \tfrac12}
         {\text{resamples} + 1}\right)
 
-    So it is above 0.975 where the 95 % interval of :func:`.paired_difference` lies below zero.
-    If the means are equal in truth, P is uniform between 0 and 1. For strata of one episode it
-    means nothing, as the interval does.
+    It is therefore above 0.975 if the 95 % interval of :func:`.paired_difference` lies below zero.
+    If the true means are equal, P is uniform between 0 and 1. For strata of one episode it is
+    meaningless, like the interval.
 
     Parameters
     ----------
@@ -78,7 +78,8 @@ def _unexpanded(z: float, members: Members) -> float:
 def share_better(a: ArrayLike, b: ArrayLike) -> float:
     """Return the share of the episodes in which a is below b, ties counted half.
 
-    The probability of improvement of Agarwal et al. (2021) for pairs: how often, not how much.
+    This is the probability of improvement of Agarwal et al. (2021) for pairs; it ignores the size
+    of differences.
 
     Parameters
     ----------

@@ -26,7 +26,7 @@ def average_ranks(values: FloatArray) -> FloatArray:
     """
     signs = _signs(values)
     k = values.shape[-1]
-    # Of k values, those below minus those above a value, and the value itself.
+    # The rank of a value among k: half of (values below - values above + k + 1).
     found: FloatArray = (signs.sum(axis=-1) + k + 1) / 2.0
     return found
 

@@ -18,7 +18,7 @@ from .scores import Scores
 from .sources import Source
 
 Known = Mapping[str, FloatArray]
-"""RMSE of policies in each lift of a suite [mm], shape (n,), as far as it is known."""
+"""Known RMSE of policies in each lift of a suite [mm], shape (n,)."""
 
 
 def validity_lifts(policies: Mapping[str, AgentSpec], suite: Suite, known: Known) -> int:
@@ -94,10 +94,10 @@ def play_source(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
 ) -> Scores:
-    """Return the scores of policies on a source; arguments as of :func:`play_suite`.
+    """Return the scores of policies on a source; arguments as for :func:`play_suite`.
 
     All lifts of a source are one stratum: the simulated bodies, which take its lifts in turn, have
-    no part in which lifts there are.
+    no influence on the choice of lifts.
     """
     suite = source.suite
     human_human = human_human_run(suite, executor=executor, progress=progress)

@@ -18,14 +18,14 @@ class SuitePrediction:
     kendall: Quantity
     """Rank correlation by pairs; the share of pairs in the same order is (1 + value) / 2."""
     kendall_best_half: Quantity
-    """The same for the better half of the policies on the suite, those that a reader of a board
-    chooses from: large differences between poor policies have no part in it."""
+    """The same for the better half of the policies on the suite, those from which a reader of a
+    board chooses: large differences between poor policies have no influence on it."""
     factor: Quantity
     """Typical error of a ratio to two people, as a factor: 1 is exact; 1.5 means that half of the
-    policies have 1.5 times the ratio of the suite, or 1 / 1.5 of it, or are further off."""
+    policies have 1.5 times the ratio of the suite, or 1 / 1.5 of it, or deviate further."""
     bias: Quantity
     """Median ratio to two people on the source, relative to the suite: above 1, policies are
-    further from two people on the source than the suite says."""
+    further behind two people on the source than on the suite."""
     fall_behind: tuple[str, ...]
     """Policies that are better than two people on the suite and worse on the source, with intervals
     of their ratios that exclude 1 on both."""
@@ -34,17 +34,17 @@ class SuitePrediction:
 
 
 def predict(source: Scores, suite: Scores) -> SuitePrediction:
-    r"""Return how well the scores on a suite predict those on a source.
+    r"""Return measures of how well the scores on a suite predict those on a source.
 
-    The order is that of the mean RMSE, the score that boards rank by. The size is the ratio of each
-    policy to the human-human baseline of the same lifts, r on the source and s on the suite:
+    The order is that of the mean RMSE, the score by which boards rank. The size is the ratio of
+    each policy to the human-human baseline of the same lifts, r on the source and s on the suite:
 
     .. math:: \text{factor} = \exp\left(\operatorname{median}_p |\ln (r_p / s_p)|\right), \quad
         \text{bias} = \exp\left(\operatorname{median}_p \ln (r_p / s_p)\right)
 
     The intervals are of resamples of the lifts of both, each with the same lifts for all policies.
-    They show how far other lifts of the same people would move a number, not how far other people
-    or other policies would.
+    They show how much other lifts of the same people would change a number, not other people or
+    other policies.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The validity of suites on sources of real lifts: everything that is printed, and as JSON."""
+"""The validity of suites on sources of real lifts, in sentences and as JSON."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
@@ -12,7 +12,8 @@ from .verdict import SuiteVerdict, judge, order_text, people_text
 from .winner import best_shares
 
 FEWEST_POLICIES: Final = 4
-"""Policies that an order needs: one in six orders of three agrees by chance, one in 24 of four."""
+"""Fewest policies for an order: of three policies, one order in six agrees by chance, of four, one
+in 24."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -25,7 +26,7 @@ class SuiteOnSource:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Sentences on the order and on two people, where the suite is not right about them."""
+        """Sentences on the order and on two people, where the suite disagrees with the source."""
         found = (
             order_text(self.suite.name, self.prediction),
             people_text(self.verdict.source, self.suite.name, self.prediction),

@@ -29,8 +29,8 @@ class Quantity:
     def of(cls, value: float, resampled: FloatArray, *members: Members) -> "Quantity":
         """Return a number with the expanded percentile interval of its resamples, shape (n,).
 
-        Where several samples were resampled independently, each with its members, the expansion
-        is that of the sample with the largest one.
+        If several samples were resampled independently, each with its members, the largest of their
+        expansions is used.
         """
         widest = max(members, key=lambda each: expanded(1.0, each))
         low, high = expanded_percentile(resampled, widest, CONFIDENCE)
@@ -53,7 +53,7 @@ class Scores:
     seed: int
     """Seed of the resamples; those of independent samples differ."""
     shipped: tuple[str, ...] = ()
-    """Policies whose scores were not played but known."""
+    """Policies whose scores were known and not played."""
     failed: Mapping[str, int] = field(default_factory=dict)
     """Failed lifts of the policies that were played, with the worst RMSE; those without one are
     left out."""
@@ -75,7 +75,7 @@ class Scores:
 
     @functools.cached_property
     def means(self) -> FloatArray:
-        """Mean RMSE of each policy [mm], shape (k,): the score that boards rank by."""
+        """Mean RMSE of each policy [mm], shape (k,): the score by which boards rank."""
         return np.array([errors.mean() for errors in self.errors.values()])
 
     @functools.cached_property

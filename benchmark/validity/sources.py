@@ -1,4 +1,4 @@
-"""Sources of real lifts, each played as a suite of its own."""
+"""Sources of real lifts, each played as a separate suite."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ from ..live.scenarios import real_lifts
 from ..suites.suite import Suite, plain_name
 
 FEWEST_LIFTS: Final = 2
-"""Lifts that a source must have: one lift has no spread, and so no interval."""
+"""Fewest lifts of a source: a single lift has no spread, and therefore no interval."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,14 +10,14 @@ from .scores import Quantity, Scores
 from .winner import Rival, rivals
 
 Judgement = Literal["right", "open", "doubtful", "misleading"]
-"""``right``: the suite's best policy is the best on the source, too, significantly. ``open``: it
+"""``right``: the suite's best policy is significantly the best on the source, too. ``open``: it
 leads there, but not significantly. ``doubtful``: it does not lead there. ``misleading``: another
 policy is significantly better there."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class SuiteVerdict:
-    """What the lifts of a source say about the first place of a suite."""
+    """The verdict of a source's lifts on the first place of a suite."""
 
     source: str
     lifts: int
@@ -33,7 +33,7 @@ class SuiteVerdict:
 
     @property
     def judgement(self) -> Judgement:
-        """The verdict in a word."""
+        """The verdict in one word."""
         if self.beaten_by:
             return "misleading"
         if any(rival.behind_mm.value < 0.0 for rival in self.rivals):
@@ -47,7 +47,7 @@ class SuiteVerdict:
 
     @property
     def rival(self) -> Rival:
-        """The best other policy on the source; of those that are significantly better, if any."""
+        """The best other policy on the source; of the significantly better ones, if any."""
         return next(iter(self.beaten_by), self.rivals[0])
 
     @property
@@ -89,7 +89,7 @@ class SuiteVerdict:
                 )
 
     def _certainty(self, rival: Rival) -> str:
-        """Return how often the one in front is better in resamples, and the p value."""
+        """Return the share of resamples in which the leading policy is better, and the p value."""
         ahead = rival.behind_mm.value < 0.0
         name, share = (
             (rival.name, rival.better_share) if ahead else (self.policy, 1.0 - rival.better_share)
@@ -125,7 +125,7 @@ def order_text(suite: str, prediction: SuitePrediction) -> str:
 
 
 def people_text(source: str, suite: str, prediction: SuitePrediction) -> str:
-    """Return a sentence on policies on another side of two people; nothing without any."""
+    """Return a sentence on policies on the other side of two people; empty if there are none."""
     sides = (("More", "less", prediction.fall_behind), ("Less", "more", prediction.overtake))
     return " ".join(
         f"{on_suite} level than two people on {suite}, {there} level on {source}: {_listed(names)}."
@@ -135,7 +135,7 @@ def people_text(source: str, suite: str, prediction: SuitePrediction) -> str:
 
 
 def _first(some: Sequence[Rival]) -> str:
-    """Return the first of some rivals, and how many more there are."""
+    """Return the first of some rivals, and the number of others."""
     return some[0].name + (f" and {len(some) - 1} more" if len(some) > 1 else "")
 
 

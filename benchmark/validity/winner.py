@@ -15,7 +15,7 @@ LEVEL: Final = 0.05
 
 @dataclass(frozen=True, kw_only=True)
 class Rival:
-    """Another policy, set against one policy on the same lifts."""
+    """Another policy, compared with one policy on the same lifts."""
 
     name: str
     rmse_mm: float
@@ -25,7 +25,7 @@ class Rival:
     better_share: float
     """Share of the resamples in which its mean RMSE is the lower one, ties counted half."""
     p: float
-    """p value of no difference, by sign flips, Holm-corrected for the number of rivals."""
+    """p value for no difference, by sign flips, Holm-corrected for the number of rivals."""
 
     @property
     def better(self) -> bool:
@@ -39,10 +39,10 @@ class Rival:
 
 
 def rivals(scores: Scores, policy: str) -> tuple[Rival, ...]:
-    """Return the other policies set against one, the best first.
+    """Return the other policies compared with one, the best first.
 
     The test is that of the ranks of a board: paired sign flips, corrected for all rivals, so that
-    looking for the best of them is accounted for.
+    the search for the best of them is accounted for.
     """
     others = [name for name in scores.order() if name != policy]
     ps = holm_correction(

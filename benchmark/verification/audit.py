@@ -28,12 +28,12 @@ class Deviation:
     place: int
     """The place of the episode in the suite, counted from 0."""
     step: int
-    """The first step whose action differs, or that only one of the two has."""
+    """The first step whose action differs, or that only one of the two episodes has."""
     reason: str
     """The rule that the policy breaks."""
 
     def describe(self, run: Run) -> str:
-        """Return the finding in a line. It names the episode: not for one that is hidden."""
+        """Return the finding in a line. It names the episode: do not use it for hidden ones."""
         episode = run.episodes[self.place]
         where = f"{episode.behaviour}/{episode.subject} seed {episode.seed}"
         return f"played again, {where} differs from step {self.step} on: {self.reason}"
@@ -84,14 +84,14 @@ def audit(
             continue
         third = _again(policy, run, [place], executor, keep)[place]
         if second.failure is not None and first_differing_step(first, third) is None:
-            continue  # The second ran out of time because the machine was busy.
+            continue  # The second episode ran out of time because the machine was busy.
         repeats = first_differing_step(second, third) is None
         return Deviation(place=place, step=step, reason=STATE if repeats else CHANCE)
     return None
 
 
 def audited(episodes: int) -> int:
-    """Return how many episodes of a suite of that size are played again."""
+    """Return the number of episodes that are played again, of ``episodes`` in a suite."""
     return min(SAMPLES, episodes)
 
 
@@ -128,7 +128,7 @@ def _again(
     keep: Callable[[int, Episode], None],
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> dict[int, Episode]:
-    """Play the episodes at the places again, each as a task of its own, in that order."""
+    """Play the episodes at the places again, each as a separate task, in that order."""
     suite, there, found = run.suite, placed(policy, executor), {}
     wanted = [
         Batch(

@@ -1,4 +1,4 @@
-"""The actions of a policy behind a channel: a hold wherever no new answer can have arrived."""
+"""The check of actions behind a channel: the robot holds unless a new answer can have arrived."""
 
 import math
 from itertools import islice
@@ -14,10 +14,10 @@ from .deviation import Place
 def channel_fault(
     channel: Channel | None, scenario: Scenario, seed: int, logged: Trace
 ) -> Place | None:
-    """Return the first step that cannot be one behind a channel, or None.
+    """Return the first step that is impossible behind a channel, or None.
 
     The channel's delays and losses follow from its numbers and the episode's seed. The log must
-    name the answers that arrive by them, and the robot must hold its command in every other step.
+    name the answers that then arrive, and the robot must hold its command in every other step.
     """
     if channel is None:
         return None

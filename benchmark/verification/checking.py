@@ -25,16 +25,16 @@ from ..suites.suite import Suite, make_suite
 from .audit import first_differing_step
 
 SUITE: Final = "quick-v1"
-"""The suite of the score, if no other is asked for."""
+"""The suite of the score by default."""
 
 FEW: Final = 20
-"""Lifts of a suite up to which the score is of the whole suite."""
+"""Largest number of lifts of a suite that is scored as a whole."""
 
 LIFTS: Final = (("smooth", "S1"), ("changing_goal", "S4"))
 """Behaviour and subject of the lifts that are played twice."""
 
 MEANINGS: Final = {"hold": "never moves", "copy": "goes where the human was"}
-"""Descriptions of the simple policies that every score is compared with."""
+"""Descriptions of the simple policies with which every score is compared."""
 
 SEED: Final = 7000
 """Seed of these lifts, which no suite has."""
@@ -53,9 +53,9 @@ class Check:
     name: str
     ok: bool
     message: str
-    """The result, or why the check failed."""
+    """The result, or the reason why the check failed."""
     printed: str = ""
-    """The end of what the policy printed, if it failed."""
+    """The end of the policy's output, if it failed."""
     results: Results | None = None
     """The results, if the check is the score."""
     warning: bool = False
@@ -79,8 +79,8 @@ def presubmission_checks(
     evaluate
         Plays a suite; see :func:`.run_suite`.
     suite
-        The suite whose task the policy is to play; :data:`SUITE` by default. Of a large one the
-        score is of :func:`check_part`.
+        The suite whose task the policy plays; :data:`SUITE` by default. For a large suite, the
+        score is that of :func:`check_part`.
 
     Yields
     ------
@@ -123,7 +123,7 @@ def _checks(
 
 
 def checked_with(suite: Suite) -> Suite:
-    """Return the suite that a submission to a board of ``suite`` is checked with.
+    """Return the suite with which a submission to a board of ``suite`` is checked.
 
     It is :data:`SUITE` for a level table, else that of the board: a policy of another task plays no
     other.
@@ -132,7 +132,7 @@ def checked_with(suite: Suite) -> Suite:
 
 
 def check_part(suite: Suite) -> Suite:
-    """Return a suite of at most :data:`FEW` lifts, else two lifts of each of its behaviours.
+    """Return a suite of at most :data:`FEW` lifts unchanged, of others two lifts per behaviour.
 
     Each behaviour has another person, as far as there are enough of them.
     """
@@ -150,7 +150,7 @@ def check_part(suite: Suite) -> Suite:
 
 
 def _baselines(suite: Suite, evaluate: Callable[[AgentSpec, Suite], Run]) -> dict[str, Baseline]:
-    """Return the baselines of the score, played as the policy is."""
+    """Return the baselines of the score, played like the policy."""
     return {
         name: Baseline.of(
             evaluate(spec, suite.with_partner("human") if name == HUMAN_HUMAN else suite)

@@ -24,7 +24,7 @@ _FROM_BASELINES: Final = ("baselines", "summary.vs_human", "human_human_rmse_mm"
 
 
 def played_label(suite: Suite, channel: Channel | None) -> str:
-    """Return a verified label of a suite and the channel that it was played over."""
+    """Return a verified label of a suite and of the channel over which it was played."""
     label = suite_label(suite)
     return label if channel is None else f"{label}, over the channel {channel_name(channel)}"
 
@@ -50,7 +50,7 @@ def _registered(name: str) -> str | None:
     try:
         return make_suite(name).digest if name in entries(SUITES) else None
     except InputError:
-        return None  # Another package is broken, which is no fault of the bundle.
+        return None  # Another package is broken, which is not a fault of the bundle.
 
 
 def suite_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
@@ -156,7 +156,7 @@ def score_findings(bundle: Bundle, run: Run, content: Results, *, exact: bool) -
 
 
 def _near(difference: Difference) -> bool:
-    """Return whether a number that follows from the baselines is near enough."""
+    """Return whether a number that depends on baselines is within its tolerance."""
     if not any(name in difference.path for name in _FROM_BASELINES):
         return False
     return not [*differences(difference.claimed, difference.true, tolerance=REFERENCES)]

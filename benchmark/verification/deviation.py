@@ -16,8 +16,8 @@ HEIGHT: Final = 1e-5
 """Tolerance of heights [m]: of each action of the human, and of the table's ends, rms.
 
 A table in two pairs of hands damps small differences. Noise of 1e-15 m on each of the human's
-actions, more than the last bits differ by, moves the ends by 1e-15 m rms; noise of 1e-6 m moves
-them by 1e-6 m, with 1e-5 m/s and 1e-3 N. The tolerances are ten times the latter values."""
+actions, more than a difference in the last bits, moves the ends by 1e-15 m rms; noise of 1e-6 m
+moves them by 1e-6 m, with 1e-5 m/s and 1e-3 N. The tolerances are ten times the latter values."""
 
 TOLERANCES: Final[Mapping[str, tuple[float, str]]] = {
     "target": (HEIGHT, "m"),
@@ -30,14 +30,14 @@ TOLERANCES: Final[Mapping[str, tuple[float, str]]] = {
 """Tolerance of each series of a trace, root mean square over the episode, and its unit."""
 
 SCORES: Final = 1e-6
-"""Relative tolerance of scores that are computed from one and the same trace."""
+"""Relative tolerance of scores that are computed from the same trace."""
 
 REFERENCES: Final = 0.01
 """Relative tolerance of the scores of baselines that another platform has played."""
 
 
 def first_difference(logged: Trace, found: Simulated) -> Place | None:
-    """Return the first step in which a log differs from its replay, and how; None if in no bit.
+    """Return the first step in which a log differs from its replay, and the difference, or None.
 
     Within a step the human's action is compared first, since the rest follows from it. Both have
     the same number of steps.
@@ -89,14 +89,14 @@ def _state_hash(logged: Trace, true: Trace) -> Place | None:
 
 
 def _unequal(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return where two arrays differ in a bit: -0.0 is not 0.0."""
+    """Return a mask of the places where two arrays differ in a bit: -0.0 is not 0.0."""
     bits = [np.ascontiguousarray(array, dtype="<f8").view(np.uint64) for array in (one, other)]
     unequal: NDArray[np.bool_] = bits[0] != bits[1]
     return unequal
 
 
 def beyond_tolerance(logged: Trace, found: Simulated) -> Place | None:
-    """Return the first step in which a log is too far from its replay, and how; None if nowhere."""
+    """Return the first step in which a log is too far from its replay, with the gap, or None."""
     with np.errstate(over="ignore"):  # A forged log may have any number.
         return _human_gap(logged, found) or _series(logged, found.trace)
 

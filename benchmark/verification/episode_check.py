@@ -33,11 +33,11 @@ class Checked:
     place: int
     """The place of the episode in the suite."""
     scores: Scores | None = None
-    """The scores that follow from the actions; None if they are not those of an episode."""
+    """The scores that follow from the actions; None if the actions are not those of an episode."""
     failure: str | None = None
     """The failure that follows from the actions, or that is claimed and fits them."""
     bit_equal: bool = False
-    """Whether every bit of the log is the simulation's."""
+    """Whether every bit of the log equals the simulation's."""
     finding: Finding | None = None
     """The fault of the log; None if there is none."""
 
@@ -101,7 +101,7 @@ def _check(
     if not (bit_equal or same_platform):
         difference = beyond_tolerance(logged, found)
         if difference is None:
-            # The log is within the tolerance: then the scores must follow from it.
+            # If the log is within the tolerance, the scores must follow from it.
             scores = lift.task.score(lift, logged, failed=found.failure is not None)
     wrong = None
     if difference is not None:
@@ -116,7 +116,7 @@ def _check(
 
 
 def _other_hand(scenario: Scenario, logged: Trace) -> Place | None:
-    """Return the first step whose action is not that of the hand of a second person, or None."""
+    """Return the first step whose action does not follow from a second person's hand, or None."""
     steps = len(logged.action)
     expected = far_actions(scenario, steps)
     if expected is None:

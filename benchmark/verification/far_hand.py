@@ -48,6 +48,6 @@ def far_actions(scenario: Scenario, steps: int) -> NDArray[np.float64] | None:
         found[step] = person.act(seen)
         command = float(seen[RobotObservation.HAND_COMMAND])
         change = limited_command(command, float(found[step, 0]), limit) - command
-        # The bits of the last command of the seat's ramp.
+        # This gives the bits of the last command of the seat's ramp.
         seen[RobotObservation.HAND_COMMAND] = command + change * frames / frames
     return found

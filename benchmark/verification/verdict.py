@@ -35,9 +35,9 @@ class Finding:
     message: str
     """A description of the fault."""
     episode: str = ""
-    """Such as ``pause/S3 seed 4``; empty if it is about no single episode."""
+    """Name of the episode, such as ``pause/S3 seed 4``; empty if it is not about a single one."""
     step: int | None = None
-    """The first step in which it shows, counted from 0."""
+    """The first step in which the fault shows, counted from 0."""
 
     def __str__(self) -> str:
         place = [self.file, self.episode, "" if self.step is None else f"step {self.step}"]
@@ -57,11 +57,11 @@ class Verdict:
     run: Run | None = None
     """The episodes with the scores of the present code; None if a replay failed."""
     results: Results | None = None
-    """The results that follow from the actions; None as ``run``."""
+    """The results that follow from the actions; None if ``run`` is None."""
     bit_equal: bool = False
     """Whether every simulated bit equals the logged one."""
     tolerance_mm: float | None = None
-    """The tolerance that was applied instead, if so."""
+    """The tolerance that was applied instead; None if bits were compared."""
     other_platform: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     """Differences of the platforms by name: the entry of the bundle, and the entry here."""
     platform: Mapping[str, str] = field(default_factory=dict)
@@ -86,7 +86,7 @@ class Verdict:
         return not self.findings and self.run is not None and self.scoring is not None
 
     def plain(self) -> dict[str, Any]:
-        """Return the verdict as JSON has it."""
+        """Return the verdict, ready for JSON."""
         return {
             "verified": self.ok,
             "findings": [

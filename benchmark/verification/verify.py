@@ -47,14 +47,14 @@ def verify(
     folder
         The bundle. Nothing in it is trusted.
     executor
-        Simulates the episodes; None does so in this process.
+        Simulates the episodes; None simulates them in this process.
     progress
         Called with the number of episodes that were simulated since the last call.
 
     Returns
     -------
     Verdict
-        Verified or not, and why; a bundle that cannot even be read is not verified.
+        The outcome with its reasons; a bundle that cannot be read is not verified.
 
     Raises
     ------
@@ -108,7 +108,7 @@ def verify(
 
 
 def _malformed(error: InputError) -> Finding:
-    """Return an error of a bundle's reader as a finding: mostly the file, a colon, the reason."""
+    """Return an error of a bundle's reader as a finding; most have the form ``file: reason``."""
     text = one_line(str(error))
     file, _, message = text.partition(": ")
     known = file.partition(",")[0] in LARGEST

@@ -1,4 +1,4 @@
-"""The look of the scatter picture, drawn with any pen: the one of PNG or the one of SVG."""
+"""The look of the scatter picture, drawn with any pen: that of PNG or that of SVG."""
 
 from collections.abc import Sequence
 from typing import Final, Literal, Protocol
@@ -11,7 +11,7 @@ Colour = Literal["ink", "faint", "line", "paper", "card", "human", "accent"]
 Anchor = Literal["start", "middle", "end"]
 
 RISE: Final = 0.35
-"""Height of the middle of letters above their base line, over their size."""
+"""Height of the middle of letters above their base line, relative to their size."""
 
 
 class Pen(Protocol):
@@ -47,7 +47,7 @@ class Pen(Protocol):
         """Write a line of text, with its base line at a place."""
 
     def marker(self, dot: Dot, colour: Colour, *, filled: bool) -> None:
-        """Draw the marker of a dot; its tip is shown where the pen can do that."""
+        """Draw the marker of a dot; its tip is shown if the pen supports that."""
 
 
 def draw(scene: ScatterScene, pen: Pen) -> None:

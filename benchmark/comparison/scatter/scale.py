@@ -10,13 +10,14 @@ from ...statistics import Interval
 from ..front import FrontPoint
 
 STRIP: Final = 0.115
-"""Breadth of a strip for points off the scale, over that of the plot."""
+"""Breadth of a strip for points off the scale, relative to that of the plot."""
 
 MARGIN: Final = 0.09
-"""Room around the points, over the breadth of the scale."""
+"""Room around the points, relative to the breadth of the scale."""
 
 LEAST: Final = 0.8
-"""Least breadth that the room is a part of, where points are alike [mm, or unit of the metric]."""
+"""Least breadth from which the room is computed, if points are alike [mm, or unit of the
+metric]."""
 
 Place = tuple[float, float]
 """Pixels from the left and from the top."""
@@ -42,7 +43,7 @@ class Scale:
 
     @property
     def inner(self) -> Box:
-        """The part that is to scale."""
+        """The part drawn to scale."""
         left, top, right, bottom = self.plot
         return (
             left,
@@ -52,26 +53,26 @@ class Scale:
         )
 
     def across(self, rmse_mm: float) -> float:
-        """Return where an error is [px from the left]."""
+        """Return the place of an error [px from the left]."""
         left, _, right, _ = self.inner
         return left + (right - left) * (rmse_mm - self.x[0]) / (self.x[1] - self.x[0])
 
     def down(self, value: float) -> float:
-        """Return where a value of the metric is [px from the top]."""
+        """Return the place of a value of the metric [px from the top]."""
         _, top, _, bottom = self.inner
         return bottom - (bottom - top) * (value - self.y[0]) / (self.y[1] - self.y[0])
 
     def off(self, point: FrontPoint) -> bool:
-        """Whether the error of a point is off the scale."""
+        """Return whether the error of a point is off the scale."""
         return point.rmse_mm.mean > self.x[1]
 
     def below(self, point: FrontPoint) -> bool:
-        """Whether a point has a value worse than the scale shows."""
+        """Return whether a point has a value worse than the scale shows."""
         low, high = self.y
         return point.second is not None and (point.second.mean - low) * (high - low) < 0
 
     def place(self, point: FrontPoint) -> Place:
-        """Return where a point is: in the middle of a strip, or at the edge, if off the scale."""
+        """Return the place of a point; off the scale, the middle of a strip, or the edge."""
         _, top, right, bottom = self.inner
         off, margin = self.off(point), MARGIN / 2 * (bottom - top)
         x = (right + self.plot[2]) / 2 if off else self.across(point.rmse_mm.mean)

@@ -19,7 +19,7 @@ WIDE: Final = (920, 520)
 NARROW: Final = (390, 440)
 """Sizes of the picture [px], for a screen and for a telephone."""
 ROOMY: Final = 600
-"""Width from which on there is room for more ticks and longer notes [px]."""
+"""Width from which there is room for more ticks and longer notes [px]."""
 
 MARGINS: Final = (56, 44, 12, 48)
 """Room for axes at the left, at the top, at the right and below the plot [px]."""
@@ -30,13 +30,13 @@ TITLE_GAP: Final = 12
 TICK_DIGITS: Final = 3
 """Digits of whole numbers at the left for which there is room."""
 TICK_DIGIT: Final = 8
-"""Width of one more [px]."""
+"""Width of one more digit [px]."""
 
 NAME_SIZE: Final = 12.5
 NOTE_SIZE: Final = 11.5
 """Sizes of letters [px]."""
 LINE_HEIGHT: Final = 1.2
-"""Distance between the lines of a text, over the size of its letters."""
+"""Distance between the lines of a text, relative to the size of its letters."""
 RADIUS: Final = 5.0
 """Radius of a marker [px]."""
 CLEAR: Final = 2.0
@@ -81,9 +81,9 @@ class Dot:
     at: Place
     bars: tuple[Box, ...]
     best: bool
-    """Whether it is on the front."""
+    """Whether the point is on the front."""
     tip: str
-    """What it is, in words."""
+    """Description of the point."""
     label: Label | None
     """None if there is no room for its name."""
 
@@ -97,9 +97,9 @@ class ScatterScene:
     title: tuple[str, ...]
     """Lines above the plot, the first in bold."""
     axis: str
-    """What the error is of."""
+    """Name of the error's axis."""
     axis_up: str
-    """What the other metric is."""
+    """Name of the other metric's axis."""
     scale: Scale
     across: tuple[Tick, ...]
     """RMSE [mm]."""
@@ -182,13 +182,13 @@ def minus(text: str) -> str:
 
 
 def text_width(text: str, size: float, *, bold: bool = False) -> float:
-    """Return the width of a line of text [px], at most about, in the usual fonts."""
+    """Return an approximate upper bound of the width of a line of text [px], in the usual fonts."""
     ems = (0.42 if c in "ijltrfI.,:;'()|-* " else 0.98 if c in "mwMW@%" else 0.65 for c in text)
     return size * (1.13 if bold else 1.0) * sum(ems)
 
 
 def _ticks(place: Callable[[float], float], ends: Interval, most: int) -> tuple[Tick, ...]:
-    """Return the round numbers between two ends, all with as many decimals."""
+    """Return the round numbers between two ends, all with equally many decimals."""
     values = round_ticks(*ends, most)
     digits = max((len(f"{value:g}".partition(".")[2]) for value in values), default=0)
     return tuple(Tick(at=place(value), text=minus(f"{value:.{digits}f}")) for value in values)
@@ -302,7 +302,7 @@ def _span(one: Place, other: Place) -> Box:
 def _notes(
     scale: Scale, points: Sequence[FrontPoint], metric: Metric, wide: bool
 ) -> tuple[Note, ...]:
-    """Return what explains the strips and the asterisk."""
+    """Return the notes that explain the strips and the asterisk."""
     left, top, right, bottom = scale.plot
     floor, height = scale.inner[3], NOTE_SIZE * LINE_HEIGHT + CLEAR
     texts = []

@@ -1,4 +1,4 @@
-"""The scatter picture as SVG for pages; their style sheets give the colours, light and dark."""
+"""The scatter picture as SVG for pages, whose style sheets define the colours, light and dark."""
 
 from collections.abc import Sequence
 

@@ -21,7 +21,7 @@ LEAD: Final = 0.5
 """Confidence above which the robot leads more than it follows."""
 
 STEADY: Final = (0.35, 0.7)
-"""Where the mean confidence of steady motion lies."""
+"""Range of the mean confidence in steady motion."""
 
 HELD: Final = 0.01
 """Largest movement of the robot's end that counts as holding [m]."""

@@ -159,7 +159,7 @@ def forgetting_exhibit(lift: SampledLift) -> Exhibit:
 
 
 def settling(lift: SampledLift, forgetting: float, *, staying: bool = False) -> int:
-    """Return after how many steps of the human's pause the confidence has settled.
+    """Return the number of steps of the human's pause after which the confidence has settled.
 
     Computed offline from the lift's samples; see :func:`.settling_steps`.
 
@@ -184,20 +184,20 @@ def fluctuation(profile: ArrayLike) -> float:
     Parameters
     ----------
     profile
-        Values, one a step, at least two.
+        Values, one per step, at least two.
     """
     return rms(np.diff(np.asarray(profile, dtype=np.float64)))
 
 
 def settling_steps(profile: ArrayLike, *, staying: bool = False) -> int:
-    """Return after how many steps a profile has come to rest.
+    """Return the number of steps after which a profile has come to rest.
 
     The resting value is the mean of the last quarter of the profile.
 
     Parameters
     ----------
     profile
-        Values from the step on in which the cause of the change ended.
+        Values, from the step in which the cause of the change ended.
     staying
         Whether to count up to the last time that the profile is further than ``SETTLED`` from its
         resting value, noise included, instead of to its first arrival.

@@ -17,14 +17,14 @@ LEVEL: Final = 0.01
 """Height difference within which the table counts as level [m]: half a position step."""
 
 START: Final = 0.08
-"""Largest height difference to level from [m]."""
+"""Largest initial height difference [m]."""
 
 MANY: Final = 200
-"""Trials that a firm answer needs."""
+"""Number of trials for a firm answer."""
 
 
 def learning_claims(trials: Sequence[LearningTrial]) -> list[Claim]:
-    """Return the claims about convergence and about what was learned."""
+    """Return the claims about convergence and about the learned controller."""
     iterations = np.array(
         [np.inf if trial.converged_at is None else trial.converged_at for trial in trials]
     )

@@ -22,7 +22,7 @@ Series = NDArray[np.float64]
 
 
 def performance_claims(evidence: Evidence) -> list[Claim]:
-    """Return the claims about absolute error, smoothness and the human's part in it."""
+    """Return the claims about absolute error, smoothness and the influence of the human."""
     return [_absolute(evidence), _smoother(evidence), _lowering(evidence), *_jerky(evidence)]
 
 
@@ -170,7 +170,7 @@ def comparison_exhibit(blend: Episode, reactive: Episode) -> Exhibit:
 
 
 def error_limit(*episodes: Episode) -> float:
-    """Return where the axis of the absolute error ends for it to hold all episodes [mm]."""
+    """Return the end of an axis of the absolute error that covers all episodes [mm]."""
     traces = [episode.trace for episode in episodes]
     return 1050 * max(float(np.abs(t.human_end - t.robot_end).max()) for t in traces)
 

@@ -15,14 +15,14 @@ Series = NDArray[np.float64]
 
 
 INITIAL: Final = 10
-"""Steps after which the paper sees the estimates improve."""
+"""Steps after which the estimates improve, according to the paper."""
 
 SMALL: Final = 0.1
 """Fraction of the peak speed below which a difference of velocities counts as very small."""
 
 LONGEST_TRAIL: Final = 5
-"""Steps by which a predicted velocity might trail the calculated one, at most; all velocities are
-compared from there on."""
+"""Largest number of steps by which a predicted velocity may trail the calculated one; all
+velocities are compared from that step on."""
 
 CENTRED: Final = 0.1
 """Fraction of its root mean square within which a mean counts as zero."""
@@ -130,7 +130,7 @@ def _predicted_peak(lifts: Sequence[SampledLift]) -> float:
 
 
 def _velocity_difference(lift: SampledLift, trailing: int) -> float:
-    """Return the rms difference of predicted velocity and that of some steps earlier [m/s]."""
+    """Return the rms difference of the predicted velocity from one some steps earlier [m/s]."""
     velocity, _ = derivatives(lift)
     predicted = lift.one_step_ahead("predicted_velocity")
     return rms(predicted[LONGEST_TRAIL:] - np.roll(velocity, trailing)[LONGEST_TRAIL:])

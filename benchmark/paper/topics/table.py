@@ -20,7 +20,7 @@ BASELINE: Final = 0.7
 
 
 def table_claims(table: TableOne) -> list[Claim]:
-    """Return the claims that Table I answers."""
+    """Return the claims about Table I."""
     return [
         _lower(table),
         _reproduced(table),

@@ -24,7 +24,7 @@ from ..watched import SampledLift, rms, sampled_lifts
 Series = NDArray[np.float64]
 
 HORIZON: Final = 0.1
-"""How far ahead predictions of different control periods are compared [s]: the paper's step."""
+"""Horizon at which predictions of different control periods are compared [s]: the paper's step."""
 
 MOVING: Final = 0.03
 """Speed [m/s] above which the human moves."""
@@ -32,7 +32,7 @@ MOVING: Final = 0.03
 
 @dataclass(frozen=True, kw_only=True)
 class TimingResult:
-    """Outcome of one setting; predictions only where there are any (NaN elsewhere)."""
+    """Outcome of one setting; errors of predictions are NaN for a policy without predictions."""
 
     policy: str
     control_period_s: float
@@ -85,9 +85,9 @@ def _result(timing: TimingSetting, run: Run) -> TimingResult:
 def retuned(period: float) -> PredictorParameters:
     """Return the predictor's parameters with the process noise of ``HORIZON``, for a period [s].
 
-    The filter takes the jerk for constant over a step with variance q, whatever the step. Over a
-    second such a jerk changes the acceleration by a variance of q times the period: a filter with
-    the same q trusts its model the more, the shorter the step. Here q times the period stays.
+    The filter assumes a jerk that is constant over a step, with variance q, whatever the step. Over
+    a second such a jerk changes the acceleration by a variance of q times the period: with the same
+    q, a filter trusts its model more at a shorter step. Here q times the period is kept constant.
     """
     shipped = PredictorParameters()
     noise = shipped.motion.process_noise * HORIZON / period
@@ -108,9 +108,9 @@ def _pooled(lifts: Sequence[SampledLift], wrong: Callable[[SampledLift], Series]
 def ahead_errors(lift: SampledLift, parameters: PredictorParameters | None = None) -> Series:
     """Return the errors of the predictions ``HORIZON`` ahead of the sample [m], shape (m,).
 
-    The filter's prediction one step ahead is carried on at constant acceleration (eq. 5) to the
-    horizon. The error stands in the step whose sample it is checked against; NaN before there is
-    a prediction for one. Computed offline, with the shipped parameters by default.
+    The filter's prediction one step ahead is extrapolated at constant acceleration (eq. 5) to the
+    horizon. Each error is in the step whose sample the prediction is compared with; steps before
+    the first such sample have NaN. Computed offline, with the shipped parameters by default.
     """
     period = lift.scenario.control_period
     refiltered = refilter(lift.samples, period, parameters)
@@ -118,7 +118,7 @@ def ahead_errors(lift: SampledLift, parameters: PredictorParameters | None = Non
     expected = (
         refiltered.height + refiltered.velocity * further + refiltered.acceleration * further**2 / 2
     )
-    # What was expected of sample k, one step ahead, reaches to sample k + steps.
+    # The prediction of sample k, made one step ahead, is extrapolated to sample k + steps.
     steps = round(further / period)
     wrong = np.full(len(expected), np.nan)
     wrong[steps + 1 :] = lift.samples[steps + 1 :] - expected[1 : len(expected) - steps]
@@ -216,7 +216,7 @@ def _rising(results: Sequence[TimingResult], attribute: str) -> bool:
 
 
 BY_LATENCY: Final = ("#6BAED6", "#3787C0", "#105BA4", "#08306B")
-"""From fresh to old."""
+"""Colours of the latencies, from the shortest to the longest."""
 
 COLUMNS: Final = ("policy", "control_period_s", "latency_s", "rmse_mm", "one_step_mm")
 COLUMNS_AHEAD: Final = ("one_step_ms", "ahead_mm", "ahead_retuned_mm")
