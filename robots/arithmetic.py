@@ -1,8 +1,9 @@
 """Products of matrices and functions of arrays with the same bits on every processor.
 
-NumPy's ``@`` takes its code, and with it the order of a sum, from BLAS, which chooses by processor,
-environment variables and threads; NumPy's ``exp`` or ``arccos`` choose by vector extensions. Here
-each product and each sum is rounded by itself in one order, and each function is the C library's.
+NumPy's ``@`` uses BLAS, which chooses its code, and with it the order of a sum, by processor,
+environment variables and threads; NumPy's ``exp`` and ``arccos`` choose their code by vector
+extensions. Here each product and each sum is rounded separately in a fixed order, and each function
+is the C library's.
 """
 
 from collections.abc import Callable
@@ -27,6 +28,6 @@ def matmul(a: Array, b: Array) -> Array:
 
 
 def each(function: Callable[[float], float], values: ArrayLike) -> Array:
-    """Return a function of :mod:`math` of each value, in the shape of the values."""
+    """Return the values of a function of :mod:`math`, applied to each value, in their shape."""
     x = np.asarray(values, dtype=np.float64)
     return np.array([function(value) for value in x.ravel().tolist()]).reshape(x.shape)

@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class _Mount:
-    """Where a link sits on the body it is welded to."""
+    """Pose of a link on the body to which it is welded."""
 
     host: str
     position: Array

@@ -134,7 +134,7 @@ _LEFT_LINKS: Final = (
      (6.86477e-5, 1.15465e-7, -2.87254e-6, 1.35756e-4, 2.67539e-6, 1.33228e-4)),
 )  # fmt: skip
 
-# The documentation weighs a hand as a whole (l_wrist); its moving parts get token masses.
+# The documentation has the mass of a hand as a whole (l_wrist); its moving parts get token masses.
 _TOKEN_MASS: Final = 2e-6
 _TOKEN_INERTIA: Final = (1.1e-9, 0.0, 0.0, 1.1e-9, 0.0, 1.1e-9)
 

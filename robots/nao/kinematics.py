@@ -41,13 +41,11 @@ Levers and torques of the right arm follow the same signs.
 """
 
 GRIP_X: Final = 0.133
-"""Hands in front of the torso's origin [m]."""
+"""Distance of the hands in front of the torso's origin [m]."""
 GRIP_Y: Final = 0.050
-"""Hands to either side of the middle plane [m].
-
-Closer together than the shoulders (0.098 m): the elbow bends to 88.5 degrees only, which leaves
-0.139 to 0.220 m between shoulder and hand, and at shoulder height a hand straight ahead of the
-shoulder would be too near.
+"""Distance of each hand from the middle plane [m]. The hands are closer together than the shoulders
+(0.098 m): the elbow bends to 88.5 degrees only, which leaves 0.139 to 0.220 m between shoulder and
+hand, and at shoulder height a hand straight ahead of the shoulder would be too near.
 """
 REST_Z: Final = -0.030
 """Height of the hands above the torso's origin [m] at displacement 0, the table's rest."""
@@ -118,7 +116,7 @@ def vertical_lever(joints: ArrayLike) -> Array:
 
 
 def gravity_torque(joints: ArrayLike) -> Array:
-    """Return the torque [N m] by which the left arm's own weight turns its joints, shape (..., 5).
+    """Return the torque [N m] of the left arm's own weight on its joints, shape (..., 5).
 
     Joint i feels ``-g sum_k m_k dz_k/dq_i`` over the links k beyond it, z_k the height of their
     centres of mass, the torso upright; holding the arm still takes the opposite. The token masses
@@ -138,11 +136,11 @@ def gravity_torque(joints: ArrayLike) -> Array:
 def lifting_angles(z: ArrayLike) -> Array:
     """Return the left arm's angles [rad] that put the hand at (GRIP_X, GRIP_Y, z), shape (..., 5).
 
-    Two of the arm's five angles are free. With the elbow's yaw at 0 and the wrist's at -pi/2 the
-    whole arm lies in one plane, which the shoulder's pitch tilts towards the hand, and in it roll
-    and elbow are a planar two-link arm: closed form, symmetric about shoulder height, palms
-    inwards. A numerical search over polynomial elbow and wrist yaws made the mean square joint rate
-    4 % smaller, no more.
+    Two of the arm's five angles can be chosen freely. With the elbow's yaw at 0 and the wrist's at
+    -pi/2 the whole arm lies in one plane, which the shoulder's pitch tilts towards the hand, and in
+    it roll and elbow are a planar two-link arm: closed form, symmetric about shoulder height, palms
+    inwards. A numerical search over polynomial elbow and wrist yaws reduced the mean square joint
+    rate by only 4 %.
 
     Parameters
     ----------
@@ -176,8 +174,8 @@ def _lifting_angles(rise: float) -> list[float]:
 class ArmPath:
     """The arms along the stroke, looked up by the hands' height; made by ``arm_path()``.
 
-    Rows are 0.05 mm of height apart; a height in between takes the nearer row, one outside
-    ``STROKE`` the last. The arrays are read-only.
+    Rows are 0.05 mm of height apart; a height in between uses the nearer row, a height outside
+    ``STROKE`` the last one. The arrays are read-only.
     """
 
     heights: Array

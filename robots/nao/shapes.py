@@ -1,8 +1,8 @@
 """The NAO's shapes: boxes, cylinders and spheres for each link, and its collision shapes.
 
-The shapes are ours, drawn around the published joints by eye; no mesh and no outline of the maker
-is used. Only places that are facts (eyes, cameras, chest button, sole) come from the sensor frames
-of the published model.
+The shapes are ours, drawn by eye around the published joints; no mesh or outline of the maker is
+used. Only places that are facts (eyes, cameras, chest button, sole) come from the sensor frames of
+the published model.
 """
 
 from dataclasses import replace

@@ -19,11 +19,11 @@ def nao_urdf_path() -> Path:
 def arm_urdf(side: str) -> str:
     """Return the URDF of one arm: the torso as its base, and five links with moving joints.
 
-    The shut hand is welded to the forearm, here and not by PyBullet: its
-    ``URDF_MERGE_FIXED_LINKS`` forgets where the centres of mass of the merged links are, which
-    takes a tenth off the torque that an arm's weight puts on the shoulder. There are no shapes,
-    as physics without contacts needs none; load it with ``URDF_USE_INERTIA_FROM_FILE``, because
-    PyBullet otherwise derives the inertias from the shapes.
+    The shut hand is welded to the forearm here and not by PyBullet, whose
+    ``URDF_MERGE_FIXED_LINKS`` ignores the centres of mass of the merged links, which reduces the
+    torque of an arm's weight on the shoulder by a tenth. There are no shapes, as physics without
+    contacts needs none; load it with ``URDF_USE_INERTIA_FROM_FILE``, because PyBullet otherwise
+    derives the inertias from the shapes.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The writer of the NAO's URDF; as a program, ``python -m colift.robots.nao.urdf_writer``."""
+"""The writer of the NAO's URDF, also a program: ``python -m colift.robots.nao.urdf_writer``."""
 
 from collections.abc import Iterable
 from math import isfinite
@@ -74,7 +74,7 @@ def _add_joint(robot: ET.Element, joint: Joint) -> None:
 
 
 def write_urdf(joints: Iterable[Joint], links: Iterable[Link]) -> str:
-    """Return the URDF of a robot as XML text; the link that is no joint's child is its base."""
+    """Return the URDF of a robot as XML text; the link that is not a joint's child is its base."""
     robot = ET.Element("robot", name="nao")
     for link in links:
         _add_link(robot, link)
