@@ -53,7 +53,7 @@ class GatedNetwork(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """What remains from step to step; each entry has a last axis of lifts, or none."""
+    """The state between steps; each entry has a last axis of lifts, or none."""
 
     units: Any
     """(u, ...)"""

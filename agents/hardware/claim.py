@@ -113,8 +113,9 @@ class RobotClaim:
     def _refuse(self, found: Holder) -> None:
         if found.token != self._own.token:
             raise InputError(
-                f"the robot at {self._session.url} is commanded by {found.name}: one at a time; "
-                f"end that first (a claim without a heartbeat is taken over after {STALE:g} s)"
+                f"the robot at {self._session.url} is commanded by {found.name}, and takes "
+                "only one client at a time: end that one first (a claim without a heartbeat is taken "
+                f"over after {STALE:g} s)"
             )
 
     def beat(self) -> str:

@@ -60,9 +60,9 @@ class LslCapture:
         if not found:
             known = sorted({stream.name() for stream in lsl.resolve_streams(0.5)})
             raise InputError(
-                f"no stream {name!r} on the network within {RESOLVE_TIME:g} s; there is "
-                f"{', '.join(known) or 'none'}. Where multicast does not pass, name the sender in "
-                "lsl_api.cfg (docs/guides/hardware.md)"
+                f"no stream {name!r} on the network within {RESOLVE_TIME:g} s; found: "
+                f"{', '.join(known) or 'none'}. If multicast does not get through, name the sender "
+                "in lsl_api.cfg (docs/guides/hardware.md)"
             )
         self._lsl = lsl
         self._inlet = lsl.StreamInlet(

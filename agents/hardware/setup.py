@@ -94,7 +94,7 @@ def measure_rest(capture: MotionCapture, clock: Clock, seconds: float = REST_TIM
     name = ("human's", "robot's")[int(spread.argmax())]
     raise InputError(
         f"the {name} end moves by {1000 * spread.max():.1f} mm (sd) where it should "
-        "rest: hold it still, and see that its markers are not taken for others"
+        "rest: hold it still, and check that its markers are not confused with others"
     )
 
 

@@ -112,7 +112,7 @@ class HandLog:
         sizes = {len(self.times), len(self.heights), len(self.frames)}
         if len(sizes) != 1 or max(sizes) > MOST_SAMPLES:
             raise InputError(
-                f"a hand's log must have as many times, heights and frames, at most "
+                f"a hand's log must have equally many times, heights and frames, at most "
                 f"{MOST_SAMPLES}; got {len(self.times)}, {len(self.heights)}, {len(self.frames)}"
             )
         if not (math.isfinite(self.offset) and 0 <= self.delay <= LONGEST_DELAY):

@@ -212,7 +212,7 @@ def _checked(policy: object, text: str) -> type[Agent]:
     if not inspect.isclass(policy):
         raise InputError(f"{text} is not a class")
     if inspect.isabstract(policy) or getattr(policy, "_is_protocol", False):
-        raise InputError(f"{text} is abstract: name a class that can be made")
+        raise InputError(f"{text} is abstract: name a concrete class")
     for method in ("reset", "act"):
         if not callable(getattr(policy, method, None)):
             raise InputError(f"policy {text} has no method {method}(); it needs reset and act")

@@ -160,7 +160,7 @@ def _check_tensor(tensor: Any, where: str) -> None:
         raise InputError(f"has {where}, whose type is not float, double, int32, int64 or bool")
     # A tensor cannot have more numbers than the file has bytes, whatever its shape claims.
     if any(size < 0 for size in tensor.dims) or math.prod(tensor.dims) > LARGEST:
-        raise InputError(f"has {where} of the shape {list(tensor.dims)[:8]}")
+        raise InputError(f"has {where} with the impossible shape {list(tensor.dims)[:8]}")
     try:
         values = numpy_helper.to_array(tensor)
     except (ValueError, TypeError, OverflowError) as error:

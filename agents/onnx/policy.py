@@ -60,7 +60,7 @@ class OnnxPolicy:
         if len(observation) < size:
             raise InputError(
                 f"{self._network.name} takes an observation of {size} numbers, and this task's has "
-                f"{len(observation)}: evaluate it on a suite of the task that it was trained for"
+                f"{len(observation)}: evaluate it on a suite of the task for which it was trained"
             )
         first: NDArray[Any] = np.asarray(observation[:size], seen.dtype)
         fed: dict[str, Any] = {seen.name: first.reshape(seen.shape)}

@@ -29,7 +29,7 @@ class TouchNetwork(NamedTuple):
 
 
 class TouchMemory(NamedTuple):
-    """What remains from step to step; each entry has a last axis of lifts, or none."""
+    """The state between steps; each entry has a last axis of lifts, or none."""
 
     units: Any
     """(u, ...)"""

@@ -32,7 +32,7 @@ def held_out_suite(people: int, lifts: int, first_seed: int = FIRST_SEED) -> Sui
         raise InputError(f"at least 1 person and 1 lift are needed, got {people} and {lifts}")
     if first_seed < FIRST_SEED:
         raise InputError(
-            f"seeds of new people start at {FIRST_SEED}, those below are learned from; "
+            f"seeds of new people start at {FIRST_SEED}, those below are for learning; "
             f"got {first_seed}"
         )
     scenarios = tuple(

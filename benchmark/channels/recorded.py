@@ -39,8 +39,8 @@ def parse_recorded(content: Mapping[str, Any], where: str) -> Channel:
         raise InputError(f"{where}: {CODE} is missing")
     if content[CODE] != _code():
         raise InputError(
-            f"{where}.{CODE} is {content[CODE]!r:.80}, here it is {_code()!r}: what a channel does "
-            "has changed since; run the policy again"
+            f"{where}.{CODE} is {content[CODE]!r:.80}, here it is {_code()!r}: the code of "
+            "channels has changed since; run the policy again"
         )
     return channel
 

@@ -93,12 +93,13 @@ def check_same_lifts(stored: Sequence[Stored], suite: Suite, channel: Channel | 
         if each.channel != channel:
             raise InputError(
                 f"{each.folder} was played over {_shown(each.channel)}, not over "
-                f"{_shown(channel)}: policies are compared over the same"
+                f"{_shown(channel)}: policies are compared over the same channel"
             )
         if each.suite.digest != suite.digest:
             raise InputError(
                 f"{each.folder} has the lifts of {each.suite.name} (digest {each.suite.digest}), "
-                f"not of {suite.name} (digest {suite.digest}): policies are compared on the same"
+                f"not of {suite.name} (digest {suite.digest}): policies are compared on the same "
+                "lifts"
             )
 
 

@@ -39,7 +39,7 @@ def check_reward(reward: object, task: Task) -> None:
     own = isinstance(task, Scored) or getattr(type(task), "score", None) is Level.score
     if reward == SCORE and not own:
         raise InputError(
-            f"task {task.name!r} has no reward 'score': it scores in a way of its own, and has "
+            f"task {task.name!r} has no reward 'score': it has a score of its own but "
             "no squared_errors(lift)"
         )
 

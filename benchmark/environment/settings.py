@@ -70,6 +70,8 @@ def check_options(options: Mapping[str, Any] | None, *, others: bool) -> None:
     """
     for name in options or {}:
         if name in SETTINGS:
-            raise InputError(f"reset cannot change {name}: it is settled when the lift is made")
+            raise InputError(
+                f"reset cannot change {name}: it is fixed when the environment is made"
+            )
         if not others:
             raise InputError(f"unknown option {name!r}: reset takes no options")

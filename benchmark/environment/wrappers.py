@@ -83,7 +83,7 @@ class HoldingPace(
         RecordConstructorArgs.__init__(self)
         gymnasium.Wrapper.__init__(self, env)
         if not any(isinstance(each, History) for each in _layers(env)):
-            raise InputError("HoldingPace needs the past: wrap the environment in History before")
+            raise InputError("HoldingPace needs the past: wrap the environment in History first")
         self.action_space = Box(-CORRECTION, CORRECTION, (1,), np.float64)
         self._line = 0.0
 

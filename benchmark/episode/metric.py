@@ -44,7 +44,7 @@ class MetricWords:
     caption: str = ""
     """The same as a sentence, for headings without units; symbol and unit if empty."""
     reading: str = ""
-    """How to read it, in sentences; symbol, meaning and direction if empty."""
+    """Sentences on how to read it; symbol, meaning and direction if empty."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +62,7 @@ class Metric:
     digits: int = 2
     """Decimals in a table."""
     better: Literal["less", "more", "near zero"] = "less"
-    """Which values are better."""
+    """Direction of better values."""
     missing: Literal["never", "worst", "left out"] = "left out"
     """Treatment of an episode without a value: it does not occur, it ranks last, or the mean is
     over the other episodes."""

@@ -303,7 +303,9 @@ def _pair(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     x, y = _trace(name_a, a), _trace(name_b, b)
     if x.size != y.size:
-        raise InputError(f"{name_a} has {x.size} frames, {name_b} {y.size}; they must be the same")
+        raise InputError(
+            f"{name_a} has {x.size} frames, {name_b} {y.size}; both must have equally many"
+        )
     return x, y
 
 

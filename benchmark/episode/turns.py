@@ -41,7 +41,7 @@ class Turns:
         self._explaining = partner if isinstance(partner, Explaining) else None
         self._size = size
         self.failure: str | None = None
-        """Reason why the partner cannot go on; None if it can."""
+        """Reason why the partner cannot continue; None if it can."""
         self.times: list[float] = []
         """Duration of each turn that returned [s]."""
         self.total = 0.0

@@ -267,4 +267,4 @@ def _submitted(batch: Batch, executor: Executor) -> Future[list[tuple[int, Episo
     try:
         return executor.submit(batch)
     except Exception as error:
-        raise EvaluatorFault(f"cannot go on: {error_text(error)}") from error
+        raise EvaluatorFault(f"cannot continue: {error_text(error)}") from error

@@ -98,7 +98,7 @@ def _lock(handle: int, path: Path) -> None:
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        raise InputError(f"another process writes to {path}: the same run") from None
+        raise InputError(f"another process with the same run writes to {path}") from None
 
 
 def _begin(path: Path, handle: int, run: Mapping[str, str], resume: bool) -> dict[int, Episode]:
@@ -106,7 +106,7 @@ def _begin(path: Path, handle: int, run: Mapping[str, str], resume: bool) -> dic
     data = path.read_bytes()
     found = list(records(data))
     if data and not (found and isinstance(found[0][0], dict) and "format" in found[0][0]):
-        raise InputError(f"{path} is not a journal of colift's; delete it or name another folder")
+        raise InputError(f"{path} is not a journal of colift; delete it or name another folder")
     if resume and found:
         _compare(path, found[0][0], run)
         os.truncate(handle, found[-1][1])

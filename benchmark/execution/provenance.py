@@ -137,7 +137,7 @@ def check_same_origin(
     for name, value in wanted.items():
         if found.get(name) != value:
             raise InputError(
-                f"results would depend on who computes them: {name} is {found.get(name)!r} {where} "
+                f"results would depend on the machine: {name} is {found.get(name)!r} {where} "
                 f"and {value!r} {other}"
             )
 

@@ -30,7 +30,7 @@ def check_new(folder: Path, *, replace: bool) -> None:
         if not replace:
             raise InputError(f"{folder} is there already; name a new folder, or add --force")
         if not (folder / STAMP).is_file():
-            raise InputError(f"{folder} is no export: it has no {STAMP}, and is not replaced")
+            raise InputError(f"{folder} is not an export (it has no {STAMP}) and is not replaced")
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=folder.parent):

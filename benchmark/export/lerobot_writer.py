@@ -51,7 +51,7 @@ def frame_rate(provenance: Provenance) -> int:
     rate = 1 / provenance.control_period
     if abs(rate - round(rate)) > 1e-6:
         raise InputError(
-            f"LeRobot needs a whole number of steps a second, a control period of "
+            f"LeRobot needs a whole number of steps per second; a control period of "
             f"{provenance.control_period:g} s has {rate:g}: export to minari"
         )
     return round(rate)

@@ -39,7 +39,7 @@ class ExportedLift:
     human: AgentView | None
     """The human's part; None in a set of the robot alone."""
     dropped: str | None
-    """How the table was dropped, or None."""
+    """Description of the drop of the table; None if it was not dropped."""
     failure: str | None
     """Reason why the lift ended early: a drop, or an error of the policy; None if it did not."""
     state: str

@@ -158,7 +158,7 @@ class MemoryService:
     def getData(self, key: str) -> Any:
         """Return the value of a key."""
         if key not in self._data:
-            raise MotionError(f"ALMemory: there is no data by the key {key!r}")
+            raise MotionError(f"ALMemory: there is no data under the key {key!r}")
         return self._data[key]
 
     def getDataList(self, filter: str) -> list[str]:

@@ -104,7 +104,7 @@ class SimulatedLaboratory:
         silent = "silence" in self._faults and any(name == "getAngles" for name, *_ in calls)
         if silent or "hang" in self._faults:
             self._pass(within)
-            raise RobotLostError(f"no answer of {self.url} within {within:g} s")
+            raise RobotLostError(f"no answer from {self.url} within {within:g} s")
         module = self._laboratory.services[service]
         try:
             return [getattr(module, name)(*rest) for name, *rest in calls]

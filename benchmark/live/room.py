@@ -133,13 +133,13 @@ class Room:
 
     def _choose(self, seat: int, content: dict[str, Any]) -> list[Message]:
         if seat != 0 or self._lifting is not None:
-            raise InputError("the host chooses the partner, and not during a lift")
+            raise InputError("only the host may choose the partner, and not during a lift")
         self._choice, self._prepared = HostChoice.parse(content, self._policies), False
         return self._state()
 
     def _swap(self, seat: int) -> list[Message]:
         if seat != 0 or self._lifting is not None:
-            raise InputError("the host swaps the ends, and not during a lift")
+            raise InputError("only the host may swap the ends, and not during a lift")
         self._seats.swapped = not self._seats.swapped
         return self._state()
 

@@ -65,7 +65,7 @@ class SeatedPerson:
         if self.grip is None or content.first != self.expected:
             raise InputError(
                 f"sample {self.expected} must be next, got {content.first}: one is missing, or "
-                "comes twice"
+                "was sent twice"
             )
         self.expected += len(content.samples)
         self.heard = now

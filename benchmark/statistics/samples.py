@@ -25,7 +25,7 @@ def sample(name: str, values: ArrayLike) -> FloatArray:
     """
     x = np.asarray(values, dtype=np.float64)
     if x.ndim != 1 or x.size == 0:
-        raise InputError(f"{name} has shape {x.shape}; it must be one value an episode, (n,)")
+        raise InputError(f"{name} has shape {x.shape}; it must be one value per episode, (n,)")
     if not np.isfinite(x).all():
         index = int(np.isfinite(x).argmin())
         raise InputError(f"{name}[{index}] is {x[index]}; it must be a number for each episode")

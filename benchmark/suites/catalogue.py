@@ -65,7 +65,7 @@ def _recording(source: str) -> Recording:
     """Return the recording of ``FILE.csv`` (its first trial) or ``FILE.csv#TRIAL``."""
     path, _, trial = source.partition("#")
     if not path:
-        raise InputError("which recording? Say recorded:FILE.csv or recorded:FILE.csv#TRIAL")
+        raise InputError("no recording is named: give recorded:FILE.csv or recorded:FILE.csv#TRIAL")
     recordings = {recording.name: recording for recording in load_recordings(Path(path))}
     if trial and trial not in recordings:
         raise InputError(f"{path} has no trial {trial!r}; it has {', '.join(recordings)}")

@@ -128,7 +128,7 @@ def collect_training_data(
         raise InputError("there must be at least 1 lift to learn from")
     if not FIRST_SEED <= seeds[0] <= seeds[-1] <= LAST_SEED:
         raise InputError(
-            f"seeds to learn from are {FIRST_SEED} to {LAST_SEED}, others are for tests; "
+            f"seeds for learning are {FIRST_SEED} to {LAST_SEED}, others are for tests; "
             f"got {seeds[0]} to {seeds[-1]}"
         )
     play = partial(

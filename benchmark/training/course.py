@@ -176,7 +176,9 @@ def open_course(
         folder.mkdir(parents=True, exist_ok=True)
         if not path.exists():
             if any(folder.iterdir()):
-                raise InputError(f"{folder} is not empty, and no training's; name a new folder")
+                raise InputError(
+                    f"{folder} is not empty and not that of a training; name a new folder"
+                )
             write_whole(path, (json.dumps(identity, indent=2) + "\n").encode())
         known = json.loads(path.read_text())
     except OSError as error:

@@ -138,7 +138,8 @@ def demonstrations(
     seeds = range(seed, seed + lifts)
     if seed < 0 or not taken.isdisjoint(seeds):
         raise InputError(
-            f"seeds must be above {max(taken)}, which are the suites', got {seed} to {seeds[-1]}"
+            f"seeds must be above {max(taken)}, the last seed of the suites; got {seed} to "
+            f"{seeds[-1]}"
         )
     return map(demonstrate, seeds) if executor is None else executor.map(demonstrate, seeds)
 

@@ -92,12 +92,12 @@ def sense(playing: LiftState, body: Body, past: Past, goal: jax.Array) -> tuple[
     All of it is in the human's observation of the engine, :class:`.HumanObservation`.
 
     ====== ==================================================================
-    0      height of the own end
+    0      height of the person's end
     1      goal above it
     2      hand's reference above it
     3, 4   its change in the last step, and in the one before
-    5, 6   other end above the own one, as old as the eye is slow, and its change in a step
-    7, 8   force of the hands beyond the weight, as old as the sense of it, and its change
+    5, 6   other end above it, a visual delay ago, and its change in a step
+    7, 8   force of the hands beyond the weight, a haptic delay ago, and its change
     ====== ==================================================================
 
     Parameters

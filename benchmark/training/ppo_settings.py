@@ -111,5 +111,5 @@ class CoPlaySettings(SelfPlaySettings):
             )
         if self.updates < 2:
             raise InputError(
-                f"updates must be at least 2, got {self.updates}: people are kept from half of them"
+                f"updates must be at least 2, got {self.updates}: people are kept half-way"
             )

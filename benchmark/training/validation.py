@@ -40,8 +40,8 @@ def learning_seeds(count: int, first: int = LEARNING_SEEDS[0]) -> range:
     low, high = LEARNING_SEEDS[0], LEARNING_SEEDS[-1]
     if not (count >= 2 and low <= first and first + count - 1 <= high):
         raise InputError(
-            f"lifts to learn from are at least 2, on seeds {low} to {high}; got {count} from "
-            f"{first}"
+            f"learning needs at least 2 lifts, with seeds {low} to {high}; got {count} from "
+            f"seed {first}"
         )
     return range(first, first + count)
 

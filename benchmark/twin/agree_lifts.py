@@ -109,7 +109,7 @@ def draw_agree(scenario: Scenario, seed: int) -> DrawnAgree:
     task = scenario.task
     if type(task) is not Agree or scenario.partner != "nao":
         raise InputError(
-            f"this twin has the task {Agree.name} with a NAO, not {task.name!r} with "
+            f"this twin models the task {Agree.name} with a NAO, not {task.name!r} with "
             f"{scenario.partner!r}"
         )
     name, size = scenario.name, scenario.frames_per_step

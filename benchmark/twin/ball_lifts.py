@@ -96,7 +96,7 @@ def draw_ball(scenario: Scenario, seed: int) -> DrawnBall:
     task = scenario.task
     if type(task) is not BallSteering or task.ball != BALL or scenario.partner != "nao":
         raise InputError(
-            f"this twin has the task {BallSteering.name} with a NAO, not {task.name!r} with "
+            f"this twin models the task {BallSteering.name} with a NAO, not {task.name!r} with "
             f"{scenario.partner!r}"
         )
     name, size = scenario.name, scenario.frames_per_step

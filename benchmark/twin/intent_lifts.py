@@ -71,7 +71,7 @@ def draw_intent(scenario: Scenario, seed: int) -> DrawnIntent:
     """
     if type(scenario.task) is not Intent or scenario.partner != "nao":
         raise InputError(
-            f"this twin has the task {Intent.name} with a NAO, not {scenario.task.name!r} with "
+            f"this twin models the task {Intent.name} with a NAO, not {scenario.task.name!r} with "
             f"{scenario.partner!r}"
         )
     size = scenario.frames_per_step

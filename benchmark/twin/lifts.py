@@ -60,13 +60,13 @@ def check_modelled(scenario: Scenario) -> None:
         If the task, the holder of the far end, the behaviour or a delay is not modelled.
     """
     if type(scenario.task) is not Level:
-        raise InputError(f"the twin has the task level alone, not {scenario.task.name!r}")
+        raise InputError(f"the twin models the task level only, not {scenario.task.name!r}")
     if scenario.partner not in MODELLED:
         known = " and ".join(map(repr, MODELLED))
-        raise InputError(f"the twin has the partners {known}, not {scenario.partner!r}")
+        raise InputError(f"the twin models the partners {known}, not {scenario.partner!r}")
     if isinstance(scenario.human, Embodied):
         raise InputError(
-            f"the twin has scripted people alone; {scenario.behaviour!r} brings its own"
+            f"the twin models scripted people only; {scenario.behaviour!r} brings its own"
         )
     if scenario.latency_frames >= DEPTH:
         raise InputError(

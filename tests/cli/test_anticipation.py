@@ -36,7 +36,7 @@ def test_bounds_tell_claims_and_whether_they_hold(colift):
     [
         (("bounds", "--seed", "5"), "seeds of new people start at 200000"),
         (("sweep", "--out", "sweep.txt"), "--out must end in .png"),
-        (("learn", "anticipate", "--seed", "5", "--lifts", "1"), "seeds to learn from are 100000"),
+        (("learn", "anticipate", "--seed", "5", "--lifts", "1"), "seeds for learning are 100000"),
         (("run", "oracle"), "unknown policy 'oracle'"),
     ],
 )

@@ -141,7 +141,7 @@ def test_a_second_client_is_refused_before_it_moves_anything(colift, emulate):
             break
     assert second.returncode == 2, second.stderr
     assert f"is commanded by process {first.process.pid} on" in second.stderr
-    assert "one at a time" in second.stderr
+    assert "only one client at a time" in second.stderr
     for moved in ("take hold", "rest heights", "go limp", "released"):
         assert moved not in second.stderr
     assert code == 0, first.told

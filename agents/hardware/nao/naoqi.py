@@ -123,7 +123,7 @@ class NaoqiArm:
         It starts from the set-points that :meth:`state` read last.
         """
         if self._stopped:
-            raise RobotLostError("the hands are stopped: no command is taken any more")
+            raise RobotLostError("the hands are stopped: no more commands are accepted")
         self._refuse_if_taken()
         self._command = next_command(height, self._command, self._set_point, duration, self.limits)
         self._kept = 1 + round(LAG / duration)

@@ -11,18 +11,18 @@ from .. import PARTNER_SUBJECT, Subject
 
 @dataclass(frozen=True, kw_only=True)
 class AgreeingManner:
-    """Who goes first, and how far a person goes along with the other."""
+    """A person's readiness to go first, and to go along with the other."""
 
     patience: float
-    """How long the person lets the other go first: at 0 the person goes as soon as the window
-    opens, at 1 at the last moment that leaves enough time, above 1 too late."""
+    """Time for which the person lets the other go first, relative: at 0 the person goes as soon as
+    the window opens, at 1 at the last moment that leaves enough time, above 1 too late."""
     trust: float
     """Share of the way to the partner's inferred goal that the person goes."""
     stiffness: float
     """Weight of the person's own goal against a level table, in [0, 1]; the remainder gives way to
     the far end."""
     insistence: float
-    """How long the person insists when both go to their own goals, before giving way [s]."""
+    """Time for which the person insists when both go to their own goals, before giving way [s]."""
 
 
 PATIENCES: Final = (0.0, 1.15)

@@ -6,7 +6,7 @@ NEEDED: Final = 0.7
 """Time that a passage needs [s]."""
 
 EARLY: Final = 0.25
-"""How long before the window opens a passage may begin [s]."""
+"""Time before the window opens at which a passage may begin [s]."""
 
 NEAR: Final = 0.006
 FAR_NEAR: Final = 0.015
@@ -23,7 +23,7 @@ SLOW: Final = 0.05
 """Speed below which the table rests there [m/s]."""
 
 SERVED: Final = 0.2
-"""How long the table rests at the partner's goal until the person takes that hurdle as passed
+"""Time that the table rests at the partner's goal until the person takes that hurdle as passed
 [s]."""
 
 
@@ -32,7 +32,7 @@ class Precedence:
 
     The turn comes at the share ``patience`` of the time between the earliest and the latest moment
     to begin, or as soon as the partner has been at its own goal. A partner who is seen to go to a
-    goal of its own is let go first, up to the latest moment. If both have begun, the person insists
+    goal of its own may go first, up to the latest moment. If both have begun, the person insists
     for a while and then gives way, until the partner has been at its goal.
 
     Parameters

@@ -16,7 +16,7 @@ STEADY: Final = 0.05
 """Speed below which the other end rests [m/s]."""
 
 STILL: Final = 0.3
-"""How long the other end rests until its height is taken as the common one [s]."""
+"""Time that the other end rests until its height is taken as the common one [s]."""
 
 
 class SecondNegotiator(Negotiator):

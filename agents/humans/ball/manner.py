@@ -11,7 +11,7 @@ from .. import SUBJECTS, Subject
 
 @dataclass(frozen=True, kw_only=True)
 class SteeringManner:
-    """How much of the steering a person does, and how the person responds to the partner."""
+    """A person's share of the steering, and the response to the partner."""
 
     share: float
     """Part of the wanted height difference of the ends that the person's own end makes; 1 is all of

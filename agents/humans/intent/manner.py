@@ -11,14 +11,15 @@ from .. import SUBJECTS, Subject
 
 @dataclass(frozen=True, kw_only=True)
 class LeadingManner:
-    """How much of an intention a person's wrists show, how early, and how long the person waits."""
+    """The share of an intention that a person's wrists show, its lead, and the person's
+    patience."""
 
     wrist: float
     """Share of the intended pitch that the wrists turn to. A person with little of it leads by
     waiting rather than by torque. It is negative if the wrists turn along with the forearms: a
     person who raises a hand from the elbow tilts it up, whatever the table should do."""
     lead: float
-    """How far the wrists are ahead of the hands [s]; negative if they follow."""
+    """Lead of the wrists over the hands [s]; negative if they follow."""
     patience: float
     """Distance of the far end from its intended height [m] beyond which the person slows down; at
     twice this distance the person waits."""

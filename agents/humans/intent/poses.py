@@ -118,7 +118,7 @@ class Together(Posing):
 
 @dataclass(frozen=True, kw_only=True)
 class Pivot(Posing):
-    """Moves the own end alone, as to pour: the far end stays."""
+    """Moves the near end alone, as to pour: the far end stays."""
 
     intents: ClassVar[tuple[str, ...]] = ("pivot",)
 

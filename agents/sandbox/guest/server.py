@@ -144,7 +144,9 @@ class _Server:
             return ["action", action]
         internals = self._agent.internals()  # type: ignore[attr-defined]
         if len(internals) > INTERNALS or any(len(name) > NAME for name in internals):
-            raise ValueError(f"more than {INTERNALS} internals, or a name of over {NAME} letters")
+            raise ValueError(
+                f"more than {INTERNALS} internals, or a name longer than {NAME} letters"
+            )
         names = [str(name) for name in internals]
         return ["action", action, names, [float(value) for value in internals.values()]]
 

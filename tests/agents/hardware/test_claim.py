@@ -31,7 +31,7 @@ def test_a_second_one_is_refused_for_as_long_as_the_first_lives(connect):
     with claimed(NaoqiArm(connect()), clock):
         first = holder(session)
         begin = time.monotonic()
-        with pytest.raises(InputError, match="one at a time"):
+        with pytest.raises(InputError, match="only one client at a time"):
             RobotClaim(session).take(clock)
         assert time.monotonic() - begin < STALE
         time.sleep(STALE)
@@ -77,7 +77,7 @@ def test_two_who_claim_at_once_are_one(connect):
             second._write(second._own)
             return super().wait_until(when)
 
-    with pytest.raises(InputError, match="one at a time"):
+    with pytest.raises(InputError, match="only one client at a time"):
         first.take(Interrupted())
     assert second.beat() == ""
 

@@ -127,7 +127,7 @@ def test_what_passes_is_waited_for_and_the_lift_goes_on(play, fault, held):
 def test_a_stopped_arm_takes_no_command_any_more(play):
     trial = play("copy", faults={AT: "stream-end@0"})
     sent = len(trial.lab.sent)
-    with pytest.raises(Exception, match="no command is taken any more"):
+    with pytest.raises(Exception, match="no more commands are accepted"):
         trial.arm.command(0.1, 0.1)
     assert len(trial.lab.sent) == sent
 

@@ -189,7 +189,7 @@ REFUSED = {
         "the weights 'half', whose type is not float, double, int32, int64 or bool",
     ),
     "wrong data": (of_wrong_data(), "the weights 'first', whose data are not of its shape"),
-    "a shape that is none": (of_another_shape(), "the weights 'first' of the shape"),
+    "a shape that is none": (of_another_shape(), "the weights 'first' with the impossible shape"),
     "no input": (picked(nodes=[node("Identity", "first", "action")], inputs=[]), "inputs none"),
     "three inputs": (
         picked(inputs=[*SEEN, value("state", [1]), value("goal", [1])]),

@@ -267,6 +267,6 @@ def test_wrong_wrapping_is_refused_in_words():
         History(plain, steps=0)
     with pytest.raises(InputError, match=r"robot's five numbers, got observations \(27,\)"):
         History(History(plain))
-    with pytest.raises(InputError, match="wrap the environment in History before"):
+    with pytest.raises(InputError, match="wrap the environment in History first"):
         HoldingPace(plain)
     plain.close()

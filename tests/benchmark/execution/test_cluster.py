@@ -161,7 +161,7 @@ def test_a_cluster_that_stays_without_workers_ends_the_run(bare_address, monkeyp
     with (
         worker(bare_address, "--nthreads", "1") as process,
         dask_pool(bare_address) as connected,
-        pytest.raises(EvaluatorFault, match=r"cannot go on: .* had no worker for"),
+        pytest.raises(EvaluatorFault, match=r"cannot continue: .* had no worker for"),
     ):
         run_suite(packaged(COPY), LONGER, executor=connected, progress=lambda _: process.kill())
 

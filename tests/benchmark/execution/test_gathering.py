@@ -104,7 +104,7 @@ def test_whatever_ends_a_worker_changes_nothing_but_the_count(failing, undisturb
 def test_a_pool_that_breaks_with_its_worker_ends_the_run(failing):
     with (
         ProcessPoolExecutor(1) as pool,
-        pytest.raises(EvaluatorFault, match="cannot go on: BrokenProcessPool"),
+        pytest.raises(EvaluatorFault, match="cannot continue: BrokenProcessPool"),
     ):
         run_suite(failing(ONCE, KILLED), SUITE, executor=pool)
 

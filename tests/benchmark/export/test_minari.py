@@ -155,5 +155,5 @@ def test_only_an_older_export_is_replaced_and_only_if_asked(bundle, boxes, prove
     ]
     assert json.loads((tmp_path / "out" / "colift.json").read_text())["policy"] == "uneven"
     (tmp_path / "out" / "colift.json").unlink()
-    with pytest.raises(InputError, match=r"is no export: it has no colift\.json"):
+    with pytest.raises(InputError, match=r"is not an export \(it has no colift\.json\)"):
         again(replace=True)

@@ -94,7 +94,7 @@ def test_a_damaged_checkpoint_is_refused(tmp_path):
 
 def test_a_folder_with_something_else_is_refused(tmp_path):
     (tmp_path / "thesis.txt").write_text("mine")
-    with pytest.raises(InputError, match="not empty, and no training's"):
+    with pytest.raises(InputError, match="not empty and not that of a training"):
         open_course(tmp_path, "cem", Settings(), 0)
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match=r"cannot use .*file"):

@@ -93,7 +93,7 @@ def test_every_seed_is_another_person_in_one_of_the_ways():
 def test_seeds_of_suites_and_of_tests_are_not_learned_from():
     rest = {"model": None, "window": WINDOW, "behaviours": BEHAVIOURS, "timing": Timing()}
     for seeds in (range(5), range(199_999, 200_001)):
-        with pytest.raises(InputError, match="seeds to learn from are 100000 to 199999"):
+        with pytest.raises(InputError, match="seeds for learning are 100000 to 199999"):
             collect_training_data(seeds, **rest)
     with pytest.raises(InputError, match="at least 1 lift"):
         collect_training_data(range(100_000, 100_000), **rest)

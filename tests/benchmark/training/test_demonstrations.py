@@ -150,7 +150,7 @@ def test_files_that_are_none_are_refused(tmp_path):
     ("lifts", "seed", "told"),
     [
         (0, FIRST_SEED, "lifts must be at least 1, got 0"),
-        (5, 12, "seeds must be above 14, which are the suites', got 12 to 16"),
+        (5, 12, "seeds must be above 14, the last seed of the suites; got 12 to 16"),
         (5, -1, "seeds must be above 14"),
     ],
 )

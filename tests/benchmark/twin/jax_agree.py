@@ -123,5 +123,5 @@ def test_people_who_go_slower_are_found(drawn, monkeypatch):
 
 @pytest.mark.parametrize("settings", [{"task": "level"}, {"task": "agree", "partner": "human"}])
 def test_what_the_twin_of_two_hurdles_does_not_model_is_refused(settings):
-    with pytest.raises(InputError, match="this twin has the task agree with a NAO"):
+    with pytest.raises(InputError, match="this twin models the task agree with a NAO"):
         draw_agree(make_scenario("smooth", **settings), 0)

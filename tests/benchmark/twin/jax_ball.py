@@ -124,5 +124,5 @@ def test_people_who_steer_otherwise_are_found(drawn, monkeypatch):
 
 @pytest.mark.parametrize("settings", [{"task": "level"}, {"task": "ball", "partner": "human"}])
 def test_what_the_twin_of_the_ball_does_not_model_is_refused(settings):
-    with pytest.raises(InputError, match="this twin has the task ball with a NAO"):
+    with pytest.raises(InputError, match="this twin models the task ball with a NAO"):
         draw_ball(make_scenario("smooth", **settings), 0)

@@ -67,5 +67,5 @@ def test_a_wrong_grip_is_found(drawn, monkeypatch):
 
 @pytest.mark.parametrize("settings", [{"task": "level"}, {"task": "intent", "partner": "human"}])
 def test_what_it_does_not_model_is_refused_by_name(settings):
-    with pytest.raises(InputError, match="this twin has the task intent with a NAO"):
+    with pytest.raises(InputError, match="this twin models the task intent with a NAO"):
         draw_intent(make_scenario("smooth", **settings), 0)

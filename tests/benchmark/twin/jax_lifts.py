@@ -35,7 +35,7 @@ class Bringing:
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"task": Other()}, "the task level alone, not 'other'"),
+        ({"task": Other()}, "the task level only, not 'other'"),
         ({"partner": "live"}, "not 'live'"),
         ({"latency": 0.3}, "a latency of 0.3 s needs more"),
         ({"human": Bringing(), "behaviour": "bringing"}, "'bringing' brings its own"),

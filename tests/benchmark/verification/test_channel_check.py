@@ -129,7 +129,7 @@ def test_the_answers_cannot_be_left_out(forged):
         (lambda channel: channel.pop("code"), "channel: code is missing"),
         (
             lambda channel: channel.update(code="0" * 16),
-            "what a channel does has changed since; run the policy again",
+            "the code of channels has changed since; run the policy again",
         ),
     ],
 )
