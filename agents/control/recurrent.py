@@ -25,7 +25,7 @@ SAG_GAIN: Final = 0.632
 """Gain per step of the filter of the measured sag: a time constant of one control period."""
 
 CORRECTION: Final = 0.02
-"""Height difference per unit of the network's output [m]."""
+"""Correction of the command per unit of the network's output [m]."""
 
 INPUTS: Final = 6
 

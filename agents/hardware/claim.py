@@ -114,8 +114,8 @@ class RobotClaim:
         if found.token != self._own.token:
             raise InputError(
                 f"the robot at {self._session.url} is commanded by {found.name}, and takes "
-                "only one client at a time: end that one first (a claim without a heartbeat is taken "
-                f"over after {STALE:g} s)"
+                "only one client at a time: end that one first (a claim without a heartbeat is "
+                f"taken over after {STALE:g} s)"
             )
 
     def beat(self) -> str:

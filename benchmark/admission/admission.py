@@ -83,7 +83,7 @@ def admission_of(
     names
         The policies, :data:`KEEPERS` among them; see :func:`players`.
     pairs
-        The result of :func:`.cross_play`; none: no pair was trained.
+        The result of :func:`.cross_play`; None if no pair was trained.
     executor, progress
         As for :func:`.run_suite`.
 

@@ -43,7 +43,8 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
     === ======================================================================
 
     Robot's action, shape ``(1,)`` or a plain number: change of the hand command in this step [m],
-    cut to +-0.04 for a period of 100 ms (0.4 m/s; see :func:`~colift.agents.actions.action_limit`).
+    clipped to +-0.04 for a period of 100 ms (0.4 m/s; see
+    :func:`~colift.agents.actions.action_limit`).
 
     Human's observation for ``n`` frames per step (10 for a period of 100 ms), slices of
     :class:`~colift.agents.agent.HumanObservation`, histories oldest first:

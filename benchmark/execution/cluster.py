@@ -133,7 +133,8 @@ class Cluster(Executor):
         return waiting
 
     def _sent(self, value: bytes) -> Any:
-        """Return the future of a large value, made by a call so that no worker can lose it."""
+        """Return the future of a large value; Dask repeats the call that makes it if a worker
+        dies."""
         import dask
 
         digest = hashlib.sha256(value).digest()

@@ -95,7 +95,7 @@ def sense(playing: LiftState, body: Body, past: Past, goal: jax.Array) -> tuple[
     0      height of the person's end
     1      goal above it
     2      hand's reference above it
-    3, 4   its change in the last step, and in the one before
+    3, 4   change of the person's end in the last step, and in the one before
     5, 6   other end above it, a visual delay ago, and its change in a step
     7, 8   force of the hands beyond the weight, a haptic delay ago, and its change
     ====== ==================================================================

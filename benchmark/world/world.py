@@ -48,7 +48,8 @@ class World(Protocol):
         human_reference
             The height that the human's arms pull towards at the end of each frame [m].
         robot_reference
-            The height at the far end likewise [m]; for a NAO, the commanded height of its hands.
+            The height that the arms at the far end pull towards [m]; for a NAO, the commanded
+            height of its hands.
         """
 
     def state(self) -> tuple[float, ...]:

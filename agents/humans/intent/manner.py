@@ -11,8 +11,7 @@ from .. import SUBJECTS, Subject
 
 @dataclass(frozen=True, kw_only=True)
 class LeadingManner:
-    """The share of an intention that a person's wrists show, its lead, and the person's
-    patience."""
+    """The share of an intention that a person's wrists show, its lead, and the patience."""
 
     wrist: float
     """Share of the intended pitch that the wrists turn to. A person with little of it leads by

@@ -152,7 +152,7 @@ def holes(name: str) -> list[str]:
         secret, shared = Path(directory, "secret"), Path(seen, "shared")
         for path in (secret, shared):
             path.write_text("colift")
-        os.utime(shared, (1, 2))  # The kernel records the next access.
+        os.utime(shared, (1, 2))  # Older than written: the next access is recorded.
         local.bind(str(Path(directory, "socket")))
         local.listen()
         files = (secret, "/etc/shadow", *(AGENTS / each for each in _SECRETS))
