@@ -41,7 +41,7 @@ class ScriptedHuman:
       proportional to it, and that of the position decays (Harris and Wolpert 1998);
     * the subject's tremor, a sine of random phase;
     * a voluntary correction c, which integrates the height error seen one visual delay ago and is
-    limited: the hand arrives even when the robot only holds.
+      limited: the hand arrives even when the robot only holds.
 
     The noise is drawn per frame and depends on the seed and the target alone, so that it is the
     same whatever the robot does.

@@ -68,8 +68,8 @@ class Homotopy:
     World Haptics 2009, and "Homotopy-based controller for physical human-robot interaction",
     RO-MAN 2009). L acts by a plan of its own, independent of the partner's present motion;
     F acts by the partner's intention alone. The authors give alpha as a function of time; here it
-    may be given (``times``, ``alphas``), or it follows the confidence of eq. 7, by which Thobbi, Gu
-    and Sheng (2011) adjust it automatically, at a limited rate.
+    may be given (``times``, ``alphas``), or it follows, at a limited rate, the confidence of eq. 7,
+    by which Thobbi, Gu and Sheng (2011) adjust it automatically.
 
     This follows the abstracts and the account of Thobbi, Gu and Sheng (section I). The authors'
     controllers were not available to us and would not apply: their robot measures forces, and its

@@ -133,8 +133,7 @@ class Cluster(Executor):
         return waiting
 
     def _sent(self, value: bytes) -> Any:
-        """Return the future of a large value; Dask repeats the call that makes it if a worker
-        dies."""
+        """Return the future of a large value; Dask repeats the call if a worker with it dies."""
         import dask
 
         digest = hashlib.sha256(value).digest()

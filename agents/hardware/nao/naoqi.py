@@ -39,8 +39,8 @@ SLOW: Final = 0.08
 """Fraction of the greatest speed at which the arms go to the rest posture: 0.6 rad/s."""
 
 LAG: Final = 0.3
-"""Longest time by which set-points may lag behind their commands [s]: two cycles of ALMotion (0.04
-s), the longest wait for an answer (0.15 s), and a margin for a busy robot."""
+"""Longest time by which set-points may lag behind their commands [s]: two ALMotion cycles (0.04 s),
+the longest wait for an answer (0.15 s), and a margin for a busy robot."""
 
 
 class NaoqiArm:
