@@ -41,7 +41,7 @@ class PoseFilterParameters:
 
 
 _exponential: Final = np.vectorize(math.exp, otypes=[np.float64])
-"""The C library's, since the bits of NumPy's own depend on the processor's vector extensions."""
+"""The C library's exponential: the bits of NumPy's depend on the processor's vector extensions."""
 
 
 class PoseFilter:

@@ -64,7 +64,9 @@ class Laboratory:
     Parameters
     ----------
     conditions
-        The emulated conditions. now Its time [s].
+        The emulated conditions.
+    now
+        Its time [s].
     pause
         Lets time pass [s], for calls that block.
     log

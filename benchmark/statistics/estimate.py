@@ -108,7 +108,7 @@ def difference_of_means(
 ) -> Estimate:
     """Return mean(a) - mean(b), of different episodes, with its 95 % interval.
 
-    For the same episodes, :func:`paired_difference` gives a narrower interval.
+    For the same episodes, use :func:`paired_difference`.
 
     Parameters
     ----------

@@ -70,7 +70,9 @@ def updates(
 
     Parameters
     ----------
-    settings The settings of the training. seed
+    settings
+        The settings of the training.
+    seed
         Seed of the first weights and of the batches; the lifts are the same for all seeds.
     learner
         The learner to continue from; None starts from the beginning.

@@ -29,7 +29,9 @@ def train_apg(
 
     Parameters
     ----------
-    settings The settings of the training. course
+    settings
+        The settings of the training.
+    course
         Its folder and seed.
     progress
         Called with the number of updates since the last call.

@@ -1,4 +1,4 @@
-"""Behaviour cloning: the actions of a data set, fitted by least squares; a late import, for JAX.
+"""Behaviour cloning: the actions of a data set, fitted by least squares. Needs JAX: import it late.
 
     minimise  mean (pi(s) - a)^2 over the steps (s, a) of the data,
 

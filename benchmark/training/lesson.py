@@ -42,7 +42,9 @@ class GradientLesson(Protocol):
 
         Parameters
         ----------
-        network The policy's network. pool
+        network
+            The policy's network.
+        pool
             The drawn lifts.
         settings
             Of the training.

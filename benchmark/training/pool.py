@@ -69,7 +69,9 @@ def draw_pool(count: int, wide: float, first_seed: int = FIRST_SEED) -> Pool:
 
     Parameters
     ----------
-    count Number of lifts. wide
+    count
+        Number of lifts.
+    wide
         Share of the lifts whose people have wide habits, bodies and sensors.
     first_seed
         Seed of the first lift.
@@ -222,7 +224,9 @@ def draw_arms(varied: jax.Array, size: int, keys: jax.Array) -> ArmVariation:
     ----------
     varied
         Standard deviation of the logarithms.
-    size Number of arms. keys
+    size
+        Number of arms.
+    keys
         (2,) random keys of the sag and of the gain.
     """
     sag, lag = (jnp.exp(varied * jax.random.normal(key, (size,))) for key in keys)

@@ -42,7 +42,9 @@ def run_updates(
     update
         Returns the state after one more update, and the steps that were played for it. It is
         called with the number of the update, from 0, and depends on nothing else that changes.
-    updates Number of updates. policy
+    updates
+        Number of updates.
+    policy
         Returns the weights of a state's robot.
     executor
         Plays the lifts of the curve; None plays them in this process.

@@ -30,7 +30,8 @@ class TouchLesson:
 
     Parameters
     ----------
-    task Name of the task.
+    task
+        Name of the task.
     """
 
     package: ModuleType = submission

@@ -50,7 +50,9 @@ def touch_rmse_mm(
 
     Parameters
     ----------
-    steps The steps of the task. policy, memory
+    steps
+        The steps of the task.
+    policy, memory
         The policy, and its memory at the beginning.
     lifts
         People, plans and noise.

@@ -130,7 +130,7 @@ def _predicted_peak(lifts: Sequence[SampledLift]) -> float:
 
 
 def _velocity_difference(lift: SampledLift, trailing: int) -> float:
-    """Return the rms difference of the predicted velocity from one some steps earlier [m/s]."""
+    """Return the rms difference of the predicted velocity and an earlier calculated one [m/s]."""
     velocity, _ = derivatives(lift)
     predicted = lift.one_step_ahead("predicted_velocity")
     return rms(predicted[LONGEST_TRAIL:] - np.roll(velocity, trailing)[LONGEST_TRAIL:])
