@@ -71,7 +71,7 @@ RULES: Final[Mapping[str, SetRule]] = {
     ),
     "expert": SetRule(
         agents=("expert",),
-        about="Lifts with `anticipate`, the best of the built-in policies.",
+        about="Lifts with `anticipate`, which plans by a learned forecast of the human's motion.",
         shows=(
             "A clone can come near its teacher, which has seen more than the five numbers of one "
             "step: the history of a second is needed.",
