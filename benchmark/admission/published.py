@@ -59,7 +59,7 @@ def negotiation_s(run: Run) -> float:
 def roles_mw(run: Run) -> float:
     """Return the increase in leading to one's own hurdle with less information about the partner.
 
-    The pair plays the lifts with two secrets, with the seeds below :data:`CROSSING_SEEDS`, twice:
+    The pair plays the lifts with two hurdles, with the seeds below :data:`CROSSING_SEEDS`, twice:
     as they are, and with an uncertainty of :data:`LITTLE_KNOWN`. The figure is the mean difference
     of the power with which the holders of hurdles lead [mW], at the lower end of its 95 % interval,
     over the hurdles that are crossed both times. A suite alone has few of these.

@@ -18,7 +18,7 @@ AGREE_METRICS: Final = metric_table(
             "hurdle and the robot's, and the height difference of its ends at the common height; "
             "hurdles that a lift does not have are left out",
             words=MetricWords(
-                question="Who agrees best with a human on two secrets?",
+                question="Who agrees best with a human on two hurdles?",
                 praise=("accurate", "more accurate", "most accurate"),
                 plain="how far the table misses the heights that both want it to pass, and level",
             ),

@@ -149,7 +149,7 @@ _SECRET_BOUND = np.array((HEIGHT_BOUND, LONGEST_EPISODE, LONGEST_EPISODE, 1.0))
 
 
 def agree_suite() -> Suite:
-    """5 subjects x 6 kinds of hurdles x 4 lifts: half with two secrets, a third with one."""
+    """5 subjects x 6 kinds of hurdles x 4 lifts: half with two hurdles, a third with one."""
     scenarios = tuple(
         make_scenario(behaviour, subject, task=Agree.name)
         for behaviour in BEHAVIOURS
