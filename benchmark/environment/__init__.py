@@ -1,6 +1,7 @@
 """The environment: one lift as a PettingZoo parallel game, an AEC game or a Gymnasium task."""
 
-from .parallel import ParallelLift, env, parallel_env
+from .aec import env, raw_env
+from .parallel import ParallelLift, parallel_env
 from .single import RobotEnv
 from .wrappers import History, HoldingPace, Scaled, training_env, training_view
 
@@ -12,6 +13,7 @@ __all__ = [
     "Scaled",
     "env",
     "parallel_env",
+    "raw_env",
     "training_env",
     "training_view",
 ]

@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
-from pettingzoo import AECEnv, ParallelEnv
-from pettingzoo.utils import OrderEnforcingWrapper, parallel_to_aec
+from pettingzoo import ParallelEnv
 
 from ...agents.agent import Action, Agent, Observation
 from ..episode.level import LEVEL as LEVEL_TASK
@@ -115,6 +114,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         self.action_spaces = {agent: action_space(self.lift, agent) for agent in agents}
         self._rng = np.random.default_rng()
         self._scene: Scene | None = None
+        self._begun = self._closed = False
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Return the parts of a new environment, to be reset: copies do not share a world."""
@@ -145,7 +145,10 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         InputError
             If an option names a setting such as ``subject``: settings are fixed when the
             environment is made. Other options are ignored.
+        RuntimeError
+            If the environment is closed.
         """
+        self._check_open()
         check_options(options, others=True)
         if seed is not None:
             self._rng = np.random.default_rng(seed)
@@ -158,6 +161,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
             self.lift = Lift(scenario, world=self.lift.world.with_person)
             info = {"scenario": scenario.name, "seed": seed}
         self.lift.reset(seed)
+        self._begun = True
         self.agents = list(self.possible_agents)
         self._render_in_window()
         return self._observations(), {agent: dict(info) for agent in self.agents}
@@ -176,15 +180,19 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         Raises
         ------
         ValueError
-            If an action is missing, of the wrong shape or not finite.
+            If an action is missing, of the wrong shape or not finite, or of an unknown agent.
         RuntimeError
-            If the episode is over, or none has begun.
+            If the episode is over, none has begun, or the environment is closed.
         """
+        self._check_open()
         if not self.agents:
             raise RuntimeError("the episode is over or has not begun: call reset() first")
         missing = [agent for agent in self.agents if agent not in actions]
         if missing:
             raise ValueError(f"actions must name every agent, missing: {', '.join(missing)}")
+        unknown = [agent for agent in actions if agent not in self.agents]
+        if unknown:
+            raise ValueError(f"actions must be of {' and '.join(self.agents)}, got {unknown}")
         lift = self.lift
         lift.step(actions[HUMAN], actions[ROBOT])
         rewards = score_rewards(lift) if self._reward == SCORE else lift.task.rewards(lift)
@@ -204,7 +212,15 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         return result
 
     def scripted_human(self) -> Agent:
-        """Return the agent that carries out the current episode's private plan."""
+        """Return the agent that carries out the current episode's private plan.
+
+        Raises
+        ------
+        RuntimeError
+            If no episode has begun.
+        """
+        if not self._begun:
+            raise RuntimeError("no episode has begun: call reset() first")
         return self.lift.scripted_human()
 
     def render(self) -> NDArray[np.uint8] | None:
@@ -223,11 +239,16 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
             self.render()
 
     def close(self) -> None:
-        """Release the world and the scene."""
+        """Release the world and the scene; a closed environment cannot be used again."""
+        self._closed = True
         self.lift.close()
         if self._scene is not None:
             self._scene.close()
             self._scene = None
+
+    def _check_open(self) -> None:
+        if self._closed:
+            raise RuntimeError("the environment is closed: make a new one")
 
     def _observations(self) -> dict[str, Observation]:
         return {
@@ -284,8 +305,3 @@ def parallel_env(
     else:
         made = drawing.scenarios[0]
     return ParallelLift(made, render_mode, reward=reward, drawing=drawing)
-
-
-def env(**settings: Any) -> AECEnv[str, Any, Any]:
-    """Return the AEC environment; ``settings`` are those of :func:`.parallel_env`."""
-    return OrderEnforcingWrapper(parallel_to_aec(parallel_env(**settings)))
