@@ -16,9 +16,9 @@ def timing_report(logs: Sequence[TrialLog]) -> dict[str, Any]:
     sensing_age_ms    age of the newest motion-capture frame when a step begins
     lowest_rate_hz    fewest frames of any second
     misdated          frames whose time stamps were ahead of the clock, or no numbers
-    state_ms          what reading the robot takes
-    policy_ms         what the policy takes, where it answered
-    command_ms        what giving a command takes, where one was given
+    state_ms          time to read the robot
+    policy_ms         time of the policy, where it answered
+    command_ms        time to give a command, where one was given
     period_error_ms   distance of the time between two steps from the control period
     late_steps        periods that were skipped because the loop came too late
     held              steps without a command, by their reason
