@@ -13,8 +13,8 @@ from colift.agents.agent import RobotObservation
 HERE = Path(__file__).parent
 
 LIMIT = 0.04  # Largest change of the hand command in a step [m].
-STEPS = 15  # Steps of the human's motion that are looked at: 1.5 s.
-COMMANDS = 3  # Steps of the own command that are looked at.
+STEPS = 15  # Steps of the human's motion among the inputs: 1.5 s.
+COMMANDS = 3  # Steps of the hand command among the inputs.
 INPUTS = 4 + COMMANDS + STEPS
 
 
