@@ -21,12 +21,9 @@ from ..benchmark.verification.checking import SUITE, Check, presubmission_checks
 from .completion import suites
 from .options import AsJson, Jobs
 from .policies import AUTO, NONE, auto_level, usable_level
-from .printing import argument, print_json
+from .printing import argument, print_json, printed_lines
 from .progress import workers
 from .remedies import explained
-
-PRINTED_LINES: Final = 20
-"""Lines of a policy's output that are shown with a failure."""
 
 COLUMN: Final = 21
 """Column in which the message of a check begins."""
@@ -67,16 +64,15 @@ def check(
         if not as_json:
             _show(console, each)
     failed = sum(not each.ok for each in done)
+    name, option = argument(folder), "" if suite == SUITE else f" --suite {suite}"
     if as_json:
         print_json(_content(folder, done))
     elif failed:
         checks = "1 check" if failed == 1 else f"{failed} checks"
-        _print(
-            console, f"{checks} failed. Fix the submission, then: colift check {argument(folder)}"
-        )
+        _print(console, f"{checks} failed. Fix the submission, then: colift check {name}{option}")
     else:
-        name = argument(folder)
-        _print(console, f"Next: colift run {name}, or colift submit {name} --board PATH")
+        submit = f"colift submit {name} --board PATH{option}"
+        _print(console, f"Next: colift run {name}{option}, or {submit}")
     if failed:
         raise typer.Exit(1)
 
@@ -146,9 +142,8 @@ def _show(console: Console, check: Check) -> None:
     lines = textwrap.wrap(check.message, width, break_long_words=False, break_on_hyphens=False)
     margin = "\n" + " " * COLUMN
     text = Text.assemble(mark, f"  {check.name:<11}  ", margin.join(lines))
-    if check.printed.strip():
-        last = check.printed.strip().splitlines()[-PRINTED_LINES:]
-        text.append(margin + "it printed:" + "".join(f"\n    {line}" for line in last), "dim")
+    if lines := printed_lines(check.printed):
+        text.append(margin + "\n".join(lines), "dim")
     console.print(text, soft_wrap=True, highlight=False)
     console.file.flush()
 

@@ -13,7 +13,7 @@ from ..benchmark.training.demonstrations import (
     demonstrations,
     write_demonstrations,
 )
-from .options import Jobs, check_output
+from .options import Jobs, check_new
 from .progress import workers
 
 
@@ -24,7 +24,7 @@ def demonstrate_lifts(
     jobs: Jobs = None,
 ) -> None:
     """Record simulated human-human lifts: drawn subjects, all behaviours, seeds in no suite."""
-    check_output(out)
+    check_new(out)
     recorded = record(lifts, seed, jobs)
     write_demonstrations(out, recorded)
     apart = np.concatenate([each["human_m"] - each["partner_m"] for each in recorded])

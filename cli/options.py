@@ -181,6 +181,19 @@ def executor(jobs: int | None, dask: str | None) -> AbstractContextManager[Execu
     return opened(dask_pool(dask), "--dask")
 
 
+def check_new(path: Path) -> None:
+    """Refuse a file that exists or cannot be written, before any work is done.
+
+    Raises
+    ------
+    InputError
+        If it exists, or as :func:`check_output`.
+    """
+    check_output(path)
+    if path.exists():
+        raise InputError(f"{path} exists; name a new file")
+
+
 def write_output(path: Path | None, content: str) -> None:
     """Write the result of a command into the requested file, if any, and report it."""
     if path is not None:

@@ -43,7 +43,7 @@ from .options import (
     executor,
 )
 from .policies import AUTO, choose_policy
-from .printing import argument, print_json, show
+from .printing import argument, print_json, printed_lines, show
 from .progress import progress_bar
 from .remedies import naming, opened
 from .tables.results import results_table, results_text
@@ -232,6 +232,7 @@ def _failures(run: Run) -> Iterator[str]:
             f"{len(failed)} of {len(run.episodes)} lifts failed and count as worst; "
             f"the first, {first.behaviour}/{first.subject} seed {first.seed}: {first.failure}"
         )
+        yield from printed_lines(first.log)
 
 
 def _interrupted(run: Run) -> str:

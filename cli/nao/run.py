@@ -1,11 +1,12 @@
 """``colift nao run``: trials of a policy on a robot."""
 
+import re
 import signal
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext, suppress
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Final
 
 import typer
 
@@ -17,13 +18,13 @@ from ...agents.hardware.stops import StopTrialError
 from ...agents.hardware.trial_end import AfterDuration, AfterLift
 from ...agents.hardware.trial_log import LoggedTrial, TrialLog, write_trial
 from ...agents.spec import AgentSpec
-from ...benchmark.bundle import check_bundle_folder, results, write_bundle
+from ...benchmark.bundle import check_bundle_folder, check_unfinished, results, write_bundle
 from ...benchmark.episode.turns import policy_seed
 from ...benchmark.execution.runner import Run
 from ...benchmark.hardware.timing import timing_report
 from ...benchmark.hardware.trial import episode, hardware_run, hardware_suite
 from ...benchmark.suites.suite import Suite
-from ..options import PERIOD_OPTION, AsJson, PolicyIsolation, PolicyName
+from ..options import PERIOD_OPTION, AsJson, PolicyIsolation, PolicyName, check_folder
 from ..policies import AUTO, choose_policy
 from ..printing import print_json, show
 from ..remedies import naming
@@ -39,6 +40,9 @@ from .connections import (
     layout_of,
     open_place,
 )
+
+NUMBERED: Final = re.compile(r"lift-(\d+)\.csv")
+"""Names of recorded trials."""
 
 
 def run_on_robot(
@@ -80,7 +84,11 @@ def run_on_robot(
         bool, typer.Option("--yes", help="Do not wait for the operator's confirmations.")
     ] = False,
     record: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder for a CSV file per trial.")
+        Path | None,
+        typer.Option(
+            metavar="DIR",
+            help="Folder for a CSV file per trial; earlier trials in it are kept.",
+        ),
     ] = None,
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Folder for the result bundle.")
@@ -103,8 +111,8 @@ def run_on_robot(
     if out is not None:
         with naming("--out"):
             check_bundle_folder(out)
-    if record is not None:
-        record.mkdir(parents=True, exist_ok=True)
+            check_unfinished(out)
+    first = 1 if record is None else _first_number(record)
     button = StopButton()
 
     def confirm(line: str) -> None:
@@ -134,7 +142,8 @@ def run_on_robot(
                 for played in _trials(session, spec, trials, settings, duration):
                     records.append(played)
                     if record is not None:
-                        _record(record, policy, session, played, number=len(records))
+                        number = first + len(records) - 1
+                        _record(record, policy, session, played, number=number)
             except StopTrialError as stop:
                 session.stop(stop)
                 raise
@@ -184,6 +193,13 @@ def _trials(
         if played.stop is not None:
             raise StopTrialError(played.stop, played.reason)
         _report_line(f"lift {number} of {trials}: {len(played.steps)} steps")
+
+
+def _first_number(folder: Path) -> int:
+    """Make the folder of trials, and return the number after the last trial in it."""
+    check_folder("--record", folder)
+    found = (NUMBERED.fullmatch(path.name) for path in folder.iterdir())
+    return 1 + max((int(each[1]) for each in found if each), default=0)
 
 
 def _record(folder: Path, policy: str, session: Session, played: TrialLog, *, number: int) -> None:

@@ -144,6 +144,22 @@ def test_a_failure_is_shown_with_what_was_printed_and_what_to_do(colift, mine):
     assert '\n      File "policy.py", line 5, in act\n' in printed
 
 
+def test_the_next_commands_are_for_the_suite_that_was_checked(colift, mine):
+    done = colift("check", "mine", "--suite", "intent-v1")
+    run, submit = "colift run mine --suite intent-v1", "colift submit mine --board PATH"
+    assert done.stdout.splitlines()[-1] == f"Next: {run}, or {submit} --suite intent-v1"
+    (mine / "policy.py").write_text(FAILING["later"][0])
+    done = colift("check", "mine", "--suite", "intent-v1")
+    assert done.stdout.splitlines()[-1].endswith("colift check mine --suite intent-v1")
+
+
+def test_run_shows_where_a_policy_fails(colift, mine):
+    (mine / "policy.py").write_text(FAILING["later"][0])
+    done = colift("run", "mine", "--suite", "quick-v1", "--seeds", "0:1")
+    assert done.returncode == 1
+    assert '      File "policy.py", line 5, in act\n' in done.stderr
+
+
 def test_a_traceback_has_the_policys_own_files_and_lines_alone(checked, mine):
     (mine / "helper.py").write_text("def half(x):\n    return 1 / x\n")
     found = checked("import helper\n" + ACTING + "helper.half(0)\n")

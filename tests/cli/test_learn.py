@@ -45,6 +45,7 @@ def test_a_model_is_learned_to_the_same_bytes_and_can_be_run(colift, demonstrate
     [
         (["demonstrate"], "--out"),
         (["demonstrate", "--out", "/nowhere/x.csv"], "no folder /nowhere"),
+        (["demonstrate", "--out", "/etc/hostname"], "/etc/hostname exists; name a new file"),
         (["demonstrate", "--out", "x.csv", "--seed", "3"], "seeds must be above 14"),
         (["demonstrate", "--out", "x.csv", "--lifts", "0"], "lifts must be at least 1, got 0"),
         (["learn", "task_model", "--practice", "0"], "--practice must be at least 1, got 0"),

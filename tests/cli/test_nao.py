@@ -108,6 +108,19 @@ def test_a_lift_is_scored_as_a_simulated_one(lifted):
     )
 
 
+def test_trials_and_bundles_that_are_there_are_kept(colift, tmp_path):
+    run = ("nao", "run", "copy", "--robot", "world:smooth/S1", "--trials", 1, "--yes")
+    record, out = ("--record", tmp_path / "csv"), ("--out", tmp_path / "out")
+    assert colift(*run, *record, *out).returncode == 0
+    first = (tmp_path / "csv" / "lift-01.csv").read_bytes()
+    refused = colift(*run, *record, *out)
+    assert refused.returncode == 2
+    assert "holds a finished result bundle; name a new folder" in refused.stderr
+    assert colift(*run, *record).returncode == 0
+    assert {path.name for path in (tmp_path / "csv").iterdir()} == {"lift-01.csv", "lift-02.csv"}
+    assert (tmp_path / "csv" / "lift-01.csv").read_bytes() == first
+
+
 def test_its_recording_replays_to_the_same_commands_bit_for_bit(colift, lifted):
     _, folder = lifted
     done = colift("nao", "replay", folder / "csv" / "lift-01.csv")
