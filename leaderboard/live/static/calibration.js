@@ -6,6 +6,7 @@
   const KEPT = "colift-play-input";
   const CARD_MM = 85.6; // ISO/IEC 7810 ID-1: every bank card
   const COUNTS_PER_METRE_800 = 800 / 0.0254; // an ordinary mouse
+  const STEERED = ["keyboard", "gamepad"];
 
   const read = (store, key) => {
     try {
@@ -24,8 +25,9 @@
   Object.assign(play, { read, write });
 
   class Input {
-    // form: the inputs; stage: knows the pixels of a metre.
-    constructor(form, stage) {
+    // form: the inputs; stage: knows the pixels of a metre; steer(): a person has chosen to lift by
+    // keys or a gamepad.
+    constructor(form, stage, steer) {
       this.form = form;
       this.stage = stage;
       this.card = null;
@@ -44,7 +46,28 @@
         this.show();
       });
       form.addEventListener("submit", (event) => event.preventDefault());
+      this.listen(steer);
       this.show();
+    }
+
+    // A pointer, Space or Enter makes a choice. The arrow keys only go through the choices: browsers
+    // report that as a click, too.
+    listen(steer) {
+      let passing = false;
+      const made = (event) => event.target.name === "preset" && this.steered && steer();
+      this.form.addEventListener("pointerdown", () => (passing = false));
+      this.form.addEventListener("keydown", (event) => {
+        passing = event.key.startsWith("Arrow");
+        if (![" ", "Enter"].includes(event.key) || !event.target.checked) return;
+        event.preventDefault();
+        made(event);
+      });
+      this.form.addEventListener("click", (event) => passing || made(event));
+    }
+
+    // Whether the keys of the stage, or a gamepad, move the table.
+    get steered() {
+      return STEERED.includes(this.preset);
     }
 
     get preset() {

@@ -27,7 +27,7 @@
         cued: (height) => this.told.say(height > 0.001 ? "Lift to the line." : "Back to rest."),
         slow: (slow) => (at("slow").hidden = !slow),
       });
-      this.input = new play.Input(at("input"), () => this.stage);
+      this.input = new play.Input(at("input"), () => this.stage, () => at("stage").focus());
       at("input").addEventListener("input", () => this.show());
       this.lobby = new play.Lobby(at("choice"), at("people"), {
         choose: (choice) => this.choose(choice),
@@ -219,10 +219,17 @@
       this.show();
     }
 
+    // At the table the keys work at once, unless the focus is on something that is still there.
+    steer() {
+      const lost = document.activeElement === document.body || document.activeElement.closest("[hidden]");
+      if (this.input.steered && !this.watching && lost) at("stage").focus({ preventScroll: true });
+    }
+
     view(view) {
       document.body.dataset.view = view;
       at("choice").hidden = view !== "choose";
       at("panel").hidden = view !== "table";
+      if (view === "table") this.steer();
       this.stage.fit();
       this.show();
       window.scrollTo(0, 0);

@@ -95,6 +95,57 @@ def test_keys_alone_are_enough(page, url):
     assert '{"type":"release"}' in hand.messages
 
 
+@pytest.mark.parametrize("part", ["the button", "its label"])
+def test_the_keys_work_as_soon_as_the_keyboard_is_chosen(page, url, part):
+    """As the page says: Space takes hold, and the arrow keys move the table."""
+    enter(page, url)
+    page.locator("#input summary").click()
+    button = page.get_by_label("keyboard")
+    (button if part == "the button" else page.get_by_text("keyboard", exact=True)).click()
+    page.keyboard.press("Space")
+    begin(page)
+    page.keyboard.down("ArrowUp")
+    wait_for(page, "coliftPlay.page.stage.shown.human", lambda height: height > 0.03)
+    assert button.is_checked()
+    page.keyboard.press("Escape")
+    expect(page.locator("#status")).to_contain_text("let go", timeout=WAIT_MS)
+
+
+@pytest.mark.parametrize("key", ["Space", "Enter"])
+def test_the_arrow_keys_go_through_the_inputs_and_a_key_chooses_one(page, url, key):
+    enter(page, url)
+    page.locator("#input summary").click()
+    focused = "document.activeElement.value || document.activeElement.id"
+    page.get_by_label("mouse").focus()
+    for way, value in (
+        ("Down", "touch"),
+        ("Down", "keyboard"),
+        ("Down", "gamepad"),
+        ("Up", "keyboard"),
+    ):
+        page.keyboard.press(f"Arrow{way}")
+        assert page.evaluate(focused) == value
+        assert page.locator("[name=preset]:checked").input_value() == value
+    page.keyboard.press(key)
+    assert page.evaluate(focused) == "stage"
+    wait_for_phase(page, "ready")
+    page.keyboard.press("Space")
+    begin(page)
+    page.keyboard.press("Space")
+    expect(page.locator("#status")).to_contain_text("let go", timeout=WAIT_MS)
+
+
+def test_the_keys_work_at_once_with_a_keyboard_that_was_chosen_before(page, url):
+    page.add_init_script(
+        "localStorage.setItem('colift-play-input', JSON.stringify({ preset: 'keyboard' }))"
+    )
+    enter(page, url)
+    page.keyboard.press("Space")
+    begin(page)
+    page.keyboard.press("Space")
+    expect(page.locator("#status")).to_contain_text("let go", timeout=WAIT_MS)
+
+
 def test_a_click_or_escape_lets_go_of_the_mouse(page, url):
     hand = Hand(page)
     enter(page, url)
