@@ -151,6 +151,15 @@ class Seats:
         return found
 
 
+def watched_sentence(phase: str, partner: str) -> str:
+    """Return a sentence on what the people wait for, as a spectator is told it."""
+    return {
+        "preparing": f"{partner} is getting ready.",
+        "lifting": "They lift.",
+        "waiting": "The second person is not here yet.",
+    }.get(phase, "The next lift begins when they take hold.")
+
+
 def _sentence(phase: str, partner: LivePartner) -> str:
     """Return a sentence on what the people wait for."""
     if phase == "preparing":

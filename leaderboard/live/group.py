@@ -4,7 +4,7 @@ import json
 from typing import Any, Final
 
 from ...benchmark.live.process import BINARY, JOIN, LEAVE, packet
-from ...benchmark.live.seats import ALL
+from ...benchmark.live.seats import ALL, watched_sentence
 from .page import TAKEN_OVER, Message, Page
 from .relay import RoomLink
 from .sessions import LiveSession, Role
@@ -173,12 +173,18 @@ class Group:
         if kind not in WATCHED:
             return None
         if kind == "state":
-            message = json.dumps({**json.loads(message), "you": "spectator", "role": None})
+            message = json.dumps(_watched_state(json.loads(message)))
         if kind in KEPT:
             self._shown[kind] = message
         else:
             self._shown.pop("start", None)  # The lift has ended.
         return message
+
+
+def _watched_state(state: dict[str, Any]) -> dict[str, Any]:
+    """Return the host's state of the room as that of somebody who can only watch."""
+    told = watched_sentence(state["phase"], state["partner"])
+    return {**state, "you": "spectator", "role": None, "message": told}
 
 
 def _type_of(message: str) -> str | None:

@@ -63,6 +63,12 @@
       return this.connection.place !== null && this.connection.place.seat === "spectator";
     }
 
+    // Whether this page has an end of the table, or will have one: not if it watches, or if its link
+    // leads nowhere.
+    get holds() {
+      return !this.watching && !this.turnedAway;
+    }
+
     get may() {
       const phase = this.state && this.state.phase;
       const ready = phase === "ready" || phase === "ended";
@@ -122,6 +128,7 @@
 
     joined(message) {
       this.seated = this.before = true;
+      this.turnedAway = false;
       this.settled = this.measured = false;
       this.told.offer(null);
       this.lobby.guest = this.connection.place.seat !== 0;
@@ -167,7 +174,8 @@
         this.told.say("The lift is over.");
       } else {
         this.lifting.drop();
-        this.told.say(`This lift does not count: ${message.reason}. Take hold to repeat it.`);
+        const again = this.watching ? "" : " Take hold to repeat it.";
+        this.told.say(`This lift does not count: ${message.reason}.${again}`);
       }
       this.clock.measure((ping) => this.connection.send(ping), PINGS);
       this.show();
@@ -175,7 +183,7 @@
 
     finished(end, delays) {
       if (!this.watching) for (const report of delays.reports(end.lift)) this.connection.send(report);
-      this.result.show(end, this.state.partner, delays);
+      this.result.show(end, this.state.partner, delays, this.watching);
       this.told.say(end.failure ? "The lift failed." : `Level to ${end.rmse_mm.toFixed(1)} mm (RMSE).`);
       this.show();
     }
@@ -209,6 +217,7 @@
 
     ended(sentence, why) {
       this.seated = this.settled = false;
+      this.turnedAway = !this.before;
       this.drop();
       this.state = null;
       this.life.awake(false);
@@ -244,7 +253,10 @@
       at("lift").hidden = !this.may || this.input.preset === "touch" || document.body.dataset.view !== "table";
       at("touch").hidden = !this.may || this.input.preset !== "touch" || document.body.dataset.view !== "table";
       at("again").disabled = !this.may;
-      for (const id of ["change", "next", "again"]) at(id).classList.toggle("away", this.lobby.guest && id !== "again");
+      for (const id of ["change", "next"]) at(id).classList.toggle("away", this.lobby.guest || !this.holds);
+      at("again").classList.toggle("away", !this.holds);
+      for (const id of ["how", "input"]) at(id).hidden = !this.holds;
+      this.stage.name(this.holds);
       at("change").disabled = phase === "lifting" || phase === "gripped";
       this.input.show();
     }

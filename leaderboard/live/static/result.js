@@ -38,7 +38,8 @@
       this.root.hidden = true;
     }
 
-    show(end, partner, delays) {
+    // watched: whether this person only watched, and is told no comparison.
+    show(end, partner, delays, watched = false) {
       this.end = end;
       this.partner = partner;
       this.root.hidden = false;
@@ -54,7 +55,7 @@
       this.part("standing").textContent = "";
       this.part("policies").replaceChildren();
       this.part("watching").textContent = "";
-      this.part("comparing").hidden = false;
+      this.part("comparing").hidden = watched;
     }
 
     best(end, partner) {

@@ -64,6 +64,13 @@
       this.scene.level.group.setAttribute("transform", `translate(0 ${lower})`);
     }
 
+    // For a screen reader; holds: whether this person has an end of the table.
+    name(holds) {
+      this.host.setAttribute("aria-label", holds ? "Your end of the table" : "The table");
+      if (holds) this.host.setAttribute("aria-describedby", "how");
+      else this.host.removeAttribute("aria-describedby");
+    }
+
     // seat: the end that this person holds, "human" or "far"; null for a spectator.
     seat(seat) {
       if (this.at === seat) return;

@@ -125,6 +125,8 @@ def test_a_full_house_is_a_place_in_the_queue(open_page, sessions, monkeypatch):
 def test_a_wrong_link_is_said_and_left_behind(page, url):
     page.goto(f"{url}/#s=20260101-0123456789ab.wrong")
     status(page).to_contain_text("There is no such session", timeout=WAIT_MS)
+    for part in ("#how", "#input", "#change"):
+        assert not page.locator(part).is_visible()
     page.get_by_role("button", name="New session").click()
     expect(page.get_by_role("button", name="To the table")).to_be_visible()
 

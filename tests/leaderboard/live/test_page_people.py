@@ -80,6 +80,38 @@ def test_two_people_and_a_spectator(open_page, url):
     expect(host.locator("#who")).to_have_text("The second person is not here yet.", timeout=WAIT_MS)
 
 
+def test_a_spectator_is_told_nothing_to_do(open_page, url):
+    """Instructions and input are for those who hold the table."""
+    host, watcher = open_page(), open_page()
+    host.goto(url)
+    host.locator('input[name="partner"][value="person"]').check()
+    host.get_by_role("button", name="To the table").click()
+    expect(host.locator("#status")).to_contain_text("send them the link", timeout=WAIT_MS)
+    watcher.goto(host.locator("#watch-link").input_value())
+    status = watcher.locator("#status")
+    expect(status).to_have_text("The second person is not here yet.", timeout=WAIT_MS)
+    for part in ("#how", "#input", "#change"):
+        assert host.locator(part).is_visible()
+        assert not watcher.locator(part).is_visible()
+    assert watcher.locator("#stage").get_attribute("aria-describedby") is None
+    host.get_by_role("button", name="Change the partner").click()
+    host.locator('input[name="partner"][value="hold"]').check()
+    host.get_by_role("button", name="To the table").click()
+    expect(status).to_have_text("The next lift begins when they take hold.", timeout=WAIT_MS)
+    wait_until_ready(host)
+    grip(host)
+    expect(status).to_have_text("They lift.", timeout=WAIT_MS)
+    host.keyboard.press("Space")
+    expect(status).to_have_text("This lift does not count: the hand let go.", timeout=WAIT_MS)
+    watcher.evaluate("""
+        coliftPlay.page.finished(
+            { lift: 1, rmse_mm: 4.25, ghost_rmse_mm: 5.1, failure: null }, new coliftPlay.Delays())
+    """)
+    assert watcher.get_by_role("button", name="Watch it").is_visible()
+    assert not watcher.locator("#again, #next").locator("visible=true").count()
+    assert not watcher.get_by_text("with your movement").is_visible()
+
+
 def test_a_person_in_the_place_of_the_robot(open_page, url):
     host, guest = open_page(), open_page()
     host.goto(url)
