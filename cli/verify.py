@@ -11,15 +11,19 @@ import typer
 
 from ..agents.errors import EvaluatorFault, InputError
 from ..benchmark.bundle import check_bundle_folder, check_unfinished, one_line, write_bundle
+from ..benchmark.bundle.files import RESULTS
 from ..benchmark.execution.pool import checked_jobs, process_pool
 from ..benchmark.execution.runner import Run
-from ..benchmark.live.session import is_session, lift_folders
+from ..benchmark.live.session import is_session, lift_folders, sessions_in
 from ..benchmark.results.headline import headline
 from ..benchmark.verification import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Verdict, verify
 from .options import AsJson, Jobs
-from .printing import print_json, show
+from .printing import argument, print_json, show
 from .progress import progress_bar
 from .remedies import naming
+
+MOST_SESSIONS: Final = 5
+"""Largest number of sessions that are named."""
 
 MOST_LINES: Final = 20
 """Largest number of differences between platforms that are printed."""
@@ -64,6 +68,7 @@ def verify_bundle(
             raise InputError("--rescore takes one bundle, not a session: name one of its lifts")
         _verify_session(bundle, count, as_json=as_json)
         return
+    _check_not_of_sessions(bundle)
     with _checking(bundle, count) as check:
         verdict = check(bundle)
     written = rescore is not None and (verdict.ok or verdict.rescorable)
@@ -84,6 +89,20 @@ def verify_bundle(
         print(_outdated(bundle, *verdict.scoring), file=sys.stderr)
     if not (verdict.ok or written):
         raise typer.Exit(1)
+
+
+def _check_not_of_sessions(folder: Path) -> None:
+    """Raise an InputError if a folder is that of several sessions, as 'colift play' makes it."""
+    sessions = [] if (folder / RESULTS).exists() else sessions_in(folder)
+    if not sessions:
+        return
+    names = ", ".join(each.name for each in sessions[:MOST_SESSIONS])
+    more = len(sessions) - MOST_SESSIONS
+    example = next(filter(lift_folders, sessions), sessions[0])
+    raise InputError(
+        f"{folder} contains sessions of live lifts ({names}{f' and {more} more' * (more > 0)}), "
+        f"not a result bundle; verify one of them: colift verify {argument(example)}"
+    )
 
 
 @contextmanager
@@ -113,10 +132,19 @@ def _verify_session(session: Path, jobs: int, *, as_json: bool) -> None:
             print(f"{folder.name}: {finding}", file=sys.stderr)
         if not verdict.findings and verdict.scoring is not None:
             print(_outdated(folder, *verdict.scoring), file=sys.stderr)
-    if not as_json:
-        print(f"{len(verdicts) - len(refused)} of {len(verdicts)} live lifts are verified.")
-    if refused:
+    if verdicts and not as_json:
+        print(_count(len(verdicts) - len(refused), len(verdicts)))
+    if not verdicts:
+        print(f"{session} has no lift to verify: none has counted yet", file=sys.stderr)
+    if refused or not verdicts:
         raise typer.Exit(1)
+
+
+def _count(verified: int, lifts: int) -> str:
+    """Return the sentence on how many lifts of a session are verified."""
+    if lifts == 1:
+        return f"The live lift is {'verified' if verified else 'not verified'}."
+    return f"{verified} of {lifts} live lifts are verified."
 
 
 def _write(folder: Path, verdict: Verdict) -> None:

@@ -127,8 +127,19 @@ def folder_name(name: str) -> str:
 
 
 def is_session(path: Path) -> bool:
-    """Return whether a path is the folder of a session."""
-    return (path / LIFTS).is_dir()
+    """Return whether a path is the folder of a session.
+
+    One that has never had a room has no folder of lifts yet, but its data.
+    """
+    return (path / LIFTS).is_dir() or (path / SESSION).is_file()
+
+
+def sessions_in(path: Path) -> list[Path]:
+    """Return the sessions directly in a folder, by name; none if it cannot be read."""
+    try:
+        return sorted(filter(is_session, path.iterdir()))
+    except OSError:
+        return []
 
 
 def lift_folders(path: Path) -> list[Path]:

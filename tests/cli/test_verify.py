@@ -150,9 +150,43 @@ def test_a_session_says_which_lifts_have_older_scores(colift, folder):
     code, told, errors = colift("verify", "session")
     number, verdict = told.splitlines()
     assert re.fullmatch(r"001-copy: \d+\.\d\d mm, equal to the bit", number)
-    assert (code, verdict) == (1, "0 of 1 live lifts are verified.")
+    assert (code, verdict) == (1, "The live lift is not verified.")
     assert errors.startswith(f"session/lifts/001-copy has scores of version {SCORING - 1}")
     assert "colift verify session/lifts/001-copy --rescore DIR" in errors
+
+
+def test_a_session_is_counted_in_words(colift, folder):
+    for number in (1, 2):
+        shutil.copytree(folder / "bundle", folder / "session" / "lifts" / f"00{number}-copy")
+        code, told, errors = colift("verify", "session")
+        sentence = ("The live lift is verified.", "2 of 2 live lifts are verified.")[number - 1]
+        assert (code, told.splitlines()[-1], errors) == (0, sentence, "")
+
+
+@pytest.mark.parametrize("part", ["lifts", "session.json"])
+def test_a_session_without_a_lift_is_not_verified(colift, tmp_path, part):
+    session = tmp_path / "live" / "20270301-0123456789ab"
+    session.mkdir(parents=True)
+    (session / part).write_text("{}") if "." in part else (session / part).mkdir()
+    code, told, errors = colift("verify", session)
+    assert (code, told) == (1, "")
+    assert errors == f"{session} has no lift to verify: none has counted yet\n"
+    code, told, _ = colift("verify", session, "--json")
+    assert (code, json.loads(told)) == (1, {})
+
+
+def test_the_folder_of_sessions_names_them(colift, folder):
+    """As 'colift play' leaves it: the session of which a lift counts is the one to verify."""
+    for number in range(7):
+        (folder / "live" / f"20270301-{number}" / "lifts").mkdir(parents=True)
+    shutil.copytree(folder / "bundle", folder / "live" / "20270301-2" / "lifts" / "001-copy")
+    code, told, errors = colift("verify", "live")
+    assert (code, told) == (2, "")
+    names = ", ".join(f"20270301-{number}" for number in range(5))
+    assert errors == (
+        f"error: live contains sessions of live lifts ({names} and 2 more), not a result bundle; "
+        "verify one of them: colift verify live/20270301-2\n"
+    )
 
 
 def test_scores_of_a_newer_version_are_for_a_newer_colift(colift, folder):
