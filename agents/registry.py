@@ -85,11 +85,22 @@ def own_policies(task: str) -> tuple[str, ...]:
     return tuple(name for name in playing(task) if name in own)
 
 
+def other_task(policy: str, task: str) -> str | None:
+    """Return the task of a registered policy that is not for ``task``; None for all other policies.
+
+    The name may be followed by a comma and parameters.
+    """
+    name = policy.partition(",")[0]
+    entry = entries(POLICIES).get(name)
+    if entry is None or name in playing(task):
+        return None
+    return entry.group.removeprefix(f"{POLICIES}.")
+
+
 def check_plays(policy: str, task: str) -> None:
     """Raise an InputError if a registered policy is for another task; others pass."""
-    entry = entries(POLICIES).get(policy)
-    if entry is not None and policy not in playing(task):
-        own = entry.group.removeprefix(f"{POLICIES}.")
+    own = other_task(policy, task)
+    if own is not None:
         raise InputError(
             f"policy {policy!r} is for the task {own!r}, not for {task!r}: choose "
             f"the task {own!r}, or a suite of it"

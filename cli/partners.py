@@ -5,9 +5,11 @@ from collections.abc import Mapping
 
 from ..agents.errors import EvaluatorFault, InputError
 from ..agents.loading.loading import PolicySpec
-from ..agents.registry import playing, summary
+from ..agents.registry import other_task, playing, summary
 from ..agents.spec import AgentSpec
 from ..benchmark.episode.level import LEVEL
+from ..benchmark.execution.fitting import check_fits, first_failure
+from ..benchmark.suites.catalogue import make_scenario
 from .policies import AUTO, choose_policy
 
 FIRST = "anticipate"
@@ -32,10 +34,17 @@ def partners(first: str = FIRST, isolation: str = AUTO) -> Partners:
     Raises
     ------
     InputError
-        If there is no such policy or isolation.
+        If there is no such policy or isolation, or the policy cannot lift a level table.
     """
+    own = other_task(first, LEVEL.name)
+    if own is not None:
+        raise InputError(
+            f"policy {first!r} is for the task {own!r}: people lift with policies for the task "
+            f"{LEVEL.name!r}"
+        )
     chosen = choose_policy(first, isolation)
     chosen.check()
+    _check_lifts(chosen)
     found: dict[str, AgentSpec] = {chosen.name: chosen}
     for name in playing(LEVEL.name):
         if name in found:
@@ -45,6 +54,15 @@ def partners(first: str = FIRST, isolation: str = AUTO) -> Partners:
         except (InputError, EvaluatorFault) as error:
             print(f"{name} cannot be a partner: {error}", file=sys.stderr)
     return found, _lines(found)
+
+
+def _check_lifts(policy: AgentSpec) -> None:
+    """Refuse a policy that fails in the first step of a lift: nobody could lift with it."""
+    scenario = make_scenario("smooth")
+    check_fits(policy, scenario)
+    reason = first_failure(policy, scenario)
+    if reason is not None:
+        raise InputError(f"policy {policy.name!r} cannot be a partner: {reason}")
 
 
 def _lines(found: Mapping[str, AgentSpec]) -> dict[str, str]:

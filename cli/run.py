@@ -19,6 +19,7 @@ from ..benchmark.bundle.recipe import FROM_NAMES, Recipe
 from ..benchmark.channels import Channel, recorded
 from ..benchmark.episode.metric import Metrics
 from ..benchmark.execution.cluster import Cluster
+from ..benchmark.execution.fitting import check_fits
 from ..benchmark.execution.journal import Journal, open_journal
 from ..benchmark.execution.provenance import origin, platform_of
 from ..benchmark.execution.runner import InterruptedRunError, Run, run_suite
@@ -94,6 +95,7 @@ def run(
     check_plays(policy, episodes.scenarios[0].task.name)
     spec = choose_policy(policy, isolation)
     spec.check()
+    check_fits(spec, episodes.scenarios[0])
     verifiable = out is None or Recipe.of(episodes, network) is not None
     if not verifiable:
         print(

@@ -159,6 +159,11 @@ def test_other_machines_are_told_what_they_lack(play):
         (["nonesuch"], "unknown policy 'nonesuch'"),
         (["hold", "--isolation", "strong"], "unknown isolation 'strong'"),
         (["hold", "--rooms", "0"], "--rooms"),
+        (
+            ["ball_game,gain=1"],
+            "policy 'ball_game,gain=1' is for the task 'ball': people lift with policies for the "
+            "task 'level'",
+        ),
         (["hold", "--out", "/dev/null"], "--out: /dev/null cannot be a folder"),
         (["hold", "--host", "192.0.2.1"], "cannot listen on 192.0.2.1"),
     ],
@@ -168,6 +173,29 @@ def test_wrong_usage_is_one_clear_line(colift, arguments, told):
     assert done.returncode == 2
     assert told in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("needs", "told"),
+    [
+        (10, "policy 'Mine' is for the task 'ball', not for 'level', where it fails at once: step"),
+        (99, "policy 'Mine' cannot be a partner: step 0: ValueError: got 5"),
+    ],
+)
+def test_a_policy_that_nobody_could_lift_with_is_refused_at_the_start(
+    colift, tmp_path, needs, told
+):
+    (tmp_path / "mine.py").write_text(
+        "class Mine:\n"
+        "    def reset(self, seed): pass\n"
+        "    def act(self, observation):\n"
+        f"        if len(observation) != {needs}: raise ValueError(f'got {{len(observation)}}')\n"
+        "        return [0.0]\n"
+    )
+    done = colift("play", "mine.py:Mine", "--no-browser", "--port", "0")
+    assert done.returncode == 2
+    assert told in done.stderr
+    assert done.stdout == ""
 
 
 def test_without_its_libraries_it_says_how_to_get_them(tmp_path):

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from colift.agents.extras import how_to_install
+from colift.agents.submissions.new import write_template
 from colift.benchmark.execution.journal import journal_path, records
 from colift.benchmark.profiling.loopback import loopback_cluster
 
@@ -23,6 +24,15 @@ class Slow:
     def act(self, observation):
         time.sleep(0.002)
         return np.array([observation[0] - observation[3]])
+"""
+
+FOR_THE_BALL = """
+class Policy:
+    def reset(self, seed): pass
+    def act(self, observation):
+        if len(observation) != 10:
+            raise ValueError(len(observation))
+        return [0.0]
 """
 
 DYING = """
@@ -261,6 +271,17 @@ def test_what_is_wrong_is_said_in_a_line(colift, options, words):
     assert code == 2
     assert words in told
     assert told.count("\n") == 1
+
+
+def test_a_submission_for_another_task_is_refused_before_the_first_lift(colift, tmp_path):
+    write_template(tmp_path / "mine")
+    (tmp_path / "mine" / "policy.py").write_text(FOR_THE_BALL)
+    code, told, errors = colift("run", "mine", "--suite", "quick-v1", "--out", "kept")
+    assert (code, told) == (2, "")
+    assert errors.splitlines()[-1].endswith(
+        "is for the task 'ball', not for 'level', where it fails at once: step 0: ValueError: 5"
+    )
+    assert not (tmp_path / "kept").exists()
 
 
 def test_a_missing_dask_names_the_extra():

@@ -1,0 +1,75 @@
+"""The task that a policy is for, by its first step before a lift is played."""
+
+from collections.abc import Iterator
+from contextlib import ExitStack, closing
+from typing import Final
+
+from ...agents.errors import InputError
+from ...agents.registry import TASKS, entries
+from ...agents.spec import AgentSpec, Paced
+from ..episode.lift import make_lift
+from ..episode.scenario import Scenario
+from ..episode.turns import Turns
+from ..suites.catalogue import make_scenario
+from .batches import entered
+
+SEED: Final = 0
+"""Seed of the lift of which the first step is tried."""
+
+BEHAVIOUR: Final = "smooth"
+"""Human behaviour with which the other tasks are tried."""
+
+
+def check_fits(policy: AgentSpec, scenario: Scenario) -> None:
+    """Refuse a policy that fails in the first step of a task, but not in that of another.
+
+    A submission does not name its task, but its code or its network may refuse the observations of
+    others. A policy that fails in every task is not refused: its failures are its result.
+
+    Raises
+    ------
+    InputError
+        If the policy is for other tasks; the message names them, and the reason of the failure.
+    EvaluatorFault
+        If the machine failed.
+    """
+    reason = first_failure(policy, scenario)
+    others = () if reason is None else tuple(_others(policy, scenario.task.name))
+    if others:
+        raise InputError(
+            f"policy {policy.name!r} is for the task {' or '.join(map(repr, others))}, not for "
+            f"{scenario.task.name!r}, where it fails at once: {reason}"
+        )
+
+
+def first_failure(policy: AgentSpec, scenario: Scenario) -> str | None:
+    """Return the reason why a policy fails before or in its first step; None if it does not.
+
+    Raises
+    ------
+    EvaluatorFault
+        If the machine failed, and not the policy.
+    """
+    if isinstance(policy, Paced):
+        policy = policy.paced(scenario.control_period)
+    with ExitStack() as stack:
+        lift = stack.enter_context(closing(make_lift(scenario)))
+        lift.reset(SEED)
+        turns = Turns(entered(stack, policy), lift.partner_size)
+        turns.start()
+        if turns.failure is None:
+            turns.ask(lift.partner_observation())
+        return turns.failure
+
+
+def _others(policy: AgentSpec, task: str) -> Iterator[str]:
+    """Yield the names of the other tasks in which a policy does not fail at once."""
+    for name in entries(TASKS):
+        if name == task:
+            continue
+        try:
+            scenario = make_scenario(BEHAVIOUR, task=name)
+        except InputError:
+            continue  # Another package's task that cannot be loaded.
+        if first_failure(policy, scenario) is None:
+            yield name
