@@ -15,6 +15,7 @@ from ...agents.errors import EvaluatorFault, InputError, error_text
 from ...agents.spec import AgentSpec
 from ..episode.lift import Lift
 from ..episode.scenario import Scenario
+from ..episode.turns import START, STEP
 from .choice import PERSON, PERSON_AS_ROBOT, SIMULATED, HostChoice
 from .grip import Grip
 from .lifting import Lifting
@@ -240,12 +241,16 @@ class Room:
         folder = self._session.save(number, self._choice.partner.name, run)
         self._session.timing(folder, lifting.punctuality.late)
         self._last, self._number = (number, folder), self._session.next_number()
-        self._standing = Standing(run.suite.scenarios[0], self._policies, lag=lifting.lag)
+        failure = run.episodes[0].failure
+        self._standing = None
+        if failure is None or not failure.startswith((START, STEP)):  # Else there is no movement.
+            self._standing = Standing(run.suite.scenarios[0], self._policies, lag=lifting.lag)
         end = {
             "type": "end",
             "lift": number,
             "rmse_mm": run.episodes[0].scores["rmse_mm"],
-            "failure": run.episodes[0].failure,
+            "failure": failure,
+            "compared": self._standing is not None,
             "ghost_rmse_mm": ghost_rmse(lifting.cue, number),
             **lifting.quality(),
             "folder": f"{folder.parent.name}/{folder.name}",

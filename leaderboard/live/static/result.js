@@ -55,7 +55,7 @@
       this.part("standing").textContent = "";
       this.part("policies").replaceChildren();
       this.part("watching").textContent = "";
-      this.part("comparing").hidden = watched;
+      this.part("comparing").hidden = watched || !end.compared;
     }
 
     best(end, partner) {

@@ -25,8 +25,8 @@ POLICIES = {name: PolicySpec(text=name) for name in ("anticipate", "copy")}
 class Table:
     """A room in simulated time, and pages whose people follow the cues."""
 
-    def __init__(self, folder, **config):
-        self.room = Room(RoomConfig(folder=folder, policies=POLICIES, **config))
+    def __init__(self, folder, policies=POLICIES, **config):
+        self.room = Room(RoomConfig(folder=folder, policies=policies, **config))
         self.now = 100.0
         self.told = []
         self.frames = {}
@@ -162,9 +162,27 @@ def test_a_page_that_falls_silent_makes_a_lift_void(table):
 def test_partners_are_compared_on_the_same_movement(table):
     end = lifted(table)
     table.prepare()
+    assert end["compared"]
     standing = table.last("standing")
     assert [each["name"] for each in standing["policies"]] == ["anticipate", "copy"]
     assert standing["policies"][0]["rmse_mm"] == pytest.approx(end["rmse_mm"], rel=1e-9)
+
+
+def test_a_partner_that_fails_leaves_no_movement_to_compare(tmp_path):
+    (tmp_path / "mine.py").write_text(
+        "class Failing:\n"
+        "    def reset(self, seed): pass\n"
+        "    def act(self, observation): raise ValueError('no idea')\n"
+    )
+    failing = PolicySpec(text=f"{tmp_path}/mine.py:Failing")
+    table = Table(tmp_path / "session", {"Failing": failing, **POLICIES})
+    table.take(table.room.join(0))
+    end = lifted(table)
+    table.prepare()
+    assert end["failure"] == "step 0: ValueError: no idea"
+    assert not end["compared"]
+    assert "standing" not in {told["type"] for _, told in table.told}
+    table.room.close()
 
 
 @pytest.mark.parametrize("partner", ["person", "person as robot", "simulated person"])
