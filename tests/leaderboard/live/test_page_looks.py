@@ -18,11 +18,11 @@ SCREENS = {
 ENDED = """
     const { page } = coliftPlay;
     page.result.show(
-      { lift: 1, rmse_mm: 4.25, ghost_rmse_mm: 5.1, failure: null,
+      { lift: 1, rmse_mm: 104.25, ghost_rmse_mm: 5.1, failure: null, compared: true,
         late: { frames: 2, worst_ms: 61, marked: true } },
       "copy", { median: 31, p95: 38.2 });
-    page.result.compare({ lift: 1, human_human_mm: 6.5,
-      policies: [{ name: "anticipate", rmse_mm: 3.1 }, { name: "copy", rmse_mm: 4.25 }] });
+    page.result.compare({ lift: 1, human_human_mm: 101.5,
+      policies: [{ name: "anticipate", rmse_mm: 3.1 }, { name: "copy", rmse_mm: 104.25 }] });
 """
 
 
@@ -39,6 +39,35 @@ def looked_at(page):
     assert serious(page, {"runOnly": ["color-contrast"]}) == []
     width = page.viewport_size["width"]
     assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def lines(page, part):
+    """Return the number of lines that each text of a part takes."""
+    return page.locator(part).evaluate_all("""
+        (parts) => parts.map((part) => {
+            const range = document.createRange();
+            range.selectNodeContents(part);
+            return new Set([...range.getClientRects()].map((box) => Math.round(box.top))).size;
+        })
+    """)
+
+
+def test_no_choice_is_cut_off(screen, url):
+    """A list is as wide as its longest choice would make it."""
+    screen.goto(url)
+    wait_for(screen, "Boolean(coliftPlay.page)")
+    for name in ("kind", "latency"):
+        wide, needed = screen.locator(f"select[name={name}]").evaluate("""
+            (list) => {
+                const free = list.cloneNode(true);
+                free.style.cssText = "position: absolute; max-width: none; font-size: 1rem";
+                list.after(free);
+                const found = [list.offsetWidth, free.offsetWidth];
+                free.remove();
+                return found;
+            }
+        """)
+        assert wide >= needed
 
 
 def test_everybody_can_use_it(screen, url):
@@ -66,6 +95,7 @@ def test_everybody_can_use_it(screen, url):
         "With your movement, anticipate would have kept the table level to 3.1 mm."
     )
     looked_at(screen)
+    assert set(lines(screen, "[data-part=score], [data-part=policies] b")) == {1}
     score = screen.locator("[data-part=score]").bounding_box()
     assert score["y"] + score["height"] <= screen.viewport_size["height"]
 
