@@ -129,6 +129,8 @@ def chosen_suite(
         raise InputError("--behaviour and --recordings exclude each other: people move as recorded")
     if seeds is not None:
         raise InputError("--seeds and --recordings exclude each other: a recording has no seed")
+    if name != STANDARD:
+        raise InputError("--suite and --recordings exclude each other: recordings are a suite")
     return real_lifts(recordings)
 
 

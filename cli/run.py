@@ -20,7 +20,7 @@ from ..benchmark.channels import Channel, recorded
 from ..benchmark.episode.metric import Metrics
 from ..benchmark.execution.cluster import Cluster
 from ..benchmark.execution.fitting import check_fits
-from ..benchmark.execution.journal import Journal, open_journal
+from ..benchmark.execution.journal import Journal, journal_path, open_journal
 from ..benchmark.execution.provenance import origin, platform_of
 from ..benchmark.execution.runner import InterruptedRunError, Run, run_suite
 from ..benchmark.results.baselines import BASELINES, Baseline, play_baselines, shipped_baselines
@@ -92,10 +92,13 @@ def run(
         if not (force or resume):
             with naming("--out", hint="--force replaces it"):
                 check_unfinished(out)
+        if resume and not journal_path(out).exists():
+            with naming("--resume", hint="nothing is left to resume"):
+                check_unfinished(out)
     check_plays(policy, episodes.scenarios[0].task.name)
     spec = choose_policy(policy, isolation)
     spec.check()
-    check_fits(spec, episodes.scenarios[0])
+    check_fits(spec, episodes.scenarios[0], episodes.seeds[0])
     verifiable = out is None or Recipe.of(episodes, network) is not None
     if not verifiable:
         print(
@@ -216,7 +219,8 @@ def _complain(run: Run, *, finished: bool, hint: str) -> bool:
     for line in (*_faults(run), *_failures(run)):
         print(line, file=sys.stderr)
     if not finished:
-        print("; ".join(part for part in (_interrupted(run), hint) if part), file=sys.stderr)
+        parts = (_interrupted(run), hint if run.episodes else "")
+        print("; ".join(filter(None, parts)), file=sys.stderr)
     return not finished or any(episode.failure is not None for episode in run.episodes)
 
 

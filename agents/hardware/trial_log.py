@@ -152,7 +152,9 @@ def read_trial(path: Path) -> LoggedTrial:
         return _trial(rows)
     except OSError as error:
         raise InputError(f"cannot read {path}: {error.strerror}") from error
-    except (KeyError, ValueError, TypeError, IndexError) as error:
+    except KeyError as error:
+        raise InputError(f"{path} is not a trial log: it has no column {error}") from error
+    except (ValueError, TypeError, IndexError) as error:
         raise InputError(f"{path} is not a trial log: {error}") from error
 
 

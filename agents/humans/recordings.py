@@ -101,8 +101,10 @@ def _rows(path: Path) -> Iterator[tuple[str, float, float]]:
             if not header:
                 raise InputError(f"{path}: empty file, needs the columns {','.join(COLUMNS)}")
             if missing:
+                hint = "" if len(header) > 1 else " (are the columns separated by commas?)"
                 raise InputError(
                     f"{path}: missing column(s) {', '.join(missing)}; found {', '.join(header)}"
+                    f"{hint}"
                 )
             reader.fieldnames = header
             for row in reader:

@@ -100,8 +100,7 @@ def open_submission(folder: Path) -> Submission:
     InputError
         As :func:`read_submission`, or if the copy cannot be written.
     """
-    if folder.is_file():
-        raise _a_file(folder)
+    _check_no_file(folder)
     if folder.is_dir() and not os.path.lexists(folder / MANIFEST):
         raise _without_manifest(str(folder))  # Before a large folder of other files is read.
     place, contents = snapshot(folder)
@@ -117,10 +116,17 @@ def read_submission(folder: Path) -> Submission:
         If the folder, its manifest or its files are invalid; the message names the file, the key
         and the valid values.
     """
-    if folder.is_file():
-        raise _a_file(folder)
+    _check_no_file(folder)
     contents = read_folder(folder)
     return _submission(folder.absolute(), contents, str(folder))
+
+
+def _check_no_file(folder: Path) -> None:
+    """Refuse a file, or a class in a file, in place of a folder."""
+    file, _, _ = str(folder).rpartition(":")
+    for path in (folder, Path(file)):
+        if path.is_file():
+            raise _a_file(path)
 
 
 def _a_file(path: Path) -> InputError:

@@ -118,8 +118,8 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
         raise InputError(f"{MANIFEST}: the bundle has format {form}, must be {FORMAT}")
     if manifest.get("recipe", 0) is None:
         raise InputError(
-            f"{MANIFEST}: there is no recipe, since the suite cannot be made again from names: "
-            f"{FROM_NAMES}"
+            f"{MANIFEST}: there is no recipe, so its lifts cannot be simulated again: they were "
+            f"played on a robot, or their suite cannot be made again from names ({FROM_NAMES})"
         )
     recipe = Recipe.parse(
         pick(manifest, "recipe", dict, MANIFEST), files.get(RECORDINGS), files.get(INPUTS)

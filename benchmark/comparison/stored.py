@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ...agents.errors import InputError, Remedy
-from ..bundle import FILES, read_bundle
+from ..bundle import read_bundle
 from ..bundle.files import RESULTS
 from ..bundle.json_text import pick
 from ..channels import Channel, channel_name
@@ -31,8 +31,8 @@ class Stored:
 
 
 def is_bundle(folder: Path) -> bool:
-    """Return whether a folder has the files of a bundle; they are not read."""
-    return all((folder / name).is_file() for name in FILES)
+    """Return whether a folder has the results of a bundle, even of a damaged one."""
+    return (folder / RESULTS).is_file()
 
 
 def read_stored(folder: Path) -> Stored:

@@ -7,6 +7,7 @@ from typing import Final
 from ...agents.errors import InputError
 from ...agents.registry import TASKS, entries
 from ...agents.spec import AgentSpec, Paced
+from ..episode.blame import blaming_plugins, check_start
 from ..episode.lift import make_lift
 from ..episode.scenario import Scenario
 from ..episode.turns import Turns
@@ -14,13 +15,13 @@ from ..suites.catalogue import make_scenario
 from .batches import entered
 
 SEED: Final = 0
-"""Seed of the lift of which the first step is tried."""
+"""Seed of the lift of which the first step is tried, if no other is given."""
 
 BEHAVIOUR: Final = "smooth"
 """Human behaviour with which the other tasks are tried."""
 
 
-def check_fits(policy: AgentSpec, scenario: Scenario) -> None:
+def check_fits(policy: AgentSpec, scenario: Scenario, seed: int = SEED) -> None:
     """Refuse a policy that fails in the first step of a task, but not in that of another.
 
     A submission does not name its task, but its code or its network may refuse the observations of
@@ -29,11 +30,12 @@ def check_fits(policy: AgentSpec, scenario: Scenario) -> None:
     Raises
     ------
     InputError
-        If the policy is for other tasks; the message names them, and the reason of the failure.
+        If the policy is for other tasks; the message names them, and the reason of the failure. Or
+        if the task or the behaviour of another package failed.
     EvaluatorFault
         If the machine failed.
     """
-    reason = first_failure(policy, scenario)
+    reason = first_failure(policy, scenario, seed)
     others = () if reason is None else tuple(_others(policy, scenario.task.name))
     if others:
         raise InputError(
@@ -42,19 +44,22 @@ def check_fits(policy: AgentSpec, scenario: Scenario) -> None:
         )
 
 
-def first_failure(policy: AgentSpec, scenario: Scenario) -> str | None:
+def first_failure(policy: AgentSpec, scenario: Scenario, seed: int = SEED) -> str | None:
     """Return the reason why a policy fails before or in its first step; None if it does not.
 
     Raises
     ------
     EvaluatorFault
         If the machine failed, and not the policy.
+    InputError
+        If the task or the behaviour of another package failed.
     """
     if isinstance(policy, Paced):
         policy = policy.paced(scenario.control_period)
-    with ExitStack() as stack:
+    with blaming_plugins(scenario, seed), ExitStack() as stack:
         lift = stack.enter_context(closing(make_lift(scenario)))
-        lift.reset(SEED)
+        check_start(lift, seed)
+        lift.reset(seed)
         turns = Turns(entered(stack, policy), lift.partner_size)
         turns.start()
         if turns.failure is None:
@@ -68,8 +73,8 @@ def _others(policy: AgentSpec, task: str) -> Iterator[str]:
         if name == task:
             continue
         try:
-            scenario = make_scenario(BEHAVIOUR, task=name)
+            failure = first_failure(policy, make_scenario(BEHAVIOUR, task=name))
         except InputError:
-            continue  # Another package's task that cannot be loaded.
-        if first_failure(policy, scenario) is None:
+            continue  # Another package's task, which cannot be loaded or played.
+        if failure is None:
             yield name

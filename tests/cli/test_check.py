@@ -1,6 +1,7 @@
 """``colift check`` and ``colift run`` on a submission, as a user meets them: real processes."""
 
 import json
+from pathlib import Path
 
 import pytest
 from colift.agents.sandbox.host.policy import close_sandboxes
@@ -287,6 +288,11 @@ def test_a_folder_that_is_no_submission_is_refused(mine, spoil, told):
     (found,) = all_checks(mine, None, trusted=False, jobs=1)
     assert (found.name, found.ok) == ("files", False)
     assert told in found.message
+
+
+def test_a_class_in_a_file_is_no_submission_and_new_makes_one_of_it(mine):
+    (found,) = all_checks(Path(f"{mine / 'policy.py'}:Policy"), None, trusted=False, jobs=1)
+    assert "policy.py is a file; a submission is a folder ('colift new DIR --from" in found.message
 
 
 def test_run_refuses_a_folder_that_is_no_submission(colift, mine):

@@ -211,6 +211,10 @@ def test_ctrl_c_in_the_baselines_keeps_the_run(tmp_path):
         "hold",
         "copy",
     }
+    code, told = run(*options, "--resume")
+    assert code == 2
+    assert "holds a finished result bundle" in told
+    assert told.endswith("nothing is left to resume\n")
 
 
 def test_a_cluster_gives_the_same_bundle(slow, whole, dask_address, tmp_path):

@@ -144,6 +144,12 @@ def test_scores_of_other_metrics_are_computed_anew_on_demand(colift, folder):
     assert (code, errors.count("error")) == (0, 0)
 
 
+def test_a_damaged_bundle_is_no_submission(colift, folder):
+    (folder / "bundle" / "traces.npz").unlink()
+    code, _, errors = colift("compare", "bundle", "copy")
+    assert (code, errors) == (2, "error: bundle: traces.npz: it is missing\n")
+
+
 def test_a_session_says_which_lifts_have_older_scores(colift, folder):
     lift = shutil.copytree(folder / "bundle", folder / "session" / "lifts" / "001-copy")
     outdate_metrics(lift, SCORING - 1)

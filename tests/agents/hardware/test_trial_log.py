@@ -111,7 +111,7 @@ def test_a_dry_run_moves_nothing_and_replays_too(play, tmp_path):
     ("text", "told"),
     [
         ("", "not a trial log"),
-        ("a,b\n1,2\n", "not a trial log"),
+        ("a,b\n1,2\n", "not a trial log: it has no column 'event'"),
         ("event,policy\nsample,\n", "the first row is 'sample'"),
         (None, "cannot read"),
     ],
