@@ -1,5 +1,6 @@
 """Options and opening of boards, shared by the commands of submitters and maintainers."""
 
+import re
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -8,6 +9,7 @@ from typing import Annotated, Final
 
 import typer
 
+from ..agents.errors import InputError
 from ..agents.sandbox.host.levels import VERIFIABLE
 from ..leaderboard.board.board import Board
 from ..leaderboard.evaluation.entrant import NoSandboxError, board_level
@@ -16,8 +18,41 @@ from ..leaderboard.practice.season_import import open_with_practice
 BOARD: Final = Path("board")
 """The default folder."""
 
+_WEB: Final = re.compile(r"(https?):/+(.*)", re.IGNORECASE)
+"""Pattern of an address, also without the second slash, which a path does not keep."""
+
+_HOST: Final = re.compile(r"([\w-]+(\.[\w-]+)*|\[[\da-fA-F:]+\]):\d{1,5}(/.*)?")
+"""Pattern of an address without ``http://``."""
+
+
+def web_address(text: str) -> str | None:
+    """Return the address that a text is, or that it is without ``http://``; None for a folder."""
+    found = _WEB.fullmatch(text)
+    if found is not None:
+        return f"{found[1].lower()}://{found[2]}"
+    return f"http://{text}" if _HOST.fullmatch(text) and not Path(text).exists() else None
+
+
+def _folder(value: Path) -> Path:
+    """Return the folder of a board; refuse an address."""
+    address = web_address(str(value))
+    if address is not None:
+        raise InputError(
+            f"--board must be the folder of a board here, is the address {address}: open it in a "
+            f"browser, or use its JSON interface, see {address.rstrip('/')}/api; of the commands, "
+            "only 'colift submit' takes an address"
+        )
+    return value
+
+
 BoardFolder = Annotated[
-    Path, typer.Option("--board", metavar="PATH", help="The board's folder, created if missing.")
+    Path,
+    typer.Option(
+        "--board",
+        metavar="PATH",
+        help="The board's folder, created if missing.",
+        callback=_folder,
+    ),
 ]
 SeasonName = Annotated[
     str | None, typer.Option("--season", metavar="NAME", help="Season; default: the current one.")

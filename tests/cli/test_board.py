@@ -146,3 +146,33 @@ def test_what_is_wrong_is_said_in_a_line(board, colift, tmp_path, arguments, wor
     assert done.returncode == 2
     assert words in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("board",),
+        ("board", "--restore", "backup"),
+        ("queue", "list"),
+        ("row", "remove", "mine", "--why", "x"),
+        ("season", "begin", "2027"),
+        ("serve",),
+        ("token", "add", "ada"),
+        ("worker", "--once"),
+    ],
+)
+@pytest.mark.parametrize(
+    ("given", "address"),
+    [
+        ("http://127.0.0.1:8017", "http://127.0.0.1:8017"),
+        ("HTTPS://board.example.org/b/", "https://board.example.org/b"),
+        ("localhost:8017", "http://localhost:8017"),
+    ],
+)
+def test_an_address_is_not_taken_for_a_folder(colift, tmp_path, command, given, address):
+    done = colift(*command, "--board", given)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert f"is the address {address}: open it in a browser" in done.stderr
+    assert f"see {address}/api;" in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
