@@ -13,7 +13,7 @@ from ..agents.submissions.submission import Submission, open_submission
 from ..benchmark.execution.pool import checked_jobs, local_pool
 from ..benchmark.suites.suite import make_suite
 from ..benchmark.verification.checking import SUITE, checked_with
-from ..leaderboard.board.board import Board
+from ..leaderboard.board.board import Board, check_suite
 from ..leaderboard.client import API, RemoteBoard
 from ..leaderboard.evaluation.progress import Callbacks
 from ..leaderboard.pages.links import ServiceLinks
@@ -68,7 +68,7 @@ def submit_policy(
     count = checked_jobs(jobs)
     submission = open_submission(folder)
     if board.startswith(("http://", "https://")):
-        _submit_to_web(submission, folder, board, token, count)
+        _submit_to_web(submission, folder, board, suite, token, count)
     else:
         with opened_board(Path(board), lambda path: open_with_practice(path, suite)) as place:
             _submit_to_folder(submission, folder, place, count)
@@ -116,7 +116,9 @@ def _evaluated(queue: Queue, job: Job, jobs: int) -> Job:
             time.sleep(POLL_S)
 
 
-def _submit_to_web(submission: Submission, folder: Path, url: str, token: str, jobs: int) -> None:
+def _submit_to_web(
+    submission: Submission, folder: Path, url: str, suite: str | None, token: str, jobs: int
+) -> None:
     """Upload a submission, follow its evaluation, and print its row."""
     if not token:
         raise InputError(
@@ -125,7 +127,9 @@ def _submit_to_web(submission: Submission, folder: Path, url: str, token: str, j
         )
     board = RemoteBoard(url, token)
     board.submitter()  # Refuses an unknown token before any work is done.
-    _check(folder, board.suite(), jobs)
+    current = board.suite()
+    check_suite(url, current, suite)
+    _check(folder, current, jobs)
     job = board.submit(submission.folder)
     links = ServiceLinks(board.url.rstrip("/"))
     page = f"{links.root}/jobs/{job['id']}"

@@ -302,11 +302,7 @@ class Board:
             else:
                 self._book.begin(FIRST, wanted, LOCAL)
         current = self._book.current()
-        if suite not in (None, current.suite):
-            raise InputError(
-                f"{self.folder} is a board of {current.suite}, not of {suite}: give another folder "
-                f"with --board, or begin a season with colift season begin NAME --suite {suite}"
-            )
+        check_suite(self.folder, current.suite, suite)
         self.store.secrets(current.name).secret()
 
     @contextmanager
@@ -357,3 +353,18 @@ class Board:
             record_event(connection, event)
             if hidden_rmse_mm:
                 record_errors(connection, season, digest, hidden_rmse_mm)
+
+
+def check_suite(place: Path | str, suite: str, wanted: str | None) -> None:
+    """Refuse a board whose current season has another suite than the wanted one, if any.
+
+    Raises
+    ------
+    InputError
+        If it has; ``place`` is the board's folder or address.
+    """
+    if wanted not in (None, suite):
+        raise InputError(
+            f"{place} is a board of {suite}, not of {wanted}: give another one with --board, or "
+            f"begin a season with colift season begin NAME --suite {wanted}"
+        )

@@ -105,3 +105,14 @@ def test_what_is_no_board_is_told(colift, url, place):
     done = colift("submit", "third", "--board", f"{url}/elsewhere", "--token", "x")
     assert done.returncode == 2
     assert f"board {url}/elsewhere: " in done.stderr
+
+
+def test_a_board_of_another_suite_than_the_wanted_one_is_refused_before_the_check(
+    colift, url, board, place
+):
+    write_template(place / "fourth")
+    (place / "fourth" / "policy.py").write_text("class Policy: ...")
+    token = Tokens(board).add("grace")
+    done = colift("submit", "fourth", "--board", url, "--token", token, "--suite", "paper-v1")
+    assert done.returncode == 2
+    assert f"{url} is a board of tiny, not of paper-v1: give another one" in done.stderr
