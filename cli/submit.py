@@ -22,7 +22,7 @@ from ..leaderboard.queue import NO_QUOTA, Queue, WorkerQueue
 from ..leaderboard.queue.worker import Worker
 from ..leaderboard.records.job import Job
 from ..leaderboard.records.row import BoardRow
-from .board_options import opened_board
+from .board_options import opened_board, web_address
 from .check import all_checks
 from .completion import suites
 from .options import Jobs
@@ -35,6 +35,7 @@ POLL_S: Final = 0.5
 
 
 def submit_policy(
+    context: typer.Context,
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="The submission's folder.")],
     board: Annotated[
         str,
@@ -70,8 +71,23 @@ def submit_policy(
     if board.startswith(("http://", "https://")):
         _submit_to_web(submission, folder, board, suite, token, count)
     else:
+        # A token in the environment is for other boards; one on the command line is for this one.
+        source = context.get_parameter_source("token")
+        _check_folder(board, source is not None and source.name == "COMMANDLINE")
         with opened_board(Path(board), lambda path: open_with_practice(path, suite)) as place:
             _submit_to_folder(submission, folder, place, count)
+
+
+def _check_folder(board: str, with_token: bool) -> None:
+    """Refuse an address without ``http://``, and a token, which a folder does not need."""
+    address = web_address(board)
+    if address is not None:
+        raise InputError(f"--board {board} is no folder: did you mean {address}?")
+    if with_token:
+        raise InputError(
+            f"--board {board} is a folder, which takes no --token: give the address of a board on "
+            "the web, https://..., or leave the token out"
+        )
 
 
 def _submit_to_folder(submission: Submission, folder: Path, board: Board, jobs: int) -> None:

@@ -172,6 +172,9 @@ def test_what_fails_its_check_is_not_put_on_the_board(colift, first, make, place
         (("mine", "--board", "board", "--suite", "paper-v1"), "a board of quick-v1"),
         (("mine", "--board", "new", "--jobs", "0"), "jobs must be at least 1"),
         (("mine",), "--board"),
+        (("mine", "--board", "127.0.0.1:8017"), "did you mean http://127.0.0.1:8017?"),
+        (("mine", "--board", "b.example.org:80/x"), "did you mean http://b.example.org:80/x?"),
+        (("mine", "--board", "new", "--token", "x"), "new is a folder, which takes no --token"),
     ],
 )
 def test_what_is_wrong_is_said_in_a_line(colift, first, place, arguments, words):
@@ -180,4 +183,9 @@ def test_what_is_wrong_is_said_in_a_line(colift, first, place, arguments, words)
     assert done.returncode == 2
     assert words in done.stderr
     assert "Traceback" not in done.stderr
-    assert not (place / "new").exists()
+    assert not list(place.glob("new")) + list(place.glob("*:*"))
+
+
+def test_a_token_in_the_environment_does_not_matter_to_a_folder(colift, first, place):
+    done = colift("submit", "mine", *TO_BOARD, cwd=place, COLIFT_TOKEN="x")
+    assert done.returncode == 0, done.stderr
