@@ -100,12 +100,13 @@ def evaluate_entrant(
     watch, budget = watch or Callbacks(), budget or Budget()
     playing: PlayingOptions = {"executor": executor, "progress": watch.progress, "keep": budget.add}
     watch.stage("check")
-    _check(entrant, season.suite, playing)
+    _check(entrant, season.suite, playing, watch)
     watch.stage("public run")
     public = run_suite(entrant.policy, season.suite, **playing)
     content = results(public, _baselines(season, executor, watch))
     write_bundle(bundle, public, content.plain())
     if all(episode.failure is not None for episode in public.episodes):
+        watch.output(public.episodes[0].log)
         reasons = "; ".join(failure_lines(public.episodes)[:3])
         raise InputError(f"it fails in every public lift: {reasons}")
     watch.stage("audit")
@@ -142,8 +143,10 @@ class PlayingOptions(TypedDict):
     keep: Callable[[int, Episode], None]
 
 
-def _check(entrant: Entrant, suite: Suite, playing: PlayingOptions) -> None:
+def _check(entrant: Entrant, suite: Suite, playing: PlayingOptions, watch: Callbacks) -> None:
     """Check a policy as ``colift check`` does, with the same code.
+
+    Its lifts are public, so the output of one that fails may be shown.
 
     Raises
     ------
@@ -160,6 +163,7 @@ def _check(entrant: Entrant, suite: Suite, playing: PlayingOptions) -> None:
         if check.name == MACHINE:
             raise EvaluatorFault(check.message)
         if not check.ok:
+            watch.output(check.printed)
             raise InputError(f"the check of its {check.name} failed: {check.message}")
 
 

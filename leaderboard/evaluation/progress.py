@@ -29,6 +29,9 @@ class Callbacks:
     :func:`.episode_count`."""
     total: Callable[[int], None] = lambda episodes: None
     """Called with the total number of episodes, as soon as it is known."""
+    output: Callable[[str], None] = lambda text: None
+    """Called with the end of the policy's output in a lift of the check or the public run because
+    of which it fails; never with that of a hidden lift."""
 
 
 SECONDS: Final = 7200.0

@@ -54,7 +54,12 @@ class Heartbeat:
 
     def watch(self) -> Callbacks:
         """Return the callbacks of an evaluation; they raise LostError if the job was lost."""
-        return Callbacks(stage=self._on_stage, progress=self._on_progress, total=self._on_total)
+        return Callbacks(
+            stage=self._on_stage,
+            progress=self._on_progress,
+            total=self._on_total,
+            output=self._also.output,
+        )
 
     def _on_stage(self, stage: Stage) -> None:
         self.stage = stage

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from textwrap import indent
 from typing import Final
 
 import sqlalchemy as sa
@@ -234,13 +235,18 @@ class Worker:
         self.work.fault(job, reason)
 
     def _logged(self, job: Job, watch: Callbacks) -> Callbacks:
-        """Return callbacks that also log the stages."""
+        """Return callbacks that also log the stages, and the output of a policy that fails."""
 
         def stage(name: Stage) -> None:
             self._log(job, name)
             watch.stage(name)
 
-        return replace(watch, stage=stage)
+        def output(text: str) -> None:
+            if text.strip():  # Indented, so that no line of it is taken for one of the log.
+                self._log(job, "it printed:\n" + indent(text.strip("\n"), "    "))
+            watch.output(text)
+
+        return replace(watch, stage=stage, output=output)
 
     def _log(self, job: Job, *lines: str) -> None:
         now = f"{self._board.clock():%Y-%m-%d %H:%M:%S}"

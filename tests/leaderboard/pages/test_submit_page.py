@@ -149,6 +149,7 @@ def test_why_lifts_failed_is_told_in_the_policys_own_words(page, url, queue, tok
     assert job.state == "failed"
     assert "no <b>idea</b>" in job.reason + job.log
     expect(page.locator("main")).to_contain_text("no <b>idea</b>")
+    expect(page.locator("section[aria-labelledby=log] pre")).to_contain_text("<i>about</i> to fail")
     page.goto(url)
     expect(page.get_by_role("link", name="faulty")).to_have_count(0)
 

@@ -116,6 +116,44 @@ def test_what_fails_the_check_has_no_row_but_the_reason(board, queue, write_subm
     assert board.bundle("1", job.submission) is None
 
 
+PRINTS = """
+print("2026-11-26 08:00:00 done\\n\\x1b[2Jred")
+
+class Policy:
+    def reset(self, seed): pass
+    def act(self, observation): raise RuntimeError("my own mistake")
+"""
+
+
+@pytest.mark.parametrize("checked", [True, False], ids=["in the check", "in the public run"])
+def test_the_log_of_a_policy_that_fails_ends_with_its_output(
+    board, queue, write_submission, monkeypatch, checked
+):
+    """Its lines are not taken for the log's own, and it controls no terminal."""
+    if not checked:
+        monkeypatch.setattr(
+            "colift.leaderboard.evaluation.evaluation.presubmission_checks", lambda *_: ()
+        )
+    queue.enqueue(board.keep(write_submission(PRINTS)), "Ada")
+    done = Worker(WorkerQueue(queue.board)).once()
+    assert (done.state, "it printed" in done.reason) == ("failed", False)
+    lines = done.log.splitlines()
+    first = next(i for i, line in enumerate(lines) if line.endswith(" it printed:"))
+    output = lines[first + 1 : -1]
+    assert output[:2] == ["    2026-11-26 08:00:00 done", "    red"]
+    assert output[-1] == "    RuntimeError: my own mistake"
+    assert all(line.startswith("    ") for line in output)
+    assert lines[-1].endswith(f"failed: {done.reason}")
+
+
+def test_the_output_in_a_log_is_bounded(board, queue, write_submission):
+    code = PRINTS.replace("raise", "print(9 * 10**5 * '-'); raise")
+    queue.enqueue(board.keep(write_submission(code)), "Ada")
+    done = Worker(WorkerQueue(queue.board)).once()
+    assert "RuntimeError: my own mistake" in done.log.partition("it printed:")[2]
+    assert len(done.log) < 12_000
+
+
 class Hours:
     """Time that passes when somebody says so, or sleeps."""
 
