@@ -14,14 +14,14 @@ from ..leaderboard.pages.site import write_site
 from ..leaderboard.practice.season_import import open_to_read
 from ..leaderboard.queue import Queue
 from ..leaderboard.records.season import SeasonInfo
-from .board_options import BOARD, BoardFolder, SeasonName, opened_board
+from .board_options import BOARD, ExistingBoard, SeasonName, opened_board
 from .options import AsJson, check_exclusive
 from .printing import print_json, show
 from .tables.board import board_table
 
 
 def board(
-    board: BoardFolder = BOARD,
+    board: ExistingBoard = BOARD,
     season: SeasonName = None,
     as_json: AsJson = False,
     site: Annotated[
@@ -45,7 +45,8 @@ def board(
         _report(restore(from_backup, board), f"restored {from_backup} to {board}")
         print(f"Next: colift board --board {board}")
         return
-    with opened_board(board, open_to_read) as place:
+    # The default folder is for a first look at the practice season.
+    with opened_board(board, open_to_read, new=board == BOARD) as place:
         if backup is not None:
             _report(back_up(place, backup), f"backed up {board} to {backup}")
             print("It holds the secrets of the seasons: keep it to yourself.")

@@ -14,6 +14,7 @@ from ..agents.sandbox.host.levels import VERIFIABLE
 from ..leaderboard.board.board import Board
 from ..leaderboard.evaluation.entrant import NoSandboxError, board_level
 from ..leaderboard.practice.season_import import open_with_practice
+from ..leaderboard.storage.store import has_board
 
 BOARD: Final = Path("board")
 """The default folder."""
@@ -45,6 +46,15 @@ def _folder(value: Path) -> Path:
     return value
 
 
+ExistingBoard = Annotated[
+    Path,
+    typer.Option(
+        "--board",
+        metavar="PATH",
+        help="The board's folder.",
+        callback=_folder,
+    ),
+]
 BoardFolder = Annotated[
     Path,
     typer.Option(
@@ -72,9 +82,27 @@ BoardIsolation = Annotated[
 
 @contextmanager
 def opened_board(
-    folder: Path, opening: Callable[[Path], Board] = open_with_practice
+    folder: Path, opening: Callable[[Path], Board] = open_with_practice, *, new: bool = False
 ) -> Iterator[Board]:
-    """Open the board in a folder while the body runs; see :func:`.open_with_practice`."""
+    """Open the board in a folder while the body runs; see :func:`.open_with_practice`.
+
+    Parameters
+    ----------
+    folder, opening
+        The folder, and what opens it.
+    new
+        Whether the board is made if there is none.
+
+    Raises
+    ------
+    InputError
+        If there is no board and none is to be made, or as :meth:`.Board.open`.
+    """
+    if not new and not has_board(folder):
+        raise InputError(
+            f"there is no board in {folder}: check --board; 'colift submit', 'serve', 'worker', "
+            "'token add' and 'season begin' make a new one"
+        )
     board = opening(folder)
     try:
         yield board

@@ -12,7 +12,7 @@ from ..leaderboard.board.board import LOCAL, Board
 from ..leaderboard.practice.season_import import open_to_read, open_with_practice
 from ..leaderboard.queue import Queue
 from ..leaderboard.records.job import STATES, Job
-from .board_options import BOARD, BoardFolder, Why, opened_board
+from .board_options import BOARD, ExistingBoard, Why, opened_board
 from .printing import left, show, table
 
 app = typer.Typer(
@@ -34,7 +34,7 @@ MOST: Final = 1000
 
 @app.command("list")
 def list_jobs(
-    board: BoardFolder = BOARD,
+    board: ExistingBoard = BOARD,
     state: Annotated[
         str | None, typer.Option(metavar="STATE", help=f"One of: {', '.join(STATES)}.")
     ] = None,
@@ -58,14 +58,14 @@ def list_jobs(
 
 
 @app.command()
-def log(job: JobNumber, board: BoardFolder = BOARD) -> None:
+def log(job: JobNumber, board: ExistingBoard = BOARD) -> None:
     """Print a job's log."""
     with _found(board, job, open_to_read) as (_, found):
         print((found.log or "No worker has begun this job.").rstrip())
 
 
 @app.command()
-def retry(job: JobNumber, why: Why, board: BoardFolder = BOARD) -> None:
+def retry(job: JobNumber, why: Why, board: ExistingBoard = BOARD) -> None:
     """Queue again a job that ended without an entry, for example after an evaluator fault."""
     with _found(board, job) as (queue, found):
         queue.retry(found.id, LOCAL, why)
@@ -73,7 +73,7 @@ def retry(job: JobNumber, why: Why, board: BoardFolder = BOARD) -> None:
 
 
 @app.command("cancel")
-def cancel_job(job: JobNumber, why: Why, board: BoardFolder = BOARD) -> None:
+def cancel_job(job: JobNumber, why: Why, board: ExistingBoard = BOARD) -> None:
     """Take a job out of the queue, even while it is evaluated; 'retry' puts it back."""
     with _found(board, job) as (queue, found):
         queue.cancel(found.id, LOCAL, why)

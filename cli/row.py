@@ -14,7 +14,7 @@ from ..leaderboard.board.standings import RankedRow
 from ..leaderboard.evaluation.progress import Callbacks
 from ..leaderboard.queue import WorkerQueue
 from ..leaderboard.queue.worker import Worker
-from .board_options import BOARD, BoardFolder, SeasonName, Why, opened_board
+from .board_options import BOARD, ExistingBoard, SeasonName, Why, opened_board
 from .options import Jobs
 from .progress import job_bar
 
@@ -44,7 +44,7 @@ def _decision(
         why: Why,
         by: DecidedBy = LOCAL,
         season: SeasonName = None,
-        board: BoardFolder = BOARD,
+        board: ExistingBoard = BOARD,
     ) -> None:
         with _row_of(board, row, season) as (place, found):
             if (found.section == "out") == ranked:
@@ -74,7 +74,7 @@ def rescore(
     why: Why,
     by: DecidedBy = LOCAL,
     season: SeasonName = None,
-    board: BoardFolder = BOARD,
+    board: ExistingBoard = BOARD,
     jobs: Jobs = None,
 ) -> None:
     """Evaluate a row's submission again, for example after a run on an overloaded machine."""

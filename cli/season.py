@@ -8,7 +8,7 @@ from ..agents.registry import own_policies
 from ..leaderboard.board.board import LOCAL
 from ..leaderboard.evaluation.entrant import builtin_entrant
 from ..leaderboard.queue import Queue
-from .board_options import BOARD, BoardFolder, Why, opened_board
+from .board_options import BOARD, BoardFolder, ExistingBoard, Why, opened_board
 
 app = typer.Typer(help="Begin and end the seasons of a board.", no_args_is_help=True)
 
@@ -25,7 +25,7 @@ def begin(
     own: Annotated[bool, typer.Option(help="Queue colift's own policies, for comparison.")] = True,
 ) -> None:
     """Begin a season with a new secret; earlier rows stay in their own table."""
-    with opened_board(board) as place:
+    with opened_board(board, new=True) as place:
         season = place.new_season(name, suite)
         print(f"season {name} on {season.suite.name} takes submissions from now on")
         print(f"commitment to its secret: {season.commitment}")
@@ -37,7 +37,7 @@ def begin(
 
 
 @app.command()
-def reveal(name: NewSeason, why: Why = "the season is over", board: BoardFolder = BOARD) -> None:
+def reveal(name: NewSeason, why: Why = "the season is over", board: ExistingBoard = BOARD) -> None:
     """Publish the secret of a finished season: anyone can then play its hidden lifts."""
     with opened_board(board) as place:
         place.reveal(name, LOCAL, why)

@@ -74,7 +74,9 @@ def submit_policy(
         # A token in the environment is for other boards; one on the command line is for this one.
         source = context.get_parameter_source("token")
         _check_folder(board, source is not None and source.name == "COMMANDLINE")
-        with opened_board(Path(board), lambda path: open_with_practice(path, suite)) as place:
+        with opened_board(
+            Path(board), lambda path: open_with_practice(path, suite), new=True
+        ) as place:
             _submit_to_folder(submission, folder, place, count)
 
 

@@ -6,7 +6,7 @@ import typer
 
 from ..leaderboard.board.tokens import Tokens
 from ..leaderboard.practice.season_import import open_to_read
-from .board_options import BOARD, BoardFolder, opened_board
+from .board_options import BOARD, BoardFolder, ExistingBoard, opened_board
 from .printing import show, table
 
 app = typer.Typer(
@@ -19,12 +19,12 @@ Submitter = Annotated[str, typer.Argument(metavar="NAME", help="The submitter's 
 @app.command()
 def add(name: Submitter, board: BoardFolder = BOARD) -> None:
     """Create a submitter's token and print it; it cannot be shown again."""
-    with opened_board(board) as place:
+    with opened_board(board, new=True) as place:
         print(Tokens(place).add(name))
 
 
 @app.command()
-def revoke(name: Submitter, board: BoardFolder = BOARD) -> None:
+def revoke(name: Submitter, board: ExistingBoard = BOARD) -> None:
     """Revoke a submitter's token, effective at once."""
     with opened_board(board) as place:
         Tokens(place).revoke(name)
@@ -32,7 +32,7 @@ def revoke(name: Submitter, board: BoardFolder = BOARD) -> None:
 
 
 @app.command("list")
-def list_tokens(board: BoardFolder = BOARD) -> None:
+def list_tokens(board: ExistingBoard = BOARD) -> None:
     """List the submitters, with the dates of their tokens."""
     with opened_board(board, open_to_read) as place:
         found = Tokens(place).all()

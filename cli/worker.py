@@ -37,7 +37,7 @@ def worker(
         signal.signal(number, _stop)
     report_isolation(isolation)
     try:
-        with opened_board(board) as place, executor(jobs, dask) as workers:
+        with opened_board(board, new=True) as place, executor(jobs, dask) as workers:
             here = Worker(WorkerQueue(place), workers, isolation=isolation)
             if once:
                 while (job := here.once()) is not None:

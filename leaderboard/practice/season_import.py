@@ -23,6 +23,7 @@ from ...benchmark.suites.suite import make_suite
 from ..board.board import SUITE, Board
 from ..board.seasons import ImportedEntry, ImportedSeason
 from ..records.season import BoardEntry, SeasonInfo
+from ..storage.store import has_board
 from .practice import SUITES, PracticeRun, practice_season
 
 FORMAT: Final = 2
@@ -215,6 +216,6 @@ def open_to_read(folder: Path) -> Board:
     InputError
         As :meth:`.Board.open`.
     """
-    if (folder / "board.json").is_file() and not os.access(folder, os.W_OK):
+    if has_board(folder) and not os.access(folder, os.W_OK):
         return Board.look(folder)
     return open_with_practice(folder)

@@ -53,6 +53,11 @@ _FOLDERS: Final = re.compile(r"(?<![\w/.:])/(?:[^\s/'\"<>:,]+/)+")
 """Pattern of the folders of an absolute path, but not of a URL or a quotient."""
 
 
+def has_board(folder: Path) -> bool:
+    """Return whether a folder is that of a board."""
+    return (folder / "board.json").is_file()
+
+
 @dataclass(frozen=True)
 class Store:
     """A board's folder."""

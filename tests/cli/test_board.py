@@ -176,3 +176,30 @@ def test_an_address_is_not_taken_for_a_folder(colift, tmp_path, command, given, 
     assert f"see {address}/api;" in done.stderr
     assert done.stderr.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("board",),
+        ("board", "--backup", "file"),
+        ("queue", "list"),
+        ("queue", "log", "1"),
+        ("queue", "cancel", "1", "--why", "x"),
+        ("row", "remove", "mine", "--why", "x"),
+        ("season", "reveal", "2027"),
+        ("token", "list"),
+        ("token", "revoke", "ada"),
+    ],
+)
+def test_what_only_reads_or_changes_a_board_makes_none(colift, tmp_path, command):
+    done = colift(*command, "--board", "brd")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "there is no board in brd: check --board; 'colift submit'" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_first_look_without_a_board_shows_the_practice_season(colift):
+    done = colift("board")
+    assert done.returncode == 0
+    assert "Season practice" in done.stdout
