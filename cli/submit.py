@@ -192,6 +192,8 @@ def _check(folder: Path, suite: str, jobs: int) -> None:
         if not each.ok:
             reason = f"not submitted, its check fails: {each.name}: {each.message}"
             _refuse(reason, fix=folder, option=option)
+        if each.name == "manifest" and each.warning:  # It is published as it is.
+            print(f"warning: {each.message}", file=sys.stderr, flush=True)
 
 
 def _refuse(reason: str, fix: Path | None = None, option: str = "") -> NoReturn:

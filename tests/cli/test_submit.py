@@ -100,7 +100,7 @@ def told(done):
 
 def test_a_submission_becomes_a_verified_row_whose_bundle_can_be_verified(colift, first, place):
     assert first.returncode == 0
-    assert all(" does not work here: " in line for line in first.stderr.splitlines())
+    assert all(" does not work here: " in line for line in first.stderr.splitlines()[1:])
     for words in ("mine by Your Name", "public lifts", "hidden lifts", "0 of 12", "Rank 1 of 1"):
         assert words in told(first)
     assert re.search(r"Isolation (bubblewrap|landlock): verified", told(first))
@@ -108,6 +108,12 @@ def test_a_submission_becomes_a_verified_row_whose_bundle_can_be_verified(colift
     assert next_step.startswith("Next: colift verify ")
     verified = colift(*next_step.removeprefix("Next: colift ").split(), cwd=place)
     assert verified.returncode == 0, verified.stdout + verified.stderr
+
+
+def test_an_author_who_is_the_templates_is_told_before_all_else(first):
+    line = first.stderr.splitlines()[0]
+    assert line.startswith("warning: mine by Your Name; licence ")
+    assert line.endswith("Add to policy.toml the authors")
 
 
 def test_the_row_has_the_number_that_check_prints(colift, first, place):
