@@ -217,7 +217,13 @@ def test_my_submissions_are_shown_to_who_has_the_token_and_the_token_stays_in_th
 def test_the_rules_stand_beside_the_button(page, url):
     page.goto(f"{url}/submit")
     rules = page.get_by_role("region", name="The rules")
-    for told in ("64 MiB", "filterpy, numpy, scikit-learn, scipy", "5 submissions", "licence"):
+    for told in (
+        "64 MiB",
+        "filterpy, numpy, scikit-learn, scipy",
+        "5 submissions",
+        "licence",
+        "10 in 24 hours",
+    ):
         expect(rules).to_contain_text(told)
     button = page.get_by_role("button", name="Submit").bounding_box()
     box = rules.bounding_box()
