@@ -101,7 +101,7 @@ def create_app(
         docs=docs,
         play=play,
     )
-    answer_errors(app)
+    answer_errors(app, pages.missing_page)
     app.add_middleware(GZipMiddleware)
     app.add_middleware(FaultHandler)
     app.add_middleware(Guard, rate=rates.address)

@@ -5,7 +5,7 @@ import contextlib
 import errno
 import logging
 import secrets
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final
 
 import sqlalchemy as sa
@@ -13,6 +13,7 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import HTMLResponse, JSONResponse, Response
 from pydantic import BaseModel, Field
+from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -45,6 +46,9 @@ PAGE: Final = (
 )
 """The page that is shown then: nothing on it needs the database."""
 
+NO_PAGE: Final = "This board has no page at this address."
+"""What the page says that a browser gets for a wrong address."""
+
 FULL: Final = {errno.ENOSPC, errno.EDQUOT}
 """Error numbers (errno) of a full disk."""
 
@@ -60,12 +64,23 @@ def problem(status: int, error: str, headers: Mapping[str, str] | None = None) -
     return HTTPException(status, error, headers)
 
 
-def answer_errors(app: FastAPI) -> None:
-    """Answer every error of an application with a :class:`Problem`."""
+def answer_errors(app: FastAPI, missing: Callable[[Request, str], Response] | None = None) -> None:
+    """Answer every error of an application with a :class:`Problem`.
+
+    Parameters
+    ----------
+    app
+        The application.
+    missing
+        Returns the page for an address of no page, from the request and a message: a browser gets
+        it instead.
+    """
 
     @app.exception_handler(HTTPException)
-    async def refused(request: Request, error: HTTPException) -> JSONResponse:
+    async def refused(request: Request, error: HTTPException) -> Response:
         message = error.detail
+        if missing is not None and error.status_code == 404 and _wants_page(request):
+            return await run_in_threadpool(missing, request, NO_PAGE)
         if message == "Not Found":
             message = f"there is no {_shown(request.url.path)} here; the API is described at /api"
         elif message == "Method Not Allowed":
@@ -75,7 +90,9 @@ def answer_errors(app: FastAPI) -> None:
         return kind({"error": message}, error.status_code, error.headers)
 
     @app.exception_handler(RequestValidationError)
-    async def invalid(request: Request, error: RequestValidationError) -> JSONResponse:
+    async def invalid(request: Request, error: RequestValidationError) -> Response:
+        if missing is not None and _wants_page(request):
+            return await run_in_threadpool(missing, request, NO_PAGE)
         return JSONResponse({"error": _first(error.errors())}, 422)
 
     @app.exception_handler(InputError)
@@ -150,6 +167,15 @@ class FaultHandler:
             if not scope["path"].startswith(("/api/", "/healthz")):
                 answer = HTMLResponse(PAGE.format(message=message), status, headers)
             await answer(scope, receive, named)
+
+
+def _wants_page(request: Request) -> bool:
+    """Return whether a request is a browser's for a page."""
+    root = str(request.scope.get("root_path", ""))
+    mounted = root != request.scope.get("app_root_path", root)  # Files, and the documentation.
+    page = not request.url.path.removeprefix(root).startswith(("/api/", "/healthz"))
+    reads = request.method in ("GET", "HEAD")
+    return page and not mounted and reads and "text/html" in request.headers.get("Accept", "")
 
 
 def _fault(error: Exception, name: str) -> tuple[int, str]:

@@ -18,7 +18,7 @@ from ..views.job import STAGES, job_view, open_jobs
 from ..views.method import method_view
 from ..views.policy import PolicyView, policy_view
 from ..views.scenario import scenario_view, scenarios_view
-from .dependencies import Service, ServiceState, links_of
+from .dependencies import Service, ServiceState, links_of, service_state
 from .published import rules_of
 
 SUBMISSIONS: Final = "/api/v1/submissions"
@@ -212,6 +212,11 @@ def _board(service: ServiceState, request: Request, season: str | None) -> HTMLR
     if view is None:
         return _missing(service, request, f"There is no season {season}.")
     return _page(request, "board.html", view=view)
+
+
+def missing_page(request: Request, message: str) -> HTMLResponse:
+    """Return the page for an address of nothing."""
+    return _missing(service_state(request), request, message)
 
 
 def _missing(service: ServiceState, request: Request, message: str) -> HTMLResponse:

@@ -77,6 +77,31 @@ def test_a_value_that_cannot_be_is_named(client, path, message):
     assert re.search(message, answer.json()["error"])
 
 
+BROWSER = {"Accept": "text/html,application/xhtml+xml,*/*;q=0.8"}
+
+
+@pytest.mark.parametrize("path", ["/nopage", "/jobs/1", "/seasons/%00", "/no/<b>page</b>"])
+def test_a_wrong_address_is_a_page_for_browsers_and_json_for_programs(client, path):
+    page = client.get(path, headers=BROWSER)
+    assert page.status_code == 404
+    assert page.headers["Content-Type"].startswith("text/html")
+    assert "This board has no page at this address." in page.text
+    assert 'href="/"' in page.text
+    assert list(client.get(path).json()) == ["error"]
+
+
+@pytest.mark.parametrize("path", ["/api/v1/nothing", "/api/v1/jobs/1", "/static/nothing.js"])
+def test_a_wrong_address_of_the_interface_is_json_for_browsers_too(client, path):
+    assert list(client.get(path, headers=BROWSER).json()) == ["error"]
+
+
+def test_a_wrong_address_below_a_proxys_path_is_answered_in_the_same_way(folder, serving):
+    with serving(folder, root="/board") as url:
+        page = httpx.get(f"{url}/nopage", headers=BROWSER)
+        assert 'href="/board/"' in page.text
+        assert list(httpx.get(f"{url}/api/v1/nothing", headers=BROWSER).json()) == ["error"]
+
+
 @pytest.mark.parametrize("method", ["PUT", "DELETE", "PATCH", "TRACE"])
 def test_nothing_can_be_changed(client, method):
     answer = client.request(method, "/api/v1/standings")
