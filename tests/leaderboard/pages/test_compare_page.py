@@ -107,6 +107,22 @@ def test_the_same_lift_is_drawn_with_both_where_there_are_replays(page, url, fol
     expect(page.locator("#same figcaption")).to_contain_text("copy solid, blend dotted")
 
 
+def test_the_scatter_has_the_size_of_a_picture_and_a_phone_shows_all_numbers_of_a_pair(page, front):
+    page.goto(front)
+    page.get_by_role("link", name="Compare", exact=True).click()
+    assert page.locator("#scatter").bounding_box()["width"] <= 600
+    page.set_viewport_size({"width": 390, "height": 844})
+    pair = page.locator("table.pairs tbody tr:visible")
+    for cell in page.locator("table.pairs tr:visible").locator("th, td").all():
+        box = cell.bounding_box()
+        assert 0 <= box["x"] < box["x"] + box["width"] <= 390
+        assert cell.evaluate("cell => cell.scrollWidth <= cell.clientWidth")
+    assert pair.locator("th").bounding_box()["height"] < 60
+    expect(
+        page.get_by_role("row").filter(has=page.get_by_role("rowheader", name="minus"))
+    ).to_have_count(1)
+
+
 def test_nonsense_in_the_address_is_left_out(page, url, site):
     for address in (f"{url}/seasons/2026/compare", f"{site}/compare-2026.html"):
         page.goto(f"{address}?p=<script>&p=1'--&p={'f' * 64}")

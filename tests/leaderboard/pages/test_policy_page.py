@@ -1,6 +1,7 @@
 """The page of a policy, in a browser: from the service, and from the disk."""
 
 import csv
+import itertools
 import re
 
 import pytest
@@ -67,3 +68,13 @@ def test_it_can_be_cited_and_shown(policy, page):
     assert cite.count("{") == cite.count("}")
     badge = page.get_by_alt_text("The badge of this row")
     assert badge.evaluate("image => image.decode().then(() => image.naturalWidth > 60)")
+
+
+def test_the_numbers_of_a_scale_stay_apart_and_on_a_phone(policy):
+    page = policy("copy")
+    page.set_viewport_size({"width": 390, "height": 844})
+    boxes = [each.bounding_box() for each in page.locator(".parts .scale text").all()]
+    assert len(boxes) > 2
+    for left, right in itertools.pairwise(boxes):
+        assert left["x"] + left["width"] < right["x"]
+    assert boxes[-1]["x"] + boxes[-1]["width"] <= 374
