@@ -65,6 +65,8 @@ class CompareView:
     season: SeasonInfo
     choice: tuple[RankedRow, ...]
     """All policies that can be chosen: the ranking."""
+    names: Mapping[str, str]
+    """What each of them is called here, by its digest; see :func:`_distinct_names`."""
     parts: tuple[Part, ...]
     columns: tuple[Column, ...]
     human_human_mm: tuple[float | None, ...]
@@ -87,7 +89,7 @@ class CompareView:
             "policies": [
                 {
                     "p": column.standing.row.submission,
-                    "name": column.standing.row.name,
+                    "name": self.names[column.standing.row.submission],
                     "rmse": [round(each, 3) for each in rmse],
                     "curves": dict(curves),
                 }
@@ -137,6 +139,7 @@ def compare_view(
     return CompareView(
         season=info,
         choice=tuple(ranked.values()),
+        names=_distinct_names(tuple(ranked.values())),
         parts=parts,
         columns=columns,
         human_human_mm=human_human,
@@ -154,6 +157,17 @@ def compare_view(
         ),
         curves=_shared([_errors(path) for path in runs.values()]),
     )
+
+
+def _distinct_names(rows: Sequence[RankedRow]) -> dict[str, str]:
+    """Return the names of rows by digest; one that repeats, with its submitter and its digest."""
+    count = Counter(each.row.name for each in rows)
+    return {
+        each.row.submission: each.row.name
+        if count[each.row.name] == 1
+        else f"{each.row.name} by {each.submitter}, {each.row.submission[:8]}"
+        for each in rows
+    }
 
 
 def _shared(found: Sequence[Mapping[str, list[int]]]) -> tuple[Mapping[str, Sequence[int]], ...]:

@@ -2,6 +2,7 @@
 
 import csv
 import io
+from dataclasses import replace
 
 from colift.benchmark.statistics import paired_difference
 from colift.leaderboard.board.board import Board
@@ -10,7 +11,9 @@ from colift.leaderboard.views.compare import compare_view
 from colift.leaderboard.views.lifts import public_lifts
 from playwright.sync_api import expect
 
+from .. import rows
 from .boards import digest
+from .conftest import running
 
 
 def test_ticked_policies_are_compared_lift_by_lift(page, front, played):
@@ -74,9 +77,9 @@ def test_each_lift_is_drawn_and_can_be_had_as_csv(page, front, played, folder):
     assert page.locator("#scatter").get_attribute("aria-label").endswith(told)
     with page.expect_download() as saved:
         page.get_by_role("button", name="Single lifts as CSV").click()
-    rows = list(csv.DictReader(io.StringIO(saved.value.path().read_text())))
+    lifts = list(csv.DictReader(io.StringIO(saved.value.path().read_text())))
     for name in names:
-        errors = [float(row[f"rmse_mm of {name}"]) for row in rows]
+        errors = [float(row[f"rmse_mm of {name}"]) for row in lifts]
         assert errors == [round(lift.rmse_mm, 3) for lift in runs[name]]
 
 
@@ -121,6 +124,22 @@ def test_the_scatter_has_the_size_of_a_picture_and_a_phone_shows_all_numbers_of_
     expect(
         page.get_by_role("row").filter(has=page.get_by_role("rowheader", name="minus"))
     ).to_have_count(1)
+
+
+def test_policies_of_one_name_can_be_told_apart_in_the_choice(page, tmp_path):
+    board = Board.open(tmp_path / "board", "quick-v1")
+    for name, mean in (("twin", 9.0), ("other twin", 10.0), ("blend", 11.0)):
+        rows.add(board, name, mean, change=lambda row: replace(row, name=row.name.split()[-1]))
+    submitters = {each.row.submission: each.submitter for each in board.standings()}
+    board.close()
+    with running(tmp_path / "board") as url:
+        page.goto(f"{url}/seasons/1/compare")
+        options = page.get_by_label("Policy 1").locator("option").all_text_contents()
+    twins = [rows.digest(name) for name in ("twin", "other twin")]
+    assert options[1:] == [
+        *(f"twin by {submitters[each]}, {each[:8]}" for each in twins),
+        "blend",
+    ]
 
 
 def test_nonsense_in_the_address_is_left_out(page, url, site):
