@@ -10,6 +10,8 @@ from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.board.board import Board
 from playwright.sync_api import expect
 
+from .conftest import running
+
 
 def numbers(page, column):
     """Return what stands first in the cells of a column."""
@@ -248,3 +250,11 @@ def test_the_picture_names_the_front(page, front):
     assert page.locator("svg.wide text[font-weight][fill='var(--ink)']").all_text_contents() == best
     expect(page.locator("svg.wide path.best")).to_have_count(len(best))
     assert "hold" not in best
+
+
+def test_the_beginning_of_a_season_is_told_once(page, tmp_path):
+    Board.open(tmp_path / "board", "quick-v1").close()
+    with running(tmp_path / "board") as url:
+        page.goto(url)
+        change = page.get_by_role("region", name="Changes").get_by_role("listitem")
+        assert change.locator("> span").inner_text() == "Season begun by local"
