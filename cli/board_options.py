@@ -39,7 +39,7 @@ def _folder(value: Path) -> Path:
     address = web_address(str(value))
     if address is not None:
         raise InputError(
-            f"--board must be the folder of a board here, is the address {address}: open it in a "
+            f"--board must be the folder of a board, got the address {address}: open it in a "
             f"browser, or use its JSON interface, see {address.rstrip('/')}/api; of the commands, "
             "only 'colift submit' takes an address"
         )
