@@ -14,7 +14,7 @@ from ..benchmark.training.demonstrations import (
     write_demonstrations,
 )
 from .options import Jobs, check_new
-from .progress import workers
+from .progress import reported_interrupt, workers
 
 
 def demonstrate_lifts(
@@ -25,7 +25,8 @@ def demonstrate_lifts(
 ) -> None:
     """Record simulated human-human lifts: drawn subjects, all behaviours, seeds in no suite."""
     check_new(out)
-    recorded = record(lifts, seed, jobs)
+    with reported_interrupt(f"{out} is not written"):
+        recorded = record(lifts, seed, jobs)
     write_demonstrations(out, recorded)
     apart = np.concatenate([each["human_m"] - each["partner_m"] for each in recorded])
     print(

@@ -8,6 +8,7 @@ import typer
 
 from ..agents.errors import InputError
 from ..agents.registry import check_plays
+from ..agents.spec import AgentSpec
 from ..benchmark.episode.episode import Episode
 from ..benchmark.episode.level import LEVEL
 from ..benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
@@ -17,7 +18,8 @@ from ..benchmark.suites.catalogue import make_scenario
 from .completion import behaviours, people
 from .options import LATENCY_OPTION, PERIOD_OPTION, PolicyName, check_output
 from .policies import choose_policy
-from .progress import progress_bar
+from .printing import printed_lines
+from .progress import progress_bar, reported_interrupt
 
 HTML: Final = ".html"
 
@@ -65,17 +67,26 @@ def render_episode(
     check_plays(policy, task)
     spec = choose_policy(policy)
     spec.check()
+    with reported_interrupt(f"{out} is not drawn"):
+        episode = _drawn(spec, played, seed, out)
+    print(f"{out}: {episode.behaviour}/{episode.subject} seed {seed}, ", end="")
+    print(f"RMSE {episode.scores['rmse_mm']:.1f} mm", end="")
+    print(f"; ended early: {episode.failure}" if episode.failure else "")
+
+
+def _drawn(spec: AgentSpec, played: Scenario, seed: int, out: Path) -> Episode:
+    """Play a lift, draw it, and return it."""
     (episode,) = play(spec, played, (seed,))
     if episode.failure is not None and episode.failure.startswith((START, STEP)):
         print(f"nothing to draw: the policy failed: {episode.failure}", file=sys.stderr)
+        for line in printed_lines(episode.log):
+            print(line, file=sys.stderr)
         raise typer.Exit(1)
     if out.suffix == HTML:
         _write_page(out, episode, played, spec.name)
     else:
         _film(out, episode, played, spec.name)
-    print(f"{out}: {episode.behaviour}/{episode.subject} seed {seed}, ", end="")
-    print(f"RMSE {episode.scores['rmse_mm']:.1f} mm", end="")
-    print(f"; ended early: {episode.failure}" if episode.failure else "")
+    return episode
 
 
 # Drawing needs matplotlib, which is slow to load: not for the other commands.

@@ -19,6 +19,24 @@ GOOD_CSV = "trial,t_s,z_m\n" + "".join(
     f"a,{k / 50:.2f},{0.3 * min(k, 60 - k) / 30:.3f}\n" for k in range(61)
 )
 
+INTERRUPTED = """
+import signal
+from colift.agents.humans import ScriptedHuman
+from colift.cli.main import main
+
+steps = iter(range(10**6))
+act = ScriptedHuman.act
+
+def interrupted(human, observation):
+    if next(steps) == 30:
+        signal.raise_signal(signal.SIGINT)
+    return act(human, observation)
+
+ScriptedHuman.act = interrupted
+main()
+"""
+"""A command that is interrupted in the middle of its first lift, as by Ctrl-C."""
+
 
 @pytest.fixture
 def policy(tmp_path):
@@ -223,6 +241,22 @@ def test_render_draws_a_picture(colift, tmp_path):
     assert done.returncode == 0
     assert (tmp_path / "lift.png").read_bytes().startswith(b"\x89PNG")
     assert "pause/S1 seed 0" in done.stdout
+
+
+@pytest.mark.parametrize(
+    "arguments", [("render", "copy"), ("demonstrate", "--jobs", "1", "--lifts", "200")]
+)
+def test_an_interrupt_is_said_in_a_line(arguments, tmp_path):
+    out = tmp_path / ("lift.gif" if "render" in arguments else "lifts.csv")
+    process = subprocess.Popen(
+        [sys.executable, "-c", INTERRUPTED, *arguments, "--out", str(out)],
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    _, stderr = process.communicate(timeout=120)
+    assert process.returncode == 1
+    assert re.fullmatch(rf"interrupted: {re.escape(str(out))} is not (drawn|written)\n", stderr)
+    assert not out.exists()
 
 
 def test_render_draws_the_intended_pose_of_a_task_and_refuses_a_policy_of_another(colift, tmp_path):
