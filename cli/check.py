@@ -19,9 +19,10 @@ from ..benchmark.execution.runner import Run, run_suite
 from ..benchmark.suites.suite import Suite, make_suite
 from ..benchmark.verification.checking import SUITE, Check, presubmission_checks
 from .completion import suites
+from .failures import printed_lines
 from .options import AsJson, Jobs
 from .policies import AUTO, NONE, auto_level, usable_level
-from .printing import argument, print_json, printed_lines
+from .printing import argument, print_json
 from .progress import workers
 from .remedies import explained
 

@@ -14,15 +14,11 @@ from rich.table import Column, Table
 from rich.text import Text
 
 from ..agents.registry import POLICIES, entries
-from ..benchmark.bundle import one_line
 
 Cell = str | Text
 
 WIDEST: Final = 10_000
 """More columns than any table has [characters]."""
-
-PRINTED_LINES: Final = 20
-"""Lines of a policy's output that are shown with a failure."""
 
 UNBROKEN: Final = 18
 """Longest word of a table that stays whole where the terminal is too narrow."""
@@ -116,15 +112,6 @@ def argument(path: Path) -> str:
     if shown in entries(POLICIES) or shown.startswith("-"):
         shown = f"./{shown}"
     return shlex.quote(shown)
-
-
-def printed_lines(printed: str) -> list[str]:
-    """Return the end of a policy's output as indented lines, for the report of its failure.
-
-    Control sequences do not reach the terminal.
-    """
-    last = printed.strip().splitlines()[-PRINTED_LINES:]
-    return ["it printed:", *(f"    {one_line(line)}" for line in last)] if last else []
 
 
 def _column(column: str | Column, *, first: bool) -> Column:

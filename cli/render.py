@@ -16,9 +16,9 @@ from ..benchmark.episode.turns import START, STEP
 from ..benchmark.execution.batches import play
 from ..benchmark.suites.catalogue import make_scenario
 from .completion import behaviours, people
+from .failures import printed_lines
 from .options import LATENCY_OPTION, PERIOD_OPTION, PolicyName, check_output
 from .policies import choose_policy
-from .printing import printed_lines
 from .progress import progress_bar, reported_interrupt
 
 HTML: Final = ".html"

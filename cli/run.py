@@ -25,6 +25,7 @@ from ..benchmark.execution.provenance import origin, platform_of
 from ..benchmark.execution.runner import InterruptedRunError, Run, run_suite
 from ..benchmark.results.baselines import BASELINES, Baseline, play_baselines, shipped_baselines
 from ..benchmark.suites.suite import Suite
+from .failures import printed_lines
 from .options import (
     LATENCY_OPTION,
     PERIOD_OPTION,
@@ -44,7 +45,7 @@ from .options import (
     executor,
 )
 from .policies import AUTO, choose_policy
-from .printing import argument, print_json, printed_lines, show
+from .printing import argument, print_json, show
 from .progress import progress_bar
 from .remedies import naming, opened
 from .tables.results import results_table, results_text
