@@ -13,7 +13,7 @@ from ..benchmark.training.demonstrations import (
     demonstrations,
     write_demonstrations,
 )
-from .options import Jobs, check_new
+from .options import Jobs, check_new_file
 from .progress import reported_interrupt, workers
 
 
@@ -24,7 +24,7 @@ def demonstrate_lifts(
     jobs: Jobs = None,
 ) -> None:
     """Record simulated human-human lifts: drawn subjects, all behaviours, seeds in no suite."""
-    check_new(out)
+    check_new_file(out)
     with reported_interrupt(f"{out} is not written"):
         recorded = record(lifts, seed, jobs)
     write_demonstrations(out, recorded)

@@ -183,7 +183,7 @@ def executor(jobs: int | None, dask: str | None) -> AbstractContextManager[Execu
     return opened(dask_pool(dask), "--dask")
 
 
-def check_new(path: Path) -> None:
+def check_new_file(path: Path) -> None:
     """Refuse a file that exists or cannot be written, before any work is done.
 
     Raises

@@ -13,7 +13,7 @@ from ..agents.submissions.submission import Submission, open_submission
 from ..benchmark.execution.pool import checked_jobs, local_pool
 from ..benchmark.suites.suite import make_suite
 from ..benchmark.verification.checking import SUITE, checked_with
-from ..leaderboard.board.board import Board, check_suite
+from ..leaderboard.board.board import Board
 from ..leaderboard.client import API, RemoteBoard
 from ..leaderboard.evaluation.progress import Callbacks
 from ..leaderboard.pages.links import ServiceLinks
@@ -22,6 +22,7 @@ from ..leaderboard.queue import NO_QUOTA, Queue, WorkerQueue
 from ..leaderboard.queue.worker import Worker
 from ..leaderboard.records.job import Job
 from ..leaderboard.records.row import BoardRow
+from ..leaderboard.records.season import check_season_suite
 from .board_options import opened_board, web_address
 from .check import all_checks
 from .completion import suites
@@ -146,7 +147,7 @@ def _submit_to_web(
     board = RemoteBoard(url, token)
     board.submitter()  # Refuses an unknown token before any work is done.
     current = board.suite()
-    check_suite(url, current, suite)
+    check_season_suite(url, current, suite)
     _check(folder, current, jobs)
     job = board.submit(submission.folder)
     links = ServiceLinks(board.url.rstrip("/"))

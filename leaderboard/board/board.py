@@ -16,7 +16,14 @@ from ..database.database import URL, Database
 from ..database.queries import read_entries, read_events, record_errors, record_event
 from ..database.schema import entries, events
 from ..records.row import BoardRow
-from ..records.season import BoardEntry, Event, Kind, Season, SeasonInfo
+from ..records.season import (
+    BoardEntry,
+    Event,
+    Kind,
+    Season,
+    SeasonInfo,
+    check_season_suite,
+)
 from ..storage.store import Store
 from .seasons import Clock, ImportedSeason, SeasonBook, utc_now
 from .standings import HumanHumanScores, RankedRow, frame, human_human_scores, standings
@@ -302,7 +309,7 @@ class Board:
             else:
                 self._book.begin(FIRST, wanted, LOCAL)
         current = self._book.current()
-        check_suite(self.folder, current.suite, suite)
+        check_season_suite(self.folder, current.suite, suite)
         self.store.secrets(current.name).secret()
 
     @contextmanager
@@ -353,18 +360,3 @@ class Board:
             record_event(connection, event)
             if hidden_rmse_mm:
                 record_errors(connection, season, digest, hidden_rmse_mm)
-
-
-def check_suite(place: Path | str, suite: str, wanted: str | None) -> None:
-    """Refuse a board whose current season has another suite than the wanted one, if any.
-
-    Raises
-    ------
-    InputError
-        If it has; ``place`` is the board's folder or address.
-    """
-    if wanted not in (None, suite):
-        raise InputError(
-            f"{place} is a board of {suite}, not of {wanted}: give another one with --board, or "
-            f"begin a season with colift season begin NAME --suite {wanted}"
-        )

@@ -3,8 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import datetime
+from pathlib import Path
 from typing import Any, Literal, Self
 
+from ...agents.errors import InputError
 from ...benchmark.suites.hidden import commitment, hidden_suite
 from ...benchmark.suites.suite import Suite
 from .row import BoardRow
@@ -118,3 +120,18 @@ class BoardEntry:
         row = None if content["row"] is None else BoardRow.read(content["row"])
         at = datetime.fromisoformat(content["at"])
         return cls(**{**content, "row": row, "at": at})
+
+
+def check_season_suite(place: Path | str, suite: str, wanted: str | None) -> None:
+    """Refuse a board whose current season has another suite than the wanted one, if any.
+
+    Raises
+    ------
+    InputError
+        If it has; ``place`` is the board's folder or address.
+    """
+    if wanted not in (None, suite):
+        raise InputError(
+            f"{place} is a board of {suite}, not of {wanted}: give another one with --board, or "
+            f"begin a season with colift season begin NAME --suite {wanted}"
+        )

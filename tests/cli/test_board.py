@@ -172,7 +172,7 @@ def test_what_is_wrong_is_said_in_a_line(board, colift, tmp_path, arguments, wor
 def test_an_address_is_not_taken_for_a_folder(colift, tmp_path, command, given, address):
     done = colift(*command, "--board", given)
     assert (done.returncode, done.stdout) == (2, "")
-    assert f"is the address {address}: open it in a browser" in done.stderr
+    assert f"got the address {address}: open it in a browser" in done.stderr
     assert f"see {address}/api;" in done.stderr
     assert done.stderr.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
