@@ -10,6 +10,7 @@ from typing import Annotated, Any, Final
 
 import typer
 
+from ...agents.errors import InputError
 from ...agents.hardware.claim import claimed
 from ...agents.hardware.loop import LoopSettings
 from ...agents.hardware.operator import StopButton, armed, await_enter
@@ -18,7 +19,8 @@ from ...agents.hardware.stops import StopTrialError
 from ...agents.hardware.trial_end import AfterDuration, AfterLift
 from ...agents.hardware.trial_log import LoggedTrial, TrialLog, write_trial
 from ...agents.spec import AgentSpec
-from ...benchmark.bundle import check_bundle_folder, check_unfinished, results, write_bundle
+from ...benchmark.bundle import check_bundle_folder, results, write_bundle
+from ...benchmark.comparison.stored import is_bundle
 from ...benchmark.episode.turns import policy_seed
 from ...benchmark.execution.runner import Run
 from ...benchmark.hardware.timing import timing_report
@@ -111,7 +113,7 @@ def run_on_robot(
     if out is not None:
         with naming("--out"):
             check_bundle_folder(out)
-            check_unfinished(out)
+            _check_empty(out)
     first = 1 if record is None else _first_number(record)
     button = StopButton()
 
@@ -193,6 +195,12 @@ def _trials(
         if played.stop is not None:
             raise StopTrialError(played.stop, played.reason)
         _report_line(f"lift {number} of {trials}: {len(played.steps)} steps")
+
+
+def _check_empty(folder: Path) -> None:
+    """Refuse a folder with a bundle, even of a stopped run: a robot's trials cannot be repeated."""
+    if is_bundle(folder):
+        raise InputError(f"{folder} holds the result bundle of earlier trials; name a new folder")
 
 
 def _first_number(folder: Path) -> int:

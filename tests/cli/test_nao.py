@@ -115,10 +115,41 @@ def test_trials_and_bundles_that_are_there_are_kept(colift, tmp_path):
     first = (tmp_path / "csv" / "lift-01.csv").read_bytes()
     refused = colift(*run, *record, *out)
     assert refused.returncode == 2
-    assert "holds a finished result bundle; name a new folder" in refused.stderr
+    assert "holds the result bundle of earlier trials; name a new folder" in refused.stderr
     assert colift(*run, *record).returncode == 0
     assert {path.name for path in (tmp_path / "csv").iterdir()} == {"lift-01.csv", "lift-02.csv"}
     assert (tmp_path / "csv" / "lift-01.csv").read_bytes() == first
+
+
+STOPPED = """
+import signal
+from colift.agents.hardware.session import Session
+from colift.cli.main import main
+
+play, numbers = Session.play, iter(range(2))
+
+def stopped(*arguments, **options):
+    if next(numbers) == 1:
+        signal.raise_signal(signal.SIGINT)
+    return play(*arguments, **options)
+
+Session.play = stopped
+main()
+"""
+"""A run on a robot that is stopped before its second trial, as by Ctrl-C."""
+
+
+def test_a_bundle_of_stopped_trials_is_kept(colift, tmp_path):
+    out = tmp_path / "out"
+    run = ("nao", "run", "copy", "--robot", "world:smooth/S1", "--trials", "2", "--yes", "--out")
+    command = [sys.executable, "-c", STOPPED, *run, str(out)]
+    assert subprocess.run(command, capture_output=True, timeout=200).returncode == 10
+    assert not json.loads((out / "results.json").read_text())["complete"]
+    traces = (out / "traces.npz").read_bytes()
+    refused = colift(*run, out)
+    assert refused.returncode == 2
+    assert "holds the result bundle of earlier trials; name a new folder" in refused.stderr
+    assert (out / "traces.npz").read_bytes() == traces
 
 
 def test_its_recording_replays_to_the_same_commands_bit_for_bit(colift, lifted):
