@@ -22,6 +22,9 @@ LOGS: Final = "logs.json"
 FILES: Final = (RESULTS, EPISODES, TRACES, MANIFEST)
 """The files of every bundle."""
 
+HARDWARE: Final = "hardware"
+"""Key in the results for the robot and the motion capture, if people lifted with a robot."""
+
 LARGEST: Final[Mapping[str, int]] = {
     RESULTS: 2**24,
     EPISODES: 2**26,

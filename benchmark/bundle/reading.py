@@ -12,7 +12,17 @@ from ..episode.episode import Episode
 from ..episode.metric import SCORING
 from ..execution.runner import Run
 from .arrays import parse_arrays
-from .files import EPISODES, INPUTS, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, read_files
+from .files import (
+    EPISODES,
+    HARDWARE,
+    INPUTS,
+    LOGS,
+    MANIFEST,
+    RECORDINGS,
+    RESULTS,
+    TRACES,
+    read_files,
+)
 from .json_text import dump_json, of_type, parse_json, pick
 from .recipe import FROM_NAMES, Recipe
 from .table import parse_table
@@ -117,10 +127,7 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
     if form != FORMAT:
         raise InputError(f"{MANIFEST}: the bundle has format {form}, must be {FORMAT}")
     if manifest.get("recipe", 0) is None:
-        raise InputError(
-            f"{MANIFEST}: there is no recipe, so its lifts cannot be simulated again: they were "
-            f"played on a robot, or their suite cannot be made again from names ({FROM_NAMES})"
-        )
+        raise InputError(f"{MANIFEST}: there is no recipe, since {_without_recipe(files)}")
     recipe = Recipe.parse(
         pick(manifest, "recipe", dict, MANIFEST), files.get(RECORDINGS), files.get(INPUTS)
     )
@@ -148,6 +155,13 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
         recipe=recipe,
         platform=platform,
     )
+
+
+def _without_recipe(files: Mapping[str, bytes]) -> str:
+    """Return the reason why a bundle has no recipe."""
+    if HARDWARE in parse_json(files[RESULTS], RESULTS):
+        return "trials of a robot cannot be simulated again"
+    return f"the suite cannot be made again from names: {FROM_NAMES}"
 
 
 def _results(data: bytes, *, acted: bool) -> dict[str, Any]:

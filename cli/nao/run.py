@@ -20,6 +20,7 @@ from ...agents.hardware.trial_end import AfterDuration, AfterLift
 from ...agents.hardware.trial_log import LoggedTrial, TrialLog, write_trial
 from ...agents.spec import AgentSpec
 from ...benchmark.bundle import check_bundle_folder, results, write_bundle
+from ...benchmark.bundle.files import HARDWARE
 from ...benchmark.comparison.stored import is_bundle
 from ...benchmark.episode.turns import policy_seed
 from ...benchmark.execution.runner import Run
@@ -254,7 +255,7 @@ def _report(
 ) -> None:
     """Write the result bundle, and print the results."""
     content, timing = results(done, {}), timing_report(records)
-    plain = {**content.plain(), "hardware": {**about, "timing": timing}}
+    plain = {**content.plain(), HARDWARE: {**about, "timing": timing}}
     if out is not None:
         write_bundle(out, done, plain)
     if as_json:

@@ -108,6 +108,14 @@ def test_a_lift_is_scored_as_a_simulated_one(lifted):
     )
 
 
+@pytest.mark.parametrize("command", [("verify",), ("compare", "copy")])
+def test_its_bundle_cannot_be_simulated_again(colift, lifted, command):
+    done = colift(*command, lifted[1] / "out")
+    told = "there is no recipe, since trials of a robot cannot be simulated again"
+    assert told in " ".join(done.stderr.split())
+    assert done.returncode in (1, 2)
+
+
 def test_trials_and_bundles_that_are_there_are_kept(colift, tmp_path):
     run = ("nao", "run", "copy", "--robot", "world:smooth/S1", "--trials", 1, "--yes")
     record, out = ("--record", tmp_path / "csv"), ("--out", tmp_path / "out")
