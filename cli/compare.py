@@ -32,9 +32,9 @@ from .options import (
     Jobs,
     Recordings,
     Seeds,
-    check_folder,
     chosen_channel,
     chosen_suite,
+    try_folder,
 )
 from .policies import choose_policy
 from .printing import print_json, show
@@ -100,7 +100,7 @@ def compare_policies(
         # The files need matplotlib, which is slow to load.
         from ..benchmark.comparison.files import write_comparison
 
-        check_folder("--out", out)
+        try_folder("--out", out)
     limits = suite_bounds(episodes) if bounds else {}
     results = [each.policy for each in stored]
     comparison = _compare(specs, results, episodes, limits, network, jobs)

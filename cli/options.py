@@ -3,7 +3,7 @@
 import os
 from collections.abc import Sequence
 from concurrent.futures import Executor
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, suppress
 from pathlib import Path
 from typing import Annotated, Final
 
@@ -217,6 +217,21 @@ def check_folder(option: str, folder: Path) -> None:
         raise InputError(f"{option}: {folder} cannot be a folder: {error.strerror}") from error
     if not os.access(folder, os.W_OK):
         raise InputError(f"{option}: {folder} is not writable")
+
+
+def try_folder(option: str, folder: Path) -> None:
+    """Refuse a folder that cannot be made or written to, and leave none that was not there.
+
+    Raises
+    ------
+    InputError
+        As :func:`check_folder`.
+    """
+    missing = [each for each in (folder, *folder.parents) if not each.exists()]
+    check_folder(option, folder)
+    with suppress(OSError):  # Another command may have written there.
+        for each in missing:
+            each.rmdir()
 
 
 def check_output(path: Path | None) -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 from rich.console import RenderableType
 
-from .options import AsJson, Jobs, check_folder, seed_range
+from .options import AsJson, Jobs, seed_range, try_folder
 from .printing import left, print_json, show, table
 from .progress import reported_interrupt, workers
 
@@ -37,7 +37,7 @@ def paper(
 
     suite = make_suite("paper-v1").with_seeds(*seed_range(seeds))
     effort = Effort(learning_trials=trials)
-    check_folder("--out", out)
+    try_folder("--out", out)
     with (
         reported_interrupt("no report was written"),
         workers("paper", lift_count(suite, effort), jobs) as (pool, progress),

@@ -259,6 +259,19 @@ def test_an_interrupt_is_said_in_a_line(arguments, tmp_path):
     assert not out.exists()
 
 
+def test_an_interrupted_comparison_leaves_no_folder(tmp_path):
+    command = ("compare", "hold", "copy", "--suite", "quick-v1", "--jobs", "1")
+    process = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED, *command, "--out", str(tmp_path / "new" / "folder")],
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert process.returncode == 1
+    assert process.stderr.startswith("interrupted: ")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_render_draws_the_intended_pose_of_a_task_and_refuses_a_policy_of_another(colift, tmp_path):
     picture = tmp_path / "pose.png"
     lift = ("--scenario", "pivot", "--out", picture)
