@@ -41,8 +41,11 @@ def read_stored(folder: Path) -> Stored:
     Raises
     ------
     InputError
-        If it is damaged or incomplete, or its scores are not those of this version of colift.
+        If there is none, it is damaged or incomplete, or its scores are not those of this version
+        of colift.
     """
+    if not folder.is_dir():
+        raise InputError(f"{folder}: no such folder; name that of a result bundle")
     try:
         bundle = read_bundle(folder)
         run = bundle.run()

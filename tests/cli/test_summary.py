@@ -52,3 +52,6 @@ def test_what_is_no_bundle_is_named(colift, tmp_path):
     done = colift("summary", tmp_path)
     assert done.returncode == 2
     assert str(tmp_path) in done.stderr.replace("\n", "")
+    done = colift("summary", "copy")
+    assert done.returncode == 2
+    assert done.stderr == "error: copy: no such folder; name that of a result bundle\n"
