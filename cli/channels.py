@@ -13,7 +13,6 @@ from ..benchmark.comparison.over_channels import OverChannel, over_channels
 from .completion import channels as channel_names
 from .completion import policies as named
 from .options import (
-    STANDARD,
     AsJson,
     Behaviours,
     Jobs,
@@ -50,7 +49,7 @@ def measure_channels(
             autocompletion=channel_names,
         ),
     ] = None,
-    suite: SuiteName = STANDARD,
+    suite: SuiteName = None,
     behaviour: Behaviours = None,
     seeds: Seeds = None,
     recordings: Recordings = None,

@@ -13,6 +13,7 @@ from ..agents.errors import InputError
 from ..agents.registry import POLICIES, check_plays, entries, playing
 from ..agents.spec import AgentSpec
 from ..benchmark.bounds.bounds import suite_bounds
+from ..benchmark.bundle import is_bundle
 from ..benchmark.channels import Channel
 from ..benchmark.comparison.captions import failures, unit_warnings, verdict
 from ..benchmark.comparison.comparison import Comparison
@@ -20,12 +21,11 @@ from ..benchmark.comparison.comparison import compare as compared
 from ..benchmark.comparison.files import comparison_json
 from ..benchmark.comparison.paired_results import PolicyResults
 from ..benchmark.comparison.playing import Bound, episodes_to_play, play_policies
-from ..benchmark.comparison.stored import Stored, check_same_lifts, is_bundle, read_stored
+from ..benchmark.comparison.stored import Stored, check_same_lifts, read_stored
 from ..benchmark.suites.suite import Suite
 from .completion import policies as named
 from .completion import suites
 from .options import (
-    STANDARD,
     AsJson,
     Behaviours,
     ChannelName,
@@ -87,7 +87,7 @@ def compare_policies(
     if bundles and not (suite or seeds or recordings or behaviour):
         episodes = next(iter(bundles.values())).suite
     else:
-        episodes = chosen_suite(suite or STANDARD, seeds, recordings, behaviour)
+        episodes = chosen_suite(suite, seeds, recordings, behaviour)
     task = episodes.scenarios[0].task.name
     specs, stored = _policies(named, playing(task) if everything else (), bundles, task)
     network = chosen_channel(channel)

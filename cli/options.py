@@ -40,7 +40,13 @@ PolicyName = Annotated[
     ),
 ]
 SuiteName = Annotated[
-    str, typer.Option("--suite", metavar="NAME", help="Suite of lifts.", autocompletion=suites)
+    str | None,
+    typer.Option(
+        "--suite",
+        metavar="NAME",
+        help=f"Suite of lifts; default: {STANDARD}.",
+        autocompletion=suites,
+    ),
 ]
 Seeds = Annotated[
     str | None, typer.Option(metavar="A:B", help="Seeds A to B-1 instead of the suite's.")
@@ -111,9 +117,14 @@ def seed_range(text: str) -> tuple[int, int]:
 
 
 def chosen_suite(
-    name: str, seeds: str | None, recordings: Path | None, behaviours: Sequence[str] | None = None
+    name: str | None,
+    seeds: str | None,
+    recordings: Path | None,
+    behaviours: Sequence[str] | None = None,
 ) -> Suite:
     """Return a suite by name, with the given seeds or behaviours, or the suite of recordings.
+
+    With neither a name nor recordings, it is :data:`STANDARD`.
 
     Raises
     ------
@@ -121,7 +132,7 @@ def chosen_suite(
         If there is no such suite or behaviour, or the file or the seeds cannot be used.
     """
     if recordings is None:
-        suite = make_suite(name)
+        suite = make_suite(name or STANDARD)
         if behaviours:
             suite = suite.with_behaviours(list(dict.fromkeys(behaviours)))
         return suite if seeds is None else suite.with_seeds(*seed_range(seeds))
@@ -129,7 +140,7 @@ def chosen_suite(
         raise InputError("--behaviour and --recordings exclude each other: people move as recorded")
     if seeds is not None:
         raise InputError("--seeds and --recordings exclude each other: a recording has no seed")
-    if name != STANDARD:
+    if name is not None:
         raise InputError("--suite and --recordings exclude each other: recordings are a suite")
     return real_lifts(recordings)
 

@@ -8,7 +8,7 @@ from ..agents.loading.loading import PolicySpec
 from ..agents.registry import other_task, playing, summary
 from ..agents.spec import AgentSpec
 from ..benchmark.episode.level import LEVEL
-from ..benchmark.execution.fitting import check_fits, first_failure
+from ..benchmark.execution.fitting import check_fits
 from ..benchmark.suites.catalogue import make_scenario
 from .policies import AUTO, choose_policy
 
@@ -58,9 +58,7 @@ def partners(first: str = FIRST, isolation: str = AUTO) -> Partners:
 
 def _check_lifts(policy: AgentSpec) -> None:
     """Refuse a policy that fails in the first step of a lift: nobody could lift with it."""
-    scenario = make_scenario("smooth")
-    check_fits(policy, scenario)
-    reason = first_failure(policy, scenario)
+    reason = check_fits(policy, make_scenario("smooth"))
     if reason is not None:
         raise InputError(f"policy {policy.name!r} cannot be a partner: {reason}")
 

@@ -12,7 +12,7 @@ from ..agents.spec import AgentSpec
 from ..benchmark.episode.episode import Episode
 from ..benchmark.episode.level import LEVEL
 from ..benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
-from ..benchmark.episode.turns import START, STEP
+from ..benchmark.episode.turns import is_policy_failure
 from ..benchmark.execution.batches import play
 from ..benchmark.suites.catalogue import make_scenario
 from .completion import behaviours, people
@@ -77,7 +77,7 @@ def render_episode(
 def _drawn(spec: AgentSpec, played: Scenario, seed: int, out: Path) -> Episode:
     """Play a lift, draw it, and return it."""
     (episode,) = play(spec, played, (seed,))
-    if episode.failure is not None and episode.failure.startswith((START, STEP)):
+    if is_policy_failure(episode.failure):
         print(f"nothing to draw: the policy failed: {episode.failure}", file=sys.stderr)
         for line in printed_lines(episode.log):
             print(line, file=sys.stderr)

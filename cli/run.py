@@ -29,7 +29,6 @@ from .failures import printed_lines
 from .options import (
     LATENCY_OPTION,
     PERIOD_OPTION,
-    STANDARD,
     AsJson,
     Behaviours,
     ChannelName,
@@ -55,7 +54,7 @@ GO_ON: Final = "the finished lifts are kept: resume with the same command and --
 
 def run(
     policy: PolicyName,
-    suite: SuiteName = STANDARD,
+    suite: SuiteName = None,
     behaviour: Behaviours = None,
     seeds: Seeds = None,
     recordings: Recordings = None,

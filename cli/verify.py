@@ -10,8 +10,13 @@ from typing import Annotated, Final
 import typer
 
 from ..agents.errors import EvaluatorFault, InputError
-from ..benchmark.bundle import check_bundle_folder, check_unfinished, one_line, write_bundle
-from ..benchmark.bundle.files import RESULTS
+from ..benchmark.bundle import (
+    check_bundle_folder,
+    check_unfinished,
+    is_bundle,
+    one_line,
+    write_bundle,
+)
 from ..benchmark.execution.pool import checked_jobs, process_pool
 from ..benchmark.execution.runner import Run
 from ..benchmark.live.session import is_session, lift_folders, sessions_in
@@ -93,7 +98,7 @@ def verify_bundle(
 
 def _check_not_of_sessions(folder: Path) -> None:
     """Raise an InputError if a folder is that of several sessions, as 'colift play' makes it."""
-    sessions = [] if (folder / RESULTS).exists() else sessions_in(folder)
+    sessions = [] if is_bundle(folder) else sessions_in(folder)
     if not sessions:
         return
     names = ", ".join(each.name for each in sessions[:MOST_SESSIONS])

@@ -15,7 +15,7 @@ file               content
 from ..execution.provenance import fingerprint
 from .content import Results, results
 from .differences import Difference, differences
-from .files import FILES, check_bundle_folder, check_unfinished, read_files
+from .files import FILES, check_bundle_folder, check_unfinished, is_bundle, read_files
 from .reading import Bundle, parse, read_bundle
 from .recipe import Recipe
 from .table import one_line
@@ -31,6 +31,7 @@ __all__ = [
     "check_unfinished",
     "differences",
     "fingerprint",
+    "is_bundle",
     "one_line",
     "parse",
     "read_bundle",

@@ -37,6 +37,11 @@ LARGEST: Final[Mapping[str, int]] = {
 """All files that a bundle can have, and their largest sizes [bytes]."""
 
 
+def is_bundle(folder: Path) -> bool:
+    """Return whether a folder has the results of a bundle, even of a damaged one."""
+    return (folder / RESULTS).is_file()
+
+
 def check_bundle_folder(folder: Path) -> None:
     """Refuse a folder to which a bundle cannot be written, before any work is done.
 

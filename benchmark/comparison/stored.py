@@ -30,11 +30,6 @@ class Stored:
     """RMSE divided by that of the human-human baseline; None without this baseline."""
 
 
-def is_bundle(folder: Path) -> bool:
-    """Return whether a folder has the results of a bundle, even of a damaged one."""
-    return (folder / RESULTS).is_file()
-
-
 def read_stored(folder: Path) -> Stored:
     """Return the scores in a bundle.
 

@@ -13,6 +13,7 @@ from .parallel import parallel_env
 
 P = ParamSpec("P")
 AEC: TypeAlias = AECEnv[str, Any, Any]
+"""An environment of agents that take turns: agent-environment cycle."""
 
 
 class CheckedTurns(BaseWrapper[str, Any, Any]):  # type: ignore[misc]

@@ -114,6 +114,7 @@ def plain(value: Any) -> Any:
     if dataclasses.is_dataclass(value):
         fields = {each.name: plain(getattr(value, each.name)) for each in dataclasses.fields(value)}
         kind: type = type(value)
+        # The limits of ``level`` are among the numbers.
         limits = _limits(getattr(kind, "metrics", {})) if _metrics(kind) else {}
         stated = {"limits of metrics": limits} if limits else {}
         return {"": code_hash(kind, without=(*STATED, *_metrics(kind))), **stated, **fields}

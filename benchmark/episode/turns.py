@@ -15,6 +15,11 @@ STEP: Final = "step "
 """Prefix if the policy failed in a step; the reason for a dropped table has neither prefix."""
 
 
+def is_policy_failure(failure: str | None) -> bool:
+    """Return whether an episode ended because its policy failed, and not by a drop."""
+    return failure is not None and failure.startswith((START, STEP))
+
+
 def policy_seed() -> int:
     """Return the seed for resetting a policy: the same in every episode, public or hidden.
 

@@ -21,11 +21,12 @@ BEHAVIOUR: Final = "smooth"
 """Human behaviour with which the other tasks are tried."""
 
 
-def check_fits(policy: AgentSpec, scenario: Scenario, seed: int = SEED) -> None:
+def check_fits(policy: AgentSpec, scenario: Scenario, seed: int = SEED) -> str | None:
     """Refuse a policy that fails in the first step of a task, but not in that of another.
 
     A submission does not name its task, but its code or its network may refuse the observations of
-    others. A policy that fails in every task is not refused: its failures are its result.
+    others. A policy that fails in every task is not refused: its failures are its result, and the
+    reason of this one is returned; None if it does not fail.
 
     Raises
     ------
@@ -35,16 +36,17 @@ def check_fits(policy: AgentSpec, scenario: Scenario, seed: int = SEED) -> None:
     EvaluatorFault
         If the machine failed.
     """
-    reason = first_failure(policy, scenario, seed)
+    reason = _first_failure(policy, scenario, seed)
     others = () if reason is None else tuple(_others(policy, scenario.task.name))
     if others:
         raise InputError(
             f"policy {policy.name!r} is for the task {' or '.join(map(repr, others))}, not for "
             f"{scenario.task.name!r}, where it fails at once: {reason}"
         )
+    return reason
 
 
-def first_failure(policy: AgentSpec, scenario: Scenario, seed: int = SEED) -> str | None:
+def _first_failure(policy: AgentSpec, scenario: Scenario, seed: int) -> str | None:
     """Return the reason why a policy fails before or in its first step; None if it does not.
 
     Raises
@@ -73,7 +75,7 @@ def _others(policy: AgentSpec, task: str) -> Iterator[str]:
         if name == task:
             continue
         try:
-            failure = first_failure(policy, make_scenario(BEHAVIOUR, task=name))
+            failure = _first_failure(policy, make_scenario(BEHAVIOUR, task=name), SEED)
         except InputError:
             continue  # Another package's task, which cannot be loaded or played.
         if failure is None:

@@ -15,7 +15,7 @@ from ...agents.errors import EvaluatorFault, InputError, error_text
 from ...agents.spec import AgentSpec
 from ..episode.lift import Lift
 from ..episode.scenario import Scenario
-from ..episode.turns import START, STEP
+from ..episode.turns import is_policy_failure
 from .choice import PERSON, PERSON_AS_ROBOT, SIMULATED, HostChoice
 from .grip import Grip
 from .lifting import Lifting
@@ -243,7 +243,7 @@ class Room:
         self._last, self._number = (number, folder), self._session.next_number()
         failure = run.episodes[0].failure
         self._standing = None
-        if failure is None or not failure.startswith((START, STEP)):  # Else there is no movement.
+        if not is_policy_failure(failure):  # Else there is no movement.
             self._standing = Standing(run.suite.scenarios[0], self._policies, lag=lifting.lag)
         end = {
             "type": "end",

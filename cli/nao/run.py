@@ -19,9 +19,8 @@ from ...agents.hardware.stops import StopTrialError
 from ...agents.hardware.trial_end import AfterDuration, AfterLift
 from ...agents.hardware.trial_log import LoggedTrial, TrialLog, write_trial
 from ...agents.spec import AgentSpec
-from ...benchmark.bundle import check_bundle_folder, results, write_bundle
+from ...benchmark.bundle import check_bundle_folder, is_bundle, results, write_bundle
 from ...benchmark.bundle.files import HARDWARE
-from ...benchmark.comparison.stored import is_bundle
 from ...benchmark.episode.turns import policy_seed
 from ...benchmark.execution.runner import Run
 from ...benchmark.hardware.timing import timing_report

@@ -164,7 +164,7 @@ class FaultHandler:
             status, message = _fault(error, name)
             headers = {"Retry-After": str(AWAY_S)} if status == 503 else {}
             answer: Response = JSONResponse({"error": message}, status, headers)
-            if not scope["path"].startswith(("/api/", "/healthz")):
+            if _is_of_page(scope["path"]):
                 answer = HTMLResponse(PAGE.format(message=message), status, headers)
             await answer(scope, receive, named)
 
@@ -173,9 +173,14 @@ def _wants_page(request: Request) -> bool:
     """Return whether a request is a browser's for a page."""
     root = str(request.scope.get("root_path", ""))
     mounted = root != request.scope.get("app_root_path", root)  # Files, and the documentation.
-    page = not request.url.path.removeprefix(root).startswith(("/api/", "/healthz"))
+    page = _is_of_page(request.url.path.removeprefix(root))
     reads = request.method in ("GET", "HEAD")
     return page and not mounted and reads and "text/html" in request.headers.get("Accept", "")
+
+
+def _is_of_page(path: str) -> bool:
+    """Return whether a path, below the board's own, is not of the JSON interface."""
+    return not path.startswith(("/api/", "/healthz"))
 
 
 def _fault(error: Exception, name: str) -> tuple[int, str]:

@@ -65,7 +65,7 @@ def test_policies_are_compared_on_a_behaviour(lab):
     [
         (("--behaviour", "rude"), "unknown human behaviour 'rude'"),
         (("--behaviour", "pause", "--recordings", "x.csv"), "exclude each other"),
-        (("--suite", "quick-v1", "--recordings", "x.csv"), "--suite and --recordings exclude"),
+        (("--suite", "standard-v1", "--recordings", "x.csv"), "--suite and --recordings exclude"),
     ],
 )
 def test_a_wrong_behaviour_is_one_line(colift, options, words):

@@ -2,7 +2,17 @@
 
 import pytest
 from colift.agents.errors import InputError
-from colift.benchmark.channels import CHANNELS, Channel, Link, channel_name, make_channel
+from colift.agents.identity import Code, code_hash
+from colift.benchmark.channels import (
+    CHANNELS,
+    Channel,
+    Link,
+    channel_name,
+    make_channel,
+    parse_recorded,
+    recorded,
+    teleoperated,
+)
 from colift.benchmark.channels.reading import LONGEST, parse_channel
 from scipy.stats import gamma
 
@@ -108,3 +118,10 @@ def test_a_recipe_has_all_numbers_as_floats():
         InputError, match=r"it: up.delay must be written as colift does, 1.0, got 1"
     ):
         parse_channel({**whole, "up": {**WHOLE, "delay": 1}}, "it", whole=True)
+
+
+def test_a_bundle_has_the_hash_of_all_that_delays_and_loses_a_message():
+    assert parse_recorded(recorded(CHANNELS["home"]), "it") == CHANNELS["home"]
+    used = {each.name for each in Code().definitions(teleoperated, Channel, Link)}
+    assert {"schedule", "_delays", "_jitter", "_arrived", "Teleoperated", "channel_seed"} <= used
+    assert code_hash(teleoperated, Channel, Link) == recorded(CHANNELS["lan"])["code"]

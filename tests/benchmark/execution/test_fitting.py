@@ -3,7 +3,7 @@
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.loading.loading import PolicySpec
-from colift.benchmark.execution.fitting import check_fits, first_failure
+from colift.benchmark.execution.fitting import check_fits
 from colift.benchmark.suites.catalogue import make_scenario
 
 CODE = """
@@ -49,9 +49,8 @@ def test_a_policy_of_another_task_is_refused_with_its_reason(spec):
 @pytest.mark.parametrize("text", ["Sized,size=99", "Unmade"])
 def test_the_failures_of_a_policy_that_fails_everywhere_are_its_result(spec, text):
     level = make_scenario("smooth")
-    check_fits(spec(text), level)
-    assert first_failure(spec(text), level).startswith(("step 0: ", "start: "))
+    assert check_fits(spec(text), level).startswith(("step 0: ", "start: "))
 
 
 def test_a_policy_that_answers_has_no_failure():
-    assert first_failure(PolicySpec(text="copy"), make_scenario("smooth")) is None
+    assert check_fits(PolicySpec(text="copy"), make_scenario("smooth")) is None
