@@ -79,7 +79,7 @@ class Store:
         OSError
             If it cannot be written to.
         """
-        if self.folder.is_dir() and not (self.folder / "board.json").exists():
+        if self.folder.is_dir() and not has_board(self.folder):
             others = sorted({path.name for path in self.folder.iterdir()} - set(PARTS))
             if others:
                 raise InputError(
