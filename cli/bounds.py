@@ -20,9 +20,10 @@ from ..benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from ..benchmark.statistics import Estimate
 from ..benchmark.suites.suite import recorded_suite
 from ..benchmark.training.anticipation import LIFTS, ROUNDS, learn_anticipation
-from .options import Jobs, check_output
+from .options import Jobs, check_new_file, check_output
 from .printing import show, table
 from .progress import workers
+from .remedies import naming
 from .tables.comparison import behaviours_table, ranks_table
 
 People = Annotated[int, typer.Option(metavar="N", help="Number of drawn subjects.", min=1)]
@@ -153,6 +154,9 @@ def sweep_rates(
     if out is not None and out.suffix != ".png":
         raise InputError(f"--out must end in .png, got {out}")
     check_output(out)
+    if out is not None:
+        with naming("--out", hint="the numbers go to a .json file beside the picture"):
+            check_new_file(out.with_suffix(".json"))
     suite = held_out_suite(people, each)
     with workers("sweep", lifts_to_play(suite, lifts), jobs) as (pool, progress):
         human_human = human_human_rmse(suite, executor=pool, progress=progress)

@@ -14,7 +14,7 @@ from ..benchmark.paper.calibration import (
     episodes,
     fit_rounds,
 )
-from .options import Jobs, check_output, write_output
+from .options import Jobs, check_new_file, write_output
 from .printing import show, table
 from .progress import workers
 
@@ -27,7 +27,7 @@ def calibrate(
     jobs: Jobs = None,
 ) -> None:
     """Fit lift heights, process noise and the human partner's lag to the paper's results."""
-    check_output(out)
+    check_new_file(out)
     with workers("calibrating", episodes(), jobs) as (pool, progress):
         for number, fit in enumerate(fit_rounds(executor=pool, progress=progress), 1):
             print(

@@ -24,7 +24,7 @@ from ..benchmark.training.task_model import (
     learn_task,
 )
 from .demonstrate import record
-from .options import LATENCY_OPTION, PERIOD_OPTION, Jobs, check_output, write_output
+from .options import LATENCY_OPTION, PERIOD_OPTION, Jobs, check_new_file, write_output
 from .printing import show
 from .progress import progress_bar, workers
 from .tables.learning import anticipation_table, convergence_text, q_table, task_table
@@ -67,7 +67,7 @@ def reactive(
     """Learn the paper's reactive controller online, while the human stands still."""
     if trials < 1:
         raise InputError(f"--trials must be at least 1, got {trials}")
-    check_output(out)
+    check_new_file(out)
     done: list[LearningTrial] = []
     jobs = min(trials, checked_jobs(jobs))
     with workers("learning", trials, jobs) as (pool, progress):
@@ -101,7 +101,7 @@ def task_model(
     """Learn the task model from demonstrations, then its impedance by practice."""
     if practice < 1:
         raise InputError(f"--practice must be at least 1, got {practice}")
-    check_output(out)
+    check_new_file(out)
     import_sklearn("mixture")
     if demonstrations is None:
         lifts = record(LIFTS, FIRST_SEED, None)
@@ -135,7 +135,7 @@ def anticipate(
     command = f"colift learn anticipate --lifts {lifts} --rounds {rounds} --seed {seed}"
     if timing != Timing():
         command += f" --latency {latency:g} --control-period {control_period:g}"
-    check_output(out)
+    check_new_file(out)
     models: list[Anticipation] = []
     with workers("lifting", rounds * lifts, jobs) as (pool, progress):
         for lesson in anticipation.learn_anticipation(

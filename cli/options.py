@@ -194,7 +194,7 @@ def executor(jobs: int | None, dask: str | None) -> AbstractContextManager[Execu
     return opened(dask_pool(dask), "--dask")
 
 
-def check_new_file(path: Path) -> None:
+def check_new_file(path: Path | None) -> None:
     """Refuse a file that exists or cannot be written, before any work is done.
 
     Raises
@@ -203,7 +203,7 @@ def check_new_file(path: Path) -> None:
         If it exists, or as :func:`check_output`.
     """
     check_output(path)
-    if path.exists():
+    if path is not None and path.exists():
         raise InputError(f"{path} exists; name a new file")
 
 

@@ -147,6 +147,25 @@ def test_wrong_usage_is_one_clear_line_and_exit_code_2(colift, arguments, told, 
 
 
 @pytest.mark.parametrize(
+    ("command", "out"),
+    [
+        (("learn", "reactive"), "mine.json"),
+        (("learn", "task_model"), "mine.json"),
+        (("learn", "anticipate", "--lifts", "1"), "mine.json"),
+        (("calibrate",), "mine.json"),
+        (("sweep",), "mine.png"),
+    ],
+)
+def test_a_file_of_numbers_that_is_there_is_kept(colift, tmp_path, command, out):
+    (tmp_path / "mine.json").write_text("precious")
+    done = colift(*command, "--out", out)
+    assert done.returncode == 2
+    assert "mine.json exists; name a new file" in done.stderr
+    assert (tmp_path / "mine.json").read_text() == "precious"
+    assert not (tmp_path / "mine.png").exists()
+
+
+@pytest.mark.parametrize(
     ("text", "told"),
     [
         ("", "empty"),
