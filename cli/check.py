@@ -12,6 +12,7 @@ from rich.text import Text
 
 from ..agents.errors import InputError
 from ..agents.spec import AgentSpec
+from ..agents.submissions import from_file
 from ..agents.submissions.new import AUTHOR, DESCRIPTION, template
 from ..agents.submissions.packages import undeclared
 from ..agents.submissions.submission import Submission, open_submission
@@ -113,7 +114,7 @@ def _files(submission: Submission) -> Iterator[Check]:
         missing
         for missing, wanting in (
             ("the authors", AUTHOR in manifest.authors),
-            ("a description (it is the template's)", _undescribed(submission)),
+            ("a description (it is that of 'colift new')", _undescribed(submission)),
         )
         if wanting
     ]
@@ -127,11 +128,11 @@ def _files(submission: Submission) -> Iterator[Check]:
 
 
 def _undescribed(submission: Submission) -> bool:
-    """Return whether the description is still the template's, and the policy is not."""
+    """Return whether an edited policy still has the description that 'colift new' wrote."""
     module, _, _ = submission.manifest.entry_point.partition(":")
     source = submission.folder / f"{module}.py"
     edited = not source.is_file() or source.read_text(errors="replace") != template("policy.py")
-    return edited and submission.manifest.description == DESCRIPTION
+    return edited and submission.manifest.description in (DESCRIPTION, from_file.DESCRIPTION)
 
 
 def _show(console: Console, check: Check) -> None:

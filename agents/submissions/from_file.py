@@ -6,14 +6,17 @@ from typing import Final
 
 from ..errors import InputError
 from ..loading.loading import PolicySpec
-from ..loading.parameters import merged
+from ..loading.parameters import merged, split
 from ..near_names import did_you_mean
 from . import fields
-from .new import DESCRIPTION, POLICY, write_files
+from .new import POLICY, write_files
 from .packages import needed
 
 MODEL: Final = "policy.onnx"
 """The file of a network."""
+
+DESCRIPTION: Final = "A policy."
+"""The description of a class without a docstring."""
 
 LARGEST: Final = 2**20
 """Largest source file [bytes]."""
@@ -44,8 +47,8 @@ def write_from(folder: Path, text: str) -> tuple[str, ...]:
     Raises
     ------
     InputError
-        If there is no such file or class, the parameters are not ``name=value``, the network is not
-        allowed, or as :func:`.write_template`.
+        If there is no such file or class, the parameters are not ``name=value`` or not those of the
+        class, the network is not allowed, or as :func:`.write_template`.
     """
     if text.endswith(".onnx"):
         return _write_network(folder, Path(text))
@@ -60,6 +63,8 @@ def write_from(folder: Path, text: str) -> tuple[str, ...]:
     if name not in found:
         near = did_you_mean(name, found)
         raise InputError(f"{path} has no class {name!r}; {near}it has {', '.join(found) or 'none'}")
+    if parameters:
+        _check_parameters(found[name], parameters)
     source = path.read_bytes()
     content = {
         "description": _description(found[name]),
@@ -90,8 +95,34 @@ def _tree(path: Path) -> ast.Module:
         raise InputError(f"{path} is not Python: {error}") from error
 
 
+def _check_parameters(policy: ast.ClassDef, text: str) -> None:
+    """Refuse parameters that the class cannot have, as far as its source shows them."""
+    known = _arguments(policy)
+    if known is None or "parameters" in known:
+        return  # The fields of an argument 'parameters' go by their own names.
+    for name in split(text):
+        if name.partition(".")[0] not in known:
+            near = did_you_mean(name, known)
+            has = ", ".join(known) or "none"
+            raise InputError(f"{policy.name} has no parameter {name!r}; {near}it has {has}")
+
+
+def _arguments(policy: ast.ClassDef) -> list[str] | None:
+    """Return the names of the constructor's arguments; None if they come from elsewhere."""
+    if policy.decorator_list or policy.keywords:
+        return None
+    methods = {each.name: each for each in policy.body if isinstance(each, ast.FunctionDef)}
+    start = methods.get("__init__")
+    if "__new__" in methods or (start is not None and start.decorator_list):
+        return None
+    if start is None:
+        return None if policy.bases else []
+    positional = [*start.args.posonlyargs, *start.args.args][1:]
+    return [each.arg for each in (*positional, *start.args.kwonlyargs)]
+
+
 def _description(policy: ast.ClassDef) -> str:
-    """Return the first line of the class's docstring, or the template's description."""
+    """Return the first line of the class's docstring, or the description of one without."""
     line = (ast.get_docstring(policy) or "").partition("\n")[0]
     try:
         return fields.text(line)

@@ -247,7 +247,7 @@ def test_the_templates_words_about_itself_are_to_be_replaced(checked, mine):
     assert told.endswith("Add to policy.toml the authors")
     own = FAILING["no act"][0]
     told = checked(own)["manifest"].message
-    assert told.endswith("the authors and a description (it is the template's)")
+    assert told.endswith("the authors and a description (it is that of 'colift new')")
     manifest = mine / "policy.toml"
     manifest.write_text(
         manifest.read_text().replace("Your Name", "Ada").replace("Removes a fixed", "Removes a")

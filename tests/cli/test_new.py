@@ -73,6 +73,36 @@ def test_a_file_with_parameters_becomes_a_folder_that_scores_the_same(colift, pd
     assert others[0] == others[1] == others[2] != wanted
 
 
+SETTINGS = """from dataclasses import dataclass
+
+@dataclass(frozen=True)
+class Settings:
+    gain: float = 1.0
+
+class Policy:
+    def __init__(self, parameters: Settings = Settings(), *, filter: Settings = Settings()):
+        self.gain = parameters.gain
+    def reset(self, seed): pass
+    def act(self, observation): return self.gain * observation[0]
+
+class Derived(Policy):
+    pass
+"""
+
+
+@pytest.mark.parametrize("name", ["Policy", "Derived"])
+@pytest.mark.parametrize("parameter", ["gain=0.5", "filter.gain=0.5"])
+def test_parameters_of_dataclasses_and_base_classes_are_taken(colift, tmp_path, name, parameter):
+    (tmp_path / "own.py").write_text(SETTINGS)
+    assert colift("new", "mine", "--from", f"own.py:{name},{parameter}").returncode == 0
+    done = colift("run", "mine", "--isolation", "none", *QUICK)
+    assert (done.returncode, json.loads(done.stdout)["summary"]["failed"]) == (0, 0)
+    manifest = read_submission(tmp_path / "mine").manifest
+    assert manifest.description == "A policy."  # Not that of the template.
+    checked = " ".join(colift("check", "mine").stdout.split())
+    assert "a description (it is that of 'colift new')" in checked
+
+
 def test_a_folders_parameters_change_its_name_and_digest(colift, pd):
     colift("new", "mine", "--from", "pd.py:PD")
     policies = [
@@ -88,6 +118,8 @@ def test_a_folders_parameters_change_its_name_and_digest(colift, pd):
     [
         ("pd.py:Pd", "pd.py has no class 'Pd'; did you mean PD? it has Helper, PD"),
         ("pd.py:PD,lead", "parameters must be name=value, separated by commas; got 'lead'"),
+        ("pd.py:PD,gian=3", "PD has no parameter 'gian'; did you mean gain? it has gain, lead"),
+        ("pd.py:Helper,gain=3", "Helper has no parameter 'gain'; it has none"),
         ("nowhere.py:PD", "cannot read nowhere.py: No such file or directory"),
         ("pd.py", "a policy to copy must be file.py:Class,parameters or file.onnx, got 'pd.py'"),
         ("blend", "a policy to copy must be file.py:Class,parameters or file.onnx, got 'blend'"),
