@@ -23,7 +23,7 @@ from .completion import suites
 from .failures import printed_lines
 from .options import AsJson, Jobs
 from .policies import AUTO, NONE, auto_level, usable_level
-from .printing import argument, print_json
+from .printing import argument, counted, print_json
 from .progress import workers
 from .remedies import explained
 
@@ -70,8 +70,8 @@ def check(
     if as_json:
         print_json(_content(folder, done))
     elif failed:
-        checks = "1 check" if failed == 1 else f"{failed} checks"
-        _print(console, f"{checks} failed. Fix the submission, then: colift check {name}{option}")
+        fix = f"Fix the submission, then: colift check {name}{option}"
+        _print(console, f"{counted(failed, 'check')} failed. {fix}")
     else:
         submit = f"colift submit {name} --board PATH{option}"
         _print(console, f"Next: colift run {name}{option}, or {submit}")

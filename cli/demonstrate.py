@@ -14,6 +14,7 @@ from ..benchmark.training.demonstrations import (
     write_demonstrations,
 )
 from .options import Jobs, check_new_file
+from .printing import counted
 from .progress import reported_interrupt, workers
 
 
@@ -30,7 +31,7 @@ def demonstrate_lifts(
     write_demonstrations(out, recorded)
     apart = np.concatenate([each["human_m"] - each["partner_m"] for each in recorded])
     print(
-        f"{lifts} lifts, {len(apart)} samples; the ends were "
+        f"{counted(lifts, 'lift')}, {counted(len(apart), 'sample')}; the ends were "
         f"{1000 * float(np.sqrt(np.mean(apart**2))):.1f} mm apart (rms)\nwritten: {out}"
     )
 

@@ -21,6 +21,7 @@ from ..benchmark.export.rules import CONVERTED, NAMES, RULES, digest, rule
 from ..benchmark.live.session import is_session
 from ..benchmark.suites.suite import Suite
 from .options import Jobs
+from .printing import counted
 from .progress import reported_interrupt, workers
 
 SIZE: Final = 300
@@ -203,7 +204,8 @@ def _people(plan: list[SetLift], recordings: Path | None) -> str:
 
 def _report(contents: Contents, out: Path) -> None:
     left_out = f", {contents.empty} without a step left out" if contents.empty else ""
-    print(f"{contents.lifts} lifts, {contents.steps} steps{left_out}\nwritten: {out}")
+    exported = f"{counted(contents.lifts, 'lift')}, {counted(contents.steps, 'step')}"
+    print(f"{exported}{left_out}\nwritten: {out}")
 
 
 def _plain(text: str) -> str:

@@ -106,6 +106,11 @@ def print_json(content: Any) -> None:
     print(json.dumps(content, indent=2, allow_nan=False))
 
 
+def counted(number: int, noun: str) -> str:
+    """Return a number of things, such as '1 lift' or '3 lifts'; the noun is given in singular."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
 def argument(path: Path) -> str:
     """Return a file or folder as an argument of a command: quoted, and never a policy's name."""
     shown = str(path)

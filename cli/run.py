@@ -44,7 +44,7 @@ from .options import (
     executor,
 )
 from .policies import AUTO, choose_policy
-from .printing import argument, print_json, show
+from .printing import argument, counted, print_json, show
 from .progress import progress_bar
 from .remedies import naming, opened
 from .tables.results import results_table, results_text
@@ -234,8 +234,9 @@ def _failures(run: Run) -> Iterator[str]:
     failed = [episode for episode in run.episodes if episode.failure is not None]
     if failed:
         first = failed[0]
+        count = "counts" if len(failed) == 1 else "count"
         yield (
-            f"{len(failed)} of {len(run.episodes)} lifts failed and count as worst; "
+            f"{len(failed)} of {counted(len(run.episodes), 'lift')} failed and {count} as worst; "
             f"the first, {first.behaviour}/{first.subject} seed {first.seed}: {first.failure}"
         )
         yield from printed_lines(first.log)
@@ -245,5 +246,6 @@ def _interrupted(run: Run) -> str:
     if not run.episodes:
         return "interrupted before the first lift was finished"
     if not run.complete:
-        return f"interrupted: partial results of {len(run.episodes)} of {run.suite.size} lifts"
+        lifts = counted(run.suite.size, "lift")
+        return f"interrupted: partial results of {len(run.episodes)} of {lifts}"
     return "interrupted before the baselines were played: there is no comparison"

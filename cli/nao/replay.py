@@ -11,6 +11,7 @@ from ...agents.hardware.trial_log import read_trial
 from ...benchmark.episode.turns import policy_seed
 from ..options import PolicyIsolation
 from ..policies import AUTO, choose_policy
+from ..printing import counted
 
 
 def replay_recording(
@@ -36,12 +37,12 @@ def replay_recording(
     there, here = logged_commands(recorded.log), logged_commands(played)
     differing = [k for k, (a, b) in enumerate(zip(there, here, strict=False)) if a != b]
     if not differing and len(there) == len(here):
-        print(f"{len(here)} steps, every command equal to the bit")
+        print(f"{counted(len(here), 'step')}, every command equal to the bit")
         return
     if differing:
         k = differing[0]
         difference = f"step {k}: commanded {there[k]!r} m, now {here[k]!r} m"
     else:
-        difference = f"{len(there)} steps recorded, {len(here)} played"
+        difference = f"{counted(len(there), 'step')} recorded, {len(here)} played"
     print(f"the commands differ, {difference}", file=sys.stderr)
     raise typer.Exit(1)

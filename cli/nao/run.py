@@ -28,7 +28,7 @@ from ...benchmark.hardware.trial import episode, hardware_run, hardware_suite
 from ...benchmark.suites.suite import Suite
 from ..options import PERIOD_OPTION, AsJson, PolicyIsolation, PolicyName, check_folder
 from ..policies import AUTO, choose_policy
-from ..printing import print_json, show
+from ..printing import counted, print_json, show
 from ..remedies import naming
 from ..tables.results import results_table, results_text, timing_table
 from .connections import (
@@ -194,7 +194,7 @@ def _trials(
         yield played
         if played.stop is not None:
             raise StopTrialError(played.stop, played.reason)
-        _report_line(f"lift {number} of {trials}: {len(played.steps)} steps")
+        _report_line(f"lift {number} of {trials}: {counted(len(played.steps), 'step')}")
 
 
 def _check_empty(folder: Path) -> None:

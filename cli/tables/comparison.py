@@ -12,7 +12,7 @@ from ...benchmark.comparison.ranking import MetricMean, RankedPolicy, Ranking
 from ...benchmark.episode.metric import Metric
 from ...benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from ...benchmark.statistics import Estimate
-from ..printing import Cell, styled, table
+from ..printing import Cell, counted, styled, table
 
 NAME: Final = 18
 """Longest name that stays on one line."""
@@ -40,7 +40,7 @@ def ranks_table(comparison: Comparison) -> Table:
             *(each.symbol for each in comparison.results.metrics),
         ),
         (cells for _, cells in sorted(rows, key=lambda row: row[0])),
-        caption=f"{overall.episodes} lifts each; suite digest {suite.digest}. "
+        caption=f"{counted(overall.episodes, 'lift')} each; suite digest {suite.digest}. "
         + (undecided(overall) or "Policies of one rank (#) do not differ significantly.")
         + f" vs_human: RMSE divided by that of the {HUMAN_HUMAN_LABEL}."
         f"{_columns(comparison)}{_no_policies(comparison)}{_fewer(comparison)}",

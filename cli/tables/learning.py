@@ -10,7 +10,7 @@ from ...agents.control.anticipation import Anticipation
 from ...agents.control.learned_task import LearnedTask
 from ...agents.control.q_learning import ACTIONS, Q_PARAMETERS
 from ...benchmark.training.q_learning import LearningTrial
-from ..printing import Cell, table
+from ..printing import Cell, counted, table
 
 SHOWN: Final = 2
 """Step between the leads that are shown, so that the table fits a terminal."""
@@ -59,7 +59,7 @@ def convergence_text(trials: list[LearningTrial]) -> str:
     found = [trial.converged_at for trial in trials if trial.converged_at is not None]
     if len(trials) == 1:
         when = found[0] if found else None
-        return f"converged after {when} iterations" if when else "did not converge"
+        return f"converged after {counted(when, 'iteration')}" if when else "did not converge"
     missed = len(trials) - len(found)
     counts = [*found, *[10**9] * missed]
     median, ninetieth = np.percentile(counts, [50, 90])

@@ -14,7 +14,7 @@ from ...benchmark.episode.metric import LEADING, Metric, Metrics, notes
 from ...benchmark.results.baselines import HUMAN_HUMAN, HUMAN_HUMAN_LABEL
 from ...benchmark.results.headline import error, versus_human
 from ...benchmark.results.summary import StratumScores
-from ..printing import optional_number, styled, table
+from ..printing import counted, optional_number, styled, table
 
 NAMES: Final = {
     HUMAN_HUMAN: HUMAN_HUMAN_LABEL,
@@ -55,7 +55,7 @@ def results_table(content: Results, metrics: Metrics) -> Table:
             None,
             styled(("all", *_row(strata, shown)), "bold"),
         ],
-        caption=f"{summary.episodes} lifts, {summary.failed} failed; "
+        caption=f"{counted(summary.episodes, 'lift')}, {summary.failed} failed; "
         f"suite digest {content.suite_digest}. {PEOPLE} {notes(shown)}",
     )
 
@@ -73,7 +73,7 @@ def results_text(content: Results) -> str:
     if summary.goal_missed:
         lines.append(
             f"The human did not reach the intended height in {summary.goal_missed} "
-            f"of {summary.episodes} lifts."
+            f"of {counted(summary.episodes, 'lift')}."
         )
     clipped = summary.metrics.get("clipped")
     if clipped is not None and clipped.mean is not None:
@@ -137,6 +137,6 @@ def timing_table(report: dict[str, Any]) -> Table:
             (title, *(optional_number(report[name][key], ".2f") for key in ("p50", "p99", "max")))
             for name, title in TIMES.items()
         ),
-        caption=f"{report['steps']} steps; {report['late_steps']} periods skipped; "
+        caption=f"{counted(report['steps'], 'step')}; {report['late_steps']} periods skipped; "
         f"held: {held or 'never'}\n{frames}",
     )

@@ -9,7 +9,7 @@ from rich.table import Table
 from ...benchmark.comparison.formatting import digits, p_value
 from ...benchmark.validity.report import SourceValidity, SuiteOnSource, Validity
 from ...benchmark.validity.scores import Quantity, Scores
-from ..printing import styled, table
+from ..printing import counted, styled, table
 from .comparison import BASELINE
 
 HEADING: Final = 12
@@ -31,7 +31,8 @@ def heading(each: SourceValidity) -> str:
     """Return the lifts of a source, and the best policy there."""
     source, best = each.source, each.winner
     return (
-        f"{source.name}: {source.lifts} lifts, two people {_mm(source.human_human_mm)} mm. "
+        f"{source.name}: {counted(source.lifts, 'lift')}, "
+        f"two people {_mm(source.human_human_mm)} mm. "
         f"Best policy: {best}, {_mm(source.mean_mm(best))} mm; it is the best in "
         f"{each.best_shares[best]:.0%} of resamples."
     )

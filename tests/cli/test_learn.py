@@ -31,6 +31,11 @@ def test_demonstrations_are_the_same_with_more_workers(colift, demonstrated):
     assert again.read_bytes() == lifts.read_bytes()
 
 
+def test_a_single_lift_is_told_in_the_singular(colift):
+    _, told, _ = colift("demonstrate", "--lifts", "1", "--jobs", "1", "--out", "lift.csv")
+    assert told.startswith("1 lift, ")
+
+
 def test_a_model_is_learned_to_the_same_bytes_and_can_be_run(colift, demonstrated):
     pytest.importorskip("sklearn")
     options = ("--demonstrations", "lifts.csv", "--components", "3", "--practice", "2")

@@ -2,7 +2,7 @@
 
 import io
 
-from colift.cli.printing import left, show, table
+from colift.cli.printing import counted, left, show, table
 from rich.console import Console
 
 
@@ -34,3 +34,7 @@ def test_a_long_name_is_folded_before_a_table_grows():
     lines = printed(table("", ("policy", "RMSE mm"), [("x" * 200, "1.2")]), width=40)
     assert max(map(len, lines)) <= 40
     assert sum(line.count("x") for line in lines) == 200
+
+
+def test_one_thing_is_counted_in_the_singular():
+    assert [counted(number, "lift") for number in (0, 1, 2)] == ["0 lifts", "1 lift", "2 lifts"]
