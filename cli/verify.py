@@ -23,7 +23,7 @@ from ..benchmark.live.session import is_session, lift_folders, sessions_in
 from ..benchmark.results.headline import headline
 from ..benchmark.verification import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Verdict, verify
 from .options import AsJson, Jobs
-from .printing import argument, print_json, show
+from .printing import argument, counted, print_json, show
 from .progress import progress_bar
 from .remedies import naming
 
@@ -164,7 +164,8 @@ def _proof(bundle: Path, verdict: Verdict, run: Run) -> str:
     else:
         how = f"within {verdict.tolerance_mm} mm, since it comes from another platform"
     lines = [
-        f"{len(run.episodes)} lifts of {run.policy} on {verdict.suite} simulated again: {how}."
+        f"{counted(len(run.episodes), 'lift')} of {run.policy} on {verdict.suite} "
+        f"simulated again: {how}."
     ]
     lines += [
         f"  {name}: {there} there, {here} here"
