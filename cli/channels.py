@@ -10,6 +10,7 @@ from rich.table import Column, Table
 
 from ..benchmark.channels import CHANNELS
 from ..benchmark.comparison.over_channels import OverChannel, over_channels
+from ..benchmark.execution.fitting import check_fits
 from .completion import channels as channel_names
 from .completion import policies as named
 from .options import (
@@ -63,6 +64,7 @@ def measure_channels(
     specs = {text: choose_policy(text) for text in policies or MEASURED}
     for spec in specs.values():
         spec.check()
+        check_fits(spec, episodes.scenarios[0], episodes.seeds[0])
     total = len(specs) * (1 + len(networks)) * episodes.size
     with (
         reported_interrupt("policies are measured on all lifts or not at all"),

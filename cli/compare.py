@@ -22,6 +22,7 @@ from ..benchmark.comparison.files import comparison_json
 from ..benchmark.comparison.paired_results import PolicyResults
 from ..benchmark.comparison.playing import Bound, episodes_to_play, play_policies
 from ..benchmark.comparison.stored import Stored, check_same_lifts, read_stored
+from ..benchmark.execution.fitting import check_fits
 from ..benchmark.suites.suite import Suite
 from .completion import policies as named
 from .completion import suites
@@ -96,6 +97,7 @@ def compare_policies(
     check_same_lifts(stored, episodes, network)
     for spec in specs.values():
         spec.check()
+        check_fits(spec, episodes.scenarios[0], episodes.seeds[0])
     if out is not None:
         # The files need matplotlib, which is slow to load.
         from ..benchmark.comparison.files import write_comparison

@@ -277,10 +277,18 @@ def test_what_is_wrong_is_said_in_a_line(colift, options, words):
     assert told.count("\n") == 1
 
 
-def test_a_submission_for_another_task_is_refused_before_the_first_lift(colift, tmp_path):
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("run", "mine", "--out", "kept"),
+        ("compare", "copy", "mine", "--out", "kept"),
+        ("channels", "copy", "mine"),
+    ],
+)
+def test_a_submission_for_another_task_is_refused_before_the_first_lift(colift, tmp_path, command):
     write_template(tmp_path / "mine")
     (tmp_path / "mine" / "policy.py").write_text(FOR_THE_BALL)
-    code, told, errors = colift("run", "mine", "--suite", "quick-v1", "--out", "kept")
+    code, told, errors = colift(*command, "--suite", "quick-v1")
     assert (code, told) == (2, "")
     assert errors.splitlines()[-1].endswith(
         "is for the task 'ball', not for 'level', where it fails at once: step 0: ValueError: 5"
