@@ -7,6 +7,7 @@ from typing import Protocol, Self, runtime_checkable
 
 from .agent import Agent
 from .threads import one_thread
+from .traced import traced
 
 
 class AgentSpec(Protocol):
@@ -74,8 +75,8 @@ class InProcess:
 
     @contextmanager
     def agent(self) -> Iterator[Agent]:
-        """Yield a new agent for one episode, with :func:`one_thread`."""
+        """Yield a new agent for one episode, with :func:`one_thread` and its errors traced."""
         with one_thread():
             agent = self.make()
             with one_thread():  # It may have loaded another library.
-                yield agent
+                yield traced(agent)

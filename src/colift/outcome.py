@@ -12,6 +12,7 @@ from .agents.errors import InputError
 from .benchmark.bundle import Results
 from .benchmark.bundle.table import table_row
 from .benchmark.execution.runner import Run
+from .cli.failures import printed_lines
 from .cli.printing import show
 from .cli.tables.results import results_table, results_text
 
@@ -100,4 +101,6 @@ class Evaluation:
         if self.failures:
             count, first = len(self.failures), self.failures[0]
             lines.append(f"{count} of {len(self.run.episodes)} lifts failed; the first, {first}")
+            log = next(each.log for each in self.run.episodes if each.failure is not None)
+            lines += printed_lines(log)
         return lines

@@ -12,7 +12,6 @@ import os
 import signal
 import socket
 import sys
-import traceback
 from pathlib import Path
 from typing import Any, Final
 
@@ -25,6 +24,7 @@ from ...loading.description import described
 from ...loading.loading import PolicySpec
 from ...loading.parameters import make_with, read_values
 from ...registry import summary
+from ...traced import own_traceback
 from ..protocol import (
     INTERNALS,
     NAME,
@@ -123,7 +123,7 @@ class _Server:
             return ["failed", str(error)[:REASON]]
         except BaseException as error:  # Including SystemExit and KeyboardInterrupt.
             with contextlib.suppress(BaseException):
-                print(_own_traceback(error), end="", file=sys.stderr)
+                print(own_traceback(error, _OURS), end="", file=sys.stderr)
             return ["failed", _safe_text(error)]
 
     def _make(self) -> list[Any]:
@@ -164,13 +164,3 @@ def _safe_text(error: BaseException) -> str:
         return error_text(error)[:REASON]
     except BaseException:
         return type(error).__name__[:REASON]
-
-
-def _own_traceback(error: BaseException) -> str:
-    """Return a traceback without the frames above the policy, its files relative to its folder."""
-    trace = error.__traceback__
-    while trace is not None and trace.tb_frame.f_code.co_filename.startswith(_OURS):
-        trace = trace.tb_next
-    error.__traceback__ = trace
-    text = "".join(traceback.format_exception(error))
-    return text.replace(f'File "{Path.cwd()}/', 'File "')
