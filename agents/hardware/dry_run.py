@@ -21,8 +21,9 @@ class DryArm:
         return dataclasses.replace(self._arm.limits, tilt=math.inf)
 
     def state(self) -> ArmState:
-        """Return the real state of the hands; motors may be off, and anybody may move them."""
-        return self._arm.state()._replace(stiffness=1.0, astray=0.0)
+        """Return the real height of the hands; motors may be off, and anybody may move them."""
+        state = self._arm.state()
+        return state._replace(set_point=state.height, stiffness=1.0, astray=0.0)
 
     def command(self, height: float, duration: float) -> float:
         """Return the height that would be commanded [m]."""

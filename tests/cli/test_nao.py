@@ -87,6 +87,14 @@ def test_a_dry_run_sends_the_robot_no_motion(colift, laboratory, tmp_path):
     assert trial.dry
 
 
+@pytest.mark.usefixtures("lifted")
+def test_a_dry_run_is_possible_when_the_motors_are_off(colift, laboratory):
+    """After a lift the robot rests, and its hands hang lower than they were last commanded."""
+    options = ("--dry-run", "--trials", 1, "--duration", 1)
+    done = colift("nao", "run", "copy", *laboratory.place, *options)
+    assert done.returncode == 0, done.stderr
+
+
 def test_a_lift_is_scored_as_a_simulated_one(lifted):
     done, folder = lifted
     assert done.returncode == 0, done.stderr
