@@ -1,4 +1,4 @@
-"""Tracebacks of policies in this process: complete below colift, and of the present episode only."""
+"""Tracebacks of policies in this process: complete below colift, and of the last episode."""
 
 from pathlib import Path
 

@@ -93,6 +93,8 @@ def test_a_dry_run_is_possible_when_the_motors_are_off(colift, laboratory):
     options = ("--dry-run", "--trials", 1, "--duration", 1)
     done = colift("nao", "run", "copy", *laboratory.place, *options)
     assert done.returncode == 0, done.stderr
+    number = sum(line.startswith("say Lift") for line in laboratory.lines)
+    laboratory.await_line(f"lift {number} is over")
 
 
 def test_a_lift_is_scored_as_a_simulated_one(lifted):
