@@ -3,7 +3,7 @@
 import traceback
 from pathlib import Path
 
-from .agent import Action, Agent, Explaining, Observation
+from .agent import Action, Agent, Explaining, Observation, Printing
 
 
 def own_traceback(error: BaseException, above: str) -> str:
@@ -61,6 +61,8 @@ class TracedExplaining(Traced):
         return self._explaining.internals()
 
 
-def traced(agent: Agent) -> Traced:
-    """Return an agent that keeps the traceback of its errors."""
+def traced(agent: Agent) -> Agent:
+    """Return an agent that keeps the traceback of its errors; itself if it keeps its output."""
+    if isinstance(agent, Printing):
+        return agent
     return TracedExplaining(agent, agent) if isinstance(agent, Explaining) else Traced(agent)

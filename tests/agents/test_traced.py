@@ -58,6 +58,14 @@ def test_the_next_reset_forgets_it():
     assert agent.printed == ""
 
 
+def test_an_agent_that_keeps_its_output_is_left_alone():
+    class Noting(Failing):
+        printed = "a note"
+
+    agent = Noting()
+    assert traced(agent) is agent
+
+
 def test_an_explanation_is_passed_on():
     assert not isinstance(traced(Failing()), Explaining)
     told = traced(Telling())
