@@ -85,6 +85,8 @@ class TestFailures:
             rows[1]["failure"] = claim
 
         edit_rows(giving, change)
+        if not claim:  # Nor is there an output of a failure.
+            edit_json(giving, "logs.json", lambda logs: logs.pop("2"))
         mend(giving)
         steps = len(read_bundle(giving).episodes[1].trace.action)
         message = refused(giving, file="traces.npz", episode="smooth/S1 seed 4", step=steps)

@@ -113,7 +113,9 @@ def test_the_same_lift_is_drawn_with_both_where_there_are_replays(page, url, fol
 def test_the_scatter_has_the_size_of_a_picture_and_a_phone_shows_all_numbers_of_a_pair(page, front):
     page.goto(front)
     page.get_by_role("link", name="Compare", exact=True).click()
-    assert page.locator("#scatter").bounding_box()["width"] <= 600
+    scatter = page.locator("#scatter")
+    expect(scatter).to_be_visible()
+    assert scatter.bounding_box()["width"] <= 600
     page.set_viewport_size({"width": 390, "height": 844})
     pair = page.locator("table.pairs tbody tr:visible")
     for cell in page.locator("table.pairs tr:visible").locator("th, td").all():
