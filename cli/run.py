@@ -25,7 +25,7 @@ from ..benchmark.execution.provenance import origin, platform_of
 from ..benchmark.execution.runner import InterruptedRunError, Run, run_suite
 from ..benchmark.results.baselines import BASELINES, Baseline, play_baselines, shipped_baselines
 from ..benchmark.suites.suite import Suite
-from .failures import printed_lines
+from .failures import failure_lines
 from .options import (
     LATENCY_OPTION,
     PERIOD_OPTION,
@@ -216,7 +216,7 @@ def _complain(run: Run, *, finished: bool, hint: str) -> bool:
     hint
         How to resume an unfinished run.
     """
-    for line in (*_faults(run), *_failures(run)):
+    for line in (*_faults(run), *failure_lines(run)):
         print(line, file=sys.stderr)
     if not finished:
         parts = (_interrupted(run), hint if run.episodes else "")
@@ -228,18 +228,6 @@ def _faults(run: Run) -> Iterator[str]:
     if run.faults:
         again = "1 task was" if run.faults == 1 else f"{run.faults} tasks were"
         yield f"{again} played again because a worker died or a machine failed"
-
-
-def _failures(run: Run) -> Iterator[str]:
-    failed = [episode for episode in run.episodes if episode.failure is not None]
-    if failed:
-        first = failed[0]
-        count = "counts" if len(failed) == 1 else "count"
-        yield (
-            f"{len(failed)} of {counted(len(run.episodes), 'lift')} failed and {count} as worst; "
-            f"the first, {first.behaviour}/{first.subject} seed {first.seed}: {first.failure}"
-        )
-        yield from printed_lines(first.log)
 
 
 def _interrupted(run: Run) -> str:

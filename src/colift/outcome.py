@@ -12,7 +12,7 @@ from .agents.errors import InputError
 from .benchmark.bundle import Results
 from .benchmark.bundle.table import table_row
 from .benchmark.execution.runner import Run
-from .cli.failures import printed_lines
+from .cli.failures import failure_lines
 from .cli.printing import show
 from .cli.tables.results import results_table, results_text
 
@@ -79,7 +79,8 @@ class Evaluation:
         console = Console(
             file=io.StringIO(), width=WIDTH, no_color=True, force_jupyter=False, _environ={}
         )
-        show(results_table(self.results, self.run.suite.metrics), *self._lines(), console=console)
+        lines = (results_text(self.results), *failure_lines(self.run))
+        show(results_table(self.results, self.run.suite.metrics), *lines, console=console)
         assert isinstance(console.file, io.StringIO)
         return console.file.getvalue().strip("\n")
 
@@ -95,12 +96,3 @@ class Evaluation:
         from .picture import evaluation_picture
 
         return f"{evaluation_picture(self.run, self.results)}<pre>{html.escape(str(self))}</pre>"
-
-    def _lines(self) -> list[str]:
-        lines = [results_text(self.results)]
-        if self.failures:
-            count, first = len(self.failures), self.failures[0]
-            lines.append(f"{count} of {len(self.run.episodes)} lifts failed; the first, {first}")
-            log = next(each.log for each in self.run.episodes if each.failure is not None)
-            lines += printed_lines(log)
-        return lines

@@ -1,41 +1,18 @@
 """The command line as a user meets it: real processes, real files."""
 
 import json
-import os
 import re
-import signal
 import subprocess
 import sys
-import time
 from importlib.metadata import version
 
 import pytest
 from colift.agents.submissions.new import write_template
 from colift.cli.commands import COMMANDS
-from colift.cli.main import app, main
-from typer.main import get_command
 
 GOOD_CSV = "trial,t_s,z_m\n" + "".join(
     f"a,{k / 50:.2f},{0.3 * min(k, 60 - k) / 30:.3f}\n" for k in range(61)
 )
-
-INTERRUPTED = """
-import signal
-from colift.agents.humans import ScriptedHuman
-from colift.cli.main import main
-
-steps = iter(range(10**6))
-act = ScriptedHuman.act
-
-def interrupted(human, observation):
-    if next(steps) == 30:
-        signal.raise_signal(signal.SIGINT)
-    return act(human, observation)
-
-ScriptedHuman.act = interrupted
-main()
-"""
-"""A command that is interrupted in the middle of its first lift, as by Ctrl-C."""
 
 
 @pytest.fixture
@@ -216,79 +193,11 @@ def test_a_policy_without_act_is_refused(colift, tmp_path):
     assert "no method act" in done.stderr
 
 
-@pytest.mark.parametrize("jobs", ["1", "2"])
-def test_ctrl_c_keeps_what_is_finished_and_says_so(tmp_path, jobs):
-    started = tmp_path / "started"
-    slow_source = tmp_path / "policy.py"
-    slow_source.write_text(
-        "import time\n"
-        "class Mine:\n"
-        "    def reset(self, seed): open("
-        f"{str(started)!r}, 'a').write('.')\n"
-        "    def act(self, observation):\n"
-        "        time.sleep(0.003)\n"
-        "        return [0.0]\n"
-    )
-    out = tmp_path / "bundle"
-    process = subprocess.Popen(
-        [
-            *(sys.executable, "-m", "colift.cli", "run", f"{slow_source}:Mine"),
-            *("--isolation", "none", "--jobs", jobs, "--out", str(out)),
-        ],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    deadline = time.monotonic() + 120
-    while not started.exists() or started.stat().st_size < 16:
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
-    os.killpg(process.pid, signal.SIGINT)
-    stdout, stderr = process.communicate(timeout=120)
-    assert process.returncode == 1
-    assert "interrupted: partial results of" in stderr
-    assert "Traceback" not in stderr
-    content = json.loads((out / "results.json").read_text())
-    assert not content["complete"]
-    assert 0 < content["summary"]["episodes"] < 300
-    assert "RMSE" in stdout
-
-
 def test_render_draws_a_picture(colift, tmp_path):
     done = colift("render", "copy", "--scenario", "pause", "--out", "lift.png", cwd=tmp_path)
     assert done.returncode == 0
     assert (tmp_path / "lift.png").read_bytes().startswith(b"\x89PNG")
     assert "pause/S1 seed 0" in done.stdout
-
-
-@pytest.mark.parametrize(
-    "arguments", [("render", "copy"), ("demonstrate", "--jobs", "1", "--lifts", "200")]
-)
-def test_an_interrupt_is_said_in_a_line(arguments, tmp_path):
-    out = tmp_path / ("lift.gif" if "render" in arguments else "lifts.csv")
-    process = subprocess.Popen(
-        [sys.executable, "-c", INTERRUPTED, *arguments, "--out", str(out)],
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    _, stderr = process.communicate(timeout=120)
-    assert process.returncode == 1
-    assert re.fullmatch(rf"interrupted: {re.escape(str(out))} is not (drawn|written)\n", stderr)
-    assert not out.exists()
-
-
-def test_an_interrupted_comparison_leaves_no_folder(tmp_path):
-    command = ("compare", "hold", "copy", "--suite", "quick-v1", "--jobs", "1")
-    process = subprocess.run(
-        [sys.executable, "-c", INTERRUPTED, *command, "--out", str(tmp_path / "new" / "folder")],
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
-    assert process.returncode == 1
-    assert process.stderr.startswith("interrupted: ")
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_render_draws_the_intended_pose_of_a_task_and_refuses_a_policy_of_another(colift, tmp_path):
@@ -311,25 +220,6 @@ def test_render_writes_a_page_that_plays_the_lift(colift, tmp_path):
     (shown,) = json.loads(data[1])["replays"]
     assert (shown["policy"], shown["behaviour"], shown["seed"]) == ("copy", "pause", 2)
     assert f"RMSE {shown['scores']['rmse_mm']:.1f} mm" in done.stdout
-
-
-@pytest.mark.parametrize("name", COMMANDS)
-def test_every_command_explains_itself_and_each_of_its_options(name, monkeypatch, capsys):
-    monkeypatch.setattr("sys.argv", ["colift", name, "--help"])
-    with pytest.raises(SystemExit) as end:
-        main()
-    assert end.value.code in (0, None)
-    assert f"Usage: colift {name}" in " ".join(capsys.readouterr().out.split())
-    command = get_command(app).commands[name]
-    for each in getattr(command, "commands", {name: command}).values():
-        assert each.help
-        assert [option.name for option in each.params if not option.help] == []
-
-
-def test_help_names_every_command(colift):
-    done = colift("--help")
-    assert done.returncode == 0
-    assert [name for name in COMMANDS if f" {name} " not in done.stdout] == []
 
 
 def test_a_command_that_is_spelt_wrong_is_guessed(colift):

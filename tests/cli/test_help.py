@@ -4,6 +4,7 @@ import re
 
 import pytest
 import typer
+from colift.cli.commands import COMMANDS
 from colift.cli.main import app
 from typer.testing import CliRunner
 
@@ -37,7 +38,15 @@ def test_the_help_of_a_command_is_shown_in_full(path):
     shown = CliRunner().invoke(app, [*path, "--help"], prog_name="colift", env=wide)
     assert shown.exit_code == 0, shown.exception
     assert "Usage: " in shown.output
+    assert ALL[path].help
     page = letters(shown.output)
     for parameter in ALL[path].params:
-        assert letters(getattr(parameter, "help", None) or "") in page
+        assert parameter.help
+        assert letters(parameter.help) in page
     assert re.findall(r"<[a-z]+[^<>]*>", shown.output) == []  # A type; values have names.
+
+
+def test_help_names_every_command(colift):
+    done = colift("--help")
+    assert done.returncode == 0
+    assert [name for name in COMMANDS if f" {name} " not in done.stdout] == []

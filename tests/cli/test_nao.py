@@ -88,11 +88,14 @@ def test_a_dry_run_sends_the_robot_no_motion(colift, laboratory, tmp_path):
 
 
 @pytest.mark.usefixtures("lifted")
-def test_a_dry_run_is_possible_when_the_motors_are_off(colift, laboratory):
+def test_a_dry_run_does_not_ask_hands_without_motors_to_follow(colift, laboratory, tmp_path):
     """After a lift the robot rests, and its hands hang lower than they were last commanded."""
-    options = ("--dry-run", "--trials", 1, "--duration", 1)
+    options = ("--dry-run", "--trials", 1, "--duration", 1, "--record", tmp_path)
     done = colift("nao", "run", "copy", *laboratory.place, *options)
     assert done.returncode == 0, done.stderr
+    log = read_trial(tmp_path / "lift-01.csv").log
+    assert len(log.steps) >= 9
+    assert {step.set_point - step.hand_height for step in log.steps} == {0.0}
     number = sum(line.startswith("say Lift") for line in laboratory.lines)
     laboratory.await_line(f"lift {number} is over")
 

@@ -1,0 +1,97 @@
+"""Ctrl-C: what is finished is kept, what is not leaves nothing, and a line says so."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+INTERRUPTED = """
+import signal
+from colift.agents.humans import ScriptedHuman
+from colift.cli.main import main
+
+steps = iter(range(10**6))
+act = ScriptedHuman.act
+
+def interrupted(human, observation):
+    if next(steps) == 30:
+        signal.raise_signal(signal.SIGINT)
+    return act(human, observation)
+
+ScriptedHuman.act = interrupted
+main()
+"""
+"""A command that is interrupted in the middle of its first lift, as by Ctrl-C."""
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_ctrl_c_keeps_what_is_finished_and_says_so(tmp_path, jobs):
+    started = tmp_path / "started"
+    slow_source = tmp_path / "policy.py"
+    slow_source.write_text(
+        "import time\n"
+        "class Mine:\n"
+        "    def reset(self, seed): open("
+        f"{str(started)!r}, 'a').write('.')\n"
+        "    def act(self, observation):\n"
+        "        time.sleep(0.003)\n"
+        "        return [0.0]\n"
+    )
+    out = tmp_path / "bundle"
+    process = subprocess.Popen(
+        [
+            *(sys.executable, "-m", "colift.cli", "run", f"{slow_source}:Mine"),
+            *("--isolation", "none", "--jobs", jobs, "--out", str(out)),
+        ],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    deadline = time.monotonic() + 120
+    while not started.exists() or started.stat().st_size < 16:
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGINT)
+    stdout, stderr = process.communicate(timeout=120)
+    assert process.returncode == 1
+    assert "interrupted: partial results of" in stderr
+    assert "Traceback" not in stderr
+    content = json.loads((out / "results.json").read_text())
+    assert not content["complete"]
+    assert 0 < content["summary"]["episodes"] < 300
+    assert "RMSE" in stdout
+
+
+@pytest.mark.parametrize(
+    "arguments", [("render", "copy"), ("demonstrate", "--jobs", "1", "--lifts", "200")]
+)
+def test_an_interrupt_is_said_in_a_line(arguments, tmp_path):
+    out = tmp_path / ("lift.gif" if "render" in arguments else "lifts.csv")
+    process = subprocess.Popen(
+        [sys.executable, "-c", INTERRUPTED, *arguments, "--out", str(out)],
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    _, stderr = process.communicate(timeout=120)
+    assert process.returncode == 1
+    assert re.fullmatch(rf"interrupted: {re.escape(str(out))} is not (drawn|written)\n", stderr)
+    assert not out.exists()
+
+
+def test_an_interrupted_comparison_leaves_no_folder(tmp_path):
+    command = ("compare", "hold", "copy", "--suite", "quick-v1", "--jobs", "1")
+    process = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED, *command, "--out", str(tmp_path / "new" / "folder")],
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert process.returncode == 1
+    assert process.stderr.startswith("interrupted: ")
+    assert list(tmp_path.iterdir()) == []
