@@ -17,7 +17,7 @@ def printed_lines(printed: str) -> list[str]:
     return ["it printed:", *(f"    {one_line(line)}" for line in last)] if last else []
 
 
-def failure_lines(run: Run) -> Iterator[str]:
+def reported_failures(run: Run) -> Iterator[str]:
     """Yield the number of failed lifts of a run, the first with its reason, and its output."""
     failed = [episode for episode in run.episodes if episode.failure is not None]
     if failed:

@@ -25,7 +25,7 @@ from ..benchmark.execution.provenance import origin, platform_of
 from ..benchmark.execution.runner import InterruptedRunError, Run, run_suite
 from ..benchmark.results.baselines import BASELINES, Baseline, play_baselines, shipped_baselines
 from ..benchmark.suites.suite import Suite
-from .failures import failure_lines
+from .failures import reported_failures
 from .options import (
     LATENCY_OPTION,
     PERIOD_OPTION,
@@ -216,7 +216,7 @@ def _complain(run: Run, *, finished: bool, hint: str) -> bool:
     hint
         How to resume an unfinished run.
     """
-    for line in (*_faults(run), *failure_lines(run)):
+    for line in (*_faults(run), *reported_failures(run)):
         print(line, file=sys.stderr)
     if not finished:
         parts = (_interrupted(run), hint if run.episodes else "")

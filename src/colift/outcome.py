@@ -12,7 +12,7 @@ from .agents.errors import InputError
 from .benchmark.bundle import Results
 from .benchmark.bundle.table import table_row
 from .benchmark.execution.runner import Run
-from .cli.failures import failure_lines
+from .cli.failures import reported_failures
 from .cli.printing import show
 from .cli.tables.results import results_table, results_text
 
@@ -79,7 +79,7 @@ class Evaluation:
         console = Console(
             file=io.StringIO(), width=WIDTH, no_color=True, force_jupyter=False, _environ={}
         )
-        lines = (results_text(self.results), *failure_lines(self.run))
+        lines = (results_text(self.results), *reported_failures(self.run))
         show(results_table(self.results, self.run.suite.metrics), *lines, console=console)
         assert isinstance(console.file, io.StringIO)
         return console.file.getvalue().strip("\n")
