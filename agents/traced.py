@@ -6,8 +6,8 @@ from pathlib import Path
 from .agent import Action, Agent, Explaining, Observation, Printing
 
 
-def own_traceback(error: BaseException, above: str) -> str:
-    """Return the traceback of a policy's error, its files relative to the current folder.
+def own_traceback(error: BaseException, above: str, folder: Path | None = None) -> str:
+    """Return the traceback of a policy's error, its files relative to a folder.
 
     Parameters
     ----------
@@ -15,12 +15,14 @@ def own_traceback(error: BaseException, above: str) -> str:
         The error.
     above
         Start of the paths of colift's files that call the policy; their frames are left out.
+    folder
+        The current one by default.
     """
     frames = error.__traceback__
     while frames is not None and frames.tb_frame.f_code.co_filename.startswith(above):
         frames = frames.tb_next
     text = "".join(traceback.format_exception(type(error), error, frames))
-    return text.replace(f'File "{Path.cwd()}/', 'File "')
+    return text.replace(f'File "{folder or Path.cwd()}/', 'File "')
 
 
 class Traced:

@@ -18,6 +18,7 @@ from ..agents.submissions.packages import undeclared
 from ..agents.submissions.submission import Submission, open_submission
 from ..benchmark.execution.runner import Run, run_suite
 from ..benchmark.suites.suite import Suite, make_suite
+from ..benchmark.verification.audit import AUDIT
 from ..benchmark.verification.checking import SUITE, Check, presubmission_checks
 from .completion import suites
 from .failures import printed_lines
@@ -95,7 +96,7 @@ def all_checks(
         policy = fresh = submission.trusted()
     else:
         policy = submission.sandboxed(level or auto_level())
-        fresh = dataclasses.replace(policy, preload=False)
+        fresh = dataclasses.replace(policy, instance=AUDIT)
 
     def evaluate(spec: AgentSpec, suite: Suite) -> Run:
         with workers(suite.name, suite.size, jobs) as (pool, progress):

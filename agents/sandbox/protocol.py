@@ -22,13 +22,20 @@ AGENTS: Final = Path(__file__).resolve().parents[1]
 OURS: Final = "colift.agents."
 """Prefix of the modules of colift's own policies; a submission's folder has no code for them."""
 
-EPISODE: Final = "episode"
-PRELOAD: Final = "preload"
-PROBE: Final = "probe"
-"""The kinds of orders to the fork server; an order is a kind and its content, as JSON."""
+FORK: Final = "lift"
+END: Final = "end"
+"""Orders to the process that watches: let a lift be forked, and end it. The third order is a
+number: the only processor that the policy may use from then on."""
+
+CLOSED: Final = "closed"
+ENDED: Final = "ended"
+OF_LIFT: Final = "lift "
+"""Its reports: a gate is closed, a lift has ended. The others are the reason for an end: ``exit
+CODE``, ``signal NUMBER``, ``memory BYTES``, ``processes NUMBER``, ``processor SECONDS``, ``refused
+REASON``, ``fault TEXT``; that of a lift alone begins with :data:`OF_LIFT`."""
 
 ORDER: Final = 1 << 17
-"""Longest order, and longest settings of a fork server [bytes]."""
+"""Longest order to a fork server, and its longest settings [bytes]."""
 
 INTERNALS: Final = 64
 """Largest number of internals of a policy."""

@@ -43,7 +43,7 @@ class Manifest:
     packages: tuple[str, ...] = ()
     """Packages that it imports: any of ``filterpy``, ``numpy``, ``scikit-learn``, ``scipy``."""
     preload: bool = False
-    """Whether its module is imported once for many episodes, because the import is slow."""
+    """Without effect: every policy is loaded once. Older manifests have this key."""
 
 
 READ: Final[Mapping[str, Callable[[Any], Any]]] = {

@@ -58,7 +58,6 @@ class Submission:
             parameters=self._parameters(parameters),
             folder=self.folder,
             source_digest=self._digest(parameters),
-            preload=self.manifest.preload,
             isolation=level or strongest(),
         )
 

@@ -1,7 +1,6 @@
 """The cost of isolation, relative to the same policy in this process."""
 
 import contextlib
-import dataclasses
 import statistics
 import tempfile
 import time
@@ -10,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ...agents.sandbox.host.levels import strongest, working_levels
+from ...agents.sandbox.host.levels import working_levels
 from ...agents.sandbox.host.policy import SandboxedPolicy
 from ...agents.spec import AgentSpec
 from ...agents.submissions.new import write_template
@@ -52,7 +51,6 @@ def isolated() -> Iterator[tuple[AgentSpec, dict[str, SandboxedPolicy]]]:
         write_template(folder)
         submission = read_submission(folder)
         policies = {level: submission.sandboxed(level) for level in working_levels()}
-        policies["preload"] = dataclasses.replace(policies[strongest()], preload=True)
         yield submission.trusted(), policies
 
 

@@ -13,6 +13,9 @@ from ..execution.batches import Batch, Faults, run_batches
 from ..execution.runner import Run, placed
 from ..suites.hidden import keyed
 
+AUDIT: Final = "audit"
+"""Name of the instance of a sandboxed policy that is played again."""
+
 SAMPLES: Final = 10
 """Episodes that are played again. A policy that differs in a fraction q of all episodes passes
 with probability (1 - q)^10: 0.1 % for a half."""
@@ -57,7 +60,7 @@ def audit(
     Parameters
     ----------
     policy
-        The policy of the run, with a fresh process for every episode: nothing is preloaded.
+        The policy of the run, loaded again: in a sandbox, as another instance (:data:`AUDIT`).
     run
         The complete run.
     secret

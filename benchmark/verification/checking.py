@@ -75,7 +75,7 @@ def presubmission_checks(
     policy
         The policy to check.
     fresh
-        The same policy, with a fresh process for each episode: nothing is preloaded.
+        The same policy, loaded again: in a sandbox, as another instance.
     evaluate
         Plays a suite; see :func:`.run_suite`.
     suite

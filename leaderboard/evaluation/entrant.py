@@ -17,9 +17,7 @@ from ...agents.sandbox.host.policy import SandboxedPolicy
 from ...agents.sandbox.host.process import BUBBLEWRAP
 from ...agents.spec import AgentSpec
 from ...agents.submissions.submission import Submission
-
-LOADED: Final = f"{PolicySpec.__module__.rpartition('.')[0]}.loaded"
-"""Module of all policies; see :mod:`colift.agents.loading.loaded`."""
+from ...benchmark.verification.audit import AUDIT
 
 AUTHORS: Final = ("The colift developers",)
 
@@ -48,7 +46,7 @@ class Entrant:
     """Digest of all that was submitted."""
     policy: AgentSpec
     fresh: AgentSpec
-    """The same policy for the audit: a fresh process for every episode, nothing preloaded."""
+    """The same policy for the audit: loaded again, in processes that have seen nothing of a run."""
 
     @classmethod
     def of(cls, submission: Submission, level: str) -> "Entrant":
@@ -63,7 +61,7 @@ class Entrant:
             trained_on=manifest.trained_on,
             digest=submission.contents.digest,
             policy=policy,
-            fresh=dataclasses.replace(policy, preload=False),
+            fresh=dataclasses.replace(policy, instance=AUDIT),
         )
 
 
@@ -83,9 +81,8 @@ def builtin_entrant(name: str, level: str = BUBBLEWRAP) -> Entrant:
     source = PolicySpec(text=name).digest()
     policy = SandboxedPolicy(
         name=name,
-        place=f"{LOADED}:{entries[name].attr}",
+        place=entries[name].value,
         source_digest=source,
-        preload=True,
         isolation=level,
     )
     return Entrant(
@@ -97,7 +94,7 @@ def builtin_entrant(name: str, level: str = BUBBLEWRAP) -> Entrant:
         trained_on=trained_on(name),
         digest=hashlib.sha256(f"colift's own {name}, source {source}".encode()).hexdigest(),
         policy=policy,
-        fresh=dataclasses.replace(policy, preload=False),
+        fresh=dataclasses.replace(policy, instance=AUDIT),
     )
 
 

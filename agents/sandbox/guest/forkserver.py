@@ -1,32 +1,27 @@
-"""The fork server: a small trusted process inside the sandbox that starts each episode's processes.
+"""The fork server: a small trusted process in the sandbox, which starts those of policies.
 
-It has imported NumPy and the server of policies, but no untrusted code: changes that the process of
-an episode makes to modules end with that process.
+It has imported NumPy and the server of policies, but no untrusted code.
 """
 
 import contextlib
 import gc
-import importlib
 import json
 import os
 import signal
 import socket
 import sys
 import tempfile
-from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
-from ..protocol import ORDER, OURS, PRELOAD, PROBE, Assignment, Limits
+from ..protocol import ORDER, Assignment, Limits
 from . import landlock, linux
-from .probe import probe
+from .pages import Pages, mappings
 from .restrictions import Restrictions
-from .server import serve, serve_forks
+from .server import serve
 from .spawn import Ends, spawn
-
-LOADED: Final = "colift.agents.loading.loaded"
 
 _TRIAL_SECONDS: Final = 30.0
 """Time limit for the trial of a process, for a busy machine [s]."""
@@ -42,6 +37,9 @@ def main(handle: int) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     gc.freeze()
     os.umask(0o022)
+    pages = Pages()
+    for mapping in mappings(Path("/proc/self/maps").read_bytes()):
+        pages.keep(mapping)
     try:
         restrictions = _restrictions(settings)
     except OSError as error:
@@ -57,23 +55,8 @@ def main(handle: int) -> None:
             order, handles, _, _ = socket.recv_fds(orders, ORDER, 3)
             if not order:
                 return
-            spawn(restrictions, Ends(*handles), _service(*json.loads(order)))
-
-
-def _service(kind: str, content: Any) -> Callable[[int], None]:
-    """Return the function that the policy's process runs."""
-    if kind == PROBE:
-        return partial(probe, secrets=content)
-    policy = Assignment(*content)
-    module = policy.place.partition(":")[0]
-    if module.startswith(OURS) and module not in sys.modules:
-        # Colift's own code is trusted: imported once for all episodes, late imports included,
-        # which may take longer than the limit of a step.
-        with contextlib.suppress(Exception):
-            importlib.import_module(module)
-            importlib.import_module(LOADED)
-            gc.freeze()
-    return partial(serve_forks if kind == PRELOAD else serve, policy=policy)
+            policy = Assignment(*json.loads(order))
+            spawn(restrictions, Ends(*handles), partial(serve, policy=policy), pages)
 
 
 def _restrictions(settings: dict[str, Any]) -> Restrictions:
@@ -107,7 +90,7 @@ def _fault(restrictions: Restrictions) -> str:
     with here:
         here.settimeout(_TRIAL_SECONDS)
         try:
-            spawn(restrictions, Ends(data, output, status.detach()), os.close)
+            spawn(restrictions, Ends(data, output, status.detach()), lambda filtered: None, Pages())
             report = here.recv(1000).decode().strip()
         except OSError as error:
             return str(error)

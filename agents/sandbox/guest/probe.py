@@ -1,44 +1,92 @@
-"""The probe: a process that tries, in place of a policy, all that a sandbox must prevent."""
+"""The probe: a policy that tries all that a sandbox must prevent, and prints what succeeded."""
 
-import contextlib
 import fcntl
+import json
 import mmap
 import os
+import resource
 import socket
+import threading
+import time
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 from socket import AF_INET, AF_UNIX, SOCK_DGRAM, SOCK_STREAM
 from typing import Any, Final
 
-from ..protocol import Channel, ClosedError, packed
+from ...agent import Action, Observation
 from . import linux
+from .filters import NUMBERS
+
+SECRETS: Final = "secrets.json"
+"""File in its folder. It names ``files`` that must not be readable, a ``directory`` that must not
+be writable, a ``port`` on loopback and a ``socket`` in the file system that must not be reached, a
+``process`` that must not be seen or signalled, ``processes``, the name of its process namespace,
+``processors`` that must not be taken, and ``shared``, a file that policies may read and must not
+mark."""
 
 _RWF_NOWAIT: Final = 8
-_MINCORE: Final = {"x86_64": 27, "aarch64": 232}
-_STATX: Final = {"x86_64": 332, "aarch64": 291}
+_NUMBERS: Final = {
+    **NUMBERS,
+    "mincore": {"x86_64": 27, "aarch64": 232}[os.uname().machine],
+}
+_WAKE: Final = 1
+_PROCESSOR_TIME: Final = 2
 
 
-def probe(handle: int, secrets: dict[str, Any]) -> None:
-    """Try the forbidden actions, and answer the one request with those that succeeded.
+class Probe:
+    """Tries what is forbidden while it is loaded, and in a lift, and prints what succeeds."""
 
-    The process ends when the other side closes: its end is never seen before its answer. The
-    secrets are ``files`` that must not be readable, ``directory`` that must not be writable,
-    ``port`` on loopback and ``socket`` in the file system that must not be reached, ``process``
-    that must not be seen or signalled, the name ``processes`` of its process namespace,
-    ``processors`` that must not be taken, and ``shared``, a file that policies may read and must
-    not mark.
-    """
-    channel = Channel(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM, 0, handle))
-    serial, *_ = channel.receive()
-    found = [what for what, attempt in _attempts(secrets) if _succeeds(attempt)]
-    channel.send(packed([serial, "found", found]))
-    with contextlib.suppress(ClosedError):
-        channel.receive()
+    def __init__(self) -> None:
+        self._seen = False
+
+    def reset(self, seed: int) -> None:
+        """Try what no policy may do."""
+        secrets = json.loads(Path(SECRETS).read_text())
+        with Path(secrets["shared"]).open("rb") as file:
+            self._mapped = mmap.mmap(file.fileno(), 0, mmap.MAP_PRIVATE, mmap.PROT_READ)
+        _try(_attempts(secrets))
+
+    def act(self, observation: Observation) -> Action:
+        """Try what no policy may do that has seen a lift."""
+        _try(_attempts_inside())
+        if self._seen:
+            print("knows of an earlier lift")
+        self._seen = True
+        return observation[:1]
+
+
+def _try(attempts: Iterator[tuple[str, Callable[[], object]]]) -> None:
+    for what, attempt in attempts:
+        if _succeeds(attempt):
+            print(what)
+
+
+def _attempts_inside() -> Iterator[tuple[str, Callable[[], object]]]:
+    """Yield what no policy may do in a lift."""
+    yield "opens files in a lift", lambda: os.open("/", os.O_RDONLY)
+    yield "asks for names in a lift", lambda: _called("access", b"/", 0)
+    yield "asks for missing names in a lift", Path("/missing").stat
+    yield "reads /proc in a lift", Path("/proc/self/statm").read_bytes
+    yield "makes pipes in a lift", os.pipe
+    yield "makes sockets in a lift", socket.socketpair
+    yield "makes processes in a lift", os.fork
+    yield "makes threads in a lift", threading.Thread(target=int).start
+    yield "signals in a lift", lambda: os.kill(os.getpid(), 0)
+    yield "reads counters in a lift", lambda: resource.getrusage(resource.RUSAGE_SELF)
+    yield "writes elsewhere in a lift", lambda: os.write(0, b"x")
+    yield "shares memory in a lift", lambda: mmap.mmap(-1, 4096)
+    yield "makes code in a lift", lambda: mmap.mmap(-1, 4096, 34, mmap.PROT_READ | mmap.PROT_EXEC)
+    yield "wakes others in a lift", lambda: _called("futex", bytes(8), _WAKE, 1, 0, 0, 0)
+    yield (
+        "reads the processor time of others in a lift",
+        lambda: time.clock_gettime(~1 << 3 | _PROCESSOR_TIME),
+    )
+    yield "changes its limits in a lift", lambda: resource.getrlimit(resource.RLIMIT_CORE)
 
 
 def _attempts(secrets: dict[str, Any]) -> Iterator[tuple[str, Callable[[], object]]]:
-    """Yield forbidden actions, each with its name and a function that tries it."""
+    """Yield what no policy may do, each with its name and a function that tries it."""
     for path in secrets["files"]:
         yield f"reads {path}", Path(path).read_bytes
     yield f"writes {secrets['directory']}", Path(secrets["directory"], "written").touch
@@ -47,17 +95,20 @@ def _attempts(secrets: dict[str, Any]) -> Iterator[tuple[str, Callable[[], objec
     yield "sends UDP", partial(_reached, AF_INET, SOCK_DGRAM, loopback)
     yield "reaches sockets of others", partial(_reached, AF_UNIX, SOCK_STREAM, local)
     yield "makes sockets", socket.socketpair
+    yield "makes pipes", os.pipe
+    yield "makes processes", _forked
+    yield "installs filters", lambda: _called("seccomp", 1, 0, bytes(16))
     if _namespace() in ("", secrets["processes"]):
         process = secrets["process"]
         yield "signals other processes", lambda: os.kill(process, 0)
         yield "reads other processes", Path(f"/proc/{process}/environ").read_bytes
     yield "reads counters of the kernel", Path("/proc/stat").read_bytes
-    yield "reads numbers of mounts", lambda: _called(_STATX, -100, b"/", 0, 0x4000, bytes(256))
+    yield "reads numbers of mounts", lambda: _called("statx", -100, b"/", 0, 0x4000, bytes(256))
     yield "makes handles of processes", lambda: os.pidfd_open(os.getpid())
     yield "makes terminals", lambda: os.open("/dev/ptmx", os.O_RDONLY)
     yield "takes other processors", lambda: _moved(secrets["processors"])
     yield "changes its priority", lambda: os.setpriority(os.PRIO_PROCESS, 0, 5)
-    yield "shares memory that no process has", lambda: mmap.mmap(-1, 4096)
+    yield "shares memory", lambda: mmap.mmap(-1, 4096)
     yield "makes files that no process has", lambda: os.memfd_create("x")
     shared = Path(secrets["shared"])
     for path in (Path("/"), shared.parent, shared):
@@ -66,7 +117,8 @@ def _attempts(secrets: dict[str, Any]) -> Iterator[tuple[str, Callable[[], objec
         yield f"changes rights of {path}", partial(path.chmod, 0o755)
     # This access would show up if the kernel recorded accesses.
     with shared.open("rb") as file:
-        file.read()
+        file.read(1)
+        yield "shares memory of files", lambda: mmap.mmap(file.fileno(), 1, access=mmap.ACCESS_READ)
         yield "locks files of others", lambda: fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
         yield "locks parts of files", lambda: fcntl.lockf(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
         yield (
@@ -77,15 +129,20 @@ def _attempts(secrets: dict[str, Any]) -> Iterator[tuple[str, Callable[[], objec
             "asks what the page cache holds",
             lambda: os.preadv(file.fileno(), [bytearray(1)], 0, _RWF_NOWAIT),
         )
-        yield "asks what is in memory", lambda: _called(_MINCORE, 0, 0, bytes(1))
+        yield "asks what is in memory", lambda: _called("mincore", 0, 0, bytes(1))
 
 
 def _succeeds(attempt: Callable[[], object]) -> bool:
     try:
         attempt()
-    except OSError:
+    except (OSError, RuntimeError):  # The latter of threads.
         return False
     return True
+
+
+def _forked() -> None:
+    if os.fork() == 0:
+        os._exit(0)
 
 
 def _reached(family: int, kind: int, address: Any) -> None:
@@ -101,8 +158,8 @@ def _moved(processors: list[int]) -> None:
         raise OSError("not all of them")
 
 
-def _called(numbers: dict[str, int], *arguments: int | bytes) -> None:
-    linux.syscall(numbers[os.uname().machine], *arguments, what="call")
+def _called(name: str, *arguments: int | bytes) -> None:
+    linux.syscall(_NUMBERS[name], *arguments, what=name)
 
 
 def _namespace() -> str:

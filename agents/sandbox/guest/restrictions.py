@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Final
 
 from ..protocol import AGENTS, Limits
-from . import landlock, linux, seccomp
+from . import filters, landlock, linux
 from .linux import MS_BIND, MS_NODEV, MS_NOEXEC, MS_NOSUID, MS_PRIVATE, MS_RDONLY, MS_REC
 
 FRESH: Final = ("/tmp", "/dev/shm")
@@ -105,8 +105,12 @@ def _show(path: Path, handle: int) -> None:
     linux.mount(source, str(target), "", MS_BIND | MS_REC)
 
 
-def drop_privileges(restrictions: Restrictions) -> None:
-    """Restrict this process and all that it will start; raise OSError if the kernel refuses."""
+def drop_privileges(restrictions: Restrictions) -> int | None:
+    """Restrict this process and all that it will start; raise OSError if the kernel refuses.
+
+    Return the listener of the filter of system calls; None where there is no filter, which only a
+    level without namespaces allows.
+    """
     if restrictions.namespaces == "root":
         linux.become(NOBODY, NOBODY)
         # Without this capability the user ``nobody`` could not read private folders. It is valid in
@@ -118,9 +122,13 @@ def drop_privileges(restrictions: Restrictions) -> None:
     linux.hide(False)
     if restrictions.landlock:
         landlock.restrict(_rules(restrictions))
-    if not seccomp.install() and restrictions.namespaces:
-        raise OSError("system calls cannot be filtered")
     _set_limits(restrictions)
+    try:
+        return filters.install(filters.LOADING, listen=True)
+    except OSError as error:
+        if restrictions.namespaces:
+            raise OSError(f"system calls cannot be filtered: {error}") from error
+        return None
 
 
 def _rules(restrictions: Restrictions) -> list[tuple[Path, int]]:
@@ -136,7 +144,8 @@ def _rules(restrictions: Restrictions) -> list[tuple[Path, int]]:
 def _set_limits(restrictions: Restrictions) -> None:
     limits = restrictions.limits
     values = {
-        resource.RLIMIT_CORE: 0,
+        # One byte: the kernel starts no program for a core dump, as it would for none.
+        resource.RLIMIT_CORE: 1,
         resource.RLIMIT_FSIZE: limits.file_size,
         resource.RLIMIT_NOFILE: limits.files,
         resource.RLIMIT_CPU: limits.cpu_seconds,

@@ -1,15 +1,21 @@
-"""The server of a policy, in its restricted process: one answer per request.
+"""The server of a policy, in its restricted process: it loads the policy, and forks its lifts.
 
-Requests are ``[serial, "make"]``, ``[serial, "reset", seed]`` and ``[serial, "act", numbers]``, or
-``[serial, "describe"]``. The answer is ``[serial, "made", explains]``, ``[serial, "ready"]``,
-``[serial, "action", numbers]`` (with names and values of the internals, if the policy has any),
-``[serial, "described", line, parameters]`` or ``[serial, "failed", reason]``.
+A policy is loaded once: imported, made and reset, before there is a lift. Then a filter closes
+behind it, and each lift is a fork of that state, behind a second filter that leaves it only its
+connection; see :mod:`.gate`.
+
+Requests are ``[serial, "make"]``, ``[serial, "describe"]`` and ``[serial, "reset", seed]``, and in
+a lift ``[serial, "act", numbers]``. The answer is ``[serial, "made", explains]``,
+``[serial, "described", line, parameters]``, ``[serial, "ready"]``, ``[serial, "action", numbers]``
+(with names and values of the internals, if the policy has any) or ``[serial, "failed", reason]``.
+A byte with two files, the lift's end of its connection and its output, orders a lift.
 """
 
 import contextlib
 import faulthandler
+import gc
+import linecache
 import os
-import signal
 import socket
 import sys
 from pathlib import Path
@@ -21,11 +27,13 @@ from ...actions import ActionError, checked_action
 from ...agent import Agent, Explaining
 from ...errors import InputError, error_text
 from ...loading.description import described
+from ...loading.late import import_late
 from ...loading.loading import PolicySpec
 from ...loading.parameters import make_with, read_values
 from ...registry import summary
 from ...traced import own_traceback
 from ..protocol import (
+    AGENTS,
     INTERNALS,
     NAME,
     OURS,
@@ -36,79 +44,103 @@ from ..protocol import (
     WireError,
     packed,
 )
+from .filters import CHANNEL, FORKING, LIFT, install
 
 _OURS: Final = f"{Path(__file__).parent}/"
 """Colift's own files, whose lines in a traceback would not help the policy's author."""
 
-_ORDER: Final = 1000
+CURE: Final = (
+    "in a lift a policy has no files, imports, threads or processes: "
+    "what it needs of them belongs into its module, its constructor or its reset"
+)
+"""What a policy's author should know if the filter has refused something."""
 
 
-def serve(handle: int, policy: Assignment, loaded: type[Agent] | None = None) -> None:
-    """Serve an episode on a connection until the other side closes it.
-
-    The connection is a file descriptor; ``loaded`` is the policy's class if it is loaded already.
-    """
+def serve(filtered: bool, policy: Assignment) -> None:
+    """Serve a policy on the connection until the other side closes it."""
     faulthandler.enable()
-    channel = Channel(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM, 0, handle))
-    server = _Server(policy, loaded)
+    server = _Server(policy)
+    with contextlib.suppress(ClosedError):
+        if server.load():
+            if filtered:
+                install(FORKING)
+            server.tell_ready()
+            _fork_lifts(server, filtered)
+
+
+def _fork_lifts(server: "_Server", filtered: bool) -> None:
+    """Fork a lift for each order, by a process that ends at once.
+
+    The parent of the lift is then the process that watches.
+    """
+    orders = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM, 0, CHANNEL)
     while True:
-        try:
-            serial, kind, *values = channel.receive()
-        except ClosedError:
+        order, ends, _, _ = socket.recv_fds(orders, 1, 2)
+        if not order:
             return
-        answer = server.answer(kind, values)
+        between = os.fork()
+        if between == 0:
+            if os.fork() == 0:
+                for end, number in zip((ends[1], ends[1], ends[0]), (1, 2, CHANNEL), strict=True):
+                    os.dup2(end, number)
+                for end in ends:
+                    os.close(end)
+                if filtered:
+                    install(LIFT)
+                with contextlib.suppress(ClosedError):
+                    server.act()
+            os._exit(0)
+        for end in ends:
+            os.close(end)
+        with contextlib.suppress(ChildProcessError):
+            os.waitpid(between, 0)
+
+
+class _Server:
+    """A policy, and the answers to requests."""
+
+    def __init__(self, policy: Assignment) -> None:
+        self._policy = policy
+        self._agent: Agent
+        self._explains = False
+        self._inside = False
+        self._folder = Path.cwd()
+        self._ready: bytes = b""
+        self._channel = Channel(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM, 0, CHANNEL))
+
+    def load(self) -> bool:
+        """Answer requests until the policy is loaded; return whether that succeeded."""
+        while True:
+            serial, kind, *values = self._channel.receive()
+            answer = self._answer(kind, values)
+            if answer == ["ready"]:
+                self._ready = packed([serial, *answer])
+                import_late()
+                _remember_sources()
+                gc.freeze()
+                os.closerange(CHANNEL + 1, os.sysconf("SC_OPEN_MAX"))
+                return True
+            self._send(serial, answer)
+
+    def tell_ready(self) -> None:
+        """Answer the request by which the policy was loaded."""
+        self._channel.send(self._ready)
+
+    def act(self) -> None:
+        """Answer requests of a lift."""
+        self._inside = True
+        while True:
+            serial, _, observation = self._channel.receive()
+            self._send(serial, self._answer("act", [observation]))
+
+    def _send(self, serial: int, answer: list[Any]) -> None:
         try:
             frame = packed([serial, *answer])
         except WireError as error:
             frame = packed([serial, "failed", f"an answer that {error}"[:REASON]])
-        channel.send(frame)
+        self._channel.send(frame)
 
-
-def serve_forks(handle: int, policy: Assignment) -> None:
-    """Import the policy's module, then fork a process for each order on a socket.
-
-    This process belongs to the policy: anything that the module starts or shares on import survives
-    an episode. Therefore an audit plays episodes again, in another order and in fresh sandboxes.
-    The answer to the first message is ``[1, "loaded"]``, or the reason for a failure. Each order
-    carries the policy's ends of a connection and of the output.
-    """
-    orders = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET, 0, handle)
-    orders.recv(_ORDER)
-    try:
-        loaded = _load(policy.place)
-    except BaseException as error:  # A module can raise anything.
-        reason = str(error) if isinstance(error, InputError) else _safe_text(error)
-        orders.send(packed([1, "failed", reason[:REASON]]))
-        return
-    orders.send(packed([1, "loaded"]))
-    signal.signal(signal.SIGCHLD, signal.SIG_IGN)
-    while True:
-        order, ends, _, _ = socket.recv_fds(orders, _ORDER, 2)
-        if not order:
-            return
-        data, output = ends
-        if os.fork() == 0:
-            orders.detach()  # The connection takes its place; what the module has opened stays.
-            for end, number in ((output, 1), (output, 2), (data, handle)):
-                os.dup2(end, number)
-            os.close(data)
-            os.close(output)
-            serve(handle, policy, loaded)
-            os._exit(0)
-        os.close(data)
-        os.close(output)
-
-
-class _Server:
-    """A policy, and whether it explains itself."""
-
-    def __init__(self, policy: Assignment, loaded: type[Agent] | None) -> None:
-        self._policy = policy
-        self._loaded = loaded
-        self._agent: Agent
-        self._explains = False
-
-    def answer(self, kind: str, values: list[Any]) -> list[Any]:
+    def _answer(self, kind: str, values: list[Any]) -> list[Any]:
         """Return the answer to a request; anything that the policy raises is its failure."""
         try:
             if kind == "act":
@@ -123,11 +155,14 @@ class _Server:
             return ["failed", str(error)[:REASON]]
         except BaseException as error:  # Including SystemExit and KeyboardInterrupt.
             with contextlib.suppress(BaseException):
-                print(own_traceback(error, _OURS), end="", file=sys.stderr)
-            return ["failed", _safe_text(error)]
+                print(own_traceback(error, _OURS, self._folder), end="", file=sys.stderr)
+            reason = _safe_text(error)
+            if self._inside and _was_refused(error):
+                reason = f"{reason[: REASON - len(CURE) - 2]}; {CURE}"
+            return ["failed", reason]
 
     def _make(self) -> list[Any]:
-        policy, parameters = self._loaded or _load(self._policy.place), self._policy.parameters
+        policy, parameters = _load(self._policy.place), self._policy.parameters
         values = read_values(policy, parameters) if parameters else {}
         self._agent = make_with(policy, values) if values else policy()
         self._explains = isinstance(self._agent, Explaining)
@@ -156,6 +191,26 @@ def _load(place: str) -> type[Agent]:
     if not place.startswith(OURS):
         sys.path.insert(0, str(Path.cwd()))
     return PolicySpec(text=place).load()
+
+
+def _remember_sources() -> None:
+    """Read the policy's own files, whose lines tracebacks show when none can be read any more."""
+    installed = (*filter(None, sys.path[1:]), str(AGENTS))
+    for module in tuple(sys.modules.values()):
+        file = vars(module).get("__file__")
+        if isinstance(file, str) and file.endswith(".py") and not file.startswith(installed):
+            lines = linecache.getlines(file)
+            linecache.cache[file] = (sum(map(len, lines)), None, lines, file)
+
+
+def _was_refused(error: BaseException) -> bool:
+    """Return whether an error, or what it came from, may be a refusal of the filter."""
+    chain: BaseException | None = error
+    while chain is not None:
+        if isinstance(chain, OSError | ImportError) or "start new thread" in _safe_text(chain):
+            return True
+        chain = chain.__cause__ or chain.__context__
+    return False
 
 
 def _safe_text(error: BaseException) -> str:

@@ -1,4 +1,4 @@
-"""The processes of an episode: one that watches, and its child, the policy's, restricted.
+"""The processes of a policy: one that watches, and its child, in which it is loaded, restricted.
 
 The fork server forks the first process of new namespaces, which mounts fresh file systems and
 watches; its child drops all privileges and runs the policy. Without namespaces the other
@@ -12,17 +12,19 @@ import shutil
 import signal
 import socket
 import tempfile
+import traceback
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 from . import linux
+from .filters import CHANNEL
+from .gate import Gate
+from .pages import Pages
+from .processes import Processes
 from .restrictions import NOBODY, Restrictions, drop_privileges, enter_root
 from .watch import Watch
-
-_DATA: Final = 3
-"""File descriptor of the policy's end of the connection."""
 
 
 class Ends(NamedTuple):
@@ -33,10 +35,13 @@ class Ends(NamedTuple):
     output: int
     """Its stdout and stderr."""
     status: int
-    """Stream socket for the first process's report; if its other side closes, all processes end."""
+    """Stream socket for the first process's reports and orders; if its other side closes, all
+    processes end."""
 
 
-def spawn(restrictions: Restrictions, ends: Ends, serve: Callable[[int], None]) -> None:
+def spawn(
+    restrictions: Restrictions, ends: Ends, serve: Callable[[bool], None], pages: Pages
+) -> None:
     """Start the processes of an episode, return at once, and close the ends, which are theirs now.
 
     The superuser forks the first process directly into its namespace. Any other user must first
@@ -50,7 +55,7 @@ def spawn(restrictions: Restrictions, ends: Ends, serve: Callable[[int], None]) 
             for number in (signal.SIGCHLD, signal.SIGINT, signal.SIGTERM, signal.SIGPIPE):
                 signal.signal(number, signal.SIG_DFL)
             step = _supervise if first else _detach
-            _guarded(ends.status, partial(step, restrictions, ends, serve))
+            _guarded(ends.status, partial(step, restrictions, ends, serve, pages))
         if first:
             linux.join("/proc/self/ns/pid", linux.CLONE_NEWPID)
     finally:
@@ -69,7 +74,9 @@ def _guarded(status: int, step: Callable[[], None]) -> None:
         os._exit(70)
 
 
-def _detach(restrictions: Restrictions, ends: Ends, serve: Callable[[int], None]) -> None:
+def _detach(
+    restrictions: Restrictions, ends: Ends, serve: Callable[[bool], None], pages: Pages
+) -> None:
     """Enter new user and process namespaces, as the intermediate process."""
     if restrictions.namespaces:
         user, group = os.geteuid(), os.getegid()
@@ -79,10 +86,12 @@ def _detach(restrictions: Restrictions, ends: Ends, serve: Callable[[int], None]
         Path("/proc/self/uid_map").write_text(f"{user} {user} 1")
         Path("/proc/self/gid_map").write_text(f"{group} {group} 1")
     if os.fork() == 0:
-        _guarded(ends.status, partial(_supervise, restrictions, ends, serve))
+        _guarded(ends.status, partial(_supervise, restrictions, ends, serve, pages))
 
 
-def _supervise(restrictions: Restrictions, ends: Ends, serve: Callable[[int], None]) -> None:
+def _supervise(
+    restrictions: Restrictions, ends: Ends, serve: Callable[[bool], None], pages: Pages
+) -> None:
     """Make the root directory, start the policy and watch it, as the first process."""
     linux.hide(True)
     if restrictions.namespaces:
@@ -91,24 +100,40 @@ def _supervise(restrictions: Restrictions, ends: Ends, serve: Callable[[int], No
     else:
         linux.prctl(linux.PR_SET_CHILD_SUBREAPER, 1)
         processes = os.open("/proc", os.O_RDONLY | os.O_DIRECTORY)
-    here, there = (end.detach() for end in socket.socketpair())
+    here, there = socket.socketpair()
     child = os.fork()
     if child == 0:
-        os.close(here)
+        here.close()
         _guarded(ends.status, partial(_serve, restrictions, ends, serve, there))
     signal.signal(signal.SIGPIPE, signal.SIG_IGN)  # A closed connection must not end the watch.
-    for end in (there, ends.data, ends.output):
+    own = Processes(processes)
+    own.all()
+    there.close()
+    connection, output = (os.fstat(end).st_ino for end in (ends.data, ends.output))
+    for end in (ends.data, ends.output):
         os.close(end)
-    if os.read(here, 1) and restrictions.namespaces == "root":
-        for name in ("uid_map", "gid_map"):
-            _tell(processes, f"{child}/{name}", f"0 0 1\n{NOBODY} {NOBODY} 1\n")
-    # If a control group is full, the kernel should end the policy, not the processes that watch it.
-    with contextlib.suppress(OSError):
-        _tell(processes, f"{child}/oom_score_adj", "1000")
-    with contextlib.suppress(OSError):
-        os.write(here, b"m")
-    os.close(here)
-    Watch(child, ends.status, processes, restrictions.limits, restrictions.fresh).run()
+    with here:
+        if here.recv(1) and restrictions.namespaces == "root":
+            for name in ("uid_map", "gid_map"):
+                _tell(own, child, name, f"0 0 1\n{NOBODY} {NOBODY} 1\n")
+        # If a control group is full, the kernel should end the policy, not what watches it.
+        with contextlib.suppress(OSError):
+            _tell(own, child, "oom_score_adj", "1000")
+        with contextlib.suppress(OSError):
+            here.send(b"m")
+        _, listeners, _, _ = socket.recv_fds(here, 1, 1)
+    devices = [os.stat(each).st_dev for each in restrictions.fresh]  # noqa: PTH116
+    fresh = frozenset(f"{os.major(each):02x}:{os.minor(each):02x}" for each in devices)
+    Watch(
+        loaded=child,
+        status=ends.status,
+        processes=own,
+        limits=restrictions.limits,
+        fresh=restrictions.fresh,
+        gate=Gate(listeners[0], own, child, connection, output, fresh, pages)
+        if listeners
+        else None,
+    ).run()
     if restrictions.scratch:
         for left in os.scandir(restrictions.scratch):
             if left.is_dir(follow_symlinks=False):
@@ -117,37 +142,42 @@ def _supervise(restrictions: Restrictions, ends: Ends, serve: Callable[[int], No
                 os.unlink(left)  # noqa: PTH108 - a link, whatever it names
 
 
-def _tell(processes: int, path: str, words: str) -> None:
-    """Write a file of /proc, given by a handle."""
-    file = os.open(path, os.O_WRONLY, dir_fd=processes)
-    try:
+def _tell(processes: Processes, process: int, name: str, words: str) -> None:
+    """Write one of a process's files in /proc."""
+    with processes.opened(process, name, os.O_WRONLY) as file:
         os.write(file, words.encode())
-    finally:
-        os.close(file)
 
 
 def _serve(
-    restrictions: Restrictions, ends: Ends, serve: Callable[[int], None], first: int
+    restrictions: Restrictions,
+    ends: Ends,
+    serve: Callable[[bool], None],
+    first: socket.socket,
 ) -> None:
     """Drop all privileges and serve, as the policy's process."""
     os.setsid()
     if restrictions.namespaces == "root":
         linux.unshare(linux.CLONE_NEWUSER)
-    os.write(first, b"u")
-    if not os.read(first, 1):
+    first.send(b"u")
+    if not first.recv(1):
         raise OSError("the first process of the episode has ended")
     os.chdir(restrictions.folder or restrictions.scratch or "/tmp")
     if restrictions.scratch:
         tempfile.tempdir = os.environ["HOME"] = os.environ["TMPDIR"] = str(restrictions.scratch)
     os.sched_setaffinity(0, (linux.libc.sched_getcpu(),))
-    drop_privileges(restrictions)
+    listener = drop_privileges(restrictions)
+    if listener is not None:
+        socket.send_fds(first, [b"l"], [listener])
     # Keep the connection and the output, and close every other file.
+    first.detach()
     os.dup2(os.open("/dev/null", os.O_RDONLY), 0)
     os.dup2(ends.output, 1)
     os.dup2(ends.output, 2)
-    os.dup2(ends.data, _DATA)
-    os.closerange(_DATA + 1, resource.getrlimit(resource.RLIMIT_NOFILE)[1])
+    os.dup2(ends.data, CHANNEL)
+    os.closerange(CHANNEL + 1, resource.getrlimit(resource.RLIMIT_NOFILE)[1])
     try:
-        serve(_DATA)
+        serve(listener is not None)
+    except BaseException:
+        traceback.print_exc()
     finally:
         os._exit(0)

@@ -5,171 +5,174 @@ import itertools
 import os
 import select
 import signal
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
-from ..protocol import Limits
+from ..protocol import CLOSED, END, ENDED, FORK, OF_LIFT, Limits
+from .gate import Gate
+from .processes import Figures, Processes
 
 PERIOD: Final = 0.02
 """Time between two checks of memory, processes and processor time [s]."""
 
 _PAGE: Final = os.sysconf("SC_PAGE_SIZE")
 _TICKS: Final = os.sysconf("SC_CLK_TCK")
-_PARENT, _USER, _SYSTEM, _THREADS, _RESIDENT = 1, 11, 12, 17, 21
-_PASSES: Final = 3
-"""Passes over the threads when they are moved: a thread may start another meanwhile."""
 
 
-@dataclass(frozen=True)
+@dataclass(kw_only=True)
 class Watch:
-    """The watch over the processes of a policy."""
+    """The watch over the processes of a policy: that in which it is loaded, and that of a lift."""
 
-    child: int
-    """The policy's first process."""
+    loaded: int
+    """The process in which it is loaded."""
     status: int
-    """A stream socket. The reason for the end is written to it: ``exit CODE``, ``signal NUMBER``,
-    ``memory BYTES``, ``processes NUMBER`` or ``processor SECONDS``. Each number read from it is the
-    only processor that the policy may use from then on."""
-    processes: int
-    """Handle of a /proc with the processes."""
+    """A stream socket with a line for each report and each order; see :mod:`..protocol`."""
+    processes: Processes
     limits: Limits
-    """Their budgets."""
+    """The budgets of all processes together."""
     fresh: tuple[str, ...]
     """Mounted file systems in memory that count as the policy's memory."""
+    gate: Gate | None
+    """None where system calls cannot be filtered."""
+    _orders: bytes = b""
+    _lifting: bool = False
+    _excessive: bool = False
 
     def run(self) -> None:
-        """Watch until the first process ends, a limit is passed or the host ends; then end all."""
-        report = ""
+        """Watch until the policy's first process ends, passes a limit, or the host ends; end all.
+
+        A lift that passes a limit is ended alone.
+        """
         waiting = select.poll()
         waiting.register(self.status, select.POLLIN)
-        with contextlib.suppress(OSError):
-            waiting.register(os.pidfd_open(self.child), select.POLLIN)
-        while not report:
-            events = waiting.poll(1000 * PERIOD)
-            if any(handle == self.status for handle, _ in events):
-                word = os.read(self.status, 100)
-                if not word:
-                    break
-                self._move(int(word.split()[-1]))
-            report = self._ended() or self._excess()
-        # The status is sent first: the other side waits for it, and ending thousands of processes
-        # may take a while.
-        if report:
-            with contextlib.suppress(OSError):
-                os.write(self.status, f"{report}\n".encode())
-        self._end_all()
+        if self.gate is not None:
+            waiting.register(self.gate.listener, select.POLLIN)
+        # The end of a process wakes the watch.
+        awake, waking = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
+        signal.signal(signal.SIGCHLD, lambda *_: None)
+        signal.set_wakeup_fd(waking, warn_on_full_buffer=False)
+        waiting.register(awake, select.POLLIN)
+        going = True
+        while going:
+            ready = _ready(waiting, 1000 * PERIOD)
+            if awake in ready:
+                os.read(awake, 1000)
+            asked = self.gate is not None and self.gate.listener in ready
+            # An order came before what is asked because of it.
+            if self.status in (_ready(waiting, 0) if asked else ready):
+                going = self._obey()
+            if self.gate is not None and asked:
+                self._report(self.gate.answer())
+            going = self._reap() and self._bounded() and going
+        self.processes.end()
+        self._reap()
 
-    def _ended(self) -> str:
-        """Return how the policy's first process ended, empty if it runs; reap all ended ones."""
-        how = ""
-        with contextlib.suppress(ChildProcessError):
-            while True:
-                process, code = os.waitpid(-1, os.WNOHANG)
-                if not process:
-                    break
-                if process == self.child:
-                    number = os.waitstatus_to_exitcode(code)
-                    how = f"signal {-number}" if number < 0 else f"exit {number}"
-        return how
+    def _report(self, line: str) -> None:
+        if line:
+            with contextlib.suppress(OSError):
+                os.write(self.status, f"{line}\n".encode(errors="replace"))
+
+    def _obey(self) -> bool:
+        """Follow the orders that have come; return whether there will be more."""
+        words = b""
+        with contextlib.suppress(OSError):
+            words = os.read(self.status, 1000)
+        *orders, self._orders = (self._orders + words).split(b"\n")
+        for order in map(bytes.decode, orders):
+            if order == FORK:
+                self._lifting = True
+                if self.gate is None:
+                    self._report(CLOSED)
+                else:
+                    self.gate.order()
+            elif order == END:
+                if not self._end_lift():
+                    return False
+                self._report(ENDED)
+            else:
+                self.processes.move(int(order))
+        return bool(words)
+
+    def _end_lift(self) -> bool:
+        """End the lift, and return whether nothing of it is left."""
+        gone = self.processes.end(kept=self.loaded)
+        self._lifting = False
+        self._reap()
+        if self.gate is not None:
+            self.gate.forget()
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self.loaded, signal.SIGCONT)
+        return gone
+
+    def _reap(self) -> bool:
+        """Report ended processes; return whether the loaded one is still there."""
+        going = True
+        for process, code in _ended():
+            number = os.waitstatus_to_exitcode(code)
+            how = f"signal {-number}" if number < 0 else f"exit {number}"
+            if process == self.loaded:
+                self._report(how)
+                going = False
+            elif self._lifting and (self.gate is None or process == self.gate.lift):
+                self._report(f"{OF_LIFT}{how}")
+        return going
+
+    def _bounded(self) -> bool:
+        """Report an excess, and end the lift; return False if there is none to be ended."""
+        excess = self._excess()
+        if not excess:
+            return True
+        if not self._lifting:
+            self._report(excess)
+            return False
+        self._report(f"{OF_LIFT}{excess}")
+        return self._end_lift()
 
     def _excess(self) -> str:
-        found, limits = self._others(), self.limits
-        threads = sum(each[_THREADS] for each in found.values())
+        found, limits = self.processes.all(), self.limits
+        threads = sum(each.threads for each in found.values())
         if threads > limits.processes:
             return f"processes {threads}"
-        spent = sum(each[_USER] + each[_SYSTEM] for each in found.values()) / _TICKS
+        spent = sum(each.ticks for each in found.values()) / _TICKS
         if spent > limits.cpu_seconds:
             return f"processor {spent:.0f}"
         files = sum(map(_used, self.fresh))
         # Resident sizes count a shared page once for each process: only an upper bound.
-        if sum(each[_RESIDENT] for each in found.values()) * _PAGE + files > limits.memory:
+        if sum(each.pages for each in found.values()) * _PAGE + files > limits.memory:
             used = sum(self._proportional(*each) for each in found.items()) + files
             if used > limits.memory:
                 return f"memory {used}"
         return ""
 
-    def _proportional(self, process: int, figures: list[int]) -> int:
+    def _proportional(self, process: int, figures: Figures) -> int:
         """Return the memory of a process, each page divided by the number of its sharers [bytes].
 
         Files in memory are counted as such.
         """
         try:
-            words = self._read(f"{process}/smaps_rollup").split()
+            words = self.processes.read(process, "smaps_rollup").split()
         except PermissionError:
-            return figures[_RESIDENT] * _PAGE  # A hidden process is not assumed to share.
+            return figures.pages * _PAGE  # A hidden process is not assumed to share.
         except OSError:
             return 0
         sizes = dict(itertools.pairwise(words))
-        size = int(sizes.get(b"Pss:", 0)) - int(sizes.get(b"Pss_Shmem:", 0))
-        return 1024 * size
+        return 1024 * (int(sizes.get(b"Pss:", 0)) - int(sizes.get(b"Pss_Shmem:", 0)))
 
-    def _others(self) -> dict[int, list[int]]:
-        """Return the figures of all descendants, as in /proc/PID/stat from the state on."""
-        table = dict(self._table())
-        here = int(os.readlink("self", dir_fd=self.processes))
-        if self._first and here == 1:
-            table.pop(here, None)
-            return table
-        # This /proc may be of an outer namespace.
-        family = {here}
-        size = 0
-        while len(family) > size:
-            size = len(family)
-            family |= {each for each, figures in table.items() if figures[_PARENT] in family}
-        return {each: table[each] for each in family - {here} if each in table}
 
-    def _table(self) -> Iterator[tuple[int, list[int]]]:
-        for name in os.listdir(self.processes):  # noqa: PTH208 - a handle
-            if name.isdigit():
-                with contextlib.suppress(OSError):
-                    words = self._read(f"{name}/stat").rpartition(b")")[2].split()
-                    yield int(name), [0, *map(int, words[1:22])]
+def _ready(waiting: select.poll, milliseconds: float) -> set[int]:
+    """Return the handles that can be read within a time."""
+    return {handle for handle, _ in waiting.poll(milliseconds)}
 
-    def _read(self, path: str) -> bytes:
-        handle = os.open(path, os.O_RDONLY, dir_fd=self.processes)
-        try:
-            return os.read(handle, 1 << 13)
-        finally:
-            os.close(handle)
 
-    def _move(self, processor: int) -> None:
-        """Let the policy run on this processor alone."""
-        if self._first and os.readlink("self", dir_fd=self.processes) != "1":
-            return  # The numbers in this /proc are of an outer namespace.
-        for _ in range(_PASSES):
-            for process in self._others():
-                with contextlib.suppress(OSError):
-                    tasks = os.open(f"{process}/task", os.O_RDONLY, dir_fd=self.processes)
-                    try:
-                        for thread in map(int, os.listdir(tasks)):  # noqa: PTH208
-                            os.sched_setaffinity(thread, (processor,))
-                    finally:
-                        os.close(tasks)
-
-    @property
-    def _first(self) -> bool:
-        """Whether this is the first process of a process namespace of its own."""
-        return os.getpid() == 1
-
-    def _end_all(self, seconds: float = 5.0) -> None:
-        """End all descendants and wait for them."""
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            if self._first:
-                with contextlib.suppress(ProcessLookupError):
-                    os.kill(-1, signal.SIGKILL)
-            else:
-                for process in self._others():
-                    with contextlib.suppress(ProcessLookupError, PermissionError):
-                        os.kill(process, signal.SIGKILL)
-            try:
-                while os.waitpid(-1, os.WNOHANG)[0]:
-                    pass
-            except ChildProcessError:
+def _ended() -> Iterator[tuple[int, int]]:
+    """Yield the children that have ended: number and status."""
+    with contextlib.suppress(ChildProcessError):
+        while True:
+            process, code = os.waitpid(-1, os.WNOHANG)
+            if not process:
                 return
-            time.sleep(0.001)
+            yield process, code
 
 
 def _used(place: str) -> int:

@@ -9,10 +9,13 @@ from typing import Any, Final, NoReturn
 import numpy as np
 
 from ...agent import Action, Observation
-from ...errors import PolicyError
+from ...errors import EvaluatorFault, PolicyError
 from ...loading.description import ParameterText
-from ..protocol import INTERNALS, NAME, REASON, Limits
-from .connection import Connection, clean
+from ..protocol import INTERNALS, NAME, OUTPUT, REASON, Limits
+from .cell import Cell
+from .connection import Connection
+from .output import clean
+from .sandbox import Load, Sandbox
 
 TURNS: Final = 8
 """Turns on one processor before the scheduler may choose another."""
@@ -61,42 +64,75 @@ class Caller:
 
 
 class RemoteAgent:
-    """An agent whose policy runs in a sandbox.
+    """An agent whose policy runs in a sandbox, each episode in a process of its own.
 
     Its methods raise PolicyError if the policy could not be made, fails or gives an invalid answer,
     and EvaluatorFault if the sandbox fails. Its actions have ``size`` numbers.
     """
 
-    def __init__(self, connection: Connection, limits: Limits, size: int) -> None:
-        self._connection = connection
+    def __init__(self, sandbox: Sandbox, load: Load, limits: Limits, cell: Cell) -> None:
+        self._sandbox = sandbox
+        self._load = load
         self._limits = limits
-        self._size = size
+        self._size = load.policy.size
+        self._cell = cell
+        self._lift: Connection | None = None
         self._caller = Caller()
         self._processor = -1
         self.failure: PolicyError | None = None
         """The failure of the policy, or of its construction."""
 
     def close(self) -> None:
-        """Let this thread run on any processor again."""
+        """End the episode, and let this thread run on any processor again."""
         self._caller.free()
+        self._end()
+        self._sandbox.give(self._load, self._cell)
+
+    def _end(self) -> None:
+        if self._lift is not None:
+            self._printed = self._lift.output.text
+            self._cell.end(self._lift)
+            self._lift = None
+
+    _printed = ""
 
     @property
     def printed(self) -> str:
-        """Return the last 10,000 characters of the policy's output in this episode."""
-        return self._connection.output.text
+        """Return the last 10,000 characters of the policy's output: loading, then this episode."""
+        lift = self._printed if self._lift is None else self._lift.output.text
+        return f"{self._cell.printed}{lift}"[-OUTPUT:]
 
     def reset(self, seed: int) -> None:
         """Begin an episode."""
-        self._asked(["reset", seed], "ready", self._limits.start_seconds)
+        self._end()
+        self.failure = None
+        if self._cell.seed not in (None, seed):
+            self._change_cell(None, seed)
+        if self._cell.seed is None and self._cell.failure is None:
+            self._cell.reset(seed)
+        self._lift = self._cell.lift()
+        self._processor = -1
+        if self._lift.failure is not None:
+            self._raise(self._lift.failure)
+
+    def _change_cell(self, *seeds: int | None) -> None:
+        self._sandbox.give(self._load, self._cell)
+        self._cell = self._sandbox.take(self._load, *seeds)
+
+    def _raise(self, error: PolicyError | EvaluatorFault) -> NoReturn:
+        if isinstance(error, PolicyError):
+            self.failure = error
+        raise error
 
     def act(self, observation: Observation) -> Action:
         """Return the policy's action."""
+        if self._lift is None:
+            raise PolicyError("act before reset")
         here = self._caller.begin()
         if here != self._processor:
             self._processor = here
-            self._connection.move(here)
-        limits, request = self._limits, ["act", observation.tolist()]
-        content = self._asked(request, "action", limits.step_seconds, limits.pace_seconds)
+            self._lift.status.order(str(here))
+        content = self._asked(self._lift, ["act", observation.tolist()])
         self._caller.end()
         numbers, names, values = (*content, None, None, None)[:3]
         if (
@@ -110,8 +146,9 @@ class RemoteAgent:
 
     def described(self) -> tuple[str, tuple[ParameterText, ...]]:
         """Return the first line of the policy's docstring, and its parameters."""
-        content = self._asked(["describe"], "described", self._limits.start_seconds)
-        line, texts = (*content, None, None)[:2]
+        if self._cell.seed is not None:
+            self._change_cell(None)
+        line, texts = (*self._cell.describe(), None, None)[:2]
         if not (
             type(line) is str
             and type(texts) is list
@@ -128,24 +165,23 @@ class RemoteAgent:
     def _keep(self, names: Any, values: Any) -> None:
         """Keep the internals of an action; this agent has none."""
 
-    def _asked(self, request: list[Any], kind: str, seconds: float, more: float = 0.0) -> list[Any]:
-        """Return the content of the answer to a request."""
+    def _asked(self, lift: Connection, request: list[Any]) -> list[Any]:
+        """Return the content of the answer to a request for an action."""
         if self.failure is not None:
             raise self.failure
+        limits = self._limits
         try:
-            answer, *content = self._connection.request(request, seconds, more)
+            answer, *content = lift.request(request, limits.step_seconds, limits.pace_seconds)
         except PolicyError as error:
-            self.failure = error
-            raise
+            self._raise(error)
         if answer == "failed" and len(content) == 1 and type(content[0]) is str:
             self._fail(content[0])
-        if answer != kind:
-            self._fail(f"answered {answer!r:.40} where {kind!r} was due")
+        if answer != "action":
+            self._fail(f"answered {answer!r:.40} where 'action' was due")
         return content
 
     def _fail(self, reason: str) -> NoReturn:
-        self.failure = PolicyError(clean(reason)[:REASON])
-        raise self.failure from None
+        self._raise(PolicyError(clean(reason)[:REASON]))
 
 
 class ExplainingRemoteAgent(RemoteAgent):
@@ -170,16 +206,16 @@ class ExplainingRemoteAgent(RemoteAgent):
         self._internals = dict(zip(map(clean, names), values, strict=True))
 
 
-def remote_agent(connection: Connection, limits: Limits, size: int) -> RemoteAgent:
-    """Return the agent for a connection; if its policy cannot be made, ``reset`` raises the reason.
+def remote_agent(sandbox: Sandbox, load: Load, limits: Limits) -> RemoteAgent:
+    """Return an agent for a policy; if it cannot be made, ``reset`` raises the reason.
 
     Raise EvaluatorFault if the sandbox fails.
     """
-    agent = RemoteAgent(connection, limits, size)
-    try:
-        explains = agent._asked(["make"], "made", limits.start_seconds)
-    except PolicyError:
-        return agent
-    if explains == [True]:
-        return ExplainingRemoteAgent(connection, limits, size)
+    cell = sandbox.take(load)
+    kind = ExplainingRemoteAgent if cell.explains else RemoteAgent
+    agent = kind(sandbox, load, limits, cell)
+    if isinstance(cell.failure, EvaluatorFault):
+        agent.close()
+        raise cell.failure
+    agent.failure = cell.failure
     return agent

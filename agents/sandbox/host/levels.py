@@ -1,6 +1,7 @@
 """The isolation levels, strongest first, and which of them work here."""
 
 import contextlib
+import json
 import math
 import os
 import socket
@@ -13,11 +14,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+import numpy as np
+
 from ...errors import EvaluatorFault, InputError, PolicyError
-from ..protocol import AGENTS, Limits
-from .agent import allowed
+from ..guest.probe import SECRETS
+from ..protocol import AGENTS, Assignment, Limits
+from .agent import allowed, remote_agent
 from .process import BUBBLEWRAP, LANDLOCK, LIMITS
-from .sandbox import Sandbox
+from .sandbox import Load, Sandbox
 
 LEVELS: Final = {
     BUBBLEWRAP: "bubblewrap: own file system, processes, network and users; Landlock, filter",
@@ -40,6 +44,11 @@ _KEPT_SECONDS: Final = 60.0
 
 _SECONDS: Final = 60.0
 """Time limit of the probe, for a busy machine [s]."""
+
+_SHARED: Final = 1 << 20
+"""Size of the file that the probe shares with others: it touches only the beginning [bytes]."""
+
+_PROBE: Final = Assignment("colift.agents.sandbox.guest.probe:Probe")
 
 _SECRETS: Final = ("humans/__init__.py", "../benchmark/__init__.py")
 """Files of colift, beside the agents, that no policy may read."""
@@ -150,8 +159,11 @@ def holes(name: str) -> list[str]:
         ) as other,
     ):
         secret, shared = Path(directory, "secret"), Path(seen, "shared")
-        for path in (secret, shared):
-            path.write_text("colift")
+        secret.write_text("colift")
+        with shared.open("wb") as file:
+            file.write(bytes(_SHARED))
+            os.fsync(file.fileno())
+            os.posix_fadvise(file.fileno(), 0, 0, os.POSIX_FADV_DONTNEED)
         os.utime(shared, (1, 2))  # Older than written: the next access is recorded.
         local.bind(str(Path(directory, "socket")))
         local.listen()
@@ -166,15 +178,32 @@ def holes(name: str) -> list[str]:
             "processors": sorted(allowed()),
             "shared": str(shared),
         }
-        sandbox = Sandbox(name, Path(seen), Limits(start_seconds=_SECONDS))
+        Path(seen, SECRETS).write_text(json.dumps(secrets))
+        limits = Limits(start_seconds=_SECONDS, step_periods=600.0)
+        sandbox = Sandbox(name, Path(seen), limits)
         try:
-            with contextlib.closing(sandbox.probe(secrets)) as connection:
-                kind, found = connection.request(["probe"], _SECONDS, _SECONDS)
+            with contextlib.closing(remote_agent(sandbox, Load(_PROBE, ""), limits)) as agent:
+                found = []
+                for _ in range(2):
+                    agent.reset(0)
+                    found += [] if _in_memory(shared) else ["finds pages that are not in memory"]
+                    agent.act(np.zeros(1))
+                    found += agent.printed.splitlines()
         finally:
             sandbox.close()
             other.kill()
-        marked = shared.stat().st_atime != 1
-    if kind != "found":
-        return [f"the probe answered {kind}"]
-    marks = ["leaves the time of its last access on files"] if marked else []
-    return [*map(str, found), *marks]
+        if shared.stat().st_atime != 1:
+            found.append("leaves the time of its last access on files")
+    return list(dict.fromkeys(found))
+
+
+def _in_memory(path: Path) -> bool:
+    """Return whether the last page of a file is in memory."""
+    file = os.open(path, os.O_RDONLY | os.O_NOATIME)
+    try:
+        os.preadv(file, [bytearray(1)], _SHARED - 1, os.RWF_NOWAIT)
+    except BlockingIOError:
+        return False
+    finally:
+        os.close(file)
+    return True

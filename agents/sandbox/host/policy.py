@@ -16,7 +16,7 @@ from ...loading.description import ParameterText
 from ..protocol import AGENTS, LIMITS, Assignment, Limits
 from .agent import RemoteAgent, remote_agent
 from .levels import strongest
-from .sandbox import Sandbox
+from .sandbox import Load, Sandbox
 
 KEPT: Final = 4
 """Sandboxes that a thread keeps running: the most recently used."""
@@ -26,7 +26,7 @@ _local = threading.local()
 
 @dataclass(frozen=True, kw_only=True)
 class SandboxedPolicy:
-    """A policy in a sandbox, each episode in a fresh process; can be sent to worker processes.
+    """A policy in a sandbox, each episode in a process of its own; can be sent to worker processes.
 
     It is a :class:`colift.agents.spec.AgentSpec`. Its methods raise EvaluatorFault if no sandbox
     can be started.
@@ -43,9 +43,8 @@ class SandboxedPolicy:
     """The submission's folder: read-only, and the policy's working directory."""
     source_digest: str = ""
     """Hash of the policy's files and parameters."""
-    preload: bool = False
-    """Whether its module is imported once and the episodes are forked from that process, so that
-    they have to be audited."""
+    instance: str = ""
+    """Names an instance: another is loaded anew, in a process that has seen no lift of this one."""
     isolation: str = field(default_factory=strongest)
     """Its isolation level: chosen when the policy is named, and the same in all workers."""
     limits: Limits = LIMITS
@@ -100,11 +99,9 @@ class SandboxedPolicy:
         """
         seen, policy = self._assignment()
         sandbox = _kept(self.isolation, seen, self.limits)
-        connection = sandbox.preloaded(policy) if self.preload else sandbox.episode(policy)
-        with contextlib.closing(connection):
-            agent = remote_agent(connection, self.limits, self.size)
-            with contextlib.closing(agent):
-                yield agent
+        load = Load(policy, f"{self.source_digest} {self.instance}")
+        with contextlib.closing(remote_agent(sandbox, load, self.limits)) as agent:
+            yield agent
 
     def _assignment(self) -> tuple[Path | None, Assignment]:
         """Return the file or folder that the policy sees, and the policy to serve."""
@@ -138,6 +135,11 @@ def _close_own(process: int) -> None:
     """End the sandboxes of this thread, unless they are those of the process that forked it."""
     if process == os.getpid():
         close_sandboxes()
+
+
+def kept_sandboxes() -> tuple[Sandbox, ...]:
+    """Return the sandboxes that this thread keeps."""
+    return tuple(getattr(_local, "sandboxes", {}).values())
 
 
 def close_sandboxes() -> None:

@@ -16,8 +16,8 @@ from typing import Any, Final
 
 from ...errors import EvaluatorFault
 from ..protocol import AGENTS, MIB, ORDER, REASON, Limits
-from .connection import clean
 from .control_group import ControlGroup
+from .output import clean
 from .view import View, environment, view
 
 BUBBLEWRAP: Final = "bubblewrap"
@@ -59,8 +59,9 @@ _PRIVILEGES: Final = [
     "SETFCAP",
     "KILL",
     "DAC_READ_SEARCH",
+    "IPC_LOCK",
 ]
-"""Capabilities with which the superuser's fork server makes namespaces."""
+"""Capabilities with which the superuser's fork server makes namespaces, and locks pages."""
 
 
 class ForkServer:

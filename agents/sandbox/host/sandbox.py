@@ -1,99 +1,94 @@
-"""A sandbox: a fork server at an isolation level, and connections to the processes it starts."""
+"""A sandbox: a fork server at an isolation level, and the cells of the policies it starts."""
 
 import json
 import os
 import socket
+from collections import Counter
 from pathlib import Path
-from typing import Any
+from typing import Final, NamedTuple
 
 from ...errors import EvaluatorFault, PolicyError
-from ..protocol import EPISODE, PRELOAD, PROBE, REASON, Assignment, Limits
-from .connection import Connection, Output, clean
+from ..protocol import Assignment, Limits
+from .cell import Cell
+from .connection import Connection
+from .output import Output
 from .process import ForkServer
+from .status import Status
+
+_FAILURES: Final = 3
+"""Cells of a policy that may fail before no further one is started. A policy that is loaded again
+learns the time, and with it how long the lifts before took: it must not be so at its will."""
+
+_IDLE: Final = 4
+"""Cells that are kept for a next lift."""
+
+
+class Load(NamedTuple):
+    """What has to be the same for a cell to be used again."""
+
+    policy: Assignment
+    instance: str
+    """Instances of a policy are loaded apart; see :class:`.SandboxedPolicy`."""
 
 
 class Sandbox:
     """A fork server, started again whenever it has ended; for use by one thread.
 
-    The parameters are those of :class:`.ForkServer`. The constructor and all methods that return a
-    connection raise EvaluatorFault if it does not start.
+    The parameters are those of :class:`.ForkServer`. The constructor and :meth:`take` raise
+    EvaluatorFault if it does not start.
     """
 
     def __init__(self, isolation: str, seen: Path | None, limits: Limits) -> None:
         self._start = isolation, seen, limits
         self._limits = limits
         self._server = ForkServer(*self._start)
-        self._preload: Connection | None = None
-        self._preloaded: Assignment | None = None
+        self._idle: list[tuple[Load, Cell]] = []
+        self._failed: Counter[Load] = Counter()
 
-    def episode(self, policy: Assignment) -> Connection:
-        """Return the connection to a new process for a policy."""
-        return self._started(EPISODE, policy)
+    def take(self, load: Load, *seeds: int | None) -> Cell:
+        """Return a cell with a policy: reset with one of the seeds, or not yet reset for None.
 
-    def probe(self, secrets: dict[str, Any]) -> Connection:
-        """Return the connection to a process that tries the forbidden actions."""
-        return self._started(PROBE, secrets)
-
-    def preloaded(self, policy: Assignment) -> Connection:
-        """Return the connection to a process forked from one that has imported the policy.
-
-        If the policy cannot be imported, the connection has that failure.
+        Without seeds any cell will do.
         """
-        if self._preload is None or self._preload.ended or self._preloaded != policy:
-            self._end_preload()
-            imported = self._imported(policy)
-            if imported.failure is not None:
-                return imported
-            self._preload, self._preloaded = imported, policy
-        data, theirs = socket.socketpair()
-        reading, writing = os.pipe()
-        connection = self._preload.beside(data, Output(reading))
-        try:
-            socket.send_fds(self._preload.data, [b"e"], [theirs.fileno(), writing])
-        except OSError:
-            connection.failure = self._preload.lost()
-            self._end_preload()
-        finally:
-            theirs.close()
-            os.close(writing)
-        return connection
+        for kept in reversed(self._idle):
+            if kept[0] == load and (not seeds or kept[1].seed in seeds):
+                self._idle.remove(kept)
+                return kept[1]
+        return Cell(self._started(load.policy))
 
-    def _imported(self, policy: Assignment) -> Connection:
-        """Return the connection to a process that has imported a policy, or failed to."""
-        connection = self._started(PRELOAD, policy, socket.SOCK_SEQPACKET)
-        try:
-            kind, *reason = connection.request(["load"], self._limits.start_seconds)
-            if kind != "loaded":
-                connection.failure = PolicyError(clean(str(*reason[:1]))[:REASON])
-        except (PolicyError, EvaluatorFault) as error:
-            connection.failure = error
-        return connection
+    def give(self, load: Load, cell: Cell) -> None:
+        """Take a cell back, for a next lift; the policy of one that has failed is loaded again."""
+        if cell.failure is not None:
+            cell.close()
+            if isinstance(cell.failure, PolicyError):
+                self._failed[load] += 1
+            if self._failed[load] < _FAILURES:
+                return
+        self._idle.append((load, cell))
+        while len(self._idle) > _IDLE:
+            self._idle.pop(0)[1].close()
 
-    def _end_preload(self) -> None:
-        if self._preload is not None:
-            self._preload.close()
-            self._preload = None
-
-    def _started(self, kind: str, content: object, type_: int = socket.SOCK_STREAM) -> Connection:
+    def _started(self, policy: Assignment) -> Connection:
         """Return the connection to a new process; start the fork server again if it has ended."""
         if not self._server.alive:
             self.close()
             self._server = ForkServer(*self._start)
-        data, its_data = socket.socketpair(socket.AF_UNIX, type_)
+        data, its_data = socket.socketpair()
         status, its_status = socket.socketpair()
         reading, writing = os.pipe()
         connection = Connection(
             data=data,
             output=Output(reading),
-            status=status,
+            status=Status(status),
             limits=self._limits,
             sure=bool(self._server.namespaces),
         )
         theirs = [its_data.fileno(), writing, its_status.fileno()]
         try:
-            socket.send_fds(self._server.orders, [json.dumps([kind, content]).encode()], theirs)
+            socket.send_fds(self._server.orders, [json.dumps(policy).encode()], theirs)
         except OSError as error:
             connection.close()
+            status.close()
             raise EvaluatorFault(f"the sandbox has ended: {error}") from error
         finally:
             its_data.close()
@@ -101,7 +96,12 @@ class Sandbox:
             os.close(writing)
         return connection
 
+    def drop(self) -> None:
+        """End the cells that are kept for a next lift."""
+        while self._idle:
+            self._idle.pop()[1].close()
+
     def close(self) -> None:
         """End all of its processes."""
-        self._end_preload()
+        self.drop()
         self._server.close()

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from colift.agents.sandbox.guest import seccomp
+from colift.agents.sandbox.guest import filters
 from colift.agents.sandbox.host import process
 from colift.agents.sandbox.host.policy import close_sandboxes
 from colift.agents.sandbox.host.process import command
@@ -44,10 +44,10 @@ os.execv(sys.argv[2], sys.argv[2:])
 
 _UNSHARE = {"x86_64": 272, "aarch64": 97}[os.uname().machine]
 _NO_NAMESPACES = (
-    seccomp.instruction(0x20, 0)
-    + seccomp.instruction(0x15, _UNSHARE, no=1)
-    + seccomp.instruction(0x06, 0x00050001)
-    + seccomp.instruction(0x06, 0x7FFF0000)
+    filters.instruction(0x20, 0)
+    + filters.instruction(0x15, _UNSHARE, no=1)
+    + filters.instruction(0x06, 0x00050001)
+    + filters.instruction(0x06, 0x7FFF0000)
 )
 """Refuses to make namespaces, as in most containers."""
 

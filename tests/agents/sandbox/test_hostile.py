@@ -4,6 +4,7 @@ import os
 import re
 import socket
 import time
+from dataclasses import replace
 from inspect import getsourcefile
 
 import numpy as np
@@ -11,13 +12,15 @@ import pytest
 from colift.agents.agent import Explaining
 from colift.agents.errors import PolicyError
 from colift.agents.sandbox.host.levels import strongest
-from colift.agents.sandbox.host.policy import SandboxedPolicy
+from colift.agents.sandbox.host.policy import SandboxedPolicy, kept_sandboxes
 from colift.benchmark.suites.suite import Suite
 
 from .conftest import HURRIED, PATIENT, SPARING, children, handles, opened_since
 from .hostile.actions import ACTIONS
 from .hostile.ends import ENDS
 from .hostile.frames import FRAMES
+from .hostile.gate import GATE
+from .hostile.inside import INSIDE
 from .hostile.kept import KEPT
 from .hostile.others import OTHERS
 from .hostile.resources import RESOURCES
@@ -25,7 +28,7 @@ from .hostile.secrets import SECRETS
 from .hostile.state import STATE
 from .hostile.time import TIME
 
-RESTRICTED = [*TIME, *RESOURCES, *ENDS, *SECRETS, *OTHERS, *STATE, *KEPT]
+RESTRICTED = [*TIME, *RESOURCES, *ENDS, *SECRETS, *OTHERS, *STATE, *KEPT, *INSIDE, *GATE]
 """What the restrictions must contain."""
 
 ANSWERS = [*ACTIONS, *FRAMES]
@@ -164,10 +167,11 @@ def contained(board, expected, level, policy):
     limits = HURRIED if policy.hurried else SPARING if policy.sparing else PATIENT
     good = sandboxed(board, level, "good.py:Good")
     bad = sandboxed(board, level, f"{file_of(policy)}:Policy", limits)
+    drop_cells()
     files, before, opened = content(board), children(), handles()
     os.utime(board / "mine" / "accessed", (1, 2))
-    for _ in range(2 if "state" in policy.name else 1):
-        actions, failure, output = ended(bad, policy)
+    for again in range(2 if "state" in policy.name else 1):
+        actions, failure, output = ended(replace(bad, instance=str(again)), policy)
         if policy.reason:
             assert failure is not None, "it was not stopped"
             assert re.fullmatch(policy.reason, failure, re.DOTALL), (failure, output)
@@ -178,6 +182,7 @@ def contained(board, expected, level, policy):
         assert len(output) <= 10_000
     assert drive_in(good) == (expected, None)
     assert content(board) == files
+    drop_cells()
     assert settled(before)
     assert not opened_since(opened)
 
@@ -194,6 +199,12 @@ def ended(bad, policy):
         if not (policy.hurried and another) or re.fullmatch(policy.reason, failure, re.DOTALL):
             break
     return actions, failure, agent.printed
+
+
+def drop_cells():
+    """End the processes of policies; the trusted ones that start them go on."""
+    for sandbox in kept_sandboxes():
+        sandbox.drop()
 
 
 def file_of(policy):

@@ -3,7 +3,7 @@
 import os
 
 import pytest
-from colift.agents.sandbox.host.connection import Output, clean
+from colift.agents.sandbox.host.output import Output, clean
 
 
 @pytest.fixture

@@ -98,7 +98,7 @@ KEPT = [
         denied(lambda: open("/proc/stat").read())
         denied(lambda: open("/proc/loadavg").read())
         denied(lambda: os.fstat(os.pidfd_open(os.getpid())).st_ino)
-        ours = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM, 0, os.dup(end()))
+        ours = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM, 0, os.dup(WIRE))
         denied(lambda: ours.getsockopt(socket.SOL_SOCKET, 57))
         """,
     ),
@@ -112,31 +112,26 @@ KEPT = [
     ),
     Hostile(
         name="pages that no process has",
-        act="""
-        import mmap
+        reset="""
         kept = mmap.mmap(-1, 300 << 20)
         for _ in range(300):
             kept.write(b"x" * (1 << 20))
             kept.madvise(mmap.MADV_DONTNEED)
-        return [0.0]
         """,
         reason="PermissionError: .*",
     ),
     Hostile(
         name="pages of the zero device",
-        act="""
-        import mmap
+        reset="""
         handle = os.open("/dev/zero", os.O_RDWR)
         kept = mmap.mmap(handle, 300 << 20)
-        return [0.0]
         """,
         reason="(PermissionError|FileNotFoundError): .*",
     ),
     Hostile(
         name="memory in sockets",
-        act="""
+        reset="""
         kept = [socket.socketpair() for _ in range(20)]
-        return [0.0]
         """,
         reason="PermissionError: .*",
     ),
@@ -149,11 +144,6 @@ KEPT = [
         reset="""
         denied(lambda: os.sched_setaffinity(0, range(@processors@)))
         if len(os.sched_getaffinity(0)) != 1: raise Through(str(os.sched_getaffinity(0)))
-        """,
-        act="""
-        if len(os.sched_getaffinity(0)) != 1: raise Through(str(os.sched_getaffinity(0)))
-        threading.Thread(target=sum, args=(range(1000),)).start()
-        return [0.0]
         """,
     ),
     Hostile(name="priority", reset="denied(lambda: os.nice(5))"),

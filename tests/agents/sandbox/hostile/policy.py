@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from textwrap import dedent, indent
 
 HEAD = """
-import ctypes, gc, os, signal, socket, stat, struct, subprocess, sys, threading, time
+import ctypes, gc, mmap, os, signal, socket, stat, struct, subprocess, sys, threading, time
+import msgpack
 import numpy as np
 
 class Through(Exception):
@@ -22,19 +23,17 @@ def denied(attempt):
         return
     raise Through("got through")
 
-def end():
-    for handle in range(3, 64):
-        try:
-            if stat.S_ISSOCK(os.fstat(handle).st_mode):
-                return handle
-        except OSError:
-            pass
+WIRE = 3
+
+def send(data):
+    data = bytes(data)
+    if ctypes.CDLL(None).send(WIRE, data, len(data), 0x4000) != len(data):
+        raise OSError("not sent")
 
 def connect(address):
     socket.socket(socket.AF_UNIX).connect(address)
 
 def frame(content):
-    import msgpack
     body = msgpack.packb(content)
     return struct.pack(">I", len(body)) + body
 
@@ -45,12 +44,14 @@ def zero(result):
     if result != 0:
         raise OSError(ctypes.get_errno(), "refused")
 
+def mapped(path):
+    with open(path, "rb") as file:
+        return mmap.mmap(file.fileno(), 0, mmap.MAP_PRIVATE, mmap.PROT_READ)
+
 def touch(path):
     with open(path, "w") as file:
         file.write("x")
 """
-
-NO_COUNT = "without a user namespace, the superuser's processes are not counted by the kernel"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,7 +76,7 @@ class Hostile:
     @property
     def hurried(self):
         """Whether it is a budget of time that stops it."""
-        return "within" in self.reason or "took more" in self.reason
+        return any(word in self.reason for word in ("within", "took more", "in time"))
 
     def source(self, **values):
         """Return the file; ``@name@`` stands for a value."""
@@ -94,6 +95,7 @@ class Hostile:
         return text
 
 
+REFUSED = r"\w+: .*; in a lift a policy has no files, .*"
 ENDED = r"ended its process \(exit code \d+\)"
 LATE = r"no answer within 0.3 s"
 MANY = r"had more than 24 processes and threads"

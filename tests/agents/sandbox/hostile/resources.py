@@ -1,6 +1,6 @@
 """Policies that use up memory, processes, files or the disk."""
 
-from .policy import LATE, MANY, MEMORY, NO_COUNT, Hostile
+from .policy import LATE, MANY, MEMORY, Hostile
 
 RESOURCES = [
     Hostile(
@@ -14,32 +14,8 @@ RESOURCES = [
         reason=f"MemoryError|{MEMORY}",
     ),
     Hostile(
-        name="memory of many processes",
-        act="""
-        for _ in range(4):
-            if os.fork() == 0:
-                kept = b"x" * (60 << 20)
-                time.sleep(60)
-        time.sleep(60)
-        """,
-        reason=MEMORY,
-    ),
-    Hostile(
-        name="memory that hides",
-        act="""
-        for _ in range(4):
-            if os.fork() == 0:
-                libc().prctl(4, 0, 0, 0, 0)
-                kept = b"x" * (60 << 20)
-                time.sleep(60)
-        time.sleep(60)
-        """,
-        reason=MEMORY,
-    ),
-    Hostile(
         name="shared memory",
-        act="""
-        import mmap
+        reset="""
         kept = [mmap.mmap(-1, 1 << 26) for _ in range(4)]
         for each in kept:
             each.write(b"x" * (1 << 26))
@@ -48,7 +24,7 @@ RESOURCES = [
     ),
     Hostile(
         name="memory of files",
-        act="""
+        reset="""
         for place in ("/tmp", "/dev/shm"):
             with open(place + "/big", "wb") as file:
                 for _ in range(90):
@@ -60,41 +36,33 @@ RESOURCES = [
         needs_namespaces="without a private /tmp only the size of each file is limited",
     ),
     Hostile(
-        name="processor time of many processes",
-        act="""
+        name="processor time of many threads",
+        reset="""
         for _ in range(3):
-            if os.fork() == 0:
-                while True: pass
+            threading.Thread(target=lambda: [None for _ in iter(int, 1)], daemon=True).start()
         while True: time.sleep(1)
         """,
         reason=r"used more than 1 s of processor time",
         sparing=True,
     ),
     Hostile(
-        name="many processes",
-        act="""
-        for _ in range(500):
-            if os.fork() == 0:
-                time.sleep(60)
-        time.sleep(60)
-        """,
-        reason=rf"BlockingIOError: .*|{MANY}",
+        name="processor time of a lift",
+        act="while True: pass",
+        reason=r"used more than 1 s of processor time",
+        sparing=True,
     ),
     Hostile(
-        name="fork bomb",
+        name="memory of a lift",
+        init="self.kept = []",
         act="""
-        while True:
-            try:
-                os.fork()
-            except OSError:
-                pass
+        for _ in range(200): self.kept.append(b"x" * (1 << 20))
+        time.sleep(60)
         """,
-        reason=f"{LATE}|{MANY}|more than one answer to a request",
-        needs_namespaces=NO_COUNT,
+        reason=f"MemoryError|{MEMORY}",
     ),
     Hostile(
         name="thread bomb",
-        act="""
+        reset="""
         # Small ones: else memory may run out before their number does.
         import _thread
         threading.stack_size(1 << 16)
@@ -105,7 +73,7 @@ RESOURCES = [
     ),
     Hostile(
         name="2 GB file",
-        act="""
+        reset="""
         with open(os.environ["TMPDIR"] + "/big", "wb") as file:
             for _ in range(2048):
                 file.write(bytes(1 << 20))
@@ -114,7 +82,7 @@ RESOURCES = [
     ),
     Hostile(
         name="2 GB file by truncate",
-        act="""
+        reset="""
         with open(os.environ["TMPDIR"] + "/big", "wb") as file:
             file.truncate(2 << 30)
         """,
@@ -122,7 +90,7 @@ RESOURCES = [
     ),
     Hostile(
         name="many files",
-        act="""
+        reset="""
         for number in range(4000):
             with open(os.environ["TMPDIR"] + f"/{number}", "wb") as file:
                 file.write(bytes(1 << 16))
@@ -132,7 +100,7 @@ RESOURCES = [
     ),
     Hostile(
         name="many open files",
-        act="kept = [open('/dev/null') for _ in range(10_000)]",
+        reset="kept = [open('/dev/null') for _ in range(10_000)]",
         reason=r"OSError: \[Errno 24\].*",
     ),
     Hostile(

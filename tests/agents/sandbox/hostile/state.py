@@ -67,9 +67,7 @@ STATE = [
         except OSError:
             seen = set()
         if seen - {1, os.getpid()}: raise Through(str(seen))
-        if os.fork() == 0:
-            os.setsid()
-            time.sleep(60)
+        denied(os.fork)
         """,
     ),
     Hostile(

@@ -7,14 +7,18 @@ TIME = [
     Hostile(name="sleep", act="time.sleep(60)", reason=LATE),
     Hostile(name="sleep in reset", reset="time.sleep(60)", reason="took more than 2 s to start"),
     Hostile(name="sleep on import", top="time.sleep(60)", reason="no answer within 2 s"),
-    Hostile(name="stops itself", act="os.kill(os.getpid(), signal.SIGSTOP)", reason=LATE),
+    Hostile(
+        name="stops itself",
+        reset="os.kill(os.getpid(), signal.SIGSTOP)",
+        reason="took more than 2 s to start",
+    ),
     Hostile(
         name="deaf to signals",
-        act="""
+        reset="""
         for number in set(signal.Signals) - {signal.SIGKILL, signal.SIGSTOP}:
             signal.signal(number, signal.SIG_IGN)
-        while True: pass
         """,
+        act="while True: pass",
         reason=LATE,
     ),
     Hostile(
