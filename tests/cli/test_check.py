@@ -8,7 +8,10 @@ from colift.agents.sandbox.host.policy import close_sandboxes
 from colift.agents.submissions.new import write_template
 from colift.cli.check import all_checks
 
+from ..agents.sandbox.keeping import COUNTING
+
 HEAD = "import sys\nclass Policy:\n"
+
 ACTING = HEAD + "    def reset(self, seed): pass\n    def act(self, o): return "
 
 
@@ -203,18 +206,11 @@ def test_chance_is_found(checked, source):
     assert "differs from step 0 on" in found["determinism"].message
 
 
-def test_what_is_kept_from_one_lift_to_the_next_is_found(checked, mine):
-    """Only by ``preload`` can a policy keep anything; then it is compared with fresh sandboxes."""
-    manifest = mine / "policy.toml"
-    manifest.write_text(manifest.read_text().replace("preload = false", "preload = true"))
+def test_what_is_kept_from_one_lift_to_the_next_is_found(checked):
     found = checked(
-        "import mmap, tempfile\n"
-        "FILE = tempfile.TemporaryFile()\n"
-        "FILE.truncate(8)\n"
-        "KEPT = mmap.mmap(FILE.fileno(), 8)\n"
-        "class Policy:\n"
-        "    def reset(self, seed): KEPT[0] += 1\n"
-        "    def act(self, observation): return [KEPT[0] / 1000]\n"
+        COUNTING + "class Policy:\n"
+        "    def reset(self, seed): pass\n"
+        "    def act(self, observation): return [lifts / 1000]\n"
     )
     assert not found["determinism"].ok
     assert "changing_goal/S4" in found["determinism"].message

@@ -11,26 +11,24 @@ import time
 import pytest
 from colift.agents.submissions.new import write_template
 
+from ..agents.sandbox.keeping import COUNTING
 from ..leaderboard import tiny
 
 TO_BOARD = ("--board", "board", "--suite", "quick-v1")
 TO_TINY = ("--board", "tiny", "--suite", "tiny")
 
-KEEPS_STATE = """
-import mmap, tempfile
-
-file = tempfile.TemporaryFile()
-file.truncate(8)
-count = mmap.mmap(file.fileno(), 8)
-
+KEEPS_STATE = (
+    COUNTING
+    + """
 class Policy:
     def reset(self, seed):
-        count[0] += 1
+        pass
 
     def act(self, observation):
-        more = 1e-9 * count[0] if count[0] > 3 else 0.0
+        more = 1e-9 * lifts if lifts > 3 else 0.0
         return [observation[0] - observation[3] + more]
 """
+)
 
 
 @pytest.fixture(scope="module")
@@ -72,15 +70,13 @@ def process(begin):
 def make(place):
     """Return what writes the template, with a part of the policy exchanged."""
 
-    def write(name, old="", new="", preload=False):
+    def write(name, old="", new=""):
         folder = place / name
         write_template(folder)
-        policy, manifest = folder / "policy.py", folder / "policy.toml"
+        policy = folder / "policy.py"
         policy.write_text(
             policy.read_text().replace(old, new) if old else new or policy.read_text()
         )
-        if preload:
-            manifest.write_text(manifest.read_text().replace("preload = false", "preload = true"))
         return folder
 
     return write
@@ -147,8 +143,8 @@ def test_a_submission_that_was_killed_is_evaluated_when_it_comes_again(begin, pr
     assert list(place.glob("tiny/private/work/*/bundle")) == []
 
 
-def test_a_preloaded_policy_that_keeps_state_across_episodes_is_refused(process, make):
-    make("keeping", new=KEEPS_STATE, preload=True)
+def test_a_policy_that_keeps_state_across_episodes_is_refused(process, make):
+    make("keeping", new=KEEPS_STATE)
     for _ in range(2):
         done = process("submit", "keeping", *TO_TINY)
         assert done.returncode == 1

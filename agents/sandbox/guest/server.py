@@ -21,7 +21,13 @@ import sys
 from pathlib import Path
 from typing import Any, Final
 
+# NumPy imports these of its parts when they are first used; in a lift it could not.
 import numpy as np
+import numpy.fft
+import numpy.linalg
+import numpy.ma
+import numpy.polynomial
+import numpy.random
 
 from ...actions import ActionError, checked_action
 from ...agent import Agent, Explaining

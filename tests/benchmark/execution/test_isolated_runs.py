@@ -1,7 +1,5 @@
 """A policy's run is the same to the bit wherever the policy is."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 from colift.agents.loading.loading import PolicySpec
@@ -98,13 +96,10 @@ def two_workers():
     [
         ("bubblewrap", "folder"),
         ("bubblewrap", "file"),
-        ("bubblewrap", "preload"),
         ("landlock", "folder"),
         ("landlock", "file"),
-        ("landlock", "preload"),
         ("limits", "folder"),
         ("limits", "file"),
-        ("limits", "preload"),
     ],
 )
 def test_a_run_is_bit_identical_in_every_sandbox(
@@ -112,9 +107,7 @@ def test_a_run_is_bit_identical_in_every_sandbox(
 ):
     need_level(level)
     policy = read_submission(folder).sandboxed(level)
-    if form == "preload":
-        policy = dataclasses.replace(policy, preload=True)
-    elif form == "file":
+    if form == "file":
         policy = SandboxedPolicy(name="mixed", place=f"{folder}/policy.py:Policy", isolation=level)
     run = run_suite(policy, SUITE, executor=two_workers if jobs == 2 else None)
     assert run.isolation == level

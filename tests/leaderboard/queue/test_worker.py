@@ -266,8 +266,7 @@ def test_a_full_disk_ends_no_worker(board, queue, write_submission, monkeypatch,
 
 def test_what_cannot_be_loaded_fails_with_the_reason(board, queue, write_submission):
     code = "raise ImportError('no scipy here')\n"
-    manifest = ("preload = false", "preload = true")
-    queue.enqueue(board.keep(write_submission(code, manifest=manifest)), "Ada")
+    queue.enqueue(board.keep(write_submission(code)), "Ada")
     done = Worker(WorkerQueue(queue.board)).once()
     assert (done.state, done.attempt) == ("failed", 1) or "no scipy here" in done.log
 

@@ -1,0 +1,43 @@
+"""A policy whose lifts depend on those before is found: the audit plays them in another process."""
+
+import dataclasses
+
+import pytest
+from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.verification.audit import AUDIT, CHANCE, STATE, audit
+
+from ...agents.sandbox.keeping import COUNTING
+
+SECRET = bytes(32)
+
+ACT = """
+class Policy:
+    def reset(self, seed): pass
+    def act(self, observation):
+        return [0.3 * (observation[0] - observation[2]) + 1e-6 * shift()]
+"""
+
+KEEPERS = {
+    "nothing": ("def shift(): return 0", None),
+    "its lifts": (COUNTING + "def shift(): return lifts", CHANCE),
+    "a coin of its import": ("import os; coin = os.urandom(1)[0]\ndef shift(): return coin", STATE),
+    "a coin of each lift": ("import os\ndef shift(): return os.urandom(1)[0]", CHANCE),
+    "when it was loaded": (
+        "import time; then = time.time()\ndef shift(): return (time.time() - then) / 100",
+        CHANCE,
+    ),
+}
+
+
+@pytest.mark.parametrize("keeper", KEEPERS)
+def test_what_does_not_follow_from_the_lift_alone_is_found(tmp_path, keeper):
+    source, reason = KEEPERS[keeper]
+    (tmp_path / "policy.py").write_text(source + ACT)
+    policy = SandboxedPolicy(name="p", place="policy:Policy", folder=tmp_path)
+    run = run_suite(policy, make_suite("quick-v1").with_seeds(0, 1))
+    assert [episode.failure for episode in run.episodes] == 4 * [None]
+    finding = audit(dataclasses.replace(policy, instance=AUDIT), run, SECRET)
+    close_sandboxes()
+    assert (finding and finding.reason) == reason
