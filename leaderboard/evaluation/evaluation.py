@@ -25,7 +25,7 @@ from ...benchmark.results.baselines import (
 from ...benchmark.statistics import Estimate
 from ...benchmark.suites.suite import Suite
 from ...benchmark.verification import verify
-from ...benchmark.verification.audit import audit, audited
+from ...benchmark.verification.audit import RULE, audit, audited
 from ...benchmark.verification.checking import (
     MACHINE,
     check_part,
@@ -119,9 +119,7 @@ def evaluate_entrant(
     hidden = run_suite(entrant.policy, season.hidden, secret=season.secret, **playing)
     finding = audit(entrant.fresh, hidden, season.secret, **playing)
     if finding is not None:
-        return EntrantResult(
-            row=None, refusal=f"played again, a hidden episode differs: {finding.reason}"
-        )
+        return EntrantResult(row=None, refusal=f"played again, a hidden episode differs: {RULE}")
     return EntrantResult(
         row=_row(
             entrant,

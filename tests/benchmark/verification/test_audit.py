@@ -11,8 +11,7 @@ from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.hidden import hidden_suite
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.verification.audit import (
-    CHANCE,
-    STATE,
+    RULE,
     audit,
     audited,
     first_differing_step,
@@ -90,17 +89,16 @@ def test_a_policy_left_to_chance_is_told_with_episode_and_step():
     run = run_suite(policy, QUICK)
     finding = audit(policy, run, SECRET)
     assert (finding.place, finding.step) == (min(sampled(run, SECRET)), 11)
-    assert finding.reason == CHANCE
     episode = run.episodes[finding.place]
-    for told in (episode.behaviour, episode.subject, f"seed {episode.seed}", "step 11", CHANCE):
+    for told in (episode.behaviour, episode.subject, f"seed {episode.seed}", "step 11", RULE):
         assert told in finding.describe(run)
 
 
-def test_state_kept_between_episodes_is_told_from_chance():
+def test_state_kept_between_episodes_is_found():
     """In the run the episodes count; afresh each is the first."""
     run = run_suite(Made(twist=lambda: 1e-9 * next(counter)), QUICK)
     finding = audit(Made(twist=lambda: 0.0), run, SECRET)
-    assert (finding.step, finding.reason) == (11, STATE)
+    assert finding.step == 11
 
 
 def test_the_smallest_change_of_one_action_in_one_audited_episode_is_found(run):

@@ -6,7 +6,7 @@ import pytest
 from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
-from colift.benchmark.verification.audit import AUDIT, CHANCE, STATE, audit
+from colift.benchmark.verification.audit import AUDIT, audit
 
 from ...agents.sandbox.keeping import COUNTING
 
@@ -20,24 +20,24 @@ class Policy:
 """
 
 KEEPERS = {
-    "nothing": ("def shift(): return 0", None),
-    "its lifts": (COUNTING + "def shift(): return lifts", CHANCE),
-    "a coin of its import": ("import os; coin = os.urandom(1)[0]\ndef shift(): return coin", STATE),
-    "a coin of each lift": ("import os\ndef shift(): return os.urandom(1)[0]", CHANCE),
+    "nothing": ("def shift(): return 0", False),
+    "its lifts": (COUNTING + "def shift(): return lifts", True),
+    "a coin of its import": ("import os; coin = os.urandom(1)[0]\ndef shift(): return coin", True),
+    "a coin of each lift": ("import os\ndef shift(): return os.urandom(1)[0]", True),
     "when it was loaded": (
         "import time; then = time.time()\ndef shift(): return (time.time() - then) / 100",
-        CHANCE,
+        True,
     ),
 }
 
 
 @pytest.mark.parametrize("keeper", KEEPERS)
 def test_what_does_not_follow_from_the_lift_alone_is_found(tmp_path, keeper):
-    source, reason = KEEPERS[keeper]
+    source, found = KEEPERS[keeper]
     (tmp_path / "policy.py").write_text(source + ACT)
     policy = SandboxedPolicy(name="p", place="policy:Policy", folder=tmp_path)
     run = run_suite(policy, make_suite("quick-v1").with_seeds(0, 1))
     assert [episode.failure for episode in run.episodes] == 4 * [None]
     finding = audit(dataclasses.replace(policy, instance=AUDIT), run, SECRET)
     close_sandboxes()
-    assert (finding and finding.reason) == reason
+    assert (finding is not None) == found

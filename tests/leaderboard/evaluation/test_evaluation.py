@@ -15,7 +15,7 @@ from colift.benchmark.episode.turns import policy_seed
 from colift.benchmark.execution.batches import play
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.hidden import commitment
-from colift.benchmark.verification.audit import CHANCE
+from colift.benchmark.verification.audit import RULE
 from colift.leaderboard.evaluation.evaluation import (
     episode_count,
     evaluate_entrant,
@@ -234,7 +234,7 @@ def test_a_policy_that_acts_by_chance_in_public_is_refused_with_the_place(
     policy = written(tmp_path, "return [os.urandom(1)[0] * 1e-6]")
     found = evaluate_entrant(make_entrant(policy), season, human_human, tmp_path / "bundle")
     assert found.row is None
-    assert CHANCE in found.refusal
+    assert RULE in found.refusal
     assert "seed" in found.refusal
     assert found.hidden_rmse_mm == ()
 
@@ -245,7 +245,7 @@ def test_a_policy_that_does_so_in_hidden_episodes_is_refused_without_the_place(
     policy = Trying(hidden=lambda observation: 1e-6 * next(counter))
     found = evaluated(policy, season, human_human, tmp_path / "bundle")
     assert found.row is None
-    assert found.refusal == f"played again, a hidden episode differs: {CHANCE}"
+    assert found.refusal == f"played again, a hidden episode differs: {RULE}"
 
 
 def test_failed_hidden_episodes_count_as_worst_and_are_told_in_no_words_of_the_policy(
