@@ -70,7 +70,7 @@ def _attempts_inside() -> Iterator[tuple[str, Callable[[], object]]]:
     yield "reads /proc in a lift", Path("/proc/self/statm").read_bytes
     yield "makes pipes in a lift", os.pipe
     yield "makes sockets in a lift", socket.socketpair
-    yield "makes processes in a lift", os.fork
+    yield "makes processes in a lift", _forked
     yield "makes threads in a lift", threading.Thread(target=int).start
     yield "signals in a lift", lambda: os.kill(os.getpid(), 0)
     yield "reads counters in a lift", lambda: resource.getrusage(resource.RUSAGE_SELF)
