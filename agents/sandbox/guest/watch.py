@@ -46,7 +46,9 @@ class Watch:
         """
         waiting = select.poll()
         waiting.register(self.status, select.POLLIN)
-        if self.gate is not None:
+        if self.gate is None:
+            self._report(CLOSED)
+        else:
             waiting.register(self.gate.listener, select.POLLIN)
         # The end of a process wakes the watch.
         awake, waking = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
