@@ -1,6 +1,7 @@
 """The people of a room: their seats, their hands, and the messages to each."""
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
@@ -21,6 +22,9 @@ SPARE_S: Final = 0.002
 
 LEAST_MESSAGES: Final = 50
 """Fewest messages of a moving hand from which its playout delay is learned."""
+
+HOLD_STILL: Final = "Hold still: a line will appear."
+"""What the leader is told until the first goal appears."""
 
 ROLES: Final = ("leader", "follower")
 ENDS: Final = ("human", "far")
@@ -144,7 +148,7 @@ class Seats:
                 "people": len(self.people),
                 "needed": partner.people,
                 "gripped": closed,
-                "message": _sentence(phase, partner),
+                "message": _sentence(phase, partner, place, closed),
                 **room,
             }
             found.append((seat, json.dumps(state)))
@@ -160,14 +164,16 @@ def watched_sentence(phase: str, partner: str) -> str:
     }.get(phase, "The next lift begins when they take hold.")
 
 
-def _sentence(phase: str, partner: LivePartner) -> str:
-    """Return a sentence on what the people wait for."""
+def _sentence(phase: str, partner: LivePartner, end: int | None, closed: Sequence[bool]) -> str:
+    """Return a sentence on what the person at an end (0, 1) does or waits for."""
     if phase == "preparing":
         return f"{partner.name} is getting ready."
     if phase == "lifting":
-        return "Lift."
+        return HOLD_STILL if end == 0 else "Follow the table."
     if phase == "waiting":
         return "Waiting for the second person: send them the link."
+    if end is not None and closed[end]:
+        return "Hold still: the other hand is still open."
     if partner.people == 2:
         return "Take hold of the table, both of you."
     return "Take hold of the table."

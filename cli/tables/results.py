@@ -75,6 +75,8 @@ def results_text(content: Results) -> str:
             f"The human did not reach the intended height in {summary.goal_missed} "
             f"of {counted(summary.episodes, 'lift')}."
         )
+    if content.goals is not None:
+        lines.append(str(content.goals))
     clipped = summary.metrics.get("clipped")
     if clipped is not None and clipped.mean is not None:
         lines.append(
