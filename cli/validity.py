@@ -70,8 +70,8 @@ def validity(
 ) -> None:
     """Judge how well suites predict the order and the size of scores on real lifts."""
     sources = sources_of(data)
-    for source in sources:
-        report_left_out(source.name, source.left_out)
+    for real in sources:
+        report_left_out(real.name, real.left_out)
     judged = [make_suite(name) for name in dict.fromkeys(suite or SUITES)]
     for each in judged:
         check_same_task(each)

@@ -1,4 +1,4 @@
-"""How well the goals of a live lift were reached, from the hand of the person who saw them."""
+"""Goal errors of live lifts: the distance of the hand from each goal when it had to be there."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -71,10 +71,9 @@ def missed_words(errors: Sequence[GoalError]) -> str | None:
     first = next((each for each in errors if each.missed), None)
     if first is None:
         return None
-    until = "the lift ended" if first is errors[-1] else "the next goal appeared"
     return (
-        f"{first.name} was not reached and held until {until}: the hand was "
-        f"{1000 * first.error:.0f} mm from it, and must be within {1000 * NEAR:.0f} mm"
+        f"{first.name} was not reached and held (the hand was {1000 * first.error:.0f} mm away; at "
+        f"most {1000 * NEAR:.0f} mm count)"
     )
 
 

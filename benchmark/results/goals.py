@@ -1,4 +1,4 @@
-"""How well people reached the goals of the live lifts of a suite: the same for every policy."""
+"""The goal errors of the live lifts of a suite, which are the same for every policy."""
 
 import math
 from collections.abc import Collection, Mapping
@@ -68,6 +68,8 @@ def goal_scores(suite: Suite, failed: Collection[str] = ()) -> GoalScores | None
         for trial, human in played.items()
     }
     return GoalScores(
-        lifts={trial: lift and goal_error_mm(lift) for trial, lift in errors.items()},
+        lifts={
+            trial: None if lift is None else goal_error_mm(lift) for trial, lift in errors.items()
+        },
         missed=sum(any(each.missed for each in lift or ()) for lift in errors.values()),
     )
