@@ -118,7 +118,8 @@ def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
                 {
                     "mean": _of(NUMBER_OR_NULL, "Mean over the lifts that did not fail."),
                     "missing": _of(COUNT, "Failed lifts."),
-                }
+                },
+                "Goal error.",
             ),
             "missed": _of(COUNT, "Lifts in which a goal was not reached."),
             "lifts": {
