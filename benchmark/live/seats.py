@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from ...agents.errors import InputError
-from .choice import LivePartner
+from .choice import PERSON, PERSON_AS_ROBOT, SIMULATED, LivePartner
 from .grip import FIRST_DELAY_S, LONGEST_DELAY_S, Grip
 from .hand import LiveHand
 from .messages import HandSamples
@@ -158,16 +158,22 @@ class Seats:
 def watched_sentence(phase: str, partner: str) -> str:
     """Return a sentence on what the people wait for, as a spectator is told it."""
     return {
-        "preparing": f"{partner} is getting ready.",
+        "preparing": _preparing(partner),
         "lifting": "They lift.",
         "waiting": "The second person is not here yet.",
     }.get(phase, "The next lift begins when they take hold.")
 
 
+def _preparing(partner: str) -> str:
+    """Return a sentence on who or what is not ready yet, with a partner of that name."""
+    who = {SIMULATED: "The simulated person", PERSON: "The table", PERSON_AS_ROBOT: "The robot"}
+    return f"{who.get(partner, partner)} is getting ready."
+
+
 def _sentence(phase: str, partner: LivePartner, end: int | None, closed: Sequence[bool]) -> str:
     """Return a sentence on what the person at an end (0, 1) does or waits for."""
     if phase == "preparing":
-        return f"{partner.name} is getting ready."
+        return _preparing(partner.name)
     if phase == "lifting":
         return HOLD_STILL if end == 0 else "Follow the table."
     if phase == "waiting":

@@ -226,7 +226,7 @@
       this.state = null;
       this.life.awake(false);
       this.told.say(sentence);
-      if (why === "gone") this.told.offer("Reload the page", () => window.location.reload());
+      if (why === "gone") this.told.offer("Reload", () => window.location.reload());
       else if (why === "taken_over") this.told.offer("Go on here", () => this.connection.connect());
       else if (this.before) this.told.offer("Go on", () => this.connection.connect());
       else this.told.offer("New session", () => (window.location.href = window.location.pathname + window.location.search));

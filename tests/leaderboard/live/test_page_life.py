@@ -119,6 +119,7 @@ def test_a_full_house_is_a_place_in_the_queue(open_page, sessions, monkeypatch):
         status(second).to_have_text(
             "You are number 1 in the queue. The only room is taken.", timeout=WAIT_MS
         )
+        assert not second.locator("#how").is_visible()  # There is nothing to click yet.
         first.context.close()
         assert not second.locator("#lift").is_visible()
         second.context.close()  # Else it may ask for a place of a server that is gone.
@@ -169,7 +170,7 @@ def test_a_server_that_does_not_come_back_is_waited_for_for_a_stated_time(chromi
     page.wait_for_timeout(300)
     assert len(asked) == tried
     assert not page.locator("#lift, #touch").locator("visible=true").count()
-    assert page.get_by_role("button", name="Reload the page").is_visible()
+    assert page.get_by_role("button", name="Reload", exact=True).is_visible()
     assert page.url == room  # With the session's secret: a reload goes on there.
     assert wrong == []
     page.close()
