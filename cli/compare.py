@@ -15,7 +15,7 @@ from ..agents.spec import AgentSpec
 from ..benchmark.bounds.bounds import suite_bounds
 from ..benchmark.bundle import is_bundle
 from ..benchmark.channels import Channel
-from ..benchmark.comparison.captions import failures, unit_warnings, verdict
+from ..benchmark.comparison.captions import failures, goals, unit_warnings, verdict
 from ..benchmark.comparison.comparison import Comparison
 from ..benchmark.comparison.comparison import compare as compared
 from ..benchmark.comparison.files import comparison_json
@@ -194,4 +194,4 @@ def _show(comparison: Comparison) -> None:
     show(ranks_table(comparison), differences_table(comparison))
     if len(comparison.behaviours) > 1:
         show(behaviours_table(comparison))
-    show(verdict(comparison), *unit_warnings(comparison))
+    show(verdict(comparison), *goals(comparison), *unit_warnings(comparison))

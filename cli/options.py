@@ -1,7 +1,8 @@
 """Options that commands share: policies, suites, timing, worker processes and files to write."""
 
 import os
-from collections.abc import Sequence
+import sys
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, suppress
 from pathlib import Path
@@ -142,7 +143,15 @@ def chosen_suite(
         raise InputError("--seeds and --recordings exclude each other: a recording has no seed")
     if name is not None:
         raise InputError("--suite and --recordings exclude each other: recordings are a suite")
-    return real_lifts(recordings)
+    lifts = real_lifts(recordings)
+    report_left_out(recordings.name, lifts.left_out)
+    return lifts.suite
+
+
+def report_left_out(source: str, left_out: Mapping[str, str]) -> None:
+    """Report on stderr the lifts of a session that do not count, with the reasons."""
+    for name, reason in left_out.items():
+        print(f"{source}: {name} does not count: {reason}", file=sys.stderr)
 
 
 def chosen_channel(text: str | None) -> Channel | None:

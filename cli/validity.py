@@ -26,7 +26,7 @@ from ..benchmark.validity.scores import Scores
 from ..benchmark.validity.sources import Source, sources_of
 from ..leaderboard.practice.shipped_scores import shipped_scores
 from .completion import suites as suite_names
-from .options import AsJson, Jobs
+from .options import AsJson, Jobs, report_left_out
 from .policies import choose_policy
 from .printing import print_json, show
 from .progress import reported_interrupt, workers
@@ -70,6 +70,8 @@ def validity(
 ) -> None:
     """Judge how well suites predict the order and the size of scores on real lifts."""
     sources = sources_of(data)
+    for real in sources:
+        report_left_out(real.name, real.left_out)
     judged = [make_suite(name) for name in dict.fromkeys(suite or SUITES)]
     for each in judged:
         check_same_task(each)

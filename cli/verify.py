@@ -132,7 +132,7 @@ def _verify_session(session: Path, jobs: int, *, as_json: bool) -> None:
         if not verdict.findings and verdict.run is not None:
             rmse = verdict.run.episodes[0].scores["rmse_mm"]
             how = "equal to the bit" if verdict.bit_equal else "within the tolerance"
-            print(f"{folder.name}: {rmse:.2f} mm, {how}")
+            print(f"{folder.name}: {rmse:.2f} mm, {_goals(verdict)}{how}")
         for finding in verdict.findings:
             print(f"{folder.name}: {finding}", file=sys.stderr)
         if not verdict.findings and verdict.scoring is not None:
@@ -143,6 +143,14 @@ def _verify_session(session: Path, jobs: int, *, as_json: bool) -> None:
         print(f"{session} has no lift to verify: none has counted yet", file=sys.stderr)
     if refused or not verdicts:
         raise typer.Exit(1)
+
+
+def _goals(verdict: Verdict) -> str:
+    """Return the verified goal error of a live lift; empty if its bundle claims none."""
+    goals = None if verdict.results is None else verdict.results.goals
+    if goals is None or goals.mean.mean is None:
+        return ""
+    return f"{goals.mean.mean:.1f} mm from its goals, "
 
 
 def _count(verified: int, lifts: int) -> str:

@@ -5,6 +5,7 @@ A subject and a behaviour make a plan from a seed; ``ScriptedHuman`` carries a p
 
 from .changing_goal import ChangingGoal
 from .cued import LIVE_SUBJECT, Cue, Cued
+from .goals import GoalError, goal_error_mm, goal_errors, missed_words
 from .hand_log import Hand, HandLog, LoggedHand, Resampler
 from .jerky import Jerky
 from .partner import PARTNER_SUBJECT, Partner
@@ -29,6 +30,7 @@ __all__ = [
     "Cue",
     "Cued",
     "Embodied",
+    "GoalError",
     "Hand",
     "HandLog",
     "Jerky",
@@ -45,5 +47,8 @@ __all__ = [
     "ScriptedHuman",
     "Smooth",
     "Subject",
+    "goal_error_mm",
+    "goal_errors",
     "load_recordings",
+    "missed_words",
 ]

@@ -11,6 +11,7 @@ from ..channels import Channel, recorded
 from ..episode.metric import SCORING
 from ..execution.runner import Run
 from ..results.baselines import HUMAN_HUMAN, Baseline
+from ..results.goals import GoalScores, goal_scores
 from ..results.summary import (
     StepTimes,
     StratumScores,
@@ -46,10 +47,13 @@ class Results:
     """Other agents on the same episodes, without a channel."""
     channel: Channel | None = None
     """The channel between the robot and the policy; None if there is none."""
+    goals: GoalScores | None = None
+    """How well people reached the goals of live lifts; None in other lifts, and in bundles that
+    do not claim it."""
 
     def plain(self) -> dict[str, Any]:
         """Return the content of ``results.json``."""
-        content = {
+        content: dict[str, Any] = {
             "colift": self.colift,
             "suite": self.suite,
             "suite_digest": self.suite_digest,
@@ -62,7 +66,11 @@ class Results:
             "groups": [each.plain() for each in self.strata],
             "baselines": {name: _plain_baseline(each) for name, each in self.baselines.items()},
         }
-        return content if self.channel is None else {**content, "channel": recorded(self.channel)}
+        if self.channel is not None:
+            content["channel"] = recorded(self.channel)
+        if self.goals is not None:
+            content["goals"] = self.goals.plain()
+        return content
 
 
 def _plain_baseline(baseline: Baseline) -> dict[str, Any]:
@@ -100,6 +108,9 @@ def results(run: Run, baselines: Mapping[str, Baseline]) -> Results:
         strata=by_stratum(run.episodes, run.suite.metrics, human.by_stratum() if human else None),
         baselines=baselines,
         channel=run.channel,
+        goals=goal_scores(
+            run.suite, {episode.trial for episode in run.episodes if episode.failure is not None}
+        ),
     )
 
 
@@ -119,12 +130,14 @@ def with_circumstances(content: Results, claimed: Mapping[str, Any], suite: Suit
     """Return results with those claims of a bundle that no simulation can verify.
 
     These are the version of colift that wrote the bundle, and the policy's times per step. (The
-    policy's name and digest, the isolation and the faults come with the run.)
+    policy's name and digest, the isolation and the faults come with the run.) A bundle of live
+    lifts that does not claim their goal errors, as older ones do not, gets none.
     """
     step_ms = StepTimes(**{name: claimed["summary"]["step_ms"][name] for name in ("p50", "p99")})
     return dataclasses.replace(
         content,
         colift=claimed["colift"],
+        goals=content.goals if "goals" in claimed else None,
         summary=dataclasses.replace(
             content.summary, step_ms=step_ms, real_time=real_time(step_ms.p99, suite)
         ),

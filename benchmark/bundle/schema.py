@@ -28,7 +28,7 @@ INTERVAL: Final[Schema] = {
 def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
     """Return the JSON Schema of ``results.json``, the content of :meth:`.Results.plain`.
 
-    Every key except ``channel`` is required, and no other key is allowed.
+    Every key except ``channel`` and ``goals`` is required, and no other key is allowed.
 
     Parameters
     ----------
@@ -111,6 +111,24 @@ def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
     schema["properties"]["channel"] = _object(
         {"down": _link(), "up": _link(), "code": _of(TEXT, "Hash of what a channel does.")},
         "The channel to the policy; only if there was one.",
+    )
+    schema["properties"]["goals"] = _object(
+        {
+            "error_mm": _object(
+                {
+                    "mean": _of(NUMBER_OR_NULL, "Mean over the lifts that did not fail."),
+                    "missing": _of(COUNT, "Failed lifts."),
+                },
+                "Goal error.",
+            ),
+            "missed": _of(COUNT, "Lifts in which a goal was not reached."),
+            "lifts": {
+                "type": "object",
+                "additionalProperties": NUMBER_OR_NULL,
+                "description": "Goal error by trial; null if the lift failed.",
+            },
+        },
+        "Goal errors of live lifts [mm]; only of these, and not in older bundles.",
     )
     return {"$schema": DIALECT, "title": "results.json of a colift bundle", **schema}
 

@@ -8,6 +8,7 @@ from ..channels import channel_name
 from ..episode.level_metrics import MOSTLY_CLIPPED
 from ..episode.metric import Metric
 from ..results.baselines import HUMAN_HUMAN_LABEL
+from ..results.goals import goal_scores
 from .comparison import Comparison
 from .ranking import Ranking
 
@@ -118,6 +119,12 @@ def failures(comparison: Comparison) -> list[str]:
                 f"as worst; first reason: {reasons[0]}"
             )
     return sentences
+
+
+def goals(comparison: Comparison) -> list[str]:
+    """Return the sentence on how well people reached the goals, if the lifts are live ones."""
+    scores = goal_scores(comparison.results.suite)
+    return [] if scores is None else [str(scores)]
 
 
 def unit_warnings(comparison: Comparison) -> list[str]:

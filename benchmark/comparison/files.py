@@ -11,6 +11,7 @@ from typing import Any
 
 from ..channels import recorded
 from ..results.baselines import HUMAN_HUMAN_LABEL
+from ..results.goals import goal_scores
 from .captions import picture_axis, picture_title
 from .comparison import Comparison
 from .html import html_page
@@ -40,12 +41,13 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
                 "step_ms": {"p50": p50, "p99": p99},
             }
         )
-    channel = comparison.results.channel
+    channel, goals = comparison.results.channel, goal_scores(suite)
     return {
         "colift": version("colift"),
         **({} if channel is None else {"channel": recorded(channel)}),
         "suite": suite.name,
         "suite_digest": suite.digest,
+        **({} if goals is None else {"goals": goals.plain()}),
         "episodes": comparison.overall.episodes,
         "decisive": comparison.overall.decisive,
         "human_human": _baseline(comparison, HUMAN_HUMAN_LABEL),

@@ -31,7 +31,11 @@ def html_page(comparison: Comparison) -> str:
         picture_caption=captions.picture_caption(axes),
         how_to_read=captions.how_to_read(axes),
         verdict=captions.verdict(comparison),
-        warnings=(*captions.failures(comparison), *captions.unit_warnings(comparison)),
+        warnings=(
+            *captions.goals(comparison),
+            *captions.failures(comparison),
+            *captions.unit_warnings(comparison),
+        ),
         pictures=[
             svg(make_scene(comparison.points, axes, axis=axis, size=size), kind)
             for kind, size in (("wide", WIDE), ("narrow", NARROW))

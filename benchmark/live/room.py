@@ -12,10 +12,13 @@ from pathlib import Path
 from typing import Any, Final
 
 from ...agents.errors import EvaluatorFault, InputError, error_text
+from ...agents.humans import GoalError, Played, goal_error_mm, missed_words
 from ...agents.spec import AgentSpec
 from ..episode.lift import Lift
 from ..episode.scenario import Scenario
 from ..episode.turns import is_policy_failure
+from ..execution.runner import Run
+from ..results.goals import lift_goal_errors
 from .choice import PERSON, PERSON_AS_ROBOT, SIMULATED, HostChoice
 from .grip import Grip
 from .lifting import Lifting
@@ -201,7 +204,10 @@ class Room:
             "delay": 1000 * delay,
             "playout": 1000 * self._lifting.playout,
         }
-        return [*self._state(), (ALL, json.dumps(start))]
+        # The leader expects the first goal; whoever follows is not told when it comes.
+        leader = self._seats.ends(self._choice.partner)[0]
+        first = {"type": "first", "frame": min(self._lifting.cues)}
+        return [*self._state(), (ALL, json.dumps(start)), (leader, json.dumps(first))]
 
     def tick(self, now: float) -> list[Message]:
         """Make the frames that are due at ``now`` [s], and return the messages to the pages."""
@@ -221,10 +227,10 @@ class Room:
             found += self._void(f"nothing was heard of a person's page for {SILENT_S:g} s")
         return found
 
-    def _void(self, reason: str) -> list[Message]:
+    def _void(self, reason: str, **measured: Any) -> list[Message]:
         """End the lift without a result; it is repeated with the same cue."""
         self._let_go()
-        self._session.event("void", lift=self._number, reason=reason[:400])
+        self._session.event("void", lift=self._number, reason=reason[:400], **measured)
         void = {"type": "void", "lift": self._number, "reason": reason}
         return [(ALL, json.dumps(void)), *self._state()]
 
@@ -237,6 +243,11 @@ class Room:
     def _end(self, lifting: Lifting) -> list[Message]:
         number = self._number
         run = lifting.run(f"live {number:03d}")
+        goals = _goals(run)
+        missed = missed_words(goals)
+        if missed is not None:
+            errors = {each.name: round(1000 * each.error, 1) for each in goals}
+            return self._void(missed, goal_errors_mm=errors)
         self._let_go()
         folder = self._session.save(number, self._choice.partner.name, run)
         self._session.timing(folder, lifting.punctuality.late)
@@ -249,6 +260,7 @@ class Room:
             "type": "end",
             "lift": number,
             "rmse_mm": run.episodes[0].scores["rmse_mm"],
+            "goal_error_mm": goal_error_mm(goals) if goals else None,
             "failure": failure,
             "compared": self._standing is not None,
             "ghost_rmse_mm": ghost_rmse(lifting.cue, number),
@@ -303,6 +315,14 @@ class Room:
             self._end(self._lifting)
         else:
             self._void("the room was closed")
+
+
+def _goals(run: Run) -> tuple[GoalError, ...]:
+    """Return the goal errors of a lift; none if it failed, since its goals were not all shown."""
+    human = run.suite.scenarios[0].human
+    if run.episodes[0].failure is not None or not isinstance(human, Played):
+        return ()
+    return lift_goal_errors(human)
 
 
 def _object(message: str) -> dict[str, Any]:

@@ -1,11 +1,12 @@
 """The people of a room: their seats, their hands, and the messages to each."""
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
 from ...agents.errors import InputError
-from .choice import LivePartner
+from .choice import PERSON, PERSON_AS_ROBOT, SIMULATED, LivePartner
 from .grip import FIRST_DELAY_S, LONGEST_DELAY_S, Grip
 from .hand import LiveHand
 from .messages import HandSamples
@@ -21,6 +22,9 @@ SPARE_S: Final = 0.002
 
 LEAST_MESSAGES: Final = 50
 """Fewest messages of a moving hand from which its playout delay is learned."""
+
+HOLD_STILL: Final = "Hold still: a line will appear."
+"""What the leader is told until the first goal appears."""
 
 ROLES: Final = ("leader", "follower")
 ENDS: Final = ("human", "far")
@@ -144,7 +148,7 @@ class Seats:
                 "people": len(self.people),
                 "needed": partner.people,
                 "gripped": closed,
-                "message": _sentence(phase, partner),
+                "message": _sentence(phase, partner, place, closed),
                 **room,
             }
             found.append((seat, json.dumps(state)))
@@ -154,20 +158,28 @@ class Seats:
 def watched_sentence(phase: str, partner: str) -> str:
     """Return a sentence on what the people wait for, as a spectator is told it."""
     return {
-        "preparing": f"{partner} is getting ready.",
+        "preparing": _preparing(partner),
         "lifting": "They lift.",
         "waiting": "The second person is not here yet.",
     }.get(phase, "The next lift begins when they take hold.")
 
 
-def _sentence(phase: str, partner: LivePartner) -> str:
-    """Return a sentence on what the people wait for."""
+def _preparing(partner: str) -> str:
+    """Return a sentence on who or what is not ready yet, with a partner of that name."""
+    who = {SIMULATED: "The simulated person", PERSON: "The table", PERSON_AS_ROBOT: "The robot"}
+    return f"{who.get(partner, partner)} is getting ready."
+
+
+def _sentence(phase: str, partner: LivePartner, end: int | None, closed: Sequence[bool]) -> str:
+    """Return a sentence on what the person at an end (0, 1) does or waits for."""
     if phase == "preparing":
-        return f"{partner.name} is getting ready."
+        return _preparing(partner.name)
     if phase == "lifting":
-        return "Lift."
+        return HOLD_STILL if end == 0 else "Follow the table."
     if phase == "waiting":
         return "Waiting for the second person: send them the link."
+    if end is not None and closed[end]:
+        return "Hold still: the other hand is still open."
     if partner.people == 2:
         return "Take hold of the table, both of you."
     return "Take hold of the table."

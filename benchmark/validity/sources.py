@@ -1,8 +1,8 @@
 """Sources of real lifts, each played as a separate suite."""
 
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
@@ -24,6 +24,8 @@ class Source:
     """The kind of data: ``recordings``, or ``live`` for lifts of ``colift play``."""
     suite: Suite
     """Its lifts, to be played with any policy."""
+    left_out: Mapping[str, str] = field(default_factory=dict)
+    """The reason why each other lift of a session does not count, by its name."""
 
 
 def source_of(path: Path) -> Source:
@@ -36,14 +38,15 @@ def source_of(path: Path) -> Source:
     InputError
         If it cannot be used, or has fewer than :data:`FEWEST_LIFTS` lifts.
     """
-    suite = real_lifts(path)
+    lifts = real_lifts(path)
+    suite = lifts.suite
     if suite.size < FEWEST_LIFTS:
         raise InputError(
             f"{path} has {suite.size} lift; intervals need {FEWEST_LIFTS} or more, and say little "
             "below ten"
         )
     kind = "live" if path.is_dir() else "recordings"
-    return Source(name=plain_name(path.stem), kind=kind, suite=suite)
+    return Source(name=plain_name(path.stem), kind=kind, suite=suite, left_out=lifts.left_out)
 
 
 def sources_of(paths: Sequence[Path]) -> tuple[Source, ...]:

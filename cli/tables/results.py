@@ -70,11 +70,13 @@ def results_text(content: Results) -> str:
         lines.append(f"{versus_human(summary)}: 1 is as good as a human partner, less is better")
     for name, baseline in content.baselines.items():
         lines.append(f"  {NAMES.get(name, name)}: {baseline.mean:.2f} mm")
-    if summary.goal_missed:
+    if summary.goal_missed and content.goals is None:  # A real person need not follow the plan.
         lines.append(
             f"The human did not reach the intended height in {summary.goal_missed} "
             f"of {counted(summary.episodes, 'lift')}."
         )
+    if content.goals is not None:
+        lines.append(str(content.goals))
     clipped = summary.metrics.get("clipped")
     if clipped is not None and clipped.mean is not None:
         lines.append(

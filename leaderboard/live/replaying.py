@@ -44,6 +44,7 @@ def live_replay(bundle: Path) -> dict[str, Any]:
     number, _, name = bundle.name.partition("-")
     ghost = play_ghost(ghost_scenario(scenario.human.cue, int(number)), episode.seed)
     content = replay_content(episode, scenario, ghost, policy=name)
+    content["ghost"]["team"] = True
     if not scenario.seat.is_robot:
         content["command"] = []  # The actions are heights of a hand.
     return content

@@ -15,16 +15,20 @@ frame_s, period_s,       time of a frame and of a step, and the latency [s]
 latency_s
 horizon                  frames that the whole episode has, failed or not
 human, robot, target     height of the human's end, of the robot's end and as intended by the human:
-                         the first, then the changes from frame to frame [0.1 mm]
+                         the first, then the changes from frame to frame [0.1 mm]; ``target`` is
+                         empty in a live lift, since nobody knows what a real person intends
 command                  where the policy sends the hands by the end of each step [0.1 mm]
 prediction               its prediction of the human's end, step by step [0.1 mm]; or null
 confidence, role         its other reports, step by step [1/1000]; or null
-events                   the human's intentions, each with its first frame
+events                   the human's intentions, each with its first frame; none in a live lift
+goals                    only of live lifts: the goals [0.1 mm], each with the frame in which it
+                         appeared
+goal_error_mm            only of live lifts: how far the hand was from them; null if the lift failed
 drawn                    only of tasks that add some: the series of :class:`.DrawnSeries`, each
                          with ``name``, ``label``, ``where``, ``goal`` and ``values``, packed as
                          heights are
 ghost                    ``human``, ``robot`` and ``drawn`` as above, and ``rmse_mm``, of two people
-                         instead
+                         instead; ``team`` is true if both are simulated, and not one of them
 ======================== =========================================================================
 
 Heights are within int16: 3.2 m. A number that a policy did not report is null.
@@ -41,7 +45,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...agents.agent import FRAME
-from ...agents.humans import Plan
+from ...agents.humans import Plan, Played, goal_error_mm
 from ...benchmark.bundle import one_line
 from ...benchmark.episode.blame import blaming_plugins
 from ...benchmark.episode.episode import Episode, run_episode
@@ -51,6 +55,7 @@ from ...benchmark.episode.scenario import Scenario
 from ...benchmark.episode.seat import hand_commands
 from ...benchmark.episode.trace import Trace
 from ...benchmark.results.baselines import partner_spec
+from ...benchmark.results.goals import lift_goal_errors
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -120,6 +125,7 @@ def replay_content(
         Reason for its choice.
     """
     trace = episode.trace
+    played = scenario.human if isinstance(scenario.human, Played) else None
     internals = trace.internals
     human_human = ghost.episode
     return {
@@ -140,12 +146,13 @@ def replay_content(
         "horizon": ghost.horizon,
         "human": changes(trace.human_end),
         "robot": changes(trace.robot_end),
-        "target": changes(trace.target),
+        "target": [] if played else changes(trace.target),
         "command": _units(hand_commands(trace.action, scenario.control_period), UNIT),
         "prediction": _said(internals.get("prediction"), UNIT),
         "confidence": _said(internals.get("confidence"), 1e-3),
         "role": _said(internals.get("role"), 1e-3),
-        "events": [[name, frame] for name, frame in ghost.plan.events],
+        "events": [] if played else [[name, frame] for name, frame in ghost.plan.events],
+        **({} if played is None else _goals(played, episode)),
         **_drawn(scenario, trace),
         "ghost": {
             "human": changes(human_human.trace.human_end),
@@ -154,6 +161,13 @@ def replay_content(
             "rmse_mm": _score(human_human.scores["rmse_mm"]),
         },
     }
+
+
+def _goals(played: Played, episode: Episode) -> dict[str, Any]:
+    """Return the goals that a real person saw, and the goal error."""
+    goals = [[cue.frame, *_units([cue.height], UNIT)] for cue in played.cue.cues()]
+    reached = None if episode.failure is not None else goal_error_mm(lift_goal_errors(played))
+    return {"goals": goals, "goal_error_mm": None if reached is None else _score(reached)}
 
 
 def _drawn(scenario: Scenario, trace: Trace) -> dict[str, Any]:

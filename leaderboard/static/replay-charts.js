@@ -24,8 +24,8 @@
     const keys = [
       ["human", "human's end"],
       ["robot", "robot's end"],
-      ["target", "human's intention"],
-      ["human-human", "a second human in the robot's place"],
+      ["target", now.goals ? "goal" : "human's intention"],
+      ["human-human", now.ghost.team ? "two simulated people, same goals" : "a second human in the robot's place"],
     ];
     const added = now.drawn.filter((each) => each.where !== "place");
     for (const each of added) {
@@ -44,7 +44,9 @@
       const last = lines[lines.length - 1];
       last.values = last.values.map((value) => (within(value) ? value : null));
     }
-    const events = now.events.map(([name, frame]) => [colift.eventWords(name), frame * now.frame_s]);
+    // What a real person did has no names: only the goals have.
+    const goals = (now.goals || []).map(([frame, height]) => [height ? "a goal" : "back to rest", frame * now.frame_s]);
+    const events = now.goals ? goals : now.events.map(([name, frame]) => [colift.eventWords(name), frame * now.frame_s]);
     const reach = Math.min(Math.max(15, ...error.map(Math.abs), ...humanHuman.map(Math.abs)), 120) * 1.1;
     const charts = [
       {
@@ -62,7 +64,7 @@
         name: "error",
         title: `${now.error.scored ? "Error" : "Height difference"}: ${now.error.words} [mm]`,
         summary: `${now.drawn.length ? "Error" : "Height difference"}, RMSE ${colift.number(now.scores.rmse_mm, 1)} mm`,
-        keys: [["robot", "with the robot"], ["human-human", "with a second human"]],
+        keys: [["robot", "with the robot"], ["human-human", now.ghost.team ? "two simulated people" : "with a second human"]],
         low: -reach,
         high: reach,
         height: 150,

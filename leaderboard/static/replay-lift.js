@@ -18,7 +18,7 @@
       ...replay,
       human: heights(replay.human),
       robot: heights(replay.robot),
-      target: heights(replay.target),
+      target: replay.goals ? goalsOf(replay) : heights(replay.target),
       command: scaled(replay.command, UNIT),
       prediction: scaled(replay.prediction, UNIT),
       confidence: scaled(replay.confidence, 1e-3),
@@ -33,6 +33,12 @@
     };
     return { ...now, error: errorOf(now) };
   };
+
+  // The goal in each frame of a live lift, in m; null before the first one appears.
+  function goalsOf({ goals, horizon }) {
+    const shown = (frame) => goals.filter(([first]) => first <= frame).pop();
+    return Array.from({ length: horizon }, (_, i) => (shown(i + 1) ? shown(i + 1)[1] * UNIT : null));
+  }
 
   // The height that the robot's end should have; and the place of a ball, with its target place.
   const farGoal = (colift.farGoal = (drawn) => drawn.find((each) => each.goal && each.where !== "place"));
@@ -64,12 +70,14 @@
       const next = values[Math.min(i + 1, values.length - 1)];
       return values[i] + Math.min(place - i, 1) * (next - values[i]);
     };
+    // A goal appears at once, and is not there before.
+    const stepped = (values) => values[Math.min(Math.floor(place), values.length - 1)];
     const step = Math.floor(time / now.period_s + 1e-9);
     const reported = (values) => (values && values.length ? values[Math.min(step, values.length - 1)] : null);
     return {
       human: at(now.human),
       robot: at(now.robot),
-      target: at(now.target),
+      target: now.goals ? stepped(now.target) : at(now.target),
       ghostHuman: at(now.ghost.human),
       ghostRobot: at(now.ghost.robot),
       prediction: reported(now.prediction),

@@ -172,7 +172,8 @@
       this.level.pose(1000 * (now.robot - now.human), 1000 * humanHuman, now.over);
       const put = (node, x, height) =>
         node.setAttribute("transform", `translate(${x} ${-(this.rest + height)})`);
-      put(this.intention, this.humanX + 0.035, now.target);
+      this.intention.classList.toggle("none", now.target === null);
+      if (now.target !== null) put(this.intention, this.humanX + 0.035, now.target);
       const drawn = now.drawn || [];
       const goal = colift.farGoal(drawn);
       const [place, aim] = colift.places(drawn);

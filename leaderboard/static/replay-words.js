@@ -44,7 +44,18 @@
     target: "new target",
   };
 
+  // The goals of a live lift, and the people in it, by the names in its files.
+  const KINDS = { smooth: "up and down", pause: "with a stop", changing_goal: "that change" };
+  const PARTNERS = { person: "another person", person_as_robot: "a person as robot", simulated_person: "a simulated person" };
+
   colift.words = (text) => text.replaceAll("_", " ");
+
+  // Of a live lift: its number and its goals, from its trial, such as 001-smooth; and its partner.
+  colift.liveWords = function (trial) {
+    const [, number, kind] = /^(\d+)-(.+)$/.exec(trial) || [];
+    return number ? `live lift ${Number(number)}, with goals ${KINDS[kind] || colift.words(kind)}` : `live lift ${trial}`;
+  };
+  colift.partnerWords = (name) => PARTNERS[name] || name;
 
   colift.eventWords = (name) => EVENTS[name] || colift.words(name);
 

@@ -124,7 +124,9 @@
       const lift = now.trial ? `recording ${now.trial}` : `seed ${now.seed}`;
       const chosen = now.which ? `${colift.SHOWN[now.which]} of its lifts with this behaviour: ` : "";
       const text = element("p", {});
-      text.append(
+      if (now.goals) {
+        text.append("A person (blue end) and ", element("b", {}, colift.partnerWords(now.policy)), ` (orange end): ${colift.liveWords(now.trial)}.`);
+      } else text.append(
         element("b", {}, now.policy),
         " (orange end) lifts a table with a person (blue end) who ",
         element("b", {}, what),
@@ -137,6 +139,7 @@
         "dl",
         { class: "replay-scores" },
         score("error (RMSE)", mm(now.scores.rmse_mm), "robot"),
+        ...(now.goals ? [score("from the goals", mm(now.goal_error_mm), "target")] : []),
         score("two people", mm(now.ghost.rmse_mm), "human-human")
       );
       this.about.replaceChildren(text);
@@ -182,13 +185,13 @@
       const difference = 1000 * state.error;
       const ghostGap = 1000 * state.ghostError;
       const rows = [
-        ["human", "the human", over ? "the lift is over" : event ? eventWords(event[0]) : "waits"],
+        ...(now.goals ? [] : [["human", "the human", over ? "the lift is over" : event ? eventWords(event[0]) : "waits"]]),
         ["human", "human's end", `${number(1000 * state.human, 0)} mm`],
         ["robot", "robot's end", `${number(1000 * state.robot, 0)} mm`],
         ["error", goal ? "error" : "difference", over ? "counts as 250 mm" : `${number(difference, 1)} mm`],
         ["human-human", "two people", `${number(ghostGap, 1)} mm`],
         ...state.drawn.map((each) => ["target", each.label, `${number(1000 * each.value, 0)} mm`]),
-        ["target", "human's intention", `${number(1000 * state.target, 0)} mm`],
+        ["target", now.goals ? "goal" : "human's intention", state.target === null ? "none yet" : `${number(1000 * state.target, 0)} mm`],
         ["command", "robot's command", state.command === null ? "none" : `${number(1000 * state.command, 0)} mm`],
       ];
       if (now.prediction) {

@@ -78,6 +78,11 @@
       return picture;
     }
 
+    // Time until a frame is shown, in ms.
+    until(frame, now) {
+      return this.at + this.playout + FRAME_MS * frame - now;
+    }
+
     // After a lift: the playout at which nearly every frame would have been there in time.
     learn() {
       const late = play.quantile(this.lateness, 0.99);

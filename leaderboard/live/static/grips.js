@@ -28,7 +28,7 @@
       };
       this.pointer = new play.Pointer(at("stage"), asked, does);
       this.keys = new play.Keys(at("stage"), asked, does);
-      for (const id of ["lift", "again"]) at(id).addEventListener("click", (event) => this.press(event));
+      at("lift").addEventListener("click", (event) => this.press(event));
     }
 
     // The button: what it does depends on the input, and on what has pressed it.

@@ -17,7 +17,7 @@
   };
 
   class Lifting {
-    // told: {changed(), finished(end, delays), cued(height), slow(whether)}.
+    // told: {changed(), finished(end, delays), counted(seconds), cued(height, from), slow(whether)}.
     constructor(stage, connection, clock, told) {
       this.stage = stage;
       this.connection = connection;
@@ -27,6 +27,7 @@
       this.delays = new play.Delays();
       this.hand = new play.Hand((first, samples) => connection.send(play.packSamples(first, samples)));
       this.cues = [];
+      this.first = null;
       this.rate = this.refresh = null;
       this.held = 0;
       // For measurements: ?playout=0&delay=0 shows the least that is possible.
@@ -85,9 +86,15 @@
       this.frames.begin(message.at, message.frames, message.playout);
       this.delays.clear();
       this.cues = [];
+      this.first = null;
       this.held = 0;
       this.stage.aim(null);
       if (this.hand.closed) this.hand.start(performance.now());
+    }
+
+    // The first goal will appear with a frame: only the leader is told.
+    expect(message) {
+      this.first = message.frame;
     }
 
     cue(message) {
@@ -102,12 +109,13 @@
     draw(now) {
       this.stage.reach(this.hand.height);
       if (!this.frames.running) return;
+      this.count(now + this.offset);
       const picture = this.frames.look(now + this.offset);
       this.stage.pose(picture.human, picture.robot);
       while (this.cues.length && this.cues[0].frame <= picture.place) {
         const { height } = this.cues.shift();
         this.stage.aim(height);
-        this.told.cued(height);
+        this.told.cued(height, picture.human);
       }
       this.bar.style.transform = `scaleX(${picture.place / this.frames.count})`;
       if (picture.over || !picture.place) return;
@@ -115,6 +123,16 @@
       this.held = picture.starved ? this.held + 1 : 0;
       if (this.held === LONG_HOLD) this.told.slow(true);
       else if (this.held === 0) this.told.slow(false);
+    }
+
+    // Whole seconds until the first goal; none if this person does not see it, or has seen it.
+    count(now) {
+      const left = this.first === null ? 0 : this.frames.until(this.first, now);
+      const seconds = Math.max(Math.ceil(left / 1000), 0);
+      if (seconds === this.counted) return;
+      this.counted = seconds;
+      this.stage.count(seconds);
+      this.told.counted(seconds);
     }
 
     // The room has ended the lift; its last frames are still to be shown.
@@ -132,7 +150,8 @@
 
     // Nothing moves until the next lift.
     clear() {
-      this.lift = null;
+      this.lift = this.first = null;
+      this.count(0);
       this.frames.clear();
       this.cues = [];
       this.stage.aim(null);

@@ -24,7 +24,8 @@
       this.lifting = new play.Lifting(this.stage, this.connection, this.clock, {
         changed: () => this.show(),
         finished: (end, delays) => this.finished(end, delays),
-        cued: (height) => this.told.say(height > 0.001 ? "Lift to the line." : "Back to rest."),
+        counted: (seconds) => seconds && this.told.say(`Hold still: a line appears in ${seconds} s.`),
+        cued: (height, from) => this.told.say(play.goalWords(height, from)),
         slow: (slow) => (at("slow").hidden = !slow),
       });
       this.input = new play.Input(at("input"), () => this.stage, () => at("stage").focus());
@@ -55,7 +56,7 @@
     begins() {
       this.result.hide();
       this.explained = false;
-      this.told.say("Hold on: the lift begins.");
+      this.told.say("Ready …");
       at("stage").focus({ preventScroll: true });
     }
 
@@ -112,6 +113,7 @@
         queued: () => this.told.say((message.place ? `You are number ${message.place} in the queue. ` : "") + message.reason),
         state: () => this.follow(message),
         start: () => this.lifting.start(message),
+        first: () => this.lifting.expect(message),
         cue: () => this.lifting.cue(message),
         end: () => this.over(message),
         void: () => this.over(message),
@@ -160,7 +162,9 @@
       this.stage.seat(this.watching ? null : state.you === "far" ? "far" : "human");
       this.stage.company(play.hasHumanFar(state.partner));
       this.lobby.follow(state);
-      if (!this.explained || state.phase !== "ready") this.told.say(state.message);
+      // During a lift, the lift itself tells what to do.
+      const told = state.phase === "ready" ? this.explained : this.lifting.frames.running;
+      if (!told) this.told.say(state.message);
       if (state.phase === "lifting") this.explained = false;
       this.show();
     }
@@ -183,8 +187,8 @@
 
     finished(end, delays) {
       if (!this.watching) for (const report of delays.reports(end.lift)) this.connection.send(report);
-      this.result.show(end, this.state.partner, delays, this.watching);
-      this.told.say(end.failure ? "The lift failed." : `Level to ${end.rmse_mm.toFixed(1)} mm (RMSE).`);
+      this.result.show(end, this.state.partner, delays, this.state.role);
+      this.told.say(play.scoreWords(end));
       this.show();
     }
 
@@ -222,7 +226,8 @@
       this.state = null;
       this.life.awake(false);
       this.told.say(sentence);
-      if (why === "taken_over") this.told.offer("Go on here", () => this.connection.connect());
+      if (why === "gone") this.told.offer("Reload", () => window.location.reload());
+      else if (why === "taken_over") this.told.offer("Go on here", () => this.connection.connect());
       else if (this.before) this.told.offer("Go on", () => this.connection.connect());
       else this.told.offer("New session", () => (window.location.href = window.location.pathname + window.location.search));
       this.show();
@@ -252,10 +257,12 @@
       at("place").textContent = state && state.partner ? play.placeWords(state, this.watching) : "";
       at("lift").hidden = !this.may || this.input.preset === "touch" || document.body.dataset.view !== "table";
       at("touch").hidden = !this.may || this.input.preset !== "touch" || document.body.dataset.view !== "table";
-      at("again").disabled = !this.may;
+      const over = !this.result.root.hidden;
+      at("lift").textContent = over ? "Lift again" : "Lift";
       for (const id of ["change", "next"]) at(id).classList.toggle("away", this.lobby.guest || !this.holds);
-      at("again").classList.toggle("away", !this.holds);
-      for (const id of ["how", "input"]) at(id).hidden = !this.holds;
+      at("how").hidden = !this.holds || !state || over;
+      at("input").hidden = !this.holds;
+      document.body.dataset.role = (state && state.role) || "";
       this.stage.name(this.holds);
       at("change").disabled = phase === "lifting" || phase === "gripped";
       this.input.show();

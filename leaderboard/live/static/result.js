@@ -13,13 +13,20 @@
     return `What you saw was ${Math.round(median)} ms old (95 % of it less than ${Math.ceil(p95)} ms).`;
   };
 
+  // The sentence on a lift that counts: how level it was, and how well its goals were reached.
+  play.scoreWords = function (end) {
+    if (end.failure) return "The lift failed.";
+    return `The ends differed by ${mm(end.rmse_mm)} (RMSE); the hand was ${mm(end.goal_error_mm)} from the goals.`;
+  };
+
   // The sentence of a standing; partner: the name of the policy at the far end, if there was one.
-  play.standingWords = function (standing, partner, score) {
+  // leads: whether this person's hand made the movement.
+  play.standingWords = function (standing, partner, score, leads = true) {
+    const movement = `${leads ? "your" : "the leader's"} movement`;
     const [best] = standing.policies;
     if (!best) return "";
-    if (best.name === partner) return `No other policy would have been better with your movement than ${partner}.`;
-    const than = score > best.rmse_mm ? "" : ", which is more";
-    return `With your movement, ${best.name} would have kept the table level to ${mm(best.rmse_mm)}${than}.`;
+    if (best.name === partner) return `Of all policies, ${partner} is the best with ${movement}.`;
+    return `${best.name} would have managed ${mm(best.rmse_mm)} with ${movement} (you and ${play.partnerWords(partner)}: ${mm(score)}).`;
   };
 
   class Result {
@@ -38,15 +45,19 @@
       this.root.hidden = true;
     }
 
-    // watched: whether this person only watched, and is told no comparison.
-    show(end, partner, delays, watched = false) {
+    // role: "leader" or "follower"; null of somebody who only watched, and is told no comparison.
+    show(end, partner, delays, role = "leader") {
       this.end = end;
       this.partner = partner;
+      this.role = role;
       this.root.hidden = false;
       this.part("score").textContent = mm(end.rmse_mm);
+      this.part("goals").textContent = mm(end.goal_error_mm);
       this.part("ghost").textContent = mm(end.ghost_rmse_mm);
       this.part("failure").textContent = end.failure ? `The lift failed: ${end.failure}.` : "";
-      this.part("delay").textContent = play.delayWords(delays.median, delays.p95);
+      const age = play.delayWords(delays.median, delays.p95);
+      this.part("delay").textContent = age;
+      this.part("delay").parentNode.hidden = !age;
       const late = end.late || {};
       this.part("late").textContent = late.marked
         ? `This machine was busy: the table was late by ${Math.round(late.worst_ms)} ms once. The lift is marked.`
@@ -55,25 +66,26 @@
       this.part("standing").textContent = "";
       this.part("policies").replaceChildren();
       this.part("watching").textContent = "";
-      this.part("comparing").hidden = watched || !end.compared;
+      this.part("comparing").hidden = role === null || !end.compared;
     }
 
+    // Of the lifts that count in this session; what was kept without a goal error may be void.
     best(end, partner) {
       const session = this.connection.place.session;
       const kept = play.read(sessionStorage, KEPT);
-      const before = kept.session === session ? kept : null;
-      if (end.failure) return before ? `Best of this session: ${mm(before.rmse_mm)} with ${before.partner}.` : "";
-      if (before && before.rmse_mm <= end.rmse_mm) {
-        return `Best of this session: ${mm(before.rmse_mm)} with ${before.partner}.`;
+      const before = kept.session === session && typeof kept.goal_error_mm === "number" ? kept : null;
+      if (end.failure || typeof end.goal_error_mm !== "number" || (before && before.rmse_mm <= end.rmse_mm)) {
+        if (!before) return "";
+        return `Best of this session: ${mm(before.rmse_mm)} with ${play.partnerWords(before.partner)}, ${mm(before.goal_error_mm)} from the goals.`;
       }
-      play.write(sessionStorage, KEPT, { session, partner, rmse_mm: end.rmse_mm });
+      play.write(sessionStorage, KEPT, { session, partner, rmse_mm: end.rmse_mm, goal_error_mm: end.goal_error_mm });
       return before ? "This is the best of this session." : "";
     }
 
     compare(standing) {
       if (!this.end || this.root.hidden || standing.lift !== this.end.lift) return;
       this.part("comparing").hidden = true;
-      this.part("standing").textContent = play.standingWords(standing, this.partner, this.end.rmse_mm);
+      this.part("standing").textContent = play.standingWords(standing, this.partner, this.end.rmse_mm, this.role === "leader");
       const rows = [...standing.policies];
       if (typeof standing.human_human_mm === "number") {
         rows.push({ name: "simulated person", rmse_mm: standing.human_human_mm });
@@ -104,7 +116,7 @@
           this.player.choose(0);
         } else this.player = new window.coliftReplay.Player(document.getElementById("player"), data, "lift");
       } catch (error) {
-        told.textContent = error.message;
+        told.textContent = error instanceof TypeError ? "The server cannot be reached." : error.message;
       }
     }
   }

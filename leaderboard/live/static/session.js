@@ -3,11 +3,13 @@
 (function () {
   const play = (window.coliftPlay = window.coliftPlay || {});
 
-  const PAUSES_MS = [250, 500, 1000, 2000, 4000, 10_000];
+  const PAUSES_MS = [250, 500, 1000, 2000, 4000];
+  const GIVE_UP_S = 60;
   const TAKEN_OVER = 4001;
   const REFUSED = 4003;
   const PING_MS = 2000;
   const SILENT_MS = 7000; // without answers for that long, a connection is dead
+  const GONE = `The server has not answered for ${GIVE_UP_S} s. Reload the page when it is back.`;
   const SEATS = { s: 0, p: 1, w: "spectator" };
 
   // The content of the address after its #: {session, secret, seat}, or null.
@@ -28,6 +30,7 @@
       this.place = null;
       this.socket = null;
       this.failures = 0;
+      this.lost = null; // when the connection was lost, until it is back
       setInterval(() => this.look(), PING_MS);
     }
 
@@ -63,6 +66,8 @@
 
     take(data) {
       this.heard = performance.now();
+      this.lost = null;
+      clearTimeout(this.last);
       if (typeof data !== "string") {
         this.told.frame(data);
         return;
@@ -82,9 +87,20 @@
         this.end("The server does not know this session. Start a new one.", "refused");
       } else if (this.wanted) {
         const pause = PAUSES_MS[Math.min(this.failures++, PAUSES_MS.length - 1)];
-        this.told.lost("The connection was lost. Trying again …");
+        this.told.lost(`The connection was lost. Trying again for ${this.patience()} s …`);
         this.timer = setTimeout(() => this.connect(), pause);
       }
+    }
+
+    // Seconds for which it still tries to connect; they begin with the loss.
+    patience() {
+      const now = performance.now();
+      if (this.lost === null) {
+        this.lost = now;
+        // An attempt may hang for minutes: it does not decide.
+        this.last = setTimeout(() => this.end(GONE, "gone"), 1000 * GIVE_UP_S);
+      }
+      return Math.max(Math.ceil(GIVE_UP_S - (now - this.lost) / 1000), 0);
     }
 
     end(sentence, why) {
@@ -95,6 +111,8 @@
     // Leave, and stay away until connect() is called again.
     drop() {
       this.wanted = false;
+      this.lost = null;
+      clearTimeout(this.last);
       clearTimeout(this.timer);
       const { socket } = this;
       this.socket = null;

@@ -34,6 +34,10 @@
       this.goal = make("g", { class: "play-goal none" }, svg);
       make("path", { d: `M${this.ends.far - 0.1} 0H${this.ends.human + 0.1}` }, this.goal);
       this.goalText = make("text", { x: this.middle, y: -0.018, "text-anchor": "middle" }, this.goal);
+      this.countdown = make("g", { class: "play-count none", "aria-hidden": "true" }, svg);
+      make("circle", { r: 0.07 }, this.countdown);
+      this.countText = make("text", { y: 0.032 }, this.countdown);
+      this.countdown.setAttribute("transform", `translate(${this.middle} ${-(this.rest + 0.16)})`);
       this.handle = make("g", { class: "play-handle none" }, svg);
       make("path", { d: "M-.06 0H.06" }, this.handle);
       make("circle", { r: 0.012 }, this.handle);
@@ -109,6 +113,12 @@
 
     grip(closed) {
       this.handle.classList.toggle("none", !closed || !this.at);
+    }
+
+    // Seconds until the first goal appears; 0 shows none.
+    count(seconds) {
+      this.countdown.classList.toggle("none", !seconds);
+      this.countText.textContent = seconds || "";
     }
 
     // The goal is the leader's alone; null hides it.

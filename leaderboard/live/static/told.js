@@ -7,6 +7,14 @@
 
   const at = (id) => document.getElementById(id);
 
+  const NEAR = 0.001; // m: no way to go
+
+  // What to do when a goal appears; both heights in m above rest.
+  play.goalWords = function (goal, hand) {
+    if (Math.abs(goal) < NEAR) return "Back to rest.";
+    return `${goal < hand ? "Lower" : "Lift"} to the line.`;
+  };
+
   class Told {
     // A screen reader reads each new sentence once.
     say(sentence) {

@@ -125,7 +125,7 @@ class Driven:
             self.scale = await self.page.evaluate("coliftPlay.page.stage.pixelsPerMetre")
             await self._move("touchStart", 0.0)
             return
-        x, y, width, height = await self._box("#lift, #again")
+        x, y, width, height = await self._box("#lift")
         self.x, self.y = x + width / 2, y + height / 2
         self.scale = COUNTS_PER_METRE
         for kind, button in (

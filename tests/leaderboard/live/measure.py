@@ -24,13 +24,17 @@ from pathlib import Path
 import numpy as np
 import websockets
 from colift.agents.calibration import CALIBRATION
-from colift.agents.humans import LIVE_SUBJECT, SUBJECTS, Cued, HandLog, Partner, Played
+from colift.agents.humans import LIVE_SUBJECT, SUBJECTS, HandLog, Partner, Played
 from colift.agents.humans.partner import PartnerParameters
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.batches import play
+from colift.benchmark.live.choice import MIXED, PERSON
+from colift.benchmark.live.scenarios import cue_of
+from colift.benchmark.live.session import SessionFolder
 from colift.benchmark.results.baselines import PARTNER_SPEC
+from colift.leaderboard.live.sessions import Sessions
 
 from .devtools import browsing
 from .driving import Driven
@@ -44,11 +48,18 @@ CHROMIUM = shutil.which("chromium") or "google-chrome"
 POLICIES = ("anticipate", "blend", "copy")
 
 
-def references(seed, frames=2000):
-    """Return the hand references of a simulated person who lifts by a cue of their own [m]."""
-    cue = Cued(kind=("smooth", "pause", "changing_goal")[seed % 3], seed=seed)
+async def cue_for(host, out, partner):
+    """Return the cue of the coming lift of a page's session with a partner."""
+    await host.ready()
+    session = Sessions(out).find(await session_of(host))
+    place = SessionFolder(session.folder).played_with(partner)
+    return cue_of(session.cue_seed, place, MIXED)
+
+
+def references(cue, frames=2000):
+    """Return the hand references of a simulated person who lifts by a cue [m]."""
     subject = dataclasses.replace(SUBJECTS["S2"], name="live", pull=0.0)
-    scenario = Scenario(behaviour="cued", human=cue, trial=str(seed), subject=subject)
+    scenario = Scenario(behaviour="cued", human=cue, trial="1", subject=subject)
     (episode,) = play(PolicySpec(text="copy"), scenario, (0,))
     made = episode.trace.human_action.ravel()
     return np.concatenate((made, np.full(max(frames - len(made), 0), made[-1])))
@@ -87,7 +98,7 @@ async def alone(url, out, lifts):
             driven = await Driven.opened(browser, url, FINGER)
             await driven.choose(policy)
             for seed in range(lifts):
-                made = references(seed)
+                made = references(await cue_for(driven, out, policy))
                 start = await gripped(driven)
                 end = await driven.move(hand_of(made), start["at"] / 1000)
                 if end["type"] != "end":
@@ -121,9 +132,12 @@ async def gripped(*people):
     return await people[0].until("start", after=seen)
 
 
+async def session_of(host):
+    return (await host.page.evaluate("location.hash"))[3:].partition(".")[0]
+
+
 async def folder_of(host, out, end):
-    session = (await host.page.evaluate("location.hash"))[3:].partition(".")[0]
-    return out / session / end["folder"]
+    return out / await session_of(host) / end["folder"]
 
 
 async def pair(url, out, lifts):
@@ -142,7 +156,7 @@ async def pair(url, out, lifts):
         guest = await Driven.opened(browser, link.replace("#", QUERY + "#"), FINGER)
         ratios = []
         for seed in (lifts, *range(lifts)):
-            made = references(seed)
+            made = references(await cue_for(host, out, PERSON))
             start = await gripped(host, guest)
             lag = CALIBRATION.partner_lag - known
             partner = Partner(parameters=PartnerParameters(lag=lag))
@@ -176,9 +190,10 @@ async def delays_of(url, out, lifts):
         driven = await Driven.opened(browser, url + LEAST, FINGER)
         await driven.choose("copy")
         found = []
-        for seed in range(lifts):
+        for _ in range(lifts):
+            made = references(await cue_for(driven, out, "copy"))
             start = await gripped(driven)
-            end = await driven.move(hand_of(references(seed)), start["at"] / 1000)
+            end = await driven.move(hand_of(made), start["at"] / 1000)
             found += await reported(await folder_of(driven, out, end))
     return found
 

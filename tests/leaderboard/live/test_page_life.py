@@ -1,5 +1,7 @@
 """The life of a page: hidden, opened twice, loaded again, cut off, full house, wrong link."""
 
+import re
+
 import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.leaderboard.live import keeper
@@ -117,6 +119,7 @@ def test_a_full_house_is_a_place_in_the_queue(open_page, sessions, monkeypatch):
         status(second).to_have_text(
             "You are number 1 in the queue. The only room is taken.", timeout=WAIT_MS
         )
+        assert not second.locator("#how").is_visible()  # There is nothing to click yet.
         first.context.close()
         assert not second.locator("#lift").is_visible()
         second.context.close()  # Else it may ask for a place of a server that is gone.
@@ -140,3 +143,34 @@ def test_a_server_that_is_away_is_said(page, url):
     page.unroute("**/api/sessions")
     page.get_by_role("button", name="Try again").click()
     wait_until_ready(page)
+
+
+def test_a_server_that_does_not_come_back_is_waited_for_for_a_stated_time(chromium, tmp_path):
+    """A minute; then the page stops, and offers to load it again."""
+    page = chromium.new_page()  # Browsers write down each connection that fails.
+    page.clock.install()
+    asked, wrong = [], []
+    page.on("websocket", lambda socket: asked.append(socket.url))
+    page.on("pageerror", lambda error: wrong.append(str(error)))
+    with playing(PlayConfig(folder=tmp_path, policies={"hold": PolicySpec(text="hold")})) as url:
+        enter(page, url)
+        room = page.url
+    status(page).to_contain_text("The connection was lost. Trying again for ", timeout=WAIT_MS)
+    page.clock.fast_forward(30_000)
+    status(page).to_have_text(
+        re.compile(r"The connection was lost\. Trying again for (3\d|2\d) s …"), timeout=WAIT_MS
+    )
+    page.clock.fast_forward(31_000)
+    status(page).to_have_text(
+        "The server has not answered for 60 s. Reload the page when it is back.", timeout=WAIT_MS
+    )
+    tried = len(asked)
+    assert tried >= 2
+    page.clock.fast_forward(300_000)
+    page.wait_for_timeout(300)
+    assert len(asked) == tried
+    assert not page.locator("#lift, #touch").locator("visible=true").count()
+    assert page.get_by_role("button", name="Reload", exact=True).is_visible()
+    assert page.url == room  # With the session's secret: a reload goes on there.
+    assert wrong == []
+    page.close()

@@ -18,8 +18,8 @@ SCREENS = {
 ENDED = """
     const { page } = coliftPlay;
     page.result.show(
-      { lift: 1, rmse_mm: 104.25, ghost_rmse_mm: 5.1, failure: null, compared: true,
-        late: { frames: 2, worst_ms: 61, marked: true } },
+      { lift: 1, rmse_mm: 104.25, goal_error_mm: 12.34, ghost_rmse_mm: 5.1, failure: null,
+        compared: true, late: { frames: 2, worst_ms: 61, marked: true } },
       "copy", { median: 31, p95: 38.2 });
     page.result.compare({ lift: 1, human_human_mm: 101.5,
       policies: [{ name: "anticipate", rmse_mm: 3.1 }, { name: "copy", rmse_mm: 104.25 }] });
@@ -92,7 +92,7 @@ def test_everybody_can_use_it(screen, url):
     expect(screen.locator("#status")).to_contain_text("does not count", timeout=WAIT_MS)
     screen.evaluate(ENDED)
     expect(screen.locator("[data-part=standing]")).to_have_text(
-        "With your movement, anticipate would have kept the table level to 3.1 mm."
+        "anticipate would have managed 3.1 mm with your movement (you and copy: 104.3 mm)."
     )
     looked_at(screen)
     assert set(lines(screen, "[data-part=score], [data-part=policies] b")) == {1}

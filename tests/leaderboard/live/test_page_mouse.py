@@ -3,7 +3,6 @@
 import asyncio
 import itertools
 import json
-import math
 
 import pytest
 from colift.benchmark.bundle import read_bundle
@@ -13,9 +12,8 @@ from ..browser import OPTIONS, chromium_path
 from .browsing import WAIT_MS, Hand
 
 EVERY_S = 0.004
-RISE = 500
-PATH = [RISE / 2 * (1 - math.cos(0.01 * math.pi * i)) for i in range(301)]
-"""How far the mouse is above the button [px]: up and down, and up again."""
+SPEED = 0.25
+"""Of the hand, on its way to each goal [m/s]."""
 
 COUNT = 2e-4
 """Metres in a count."""
@@ -26,11 +24,12 @@ BUSY = "for (const end = performance.now() + 60; performance.now() < end; );"
 
 def test_a_lift_by_mouse_from_the_click_to_the_replay(url, sessions):
     """Nothing of the mouse's way is lost, the table follows, and all is on disk in the end."""
-    hand = asyncio.run(lifted(url))
+    hand, way = asyncio.run(lifted(url))
     heights = [height for _, height in hand.samples]
     times = [time for time, _ in hand.samples]
-    assert max(heights) == pytest.approx(COUNT * RISE, abs=COUNT)
-    assert heights[-1] == pytest.approx(COUNT * RISE, abs=COUNT)
+    assert max(heights) == pytest.approx(max(way), abs=COUNT)
+    assert max(way) > 0.1
+    assert heights[-1] == pytest.approx(way[-1], abs=COUNT)
     assert all(a < b for a, b in itertools.pairwise(times))
     folder = next(sessions.glob("*/lifts/001-copy"))
     log = read_bundle(folder).recipe.suite().scenarios[0].human.log
@@ -44,8 +43,14 @@ def test_a_lift_by_mouse_from_the_click_to_the_replay(url, sessions):
     assert 0 < min(delays) < 4000
 
 
-async def lifted(url: str) -> Hand:
-    """Lift once, and look at what the page shows afterwards; return what it has sent."""
+async def lifted(url: str) -> tuple[Hand, list[float]]:
+    """Lift once, and look at what the page shows afterwards.
+
+    Returns
+    -------
+    tuple of Hand and list of float
+        What the page has sent, and the heights of the mouse [m].
+    """
     async with async_playwright() as playwright:
         browser = await playwright.chromium.launch(
             executable_path=chromium_path(playwright.chromium, locks=True), args=list(OPTIONS)
@@ -64,25 +69,47 @@ async def lifted(url: str) -> Hand:
         assert await page.evaluate("document.pointerLockElement.id") == "stage"
         while await page.evaluate("coliftPlay.page.lifting.frames.last") < 5:
             await asyncio.sleep(0.02)
-        await move(page, box["y"] + box["height"] / 2)
+        way = await follow(page, box["y"] + box["height"] / 2)
         assert len(hand.samples) > hand.packets > 50  # What gathers is sent together, whole.
         await looked_at(page)
         await browser.close()
-        return hand
+        return hand, way
 
 
-async def move(page: Page, begins: float) -> None:
-    """Move the mouse, waiting for no event as a real one does; keep the page busy once."""
+async def follow(page: Page, begins: float) -> list[float]:
+    """Move the mouse to each goal, without waiting for events; keep the page busy once.
+
+    Returns
+    -------
+    list of float
+        The heights of the mouse [m].
+    """
     session = await page.context.new_cdp_session(page)
-    loop, pending = asyncio.get_running_loop(), []
-    begin = loop.time()
-    for i, above in enumerate(PATH):
-        await asyncio.sleep(max(begin + EVERY_S * i - loop.time(), 0))
-        event = {"type": "mouseMoved", "x": 640, "y": begins - above}
+    loop, pending, way = asyncio.get_running_loop(), [], [0.0]
+    looking, due = asyncio.ensure_future(look(page)), loop.time()
+    goal, busy = 0.0, True
+    while goal is not None:
+        due = max(due + EVERY_S, loop.time())
+        await asyncio.sleep(due - loop.time())
+        if looking.done():
+            goal, looking = looking.result(), asyncio.ensure_future(look(page))
+        most = SPEED * EVERY_S
+        way.append(way[-1] + min(max((goal or 0.0) - way[-1], -most), most))
+        event = {"type": "mouseMoved", "x": 640, "y": begins - way[-1] / COUNT}
         pending.append(asyncio.ensure_future(session.send("Input.dispatchMouseEvent", event)))
-        if i == len(PATH) // 3:
+        if busy and way[-1] > 0.05:
+            busy = False
             pending.append(asyncio.ensure_future(page.evaluate(BUSY)))
-    await asyncio.gather(*pending)
+    await asyncio.gather(looking, *pending)
+    return way
+
+
+async def look(page: Page) -> float | None:
+    """Return the goal that the page shows [m], 0 before there is one; None if the lift is over."""
+    goal: float | None = await page.evaluate("""
+        coliftPlay.page.lifting.hand.closed ? coliftPlay.page.stage.shown.goal ?? 0 : null
+    """)
+    return goal
 
 
 async def looked_at(page: Page) -> None:
@@ -90,7 +117,10 @@ async def looked_at(page: Page) -> None:
     await expect(page.locator("#result")).to_be_visible(timeout=WAIT_MS)
     assert await page.evaluate("document.pointerLockElement") is None
     score = await page.locator("[data-part=score]").inner_text()
-    await expect(page.locator("#status")).to_have_text(f"Level to {score} (RMSE).")
+    goals = await page.locator("[data-part=goals]").inner_text()
+    await expect(page.locator("#status")).to_have_text(
+        f"The ends differed by {score} (RMSE); the hand was {goals} from the goals."
+    )
     await expect(page.locator("[data-part=delay]")).to_contain_text("ms old")
     standing = page.locator("[data-part=standing]")
     await expect(standing).to_contain_text("copy", timeout=WAIT_MS)
@@ -100,4 +130,5 @@ async def looked_at(page: Page) -> None:
     await expect(slider).to_be_visible(timeout=WAIT_MS)
     await expect(page.locator("#replay .replay-about")).to_contain_text("copy")
     await page.keyboard.press("Escape")
-    await expect(page.get_by_role("button", name="Lift", exact=True)).to_be_visible()
+    await expect(page.get_by_role("button", name="Lift again")).to_be_visible()
+    await expect(page.locator("#how")).to_be_hidden()

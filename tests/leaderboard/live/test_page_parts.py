@@ -215,3 +215,41 @@ def test_a_link_says_the_place(run, fragment, seat):
 @pytest.mark.parametrize("fragment", ["", "#", "#x=a.b", "#s=a", "#s=<a>.b"])
 def test_what_is_no_link_is_none(run, fragment):
     assert run("return play.placeOf(argument);", fragment) is None
+
+
+@pytest.mark.parametrize(
+    ("goal", "hand", "words"),
+    [
+        (0.2, 0.0, "Lift to the line."),
+        (0.1, 0.15, "Lower to the line."),
+        (0.2, 0.15, "Lift to the line."),
+        (0.0, 0.2, "Back to rest."),
+        (0.0, -0.02, "Back to rest."),
+    ],
+)
+def test_a_goal_is_above_or_below_the_hand(run, goal, hand, words):
+    assert run("return play.goalWords(...argument);", [goal, hand]) == words
+
+
+MANAGED = "blend would have managed 3.1 mm with"
+
+
+@pytest.mark.parametrize(
+    ("best", "partner", "leads", "words"),
+    [
+        ("blend", "copy", True, f"{MANAGED} your movement (you and copy: 4.5 mm)."),
+        ("copy", "copy", True, "Of all policies, copy is the best with your movement."),
+        (
+            "blend",
+            "person",
+            False,
+            f"{MANAGED} the leader's movement (you and another person: 4.5 mm).",
+        ),
+    ],
+)
+def test_a_standing_says_with_whose_movement(run, best, partner, leads, words):
+    found = run(
+        "return play.standingWords({ policies: [argument.shift()] }, ...argument);",
+        [{"name": best, "rmse_mm": 3.1}, partner, 4.5, leads],
+    )
+    assert found == words

@@ -6,6 +6,7 @@ import signal
 
 import pytest
 from colift.agents.errors import InputError
+from colift.benchmark.bundle import read_bundle
 from colift.leaderboard.live.replaying import Replays, live_replay
 from colift.leaderboard.replays.replay import UNIT
 
@@ -31,12 +32,20 @@ def lifted(request, tmp_path):
 
 def test_a_replay_shows_the_lift_and_a_team_with_the_same_goals(lifted):
     partner, end, folder = lifted
+    cues = read_bundle(folder).recipe.suite().scenarios[0].human.cue.cues()
     replay = live_replay(folder)
     assert replay["policy"] == folder.name.partition("-")[2]
     assert replay["scores"]["rmse_mm"] == pytest.approx(end["rmse_mm"], abs=1e-3)
     assert replay["ghost"]["rmse_mm"] == pytest.approx(end["ghost_rmse_mm"], abs=1e-3)
     assert len(replay["human"]) == replay["horizon"] == len(replay["ghost"]["human"])
     assert bool(replay["command"]) == (partner == "copy")
+    # The goals are those that were shown; the plan that only the simulated people had is not.
+    assert replay["goals"] == [
+        [cue.frame, pytest.approx(cue.height / UNIT, abs=0.51)] for cue in cues
+    ]
+    assert (replay["target"], replay["events"]) == ([], [])
+    assert replay["goal_error_mm"] == pytest.approx(end["goal_error_mm"], abs=1e-3)
+    assert replay["ghost"]["team"]
     assert UNIT * sum(replay["human"]) == pytest.approx(0, abs=0.02)  # It was put down.
 
 
