@@ -2,26 +2,20 @@
 
 import math
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Any
 
 from ..errors import InputError
 from .allowed import LARGEST_SUM, LARGEST_TENSOR, RECURRENT
 from .libraries import import_library
-from .network import Network
-from .signature import quoted
+from .ports import Shape, quoted
 
 onnx = import_library("onnx")
 checker = import_library("onnx.checker")
 shape_inference = import_library("onnx.shape_inference")
 
-ACTIONS: Final = ((), (1,), (1, 1))
-"""Shapes of the action."""
 
-Shape = tuple[int, ...]
-
-
-def check_sizes(network: Network) -> None:
-    """Check the shapes of all that a network computes.
+def inferred_shapes(model: Any) -> dict[str, Shape]:
+    """Return the shape of each tensor that is computed, and of the inputs and weights.
 
     They are inferred from those of its inputs and weights; the file's own claims about them are not
     trusted.
@@ -29,20 +23,8 @@ def check_sizes(network: Network) -> None:
     Raises
     ------
     InputError
-        If the graph is not sound, a shape does not follow from the inputs, a tensor or all tensors
-        together are too large, or the outputs do not have the shapes of an action and of the state.
+        If the graph is not sound, or a shape does not follow from the inputs.
     """
-    try:
-        shapes = _inferred(network.model)
-        _check_outputs(network, shapes)
-        weights = {each.name: tuple(each.dims) for each in network.model.graph.initializer}
-        _check_work(network, {**weights, **shapes})
-    except InputError as error:
-        raise InputError(f"{network.name} {error}") from error
-
-
-def _inferred(model: Any) -> dict[str, Shape]:
-    """Return the shape of each tensor that is computed, and of the inputs."""
     bare = onnx.ModelProto()
     bare.CopyFrom(model)
     del bare.graph.value_info[:]
@@ -71,7 +53,7 @@ def _inferred(model: Any) -> dict[str, Shape]:
                     f"has {quoted(name)} of {node.op_type}, whose shape does not follow from the "
                     "inputs: every size must be a number"
                 )
-    return shapes
+    return {each.name: tuple(each.dims) for each in model.graph.initializer} | shapes
 
 
 def _shape(value: Any) -> Shape | None:
@@ -80,25 +62,16 @@ def _shape(value: Any) -> Shape | None:
     return tuple(sizes) if tensor.HasField("shape") and min(sizes, default=0) >= 0 else None
 
 
-def _check_outputs(network: Network, shapes: Mapping[str, Shape]) -> None:
-    action, *after = network.outputs
-    kinds = {each.name: each.type.tensor_type.elem_type for each in network.model.graph.output}
-    if shapes.get(action) not in ACTIONS:
-        raise InputError(
-            f"has the action {quoted(action)} with the shape {list(shapes.get(action, ()))}; it "
-            "must be [1]"
-        )
-    state = network.state
-    if state is not None and (shapes.get(after[0]), kinds[after[0]]) != (state.shape, state.kind):
-        raise InputError(
-            f"has the new state {quoted(after[0])} with another shape or type than the state "
-            f"{quoted(state.name)}, {list(state.shape)}"
-        )
+def check_work(graph: Any, shapes: Mapping[str, Shape]) -> None:
+    """Check the sizes of all that a graph computes.
 
-
-def _check_work(network: Network, shapes: Mapping[str, Shape]) -> None:
+    Raises
+    ------
+    InputError
+        If a tensor or all tensors together are too large.
+    """
     total = 0
-    for node in network.model.graph.node:
+    for node in graph.node:
         for name in filter(None, node.output):
             size = math.prod(shapes[name])
             total += size
