@@ -9,8 +9,8 @@ from .allowed import IR_VERSIONS, OPSETS, OWN_DOMAINS
 def check_versions(model: Any) -> None:
     """Check the versions, and leave one declaration in the model, that of ONNX's own operators.
 
-    Other domains are declared by exporters whether or not an operator is of them; operators of them
-    are refused by name elsewhere. ``""`` and ``ai.onnx`` are the same domain.
+    Its two names, ``""`` and ``ai.onnx``, become the first. Other domains are declared by exporters
+    whether or not an operator is of them; operators of them are refused by name elsewhere.
 
     Raises
     ------
@@ -33,11 +33,12 @@ def check_versions(model: Any) -> None:
     [version] = found
     if version not in OPSETS:
         raise InputError(f"has the opset {version}; {_among(OPSETS)} can be run: export it again")
-    own = next(each for each in model.opset_import if each.domain in OWN_DOMAINS)
-    if len(model.opset_import) > 1:
-        kept = type(own)(domain=own.domain, version=version)
-        del model.opset_import[:]
-        model.opset_import.append(kept)
+    declared = type(model.opset_import[0])(version=version)
+    del model.opset_import[:]
+    model.opset_import.append(declared)
+    for node in model.graph.node:
+        if node.domain in OWN_DOMAINS:
+            node.domain = ""
 
 
 def _among(versions: range) -> str:

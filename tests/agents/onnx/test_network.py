@@ -16,6 +16,10 @@ from .networks import DOUBLE, FLOAT, model, node, proportional, recurrent, value
 
 SEEN, ACTION = [value("seen", [5])], [value("action", [1])]
 FIRST = weights("first", [0], np.int64)
+TWICE = {
+    "inputs": [*SEEN, value("state", [1])],
+    "outputs": [*ACTION, value("after", [1])],
+}
 PICK = ("Gather", "seen first", "action")
 
 
@@ -205,8 +209,8 @@ REFUSED = {
     "no input": (picked(nodes=[node("Identity", "first", "action")], inputs=[]), "inputs none"),
     "three inputs and one output": (
         picked(inputs=[*SEEN, value("state", [1]), value("goal", [1])]),
-        r"outputs 'action'; with its inputs \('seen', 'state', 'goal'\) it must have the action and "
-        "the new state of each",
+        r"outputs 'action'; with its inputs \('seen', 'state', 'goal'\) it must have the action "
+        "and the new state of each",
     ),
     "two observations and one output": (
         picked(inputs=[*SEEN, value("more", [5])]),
@@ -270,6 +274,23 @@ REFUSED = {
         r"action 'action' with the shape \[5\]; it must be \[1\]",
     ),
     "no such tensor": (picked(nodes=[("Neg", "nowhere", "action")]), "is not a sound graph"),
+    "a circle": (
+        picked(nodes=[("Add", "seen action", "sum"), ("Gather", "sum first", "action")]),
+        "is not a sound graph",
+    ),
+    "two operators of one output": (picked(nodes=[PICK, PICK]), "is not a sound graph"),
+    "an output of nothing": (
+        picked(nodes=[PICK, ("Neg", "state", "other")], **TWICE),
+        "is not a sound graph|'after', which no operator computes",
+    ),
+    "an output twice": (
+        picked(
+            nodes=[PICK],
+            inputs=[*SEEN, value("state", [1])],
+            outputs=[*ACTION, *ACTION],
+        ),
+        "is not a sound graph|has a name twice among 'action', 'action'",
+    ),
     "10 GB from nothing": (filled([50_000, 50_000]), "computes 'huge' of ConstantOfShape"),
     "10 GB by Expand": (expanded([500_000, 500, 5]), "computes 'huge' of Expand"),
     "a size that depends on the input": (of_unknown_size(), "'huge' of ConstantOfShape, whose"),
