@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from .libraries import import_library
 from .network import Network, read_network
+from .ports import one_line
 
 onnxruntime = import_library("onnxruntime")
 
@@ -103,4 +104,4 @@ def _session(network: Network) -> Any:
 
 def _refused(network: Network, error: Exception) -> InputError:
     reason = " ".join(str(error).split())
-    return InputError(f"{network.name} cannot be run by onnxruntime: {reason[:200]}")
+    return InputError(f"{network.name} cannot be run by onnxruntime: {one_line(reason, 200)}")

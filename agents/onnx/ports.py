@@ -1,5 +1,6 @@
 """The inputs and outputs of a network: their names, types and shapes."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
@@ -7,6 +8,7 @@ from typing import Any, Final
 import numpy as np
 
 from ..errors import InputError
+from .allowed import MOST_STATE
 from .libraries import import_library
 
 onnx = import_library("onnx")
@@ -53,6 +55,11 @@ def quoted(name: str) -> str:
     return repr(name if len(name) <= _SHOWN else f"{name[:_SHOWN]}...")
 
 
+def one_line(text: str, length: int) -> str:
+    """Return the beginning of a text that has parts of a file, without control characters."""
+    return "".join(each if each.isprintable() else " " for each in text[:length])
+
+
 def listed(ports: Sequence[Port]) -> str:
     """Return the names of inputs or outputs for a message."""
     names = ", ".join(quoted(each.name) for each in ports[:5])
@@ -65,7 +72,8 @@ def input_port(value: Any) -> Port:
     Raises
     ------
     InputError
-        If it is not a tensor of floats, or its shape is not fixed.
+        If it is not a tensor of floats, its shape is not fixed, or it is too large for a state: the
+        time to infer other shapes from it would grow with its size.
     """
     kind = _kind(value)
     shape = value.type.tensor_type.shape
@@ -73,9 +81,14 @@ def input_port(value: Any) -> Port:
     if not value.type.tensor_type.HasField("shape") or min(sizes, default=1) <= 0:
         shown = ", ".join(str(each.dim_value or each.dim_param or "?") for each in shape.dim)
         raise InputError(
-            f"has {quoted(value.name)} with the shape [{shown[:_SHOWN]}]: every size must be a "
+            f"has {quoted(value.name)} with the shape [{one_line(shown, _SHOWN)}]: every size must be a "
             "number, except that of the batch if it is the first of two or more (or has its name); "
             "onnx.tools.update_model_dims.update_inputs_outputs_dims sets the others"
+        )
+    if math.prod(sizes) > MOST_STATE:
+        raise InputError(
+            f"has the input {quoted(value.name)} with the shape {list(sizes)[:8]}; at most "
+            f"{MOST_STATE} numbers are allowed"
         )
     return Port(name=value.name, kind=kind, shape=sizes)
 

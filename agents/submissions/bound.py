@@ -27,7 +27,7 @@ def bound_text(submission: Submission) -> str:
         f"state {_port(each.before)}, then {quoted(each.after.name)}" for each in signature.states
     ]
     if network.batch:
-        parts.append(f"batch size ({', '.join(network.batch)}) 1")
+        parts.append(f"batch size {' and '.join(map(quoted, network.batch))} 1")
     return "; ".join(parts)
 
 

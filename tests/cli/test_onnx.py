@@ -122,7 +122,7 @@ NEVER = {
             node("Constant", "", "wide", value=weights("", [2_000_000_000, 5], np.int64)),
             ("Expand", "seen wide", "action"),
         ),
-        "has the action 'action' with the shape [2000000000, 5]; it must be [1]",
+        "computes 'action' of Expand with the shape [2000000000, 5]; at most 262144 numbers",
     ),
     "a division by zero": (
         model(
@@ -166,7 +166,7 @@ def test_a_network_of_the_training_view_is_taken_with_it(colift, tmp_path):
     told = (
         "observation 'seen' [1, 27], by view = 'training' with 20 steps of the human's motion; "
         "action 'action' clipped to [-1, 1], for 0.03 m per step beside the human's last pace; "
-        "batch size (batch) 1"
+        "batch size 'batch' 1"
     )
     assert told in checked.stdout
     assert f"network: {told}" in done.stdout

@@ -115,6 +115,19 @@ def expanded(shape):
     )
 
 
+def sized(count):
+    """Return a network that computes many whole numbers, from which sizes might follow."""
+    return picked(
+        nodes=[
+            ("Expand", "first count", "huge"),
+            ("Add", "huge huge", "sizes"),
+            ("ReduceMax", "sizes", "most"),
+            ("Gather", "seen most", "action"),
+        ],
+        tensors=[FIRST, weights("count", [count], np.int64)],
+    )
+
+
 def of_unknown_size():
     """Return a network the size of whose tensor depends on what it sees, and denies it."""
     made = picked(
@@ -259,7 +272,7 @@ REFUSED = {
             inputs=[*SEEN, value("state", [10**9])],
             outputs=[*ACTION, value("after", [10**9])],
         ),
-        "state 'state' with the shape",
+        r"input 'state' with the shape \[1000000000\]; at most 65536 numbers",
     ),
     "another new state": (
         picked(
@@ -293,6 +306,7 @@ REFUSED = {
     ),
     "10 GB from nothing": (filled([50_000, 50_000]), "computes 'huge' of ConstantOfShape"),
     "10 GB by Expand": (expanded([500_000, 500, 5]), "computes 'huge' of Expand"),
+    "10 billion numbers that are sizes": (sized(10**10), "computes 'huge' of Expand with"),
     "a size that depends on the input": (of_unknown_size(), "'huge' of ConstantOfShape, whose"),
     "a long memory": (of_long_memory(), "numbers in a GRU; at most"),
     "many operators": (
