@@ -81,9 +81,9 @@ def input_port(value: Any) -> Port:
     if not value.type.tensor_type.HasField("shape") or min(sizes, default=1) <= 0:
         shown = ", ".join(str(each.dim_value or each.dim_param or "?") for each in shape.dim)
         raise InputError(
-            f"has {quoted(value.name)} with the shape [{one_line(shown, _SHOWN)}]: every size must be a "
-            "number, except that of the batch if it is the first of two or more (or has its name); "
-            "onnx.tools.update_model_dims.update_inputs_outputs_dims sets the others"
+            f"has {quoted(value.name)} with the shape [{one_line(shown, _SHOWN)}]: every size must "
+            "be a number, but the first of several, which is that of the batch; "
+            "onnx.tools.update_model_dims.update_inputs_outputs_dims sets them"
         )
     if math.prod(sizes) > MOST_STATE:
         raise InputError(

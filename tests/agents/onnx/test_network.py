@@ -235,8 +235,8 @@ REFUSED = {
     ),
     "a size that is open": (
         picked(inputs=[value("seen", ["batch", "n"])]),
-        r"'seen' with the shape \[1, n\]: every size must be a number, except that of the batch .*"
-        "onnx.tools.update_model_dims.update_inputs_outputs_dims sets the others",
+        r"'seen' with the shape \[1, n\]: every size must be a number, but the first of several, "
+        "which is .* onnx.tools.update_model_dims.update_inputs_outputs_dims sets them",
     ),
     "an only size that is open": (
         picked(inputs=[value("seen", ["n"])]),
