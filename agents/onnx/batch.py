@@ -10,12 +10,12 @@ def bind_batch(graph: Any) -> tuple[str, ...]:
     """Set the batch of a graph's inputs to 1, in place, and return the names of their sizes.
 
     The batch is the first size of an input with two or more, if it has no number, and every other
-    size of the same name. A size that is left open without a name is ``?`` among the names.
+    size of the same name. A size that is left open without a name is empty among the names.
     """
     shapes = [value.type.tensor_type.shape.dim for value in inputs_of(graph)]
     first = [sizes[0] for sizes in shapes if len(sizes) > 1 and _is_open(sizes[0])]
-    names = tuple(dict.fromkeys(size.dim_param or "?" for size in first))
-    named = [size for sizes in shapes for size in sizes if size.dim_param in names]
+    names = tuple(dict.fromkeys(size.dim_param for size in first))
+    named = [size for sizes in shapes for size in sizes if size.dim_param in filter(None, names)]
     for size in (*first, *named):
         size.dim_value = 1
     return names

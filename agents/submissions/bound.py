@@ -27,7 +27,7 @@ def bound_text(submission: Submission) -> str:
         f"state {_port(each.before)}, then {quoted(each.after.name)}" for each in signature.states
     ]
     if network.batch:
-        parts.append(f"batch size {' and '.join(map(quoted, network.batch))} 1")
+        parts.append("batch of 1" + "".join(f" ({quoted(name)})" for name in network.batch if name))
     return "; ".join(parts)
 
 

@@ -166,7 +166,7 @@ def test_a_network_of_the_training_view_is_taken_with_it(colift, tmp_path):
     told = (
         "observation 'seen' [1, 27], by view = 'training' with 20 steps of the human's motion; "
         "action 'action' clipped to [-1, 1], for 0.03 m per step beside the human's last pace; "
-        "batch size 'batch' 1"
+        "batch of 1 ('batch')"
     )
     assert told in checked.stdout
     assert f"network: {told}" in done.stdout

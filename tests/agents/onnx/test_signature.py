@@ -167,7 +167,7 @@ def test_a_batch_without_a_size_is_one_lift(tmp_path, batch):
     fixed = follower(ports(obs=[1, 5]), ports(act=[1, 1]))
     assert actions(made, tmp_path) == actions(fixed, tmp_path)
     found = parse_network(made.SerializeToString(), "policy.onnx")
-    assert found.batch == ("?" if batch in (-1, None) else batch,)
+    assert found.batch == ("" if batch in (-1, None) else batch,)
 
 
 def test_a_state_has_the_batch_of_the_observation():
@@ -178,6 +178,24 @@ def test_a_state_has_the_batch_of_the_observation():
     other = follower(ports(obs=["b", 5], h=[2, "n", 8]), ports(act=["b", 1], hn=[2, "n", 8]))
     with pytest.raises(InputError, match=r"'h' with the shape \[2, n, 8\]: every size must be"):
         bound(other)
+
+
+def test_sizes_that_a_graph_computes_from_its_batch_are_followed(tmp_path):
+    """As PyTorch writes a reshape with the batch of its input."""
+    nodes = [
+        ("Shape", "obs", "shape"),
+        ("Gather", "shape zero", "count"),
+        node("Concat", "count one", "flat", axis=0),
+        ("MatMul", "obs gains", "wide"),
+        ("Reshape", "wide flat", "act"),
+    ]
+    tensors = [
+        weights("gains", [[GAIN], [0], [-GAIN], [0], [0]], np.float32),
+        weights("zero", [0], np.int64),
+        weights("one", [1], np.int64),
+    ]
+    made = model(nodes, ports(obs=["batch", 5]), ports(act=["batch", 1]), tensors)
+    assert actions(made, tmp_path) == pytest.approx(WANTED, abs=1e-7)
 
 
 @pytest.mark.parametrize("domain", ["ai.onnx.ml", "com.microsoft", "pkg.onnxscript.torch_lib"])
