@@ -19,7 +19,7 @@ from ..agents.submissions.submission import Submission, open_submission
 from ..benchmark.execution.runner import Run, run_suite
 from ..benchmark.suites.suite import Suite, make_suite
 from ..benchmark.verification.audit import AUDIT
-from ..benchmark.verification.checking import SUITE, Check, presubmission_checks
+from ..benchmark.verification.checking import INTERFACE, SUITE, Check, presubmission_checks
 from .completion import suites
 from .failures import printed_lines
 from .options import AsJson, Jobs
@@ -102,7 +102,18 @@ def all_checks(
         with workers(suite.name, suite.size, jobs) as (pool, progress):
             return run_suite(spec, suite, executor=pool, progress=progress)
 
-    yield from presubmission_checks(policy, fresh, evaluate, suite)
+    for each in presubmission_checks(policy, fresh, evaluate, suite):
+        yield each
+        if each.name == INTERFACE and each.ok and submission.manifest.model:
+            yield _network(submission)
+
+
+def _network(submission: Submission) -> Check:
+    """Return what was bound to what in a network that has been made in its sandbox."""
+    # Only this kind of submission needs the extra.
+    from ..agents.submissions.bound import bound_text
+
+    return Check(name="network", ok=True, message=bound_text(submission))
 
 
 def _files(submission: Submission) -> Iterator[Check]:

@@ -114,7 +114,10 @@ def policy_parameters(text: str) -> Iterator[RenderableType]:
         line, known = summary(made), described(made)
     folder = Path(PolicySpec(text=text).parts[0])
     if isinstance(policy, SandboxedPolicy) and (folder / MANIFEST).is_file():
-        yield from _manifest(read_submission(folder).manifest, policy.digest())
+        manifest = read_submission(folder).manifest
+        yield from _manifest(manifest, policy.digest())
+        if manifest.model:
+            known = ()  # Those of the policy that runs it are in the manifest.
     else:
         yield Text(f"{line}\n")
     for each in known:
@@ -136,3 +139,6 @@ def _manifest(manifest: Manifest, digest: str) -> Iterator[RenderableType]:
     yield Text(f"Licence {manifest.licence}; trained on: {manifest.trained_on}; digest {digest}\n")
     if manifest.parameters:
         yield Text(f"It sets {manifest.parameters}.")
+    if manifest.model:
+        view = f", in the view {manifest.view!r}" if manifest.view else ""
+        yield Text(f"It is the network {manifest.model}{view}.")

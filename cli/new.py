@@ -7,6 +7,7 @@ import typer
 
 from ..agents.submissions.from_file import write_from
 from ..agents.submissions.new import write_template
+from ..agents.submissions.submission import read_submission
 from .printing import argument
 
 
@@ -18,7 +19,8 @@ def new(
             "--from",
             metavar="FILE.py:Class|FILE.onnx",
             help="Policy to submit instead of the template; parameters follow a comma. Or a "
-            "network, which runs without code.",
+            "network, which runs without code; ',view=training' follows if it was trained in "
+            "training_env.",
         ),
     ] = None,
 ) -> None:
@@ -30,5 +32,11 @@ def new(
     files = write_template(folder) if source is None else write_from(folder, source)
     for name in files:
         print(f"wrote {folder / name}")
+    submission = read_submission(folder)
+    if submission.manifest.model:
+        # Only this kind of submission needs the extra.
+        from ..agents.submissions.bound import bound_text
+
+        print(f"network: {bound_text(submission)}")
     step = "edit them" if source is None else "name the authors in policy.toml"
     print(f"Next: {step}, then colift check {argument(folder)}")

@@ -1,10 +1,10 @@
-"""Checks of an ONNX file before any of it runs: its format and its contents.
+"""Checks of an ONNX file before any of it runs: its versions, contents, signature and sizes.
 
-The file is parsed by the library ``onnx``. The tensors that it would compute are checked by
-:mod:`.sizes`.
+The file is parsed by the library ``onnx``, and a parsed network is one that can run.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,16 +12,13 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from .allowed import (
-    IR_VERSIONS,
-    LARGEST,
-    MOST_NODES,
-    OPERATORS,
-    OPSETS,
-    OWN_DOMAINS,
-)
+from .allowed import LARGEST, MOST_NODES, OPERATORS, OWN_DOMAINS
+from .batch import bind_batch, inputs_of
 from .libraries import import_library
-from .signature import TYPES, Port, observation_of, outputs_of, quoted, state_of
+from .ports import TYPES, Shape, input_port, output_port, quoted
+from .signature import Signature, signature_of
+from .sizes import check_work, inferred_shapes
+from .versions import check_versions
 
 onnx = import_library("onnx")
 numpy_helper = import_library("onnx.numpy_helper")
@@ -35,12 +32,10 @@ class Network:
     name: str
     """Name of the file, for messages."""
     model: Any
-    """The parsed file: an ``onnx.ModelProto``."""
-    observation: Port
-    state: Port | None
-    """The state before a step, if the network has one."""
-    outputs: tuple[str, ...]
-    """Names of the action, and of the state after the step if there is one."""
+    """The file as it is run, an ``onnx.ModelProto``: with a batch of 1, if it left that open."""
+    signature: Signature
+    batch: tuple[str, ...]
+    """Names of the sizes that were bound to 1; empty if all sizes are numbers in the file."""
 
 
 def read_network(path: Path, shown: str = "") -> Network:
@@ -56,8 +51,9 @@ def read_network(path: Path, shown: str = "") -> Network:
     Raises
     ------
     InputError
-        If it is not an ONNX file, is too large, has other inputs and outputs than a policy, or
-        contains anything that is not allowed; the message names the fault.
+        If it is not an ONNX file, is too large, has other inputs and outputs than a policy,
+        contains anything that is not allowed, is not a sound graph, or computes too much; the
+        message names the fault.
     """
     shown = shown or path.name
     try:
@@ -81,39 +77,29 @@ def parse_network(data: bytes, name: str) -> Network:
         raise InputError("is not an ONNX file") from error
     if not (model.ir_version and model.HasField("graph") and model.graph.node):
         raise InputError("is not an ONNX file: it has no graph")
-    _check_versions(model)
-    graph = model.graph
+    check_versions(model)
     _check_contents(model)
-    weights = {tensor.name for tensor in graph.initializer}
-    inputs = [value for value in graph.input if value.name not in weights]
-    return Network(
-        name=name,
-        model=model,
-        observation=observation_of(inputs),
-        state=state_of(inputs),
-        outputs=outputs_of(inputs, graph.output),
-    )
+    batch = bind_batch(model.graph)
+    inputs = [input_port(value) for value in inputs_of(model.graph)]
+    if not inputs:
+        raise InputError("has the inputs none; it must have the observation, and may have states")
+    shapes = inferred_shapes(model)
+    outputs = [output_port(value, shapes) for value in model.graph.output]
+    signature = signature_of(inputs, outputs)
+    check_work(model.graph, shapes)
+    if batch:
+        _declare(model.graph, shapes)
+    return Network(name=name, model=model, signature=signature, batch=batch)
 
 
-def _check_versions(model: Any) -> None:
-    if model.ir_version not in IR_VERSIONS:
-        raise InputError(
-            f"has the IR version {model.ir_version}; {_among(IR_VERSIONS)} can be run: set "
-            f"model.ir_version = {IR_VERSIONS[-1]} before it is saved"
-        )
-    versions = {each.domain: each.version for each in model.opset_import}
-    for domain in versions:
-        if domain not in OWN_DOMAINS:
-            raise InputError(
-                f"uses operators of the domain {quoted(domain)}; only ONNX's own are run"
-            )
-    version = next(iter(versions.values()), 0)
-    if len(versions) != 1 or version not in OPSETS:
-        raise InputError(f"has the opset {version}; {_among(OPSETS)} can be run: export it again")
-
-
-def _among(versions: range) -> str:
-    return f"{versions[0]} to {versions[-1]}"
+def _declare(graph: Any, shapes: Mapping[str, Shape]) -> None:
+    """Replace the shapes that a file claims for what it computes by those that follow."""
+    del graph.value_info[:]
+    for value in graph.output:
+        sizes = value.type.tensor_type.shape
+        del sizes.dim[:]
+        for size in shapes[value.name]:
+            sizes.dim.add().dim_value = size
 
 
 def _check_contents(model: Any) -> None:

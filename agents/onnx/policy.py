@@ -9,17 +9,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..agent import Observation
 from ..errors import InputError
 from .libraries import import_library
 from .network import Network, read_network
-from .sizes import check_sizes
+from .ports import one_line
 
 onnxruntime = import_library("onnxruntime")
 
 
 class OnnxPolicy:
-    """A network from the observation, and the state if there is one, to the action and a new state.
+    """A network from the observation, and its states if any, to the action and new states.
+
+    Everything is loaded, and a first step has been computed, when it is made: a step opens no file
+    and starts no thread.
 
     Parameters
     ----------
@@ -29,23 +31,29 @@ class OnnxPolicy:
     Raises
     ------
     InputError
-        As :func:`.read_network` and :func:`.check_sizes`, or if onnxruntime refuses it.
+        As :func:`.read_network`, or if onnxruntime refuses it.
     """
 
     def __init__(self, model: str = "policy.onnx") -> None:
-        network = read_network(Path(model), model)
-        check_sizes(network)
-        self._network = network
-        self._session = _session(network)
-        self._state: NDArray[Any] | None = None
+        self._network = read_network(Path(model), model)
+        signature = self._network.signature
+        self._seen, self._states = signature.observation, signature.states
+        self._outputs = [each.name for each in (signature.action, *(s.after for s in self._states))]
+        self.size = self._seen.shape[-1]
+        """Numbers that the network observes."""
+        self._session = _session(self._network)
+        self.reset(0)
+        self._try()
 
     def reset(self, seed: int) -> None:
-        """Begin a lift: the state is zero."""
-        state = self._network.state
-        self._state = None if state is None else np.zeros(state.shape, state.dtype)
+        """Begin a lift: all states are zero."""
+        self._now: dict[str, NDArray[Any]] = {
+            each.before.name: np.zeros(each.before.shape, each.before.dtype)
+            for each in self._states
+        }
 
-    def act(self, observation: Observation) -> float:
-        """Return the change of the hands' height [m], and keep the new state.
+    def act(self, observation: NDArray[np.floating[Any]]) -> float:
+        """Return the change of the hands' height [m], and keep the new states.
 
         The network sees as many of the observation's first numbers as it takes: observations of
         other tasks begin with the five of a level table.
@@ -55,20 +63,27 @@ class OnnxPolicy:
         InputError
             If the task observes fewer numbers than the network takes.
         """
-        seen, state = self._network.observation, self._network.state
-        size = seen.shape[-1]
-        if len(observation) < size:
+        if len(observation) < self.size:
             raise InputError(
-                f"{self._network.name} takes an observation of {size} numbers, and this task's has "
-                f"{len(observation)}: evaluate it on a suite of the task for which it was trained"
+                f"{self._network.name} takes an observation of {self.size} numbers, and this "
+                f"task's has {len(observation)}: evaluate it on a suite of the task for which it "
+                "was trained; if that was in training_env, policy.toml needs view = 'training'"
             )
-        first: NDArray[Any] = np.asarray(observation[:size], seen.dtype)
-        fed: dict[str, Any] = {seen.name: first.reshape(seen.shape)}
-        if state is not None:
-            fed[state.name] = self._state
-        action, *after = self._session.run(self._network.outputs, fed)
-        self._state = after[0] if after else None
+        return self._step(np.asarray(observation[: self.size], self._seen.dtype))
+
+    def _step(self, seen: NDArray[Any]) -> float:
+        fed = {self._seen.name: seen.reshape(self._seen.shape), **self._now}
+        action, *after = self._session.run(self._outputs, fed)
+        self._now = {each.before.name: new for each, new in zip(self._states, after, strict=True)}
         return float(action.item())
+
+    def _try(self) -> None:
+        """Compute a step from zeros, and begin anew; raise InputError if that fails."""
+        try:
+            self._step(np.zeros(self.size, self._seen.dtype))
+        except Exception as error:  # onnxruntime's errors have no common base class.
+            raise _refused(self._network, error) from error
+        self.reset(0)
 
 
 def _session(network: Network) -> Any:
@@ -84,5 +99,9 @@ def _session(network: Network) -> Any:
             network.model.SerializeToString(), options, providers=["CPUExecutionProvider"]
         )
     except Exception as error:  # onnxruntime's errors have no common base class.
-        reason = " ".join(str(error).split())
-        raise InputError(f"{network.name} cannot be run by onnxruntime: {reason[:200]}") from error
+        raise _refused(network, error) from error
+
+
+def _refused(network: Network, error: Exception) -> InputError:
+    reason = " ".join(str(error).split())
+    return InputError(f"{network.name} cannot be run by onnxruntime: {one_line(reason, 200)}")

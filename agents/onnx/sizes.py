@@ -1,69 +1,41 @@
 """Bounds on a network's computation: the shape of every tensor, inferred before it runs."""
 
 import math
-from collections.abc import Mapping
-from typing import Any, Final
+from collections.abc import Callable, Mapping
+from typing import Any
 
 from ..errors import InputError
 from .allowed import LARGEST_SUM, LARGEST_TENSOR, RECURRENT
 from .libraries import import_library
-from .network import Network
-from .signature import quoted
+from .ports import Shape, one_line, quoted
 
 onnx = import_library("onnx")
 checker = import_library("onnx.checker")
 shape_inference = import_library("onnx.shape_inference")
 
-ACTIONS: Final = ((), (1,), (1, 1))
-"""Shapes of the action."""
 
-Shape = tuple[int, ...]
-
-
-def check_sizes(network: Network) -> None:
-    """Check the shapes of all that a network computes.
+def inferred_shapes(model: Any) -> dict[str, Shape]:
+    """Return the shape of each tensor that is computed, and of the inputs and weights.
 
     They are inferred from those of its inputs and weights; the file's own claims about them are not
-    trusted.
+    trusted. Sizes that a graph computes are followed only if no other is too large: the time for
+    that grows with them.
 
     Raises
     ------
     InputError
-        If the graph is not sound, a shape does not follow from the inputs, a tensor or all tensors
-        together are too large, or the outputs do not have the shapes of an action and of the state.
+        If the graph is not sound, a shape does not follow from the inputs, or a tensor is too
+        large.
     """
-    try:
-        shapes = _inferred(network.model)
-        _check_outputs(network, shapes)
-        weights = {each.name: tuple(each.dims) for each in network.model.graph.initializer}
-        _check_work(network, {**weights, **shapes})
-    except InputError as error:
-        raise InputError(f"{network.name} {error}") from error
-
-
-def _inferred(model: Any) -> dict[str, Shape]:
-    """Return the shape of each tensor that is computed, and of the inputs."""
     bare = onnx.ModelProto()
     bare.CopyFrom(model)
     del bare.graph.value_info[:]
     for value in bare.graph.output:
         value.type.tensor_type.ClearField("shape")
-    try:
-        checker.check_model(model)
-        known = shape_inference.infer_shapes(
-            bare, check_type=True, strict_mode=True, data_prop=True
-        ).graph
-    except (
-        checker.ValidationError,
-        shape_inference.InferenceError,
-        ValueError,
-        RuntimeError,
-    ) as error:
-        reason = next(filter(None, map(str.strip, str(error).splitlines())), "")
-        raise InputError(f"is not a sound graph: {reason[:200]}") from error
-    values = (*known.value_info, *known.output, *known.input)
-    found = {value.name: _shape(value) for value in values}
-    shapes = {name: shape for name, shape in found.items() if shape is not None}
+    _sound(checker.check_model, model)
+    _check_tensors(model.graph, _known(_sound(shape_inference.infer_shapes, bare)))
+    options = {"check_type": True, "strict_mode": True, "data_prop": True}
+    shapes = _known(_sound(shape_inference.infer_shapes, bare, **options))
     for node in model.graph.node:
         for name in filter(None, node.output):
             if name not in shapes:
@@ -71,7 +43,29 @@ def _inferred(model: Any) -> dict[str, Shape]:
                     f"has {quoted(name)} of {node.op_type}, whose shape does not follow from the "
                     "inputs: every size must be a number"
                 )
-    return shapes
+    _check_tensors(model.graph, shapes)
+    return {each.name: tuple(each.dims) for each in model.graph.initializer} | shapes
+
+
+def _sound(function: Callable[..., Any], model: Any, **options: bool) -> Any:
+    """Return what a function of onnx returns for a model; raise InputError if it refuses it."""
+    try:
+        return function(model, **options)
+    except (
+        checker.ValidationError,
+        shape_inference.InferenceError,
+        ValueError,
+        RuntimeError,
+    ) as error:
+        reason = next(filter(None, map(str.strip, str(error).splitlines())), "")
+        raise InputError(f"is not a sound graph: {one_line(reason, 200)}") from error
+
+
+def _known(model: Any) -> dict[str, Shape]:
+    """Return the shapes that were inferred and have no open size."""
+    graph = model.graph
+    found = {each.name: _shape(each) for each in (*graph.value_info, *graph.output, *graph.input)}
+    return {name: shape for name, shape in found.items() if shape is not None}
 
 
 def _shape(value: Any) -> Shape | None:
@@ -80,37 +74,32 @@ def _shape(value: Any) -> Shape | None:
     return tuple(sizes) if tensor.HasField("shape") and min(sizes, default=0) >= 0 else None
 
 
-def _check_outputs(network: Network, shapes: Mapping[str, Shape]) -> None:
-    action, *after = network.outputs
-    kinds = {each.name: each.type.tensor_type.elem_type for each in network.model.graph.output}
-    if shapes.get(action) not in ACTIONS:
-        raise InputError(
-            f"has the action {quoted(action)} with the shape {list(shapes.get(action, ()))}; it "
-            "must be [1]"
-        )
-    state = network.state
-    if state is not None and (shapes.get(after[0]), kinds[after[0]]) != (state.shape, state.kind):
-        raise InputError(
-            f"has the new state {quoted(after[0])} with another shape or type than the state "
-            f"{quoted(state.name)}, {list(state.shape)}"
-        )
+def check_work(graph: Any, shapes: Mapping[str, Shape]) -> None:
+    """Check the work of a step, with the shapes of :func:`inferred_shapes`.
 
-
-def _check_work(network: Network, shapes: Mapping[str, Shape]) -> None:
+    Raises
+    ------
+    InputError
+        If all tensors together, or those inside a recurrent operator, are too large.
+    """
     total = 0
-    for node in network.model.graph.node:
-        for name in filter(None, node.output):
-            size = math.prod(shapes[name])
-            total += size
-            if size > LARGEST_TENSOR:
-                raise InputError(
-                    f"computes {quoted(name)} of {node.op_type} with the shape "
-                    f"{list(shapes[name])}; at most {LARGEST_TENSOR} numbers are allowed"
-                )
+    for node in graph.node:
+        total += sum(math.prod(shapes[name]) for name in filter(None, node.output))
         if node.op_type in RECURRENT:
             _check_recurrent(node, shapes)
     if total > LARGEST_SUM:
         raise InputError(f"computes {total} numbers in a step; at most {LARGEST_SUM} are allowed")
+
+
+def _check_tensors(graph: Any, shapes: Mapping[str, Shape]) -> None:
+    """Check the size of each tensor whose shape is known."""
+    for node in graph.node:
+        for name in node.output:
+            if math.prod(shapes.get(name, ())) > LARGEST_TENSOR:
+                raise InputError(
+                    f"computes {quoted(name)} of {node.op_type} with the shape "
+                    f"{list(shapes[name])}; at most {LARGEST_TENSOR} numbers are allowed"
+                )
 
 
 def _check_recurrent(node: Any, shapes: Mapping[str, Shape]) -> None:

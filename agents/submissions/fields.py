@@ -14,6 +14,7 @@ from ..loading.parameters import merged
 from ..registry import POLICIES, own_entries
 from .folder import NAME as PART
 from .packages import PACKAGES, installed
+from .training_view import VIEWS
 
 NAME: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9 ._+-]{0,39}")
 LONGEST_LINE: Final = 200
@@ -97,6 +98,14 @@ def model(value: Any) -> str:
     if not (parts and parts[-1].endswith(".onnx") and all(map(PART.fullmatch, parts))):
         raise _wrong(value, 'the path of an ONNX file in this folder, such as "policy.onnx"')
     return "/".join(parts)
+
+
+def view(value: Any) -> str:
+    """Return the name of a view, or an empty text."""
+    known = " or ".join(f'"{each}"' for each in VIEWS)
+    if not isinstance(value, str) or value not in {"", *VIEWS}:
+        raise _wrong(value, f"{known}, or empty")
+    return value
 
 
 def parameters(value: Any) -> str:

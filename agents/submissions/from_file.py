@@ -12,9 +12,6 @@ from . import fields
 from .new import POLICY, write_files
 from .packages import needed
 
-MODEL: Final = "policy.onnx"
-"""The file of a network."""
-
 DESCRIPTION: Final = "A policy."
 """The description of a class without a docstring."""
 
@@ -42,16 +39,20 @@ def write_from(folder: Path, text: str) -> tuple[str, ...]:
         The folder to write, as for :func:`.write_template`.
     text
         ``file.py:Class``, with parameters after a comma if any; only this file is copied, as
-        ``policy.py``, and it is not run. Or ``file.onnx``, a network.
+        ``policy.py``, and it is not run. Or ``file.onnx``, a network; see
+        :func:`.write_from_network`.
 
     Raises
     ------
     InputError
         If there is no such file or class, the parameters are not ``name=value`` or not those of the
-        class, the network is not allowed, or as :func:`.write_template`.
+        class, the network cannot run, or as :func:`.write_template`.
     """
-    if text.endswith(".onnx"):
-        return _write_network(folder, Path(text))
+    if text.endswith(".onnx") or ".onnx," in text:
+        # Only this kind of submission needs the extra.
+        from .from_network import write_from_network
+
+        return write_from_network(folder, text)
     place, _, parameters = PolicySpec(text=text).parts
     file, colon, name = place.rpartition(":")
     if not (colon and file.endswith(".py")):
@@ -73,15 +74,6 @@ def write_from(folder: Path, text: str) -> tuple[str, ...]:
         "packages": list(needed(source)),
     }
     return write_files(folder, source, content)
-
-
-def _write_network(folder: Path, path: Path) -> tuple[str, ...]:
-    # Only this kind of submission needs the extra.
-    from ..onnx.network import read_network
-
-    read_network(path, str(path))
-    content = {"description": "A network.", "model": MODEL}
-    return write_files(folder, path.read_bytes(), content)
 
 
 def _tree(path: Path) -> ast.Module:

@@ -36,6 +36,10 @@ class Manifest:
     model: str = ""
     """The network that is the policy, a file ``.onnx`` in the folder: no code of the folder runs,
     and ``entry_point``, ``parameters``, ``packages`` and ``preload`` are not given."""
+    view: str = ""
+    """What the network sees and what its actions mean, if not the task's own numbers and metres:
+    ``training`` if it was trained in ``training_env()``, ``training-without-pace`` if in
+    ``training_env(pace=False)``. Only with ``model``."""
     entry_point: str = "policy:Policy"
     """``module:Class``, with the module in the folder."""
     parameters: str = ""
@@ -54,6 +58,7 @@ READ: Final[Mapping[str, Callable[[Any], Any]]] = {
     "trained_on": fields.text,
     "link": fields.link,
     "model": fields.model,
+    "view": fields.view,
     "entry_point": fields.entry_point,
     "parameters": fields.parameters,
     "packages": fields.packages,
@@ -107,6 +112,11 @@ def read_manifest(data: bytes, where: str = MANIFEST) -> Manifest:
             raise InputError(
                 f"{where}: model and {key} exclude each other: a network runs without code of yours"
             )
+    if "view" in content and "model" not in content:
+        raise InputError(
+            f"{where}: view is for a network, which model names; code can import the view from "
+            "colift.agents.submissions.training_view"
+        )
     values = {}
     for key, value in content.items():
         try:

@@ -29,6 +29,9 @@ COMMENTS: Final = 34
 NETWORK: Final = "# an ONNX file in this folder"
 """The comment on a network."""
 
+VIEW: Final = "# what it saw and did in training"
+"""The comment on a network's view."""
+
 FILES: Final = (MANIFEST, POLICY)
 """The files of the template."""
 
@@ -93,7 +96,11 @@ def _manifest(content: Mapping[str, Any]) -> str:
         key, sign, _ = line.partition(" = ")
         if key in OF_CODE and "model" in content:
             if key == OF_CODE[0]:
-                lines.append(f"model = {json.dumps(content['model'])}".ljust(COMMENTS) + NETWORK)
+                lines += [
+                    f"{name} = {json.dumps(content[name])}".ljust(COMMENTS) + comment
+                    for name, comment in (("model", NETWORK), ("view", VIEW))
+                    if name in content
+                ]
             continue
         if sign and key in content:
             _, _, comment = line.partition("  #")

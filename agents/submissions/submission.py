@@ -25,6 +25,9 @@ DIGEST: Final = 16
 NETWORK: Final = "colift.agents.onnx.policy:OnnxPolicy"
 """The policy that runs a submission's network."""
 
+VIEWED: Final = "colift.agents.submissions.viewed:ViewedNetwork"
+"""The policy that runs a submission's network through a view."""
+
 
 def digest_with(source: str, parameters: str) -> str:
     """Return the digest of a source with parameters as written; of the source alone if none."""
@@ -73,7 +76,9 @@ class Submission:
 
     @property
     def _place(self) -> str:
-        return NETWORK if self.manifest.model else self.manifest.entry_point
+        if not self.manifest.model:
+            return self.manifest.entry_point
+        return VIEWED if self.manifest.view else NETWORK
 
     def _parameters(self, parameters: str) -> str:
         if not self.manifest.model:
@@ -82,7 +87,8 @@ class Submission:
             raise InputError(
                 f"{self.manifest.name} is a network, which has no parameters; got {parameters!r}"
             )
-        return f"model={self.manifest.model}"
+        view = f",view={self.manifest.view}" if self.manifest.view else ""
+        return f"model={self.manifest.model}{view}"
 
     def _name(self, parameters: str) -> str:
         return f"{self.manifest.name},{parameters}" if parameters else self.manifest.name

@@ -3,6 +3,7 @@
 from .aec import env, raw_env
 from .parallel import ParallelLift, parallel_env
 from .single import RobotEnv
+from .state import TrueState
 from .wrappers import History, HoldingPace, Scaled, training_env, training_view
 
 __all__ = [
@@ -11,6 +12,7 @@ __all__ = [
     "ParallelLift",
     "RobotEnv",
     "Scaled",
+    "TrueState",
     "env",
     "parallel_env",
     "raw_env",

@@ -1,5 +1,6 @@
 """The PettingZoo parallel environment ``colift_v0``."""
 
+from copy import deepcopy
 from functools import partial
 from typing import Any
 
@@ -26,6 +27,7 @@ from .settings import (
     check_times,
     observation_space,
 )
+from .state import state_space, true_state
 
 
 class ParallelLift(ParallelEnv[str, Observation, Action]):
@@ -112,14 +114,22 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         agents = self.possible_agents
         self.observation_spaces = {agent: observation_space(self.lift, agent) for agent in agents}
         self.action_spaces = {agent: action_space(self.lift, agent) for agent in agents}
+        self.state_space = state_space(*(self.observation_spaces[agent] for agent in agents))
+        self._seen: dict[str, Observation] = {}
         self._rng = np.random.default_rng()
         self._scene: Scene | None = None
         self._begun = self._closed = False
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Return the parts of a new environment, to be reset: copies do not share a world."""
+        """Return the parts of a copy: a new environment that no episode has begun in.
+
+        A reset of it without a seed begins the episode that the original's would. Copies of an
+        environment that was never reset have different episodes, as those of vector environments
+        need. Copies share neither a world nor a generator.
+        """
         make = partial(type(self), reward=self._reward, drawing=self._drawing)
-        return make, (self.lift.scenario, self.render_mode)
+        known = {"_rng": deepcopy(self._rng)} if self._begun else None
+        return make, (self.lift.scenario, self.render_mode), known
 
     def observation_space(self, agent: str) -> Box:
         """Return the observation space of ``agent``."""
@@ -211,6 +221,20 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         self._render_in_window()
         return result
 
+    def state(self) -> NDArray[np.float64]:
+        """Return the global state, for a critic that is trained with it; no agent sees it.
+
+        It begins with the numbers of :class:`.TrueState`, which are true and now. The human's and
+        the robot's latest observations follow.
+
+        Raises
+        ------
+        RuntimeError
+            If no episode has begun.
+        """
+        self._check_begun()
+        return np.concatenate([true_state(self.lift), *(self._seen.values())])
+
     def scripted_human(self) -> Agent:
         """Return the agent that carries out the current episode's private plan.
 
@@ -219,8 +243,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         RuntimeError
             If no episode has begun.
         """
-        if not self._begun:
-            raise RuntimeError("no episode has begun: call reset() first")
+        self._check_begun()
         return self.lift.scripted_human()
 
     def render(self) -> NDArray[np.uint8] | None:
@@ -250,11 +273,14 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         if self._closed:
             raise RuntimeError("the environment is closed: make a new one")
 
+    def _check_begun(self) -> None:
+        if not self._begun:
+            raise RuntimeError("no episode has begun: call reset() first")
+
     def _observations(self) -> dict[str, Observation]:
-        return {
-            HUMAN: self.lift.human_observation(),
-            ROBOT: self.lift.partner_observation(),
-        }
+        found = {HUMAN: self.lift.human_observation(), ROBOT: self.lift.partner_observation()}
+        self._seen = {agent: seen.copy() for agent, seen in found.items()}
+        return found
 
 
 def parallel_env(

@@ -7,11 +7,11 @@ import gymnasium
 import numpy as np
 from gymnasium.spaces import Box
 from gymnasium.utils import RecordConstructorArgs
-from numpy.typing import NDArray
 
 from ...agents.agent import Action, Observation, RobotObservation
 from ...agents.errors import InputError
 from ...agents.submissions.network.policy import CORRECTION, FIXED, Senses, line, scales
+from ...agents.submissions.training_view import Single, scaled, unscaled
 from ..episode.level import HEIGHT_BOUND
 from .drawing import ANY, DRAW
 from .rewards import SCORE
@@ -22,8 +22,6 @@ STEPS: Final = 20
 
 APART: Final = 2 * HEIGHT_BOUND
 """Bound of a difference of two heights [m]."""
-
-Single = NDArray[np.float32]
 
 
 class History(gymnasium.Wrapper[Observation, Action, Observation, Action], RecordConstructorArgs):
@@ -134,17 +132,13 @@ class Scaled(gymnasium.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
     ) -> tuple[Single, dict[str, Any]]:
         """Begin an episode."""
         observation, info = self.env.reset(seed=seed, options=options)
-        return self._scaled(observation), info
+        return scaled(observation, self._scales), info
 
     def step(self, action: Single) -> tuple[Single, float, bool, bool, dict[str, Any]]:
         """Advance by one control period; actions beyond the range are clipped."""
-        change = self._largest * np.clip(np.asarray(action, dtype=np.float64), -1.0, 1.0)
+        change = unscaled(action, self._largest)
         observation, reward, terminated, truncated, info = self.env.step(change)
-        return self._scaled(observation), float(reward), terminated, truncated, info
-
-    def _scaled(self, observation: Observation) -> Single:
-        scaled: Single = (observation / self._scales).astype(np.float32)
-        return scaled
+        return scaled(observation, self._scales), float(reward), terminated, truncated, info
 
 
 def training_view(

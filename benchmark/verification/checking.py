@@ -39,6 +39,9 @@ MEANINGS: Final = {"hold": "never moves", "copy": "goes where the human was"}
 SEED: Final = 7000
 """Seed of these lifts, which no suite has."""
 
+INTERFACE: Final = "interface"
+"""Name of the check that the policy can be made and reset."""
+
 MACHINE: Final = "machine"
 """Name of the check that reports a failure of this machine, not of the policy."""
 
@@ -167,9 +170,9 @@ def _interface(policy: AgentSpec, episodes: Sequence[Episode]) -> Check:
     for episode in episodes:
         if episode.failure is not None and episode.failure.startswith(START):
             message = episode.failure.removeprefix(START)
-            return Check(name="interface", ok=False, message=message, printed=episode.log)
+            return Check(name=INTERFACE, ok=False, message=message, printed=episode.log)
     message = f"has reset(seed) and act(observation); isolation: {policy.isolation}"
-    return Check(name="interface", ok=True, message=message)
+    return Check(name=INTERFACE, ok=True, message=message)
 
 
 def _lifts(episodes: Sequence[Episode]) -> Check:

@@ -14,7 +14,7 @@ With PyTorch 2.13.0, Stable-Baselines3 2.9.2 and Gymnasium 1.4.0 it printed an R
 
 import colift
 import numpy as np
-from colift.agents.submissions.network.policy import CORRECTION, Senses, line, scales
+from colift.agents.submissions.training_view import TrainingView
 from colift.benchmark.environment import training_view
 from stable_baselines3 import PPO
 from stable_baselines3.common.env_util import make_vec_env
@@ -23,22 +23,20 @@ STEPS = 20  # Steps of the human's motion that the policy sees.
 
 
 class Trained:
-    """The trained network as a policy of the benchmark: the same inputs, the same line."""
+    """The trained network as a policy of the benchmark, in the view in which it was trained."""
 
     def __init__(self, model: PPO) -> None:
         self.model = model
-        self.senses = Senses(STEPS)
+        self.view = TrainingView(model.observation_space.shape[0])
 
     def reset(self, seed: int) -> None:
         """Begin a lift."""
-        self.senses.reset()
+        self.view.reset()
 
-    def act(self, observation: np.ndarray) -> float:
+    def act(self, observation: np.ndarray) -> np.ndarray:
         """Return the change of the hands' height [m]."""
-        seen = self.senses(observation)
-        inputs = (seen / scales(STEPS)).astype(np.float32)
-        correction, _ = self.model.predict(inputs, deterministic=True)
-        return line(seen) + CORRECTION * float(correction[0])
+        action, _ = self.model.predict(self.view.seen(observation), deterministic=True)
+        return self.view.change(action)
 
 
 if __name__ == "__main__":

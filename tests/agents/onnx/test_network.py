@@ -10,13 +10,16 @@ pytest.importorskip("onnx", reason="needs onnx: uv sync --all-extras")
 from colift.agents.errors import InputError
 from colift.agents.onnx.allowed import LARGEST
 from colift.agents.onnx.network import parse_network
-from colift.agents.onnx.sizes import check_sizes
 from onnx import TensorProto, helper
 
 from .networks import DOUBLE, FLOAT, model, node, proportional, recurrent, value, weights
 
 SEEN, ACTION = [value("seen", [5])], [value("action", [1])]
 FIRST = weights("first", [0], np.int64)
+TWICE = {
+    "inputs": [*SEEN, value("state", [1])],
+    "outputs": [*ACTION, value("after", [1])],
+}
 PICK = ("Gather", "seen first", "action")
 
 
@@ -24,7 +27,7 @@ def checked(made):
     """Return what is refused of a model, or an empty text."""
     data = made if isinstance(made, bytes) else made.SerializeToString()
     try:
-        check_sizes(parse_network(data, "policy.onnx"))
+        parse_network(data, "policy.onnx")
     except InputError as error:
         return str(error)
     return ""
@@ -69,6 +72,12 @@ def sparse():
     return made
 
 
+def without_opset():
+    made = picked(domains=["ai.onnx.ml"])
+    del made.opset_import[0]
+    return made
+
+
 def of_wrong_data():
     made = picked()
     made.graph.initializer[0].dims[0] = 7
@@ -103,6 +112,19 @@ def expanded(shape):
             ("Reshape", "most one", "action"),
         ],
         tensors=[weights("shape", shape, np.int64), weights("one", [1], np.int64)],
+    )
+
+
+def sized(count):
+    """Return a network that computes many whole numbers, from which sizes might follow."""
+    return picked(
+        nodes=[
+            ("Expand", "first count", "huge"),
+            ("Add", "huge huge", "sizes"),
+            ("ReduceMax", "sizes", "most"),
+            ("Gather", "seen most", "action"),
+        ],
+        tensors=[FIRST, weights("count", [count], np.int64)],
     )
 
 
@@ -154,7 +176,14 @@ REFUSED = {
     "of the future": (picked(ir_version=99), "has the IR version 99; 7 to 10 can be run"),
     "old": (picked(opset=9), "has the opset 9; 13 to 21 can be run"),
     "new": (picked(opset=99), "has the opset 99; 13 to 21 can be run"),
-    "another domain": (picked(domains=["com.evil"]), "operators of the domain 'com.evil'"),
+    "no opset of its own operators": (
+        without_opset(),
+        "has no opset of ONNX's own operators; 13 to 21 can be run: export it again",
+    ),
+    "two opsets": (
+        picked(domains=["ai.onnx"]),
+        "has the opsets 1 and 17 of ONNX's own operators; it must have one",
+    ),
     "an operator of another domain": (
         picked(nodes=[node("Run", "seen", "action", domain="com.evil")]),
         "operator 'Run' of the domain 'com.evil'",
@@ -191,21 +220,31 @@ REFUSED = {
     "wrong data": (of_wrong_data(), "the weights 'first', whose data are not of its shape"),
     "a shape that is none": (of_another_shape(), "the weights 'first' with the impossible shape"),
     "no input": (picked(nodes=[node("Identity", "first", "action")], inputs=[]), "inputs none"),
-    "three inputs": (
+    "three inputs and one output": (
         picked(inputs=[*SEEN, value("state", [1]), value("goal", [1])]),
-        "inputs 'seen', 'state', 'goal'",
+        r"outputs 'action'; with its inputs \('seen', 'state', 'goal'\) it must have the action "
+        "and the new state of each",
     ),
     "two observations and one output": (
         picked(inputs=[*SEEN, value("more", [5])]),
-        "outputs 'action'; with its inputs it must have the action and the new state",
+        r"outputs 'action'; with its inputs \('seen', 'more'\) it must have the action and the new",
     ),
     "two outputs": (
         picked(nodes=[PICK, ("Neg", "action", "more")], outputs=[*ACTION, value("more", [1])]),
-        "outputs 'action', 'more'; with its inputs it must have the action",
+        r"outputs 'action', 'more'; with its inputs \('seen'\) it must have the action alone",
     ),
-    "a batch of any size": (
-        picked(inputs=[value("seen", ["batch", 5])]),
-        r"'seen' with the shape \[batch, 5\]: every size must be a number",
+    "a size that is open": (
+        picked(inputs=[value("seen", ["batch", "n"])]),
+        r"'seen' with the shape \[1, n\]: every size must be a number, but the first of several, "
+        "which is .* onnx.tools.update_model_dims.update_inputs_outputs_dims sets them",
+    ),
+    "an only size that is open": (
+        picked(inputs=[value("seen", ["n"])]),
+        r"'seen' with the shape \[n\]: every size must be a number",
+    ),
+    "a size of zero": (
+        picked(inputs=[value("seen", [0, 5])]),
+        r"'seen' with the shape \[.*, 5\]: every size must be a number",
     ),
     "a short observation": (
         picked(inputs=[value("seen", [4])]),
@@ -220,7 +259,7 @@ REFUSED = {
         r"observation 'seen' with the shape \[2, 5\]; it must be",
     ),
     "an observation without a shape": (
-        picked(inputs=[value("seen", [])]),
+        picked(nodes=[("Neg", "seen", "action")], inputs=[value("seen", [])]),
         r"observation 'seen' with the shape \[\]; it must be",
     ),
     "whole numbers": (
@@ -233,7 +272,7 @@ REFUSED = {
             inputs=[*SEEN, value("state", [10**9])],
             outputs=[*ACTION, value("after", [10**9])],
         ),
-        "state 'state' with the shape",
+        r"input 'state' with the shape \[1000000000\]; at most 65536 numbers",
     ),
     "another new state": (
         picked(
@@ -248,8 +287,26 @@ REFUSED = {
         r"action 'action' with the shape \[5\]; it must be \[1\]",
     ),
     "no such tensor": (picked(nodes=[("Neg", "nowhere", "action")]), "is not a sound graph"),
+    "a circle": (
+        picked(nodes=[("Add", "seen action", "sum"), ("Gather", "sum first", "action")]),
+        "is not a sound graph",
+    ),
+    "two operators of one output": (picked(nodes=[PICK, PICK]), "is not a sound graph"),
+    "an output of nothing": (
+        picked(nodes=[PICK, ("Neg", "state", "other")], **TWICE),
+        "is not a sound graph|'after', which no operator computes",
+    ),
+    "an output twice": (
+        picked(
+            nodes=[PICK],
+            inputs=[*SEEN, value("state", [1])],
+            outputs=[*ACTION, *ACTION],
+        ),
+        "is not a sound graph|has a name twice among 'action', 'action'",
+    ),
     "10 GB from nothing": (filled([50_000, 50_000]), "computes 'huge' of ConstantOfShape"),
     "10 GB by Expand": (expanded([500_000, 500, 5]), "computes 'huge' of Expand"),
+    "10 billion numbers that are sizes": (sized(10**10), "computes 'huge' of Expand with"),
     "a size that depends on the input": (of_unknown_size(), "'huge' of ConstantOfShape, whose"),
     "a long memory": (of_long_memory(), "numbers in a GRU; at most"),
     "many operators": (
@@ -291,7 +348,8 @@ def test_a_good_network_is_not_refused(name):
 
 
 def test_the_signature_is_read():
-    network = parse_network(recurrent().SerializeToString(), "policy.onnx")
+    network = parse_network(recurrent().SerializeToString(), "policy.onnx").signature
+    [state] = network.states
     assert (network.observation.name, network.observation.shape) == ("seen", (5,))
-    assert (network.state.shape, network.state.kind) == ((1,), DOUBLE)
-    assert network.outputs == ("action", "after")
+    assert state.before.form == state.after.form == ((1,), DOUBLE)
+    assert (network.action.name, state.after.name) == ("action", "after")

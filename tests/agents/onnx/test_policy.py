@@ -208,6 +208,36 @@ def test_the_library_reports_nothing_to_its_maker(tmp_path):
     assert list(home.rglob("*")) == []
 
 
+SEALED = """
+import os, sys, threading
+import numpy as np
+from colift.agents.onnx.policy import OnnxPolicy
+
+policy = OnnxPolicy(sys.argv[1])
+policy.reset(0)
+loaded, files = set(sys.modules), set(os.listdir("/proc/self/fd"))
+events = []
+sys.addaudithook(lambda event, _: events.append(event))
+actions = [policy.act(np.full(5, 0.01 * step)) for step in range(20)]
+unexpected = [each for each in events if each.split(".")[0] in ("open", "import", "os", "_thread")]
+assert unexpected == [], unexpected
+assert (set(sys.modules), set(os.listdir("/proc/self/fd"))) == (loaded, files)
+print(len(os.listdir("/proc/self/task")), len(set(actions)))
+"""
+
+
+def test_a_step_opens_no_file_imports_nothing_and_starts_no_thread(tmp_path):
+    folder = write_network(tmp_path / "net", recurrent())
+    done = subprocess.run(
+        [sys.executable, "-c", SEALED, folder / "policy.onnx"],
+        env={"PATH": os.environ["PATH"], "OPENBLAS_NUM_THREADS": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.stdout, done.stderr) == ("1 20\n", "")
+
+
 @pytest.mark.parametrize("library", ["onnx", "onnxruntime"])
 def test_without_the_extra_it_is_named(tmp_path, monkeypatch, library):
     folder = write_network(tmp_path / "net", proportional())

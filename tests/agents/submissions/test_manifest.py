@@ -141,7 +141,10 @@ def test_what_is_missing_is_named(key):
         ("author", "did you mean authors?"),
         ("entrypoint", "did you mean entry_point?"),
         ("package", "did you mean packages?"),
-        ("zzz", "known: name, authors, description, licence, trained_on, link, model, entry_point"),
+        (
+            "zzz",
+            "known: name, authors, description, licence, trained_on, link, model, view, entry_p",
+        ),
         ('"\\u001b[2J"', r"unknown key '\x1b[2J'"),
         ("a" * 9000, "(9000 characters)"),
     ],
