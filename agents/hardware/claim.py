@@ -81,8 +81,20 @@ class RobotClaim:
         self._session = session
         self._own = Holder(f"process {os.getpid()} on {socket.gethostname()}", uuid.uuid4().hex, 0)
 
-    def take(self, clock: Clock) -> None:
+    @property
+    def token(self) -> str:
+        """What distinguishes this claim from others."""
+        return self._own.token
+
+    def take(self, clock: Clock, *, dead: bool = False) -> None:
         """Take the claim; a dead one is taken over.
+
+        Parameters
+        ----------
+        clock
+            The time.
+        dead
+            Whether the present claim is known to be dead.
 
         Raises
         ------
@@ -93,7 +105,8 @@ class RobotClaim:
         StopTrialError
             If the operator stops.
         """
-        self._await_nobody(clock)
+        if not dead:
+            self._await_nobody(clock)
         self._write(self._own)
         wait(clock, SETTLED)
         self._refuse(holder(self._session))
@@ -144,8 +157,15 @@ class RobotClaim:
 
 
 @contextmanager
-def claimed(arm: NaoqiArm, clock: Clock) -> Iterator[None]:
+def claimed(arm: NaoqiArm, clock: Clock, *, dead: bool = False) -> Iterator[RobotClaim]:
     """Hold the claim on a robot, with a heartbeat; if it is lost, set ``taken`` of the arm.
+
+    Parameters
+    ----------
+    arm, clock
+        The robot and the time.
+    dead
+        Whether the present claim is known to be dead.
 
     Raises
     ------
@@ -156,12 +176,12 @@ def claimed(arm: NaoqiArm, clock: Clock) -> Iterator[None]:
     """
     claim = RobotClaim(arm.session)
     with losses_stop():
-        claim.take(clock)
+        claim.take(clock, dead=dead)
     over = threading.Event()
     heart = threading.Thread(target=_beat, args=(claim, arm, over), name="claim", daemon=True)
     heart.start()
     try:
-        yield
+        yield claim
     finally:
         over.set()
         heart.join()
