@@ -17,6 +17,7 @@ from .decisions import Decider, Timed
 from .dry_run import DryArm
 from .frames import drained
 from .loop import LoopSettings, run_trial
+from .nao.health import refuse_unless_well
 from .nao.naoqi import NaoqiArm
 from .operator import StopButton, key_stops
 from .plausibility import seen
@@ -72,6 +73,7 @@ class Session:
             self._zero()
             return
         with losses_stop():
+            refuse_unless_well(self.arm)
             self.confirm("Clear the space around the robot's arms: they move to the rest posture.")
             with self._stoppable():
                 self.arm.take_hold()
@@ -136,6 +138,8 @@ class Session:
         with policy as agent:
             warm_up(agent, seed)
             with losses_stop():
+                if not self.dry:
+                    refuse_unless_well(self.arm)
                 self._ready()
                 decider = self.asked_by(agent)
                 self.arm.say(f"Lift {number}. {GO}!")

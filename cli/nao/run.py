@@ -45,6 +45,8 @@ from .connections import (
     Place,
     RobotMarkers,
     UpAxis,
+    describe_robot,
+    describe_stream,
     layout_of,
     open_place,
 )
@@ -132,6 +134,9 @@ def run_on_robot(
 
     place = open_place(robot, mocap, layout, button)
     unattended = yes or dry_run or place.simulated
+    if not place.simulated:
+        tell(f"robot: {describe_robot(place.arm.session)}")
+        tell(f"motion capture: {describe_stream(place.capture.info)}")
     session = Session(
         arm=place.arm,
         capture=place.capture,
