@@ -16,13 +16,13 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Final
 
 from ..errors import InputError
-from .claim import BEAT, STALE, Holder, RobotClaim, claimed, holder
+from .claim import BEAT, Holder, RobotClaim, claimed, holder
 from .clocks import MonotonicClock
-from .nao.naoqi import NaoqiArm
+from .nao.naoqi import STALE, NaoqiArm
 from .nao.session import NaoqiSession, leave
 from .operator import HANDOVER
 from .ports import RobotLostError
@@ -120,7 +120,11 @@ def guarded(arm: NaoqiArm, claim: RobotClaim) -> Iterator[None]:
     """
     command = [sys.executable, "-m", __name__, arm.session.url, claim.token]
     process = subprocess.Popen(
-        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True
+        command,
+        bufsize=0,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        start_new_session=True,
     )
     assert process.stdin is not None
     assert process.stdout is not None
@@ -139,11 +143,8 @@ def guarded(arm: NaoqiArm, claim: RobotClaim) -> Iterator[None]:
 def _dismiss(process: subprocess.Popen[bytes]) -> None:
     """End a watchdog process, unless it is releasing the arms."""
     assert process.stdin is not None
-    try:
+    with suppress(BrokenPipeError):
         process.stdin.write(b"over\n")
-        process.stdin.flush()
-    except BrokenPipeError:
-        pass
     try:
         process.wait(END_TIME)
     except subprocess.TimeoutExpired:

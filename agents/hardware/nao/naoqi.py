@@ -13,7 +13,7 @@ to 2.7 times the requested speed.
 
 import dataclasses
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Any, Final
 
@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....robots.nao.kinematics import ARM_JOINTS, MIRROR, REST_Z, arm_path, hand_position
+from ..clocks import awake_or_asleep
 from ..ports import ArmState, HandLimits, Naoqi, RobotLostError, RobotTakenError
 from ..safety import ASTRAY, hand_limits, next_command
 
@@ -43,6 +44,9 @@ SLOW: Final = 0.08
 
 EARLIER: Final = 64
 """Number of commands of which a late one is recognised."""
+
+STALE: Final = 3.0
+"""Time without a heartbeat after which a claim is dead [s]: six of them."""
 
 LAG: Final = 0.3
 """Longest time by which set-points may lag behind their commands [s]: two ALMotion cycles (0.04 s),
@@ -82,6 +86,9 @@ class NaoqiArm:
         self.taken = ""
         """Message naming another client that commands the robot, else empty; once it is set,
         nothing more is sent to the robot."""
+        self.look: Callable[[], None] = lambda: None
+        """Looks whether another client commands the robot, and sets ``taken``."""
+        self._last_state = awake_or_asleep()
         self.weight_offset = 0.0
         """Added to every command [m], for the sag under the table's weight."""
 
@@ -108,6 +115,7 @@ class NaoqiArm:
                 ("getStiffnesses", NAMES),
             ],
         )
+        self._last_state = awake_or_asleep()
         targets = np.array(self._targets)
         # A joint is on its way between its last seen set-point and its newest targets. The range of
         # all recent targets limits this: otherwise a joint held by another client would never be
@@ -169,9 +177,13 @@ class NaoqiArm:
     def stop(self) -> None:
         """Freeze the arms where they are, stiff; every later command is refused.
 
-        Arms that another client commands are left alone.
+        Arms that another client commands are left alone: after a pause in which the claim may have
+        died, this looks first.
         """
         self._stopped = True
+        if awake_or_asleep() - self._last_state > STALE:
+            with suppress(RobotLostError):
+                self.look()
         if not self.taken:
             with suppress(RobotLostError):
                 self.session.call("ALMotion", "killAll")
