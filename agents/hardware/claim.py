@@ -174,8 +174,13 @@ def claimed(arm: NaoqiArm, clock: Clock, *, dead: bool = False) -> Iterator[Robo
         If the robot does not answer, or the operator stops.
     """
     claim = RobotClaim(arm.session)
-    with losses_stop():
-        claim.take(clock, dead=dead)
+    try:
+        with losses_stop():
+            claim.take(clock, dead=dead)
+    except BaseException:
+        # It may have been written already.
+        claim.release()
+        raise
 
     def look() -> None:
         other = claim.beat()

@@ -59,7 +59,8 @@ def watch(
     over
         Waits for so many seconds; returns whether to end.
     token
-        The claim to watch, until it is released; with none, any claim, one after the other.
+        The claim to watch, until it is released; with none, any claim that has a heartbeat, one
+        after the other.
     gone
         Returns whether the holder is known to have ended.
 
@@ -70,6 +71,8 @@ def watch(
     """
     clock = MonotonicClock()
     seen, since, answered = holder(arm.session), clock.now(), clock.now()
+    # A claim that was dead from the beginning says nothing of the arms.
+    alive = token == seen.token
     while not over(BEAT / 2):
         now = clock.now()
         try:
@@ -84,9 +87,11 @@ def watch(
             return
         # After a pause of its own, the watchdog lets the holder show that it is there.
         if found != seen or now - before > 2 * BEAT:
+            alive |= found != seen
             seen, since = found, now
-        if found.name and (gone() or now - since > STALE):
+        if found.name and (gone() or (alive and now - since > STALE)):
             _take_over(arm, clock, found)
+            alive = False
             if token:
                 return
 
