@@ -69,6 +69,7 @@ def test_a_claim_without_a_heartbeat_is_taken_over_and_its_owner_stops(connect, 
 
 def test_a_stop_while_it_is_claimed_leaves_no_claim(connect):
     session, button = connect(), StopButton()
+    session.call("ALMemory", "insertData", KEY, list(NOBODY))
     button.press("SIGINT")
     with pytest.raises(StopTrialError), claimed(NaoqiArm(connect()), MonotonicClock(button)):
         pytest.fail("it is claimed")
