@@ -1,5 +1,5 @@
 """``python -m colift.cli``."""
 
-from .main import main
+from .start import start
 
-main()
+start()

@@ -8,6 +8,8 @@ from typing import Any, Final
 import typer
 from typer.core import TyperGroup
 
+from .start import Loading
+
 PANELS: Final[Mapping[str, Mapping[str, str]]] = {
     "Use": {
         "run": "run:run",
@@ -77,7 +79,8 @@ class _Loaded(Mapping[str, Any]):
 
     def __getitem__(self, name: str) -> Any:
         module, _, attribute = COMMANDS[name].partition(":")
-        found = getattr(importlib.import_module(f".{module}", __package__), attribute)
+        with Loading():
+            found = getattr(importlib.import_module(f".{module}", __package__), attribute)
         command: Any
         if isinstance(found, typer.Typer):
             command = typer.main.get_group(found)

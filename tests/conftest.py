@@ -34,6 +34,7 @@ LONGEST = (
     "agents/sandbox/test_hostile.py",
     "benchmark/training/test_apg.py",
     "benchmark/execution/test_cluster.py",
+    "cli/test_nao_vanishing.py",
     "cli/test_nao_stops.py",
     "cli/test_nao.py",
     "benchmark/training/test_ppo.py",

@@ -19,7 +19,7 @@ from contextlib import contextmanager, suppress
 from typing import Final, NamedTuple
 
 from ..errors import InputError
-from .nao.naoqi import NaoqiArm
+from .nao.naoqi import STALE, NaoqiArm
 from .ports import Clock, Naoqi, RobotLostError
 from .setup import wait
 from .stops import losses_stop
@@ -29,9 +29,6 @@ KEY: Final = "Colift/Commander"
 
 BEAT: Final = 0.5
 """Time between two heartbeats [s]."""
-
-STALE: Final = 3.0
-"""Time without a heartbeat after which a claim is dead [s]: six of them."""
 
 SETTLED: Final = 0.3
 """Time between writing a claim and reading it again [s]: longer than a call may take."""
@@ -80,9 +77,22 @@ class RobotClaim:
     def __init__(self, session: Naoqi) -> None:
         self._session = session
         self._own = Holder(f"process {os.getpid()} on {socket.gethostname()}", uuid.uuid4().hex, 0)
+        self._beating = threading.Lock()
 
-    def take(self, clock: Clock) -> None:
+    @property
+    def token(self) -> str:
+        """What distinguishes this claim from others."""
+        return self._own.token
+
+    def take(self, clock: Clock, *, dead: bool = False) -> None:
         """Take the claim; a dead one is taken over.
+
+        Parameters
+        ----------
+        clock
+            The time.
+        dead
+            Whether the present claim is known to be dead.
 
         Raises
         ------
@@ -93,7 +103,8 @@ class RobotClaim:
         StopTrialError
             If the operator stops.
         """
-        self._await_nobody(clock)
+        if not dead:
+            self._await_nobody(clock)
         self._write(self._own)
         wait(clock, SETTLED)
         self._refuse(holder(self._session))
@@ -126,12 +137,13 @@ class RobotClaim:
         RobotLostError
             If the robot does not answer.
         """
-        found = holder(self._session)
-        if found.token != self._own.token:
-            return found.name or "nobody"
-        self._own = self._own._replace(beat=self._own.beat + 1)
-        self._write(self._own)
-        return ""
+        with self._beating:
+            found = holder(self._session)
+            if found.token != self._own.token:
+                return found.name or "nobody"
+            self._own = self._own._replace(beat=self._own.beat + 1)
+            self._write(self._own)
+            return ""
 
     def release(self) -> None:
         """Release the claim, if it is still held."""
@@ -144,8 +156,15 @@ class RobotClaim:
 
 
 @contextmanager
-def claimed(arm: NaoqiArm, clock: Clock) -> Iterator[None]:
+def claimed(arm: NaoqiArm, clock: Clock, *, dead: bool = False) -> Iterator[RobotClaim]:
     """Hold the claim on a robot, with a heartbeat; if it is lost, set ``taken`` of the arm.
+
+    Parameters
+    ----------
+    arm, clock
+        The robot and the time.
+    dead
+        Whether the present claim is known to be dead.
 
     Raises
     ------
@@ -155,24 +174,33 @@ def claimed(arm: NaoqiArm, clock: Clock) -> Iterator[None]:
         If the robot does not answer, or the operator stops.
     """
     claim = RobotClaim(arm.session)
-    with losses_stop():
-        claim.take(clock)
+    try:
+        with losses_stop():
+            claim.take(clock, dead=dead)
+    except BaseException:
+        # It may have been written already.
+        claim.release()
+        raise
+
+    def look() -> None:
+        other = claim.beat()
+        if other:
+            arm.taken = f"the robot is commanded by {other} now: its claim is not this one's"
+
+    arm.look = look
     over = threading.Event()
-    heart = threading.Thread(target=_beat, args=(claim, arm, over), name="claim", daemon=True)
+    heart = threading.Thread(target=_beat, args=(arm, over), name="claim", daemon=True)
     heart.start()
     try:
-        yield
+        yield claim
     finally:
         over.set()
         heart.join()
         claim.release()
 
 
-def _beat(claim: RobotClaim, arm: NaoqiArm, over: threading.Event) -> None:
+def _beat(arm: NaoqiArm, over: threading.Event) -> None:
     """Send heartbeats until ``over`` is set; the loop detects a robot that does not answer."""
-    while not over.wait(BEAT):
+    while not arm.taken and not over.wait(BEAT):
         with suppress(RobotLostError):
-            other = claim.beat()
-            if other:
-                arm.taken = f"the robot is commanded by {other} now: its claim is not this one's"
-                return
+            arm.look()

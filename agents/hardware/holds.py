@@ -11,7 +11,7 @@ WINDOW: Final = 5.0
 
 
 class Holds:
-    """Sum of the periods in which the hands were held."""
+    """Sum of the periods in which the hands were held, or that were skipped."""
 
     def __init__(self) -> None:
         self._steps: deque[tuple[float, bool]] = deque()

@@ -1,7 +1,9 @@
 """The real-time loop: one decision and at most one command in each control period.
 
 Deadlines are absolute, ``start + k T``: a step that comes late does not shift those after it.
-Periods that were missed as a whole are skipped and counted, and not made up for.
+Periods that were missed as a whole are skipped, count as holds, and are not made up for. A process
+that was suspended, or a machine that was, cannot keep any limit meanwhile: the loop stops the trial
+before it sends anything after a gap of :data:`LONGEST_GAP`.
 
 Each step reads the robot, judges the motion capture, asks the policy, and gives one command: the
 same as in simulation, apart from timing. A fault in one of these holds the hands at the last
@@ -37,6 +39,10 @@ FASTEST_LOOP: Final = 0.02
 
 SLOWEST_LOOP: Final = 0.5
 """Longest control period [s], as in simulation."""
+
+LONGEST_GAP: Final = 0.5
+"""Longest time between two steps, or from the start of a step to its command [s]; or two periods,
+if these are longer."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,7 +104,8 @@ def run_trial(
             loop.step()
     except StopTrialError as stop:
         robot.stop()
-        log.stop, log.reason = stop.stop, stop.reason
+        cause = loop.cause(stop)
+        log.stop, log.reason = cause.stop, cause.reason
     except BaseException:
         robot.stop()
         raise
@@ -127,11 +134,33 @@ class _Loop:
         self._command = 0.0
         self._speed = 0.0
         self._number = 0
+        self._began = 0.0
 
     def begin(self) -> None:
         """Set the first deadline."""
-        self._log.begin = self._clock.now()
+        self._log.begin = self._began = self._clock.now()
         self._frames(self._log.begin)
+
+    def cause(self, stop: StopTrialError) -> StopTrialError:
+        """Return why the trial stops: what was late while this machine was away is not to blame."""
+        late = stop.stop is Stop.ROBOT_LOST and self._away(self._clock.now())
+        return late or stop
+
+    def _away(self, now: float) -> StopTrialError | None:
+        """Return a stop if too long a time has passed since the last step began."""
+        gap = now - self._began
+        if gap <= max(LONGEST_GAP, 2 * self._settings.period) + 1e-6:
+            return None
+        return StopTrialError(
+            Stop.CONTROLLER,
+            f"this machine was away for {gap:.1f} s: the process was stopped, the machine "
+            "suspended, or too busy",
+        )
+
+    def _present(self, now: float) -> None:
+        """Stop if this machine was away until now."""
+        if away := self._away(now):
+            raise away
 
     def step(self) -> None:
         """Wait for the deadline, decide and command."""
@@ -141,13 +170,16 @@ class _Loop:
         if pressed is not None:
             raise StopTrialError(Stop.OPERATOR, f"stopped by the operator: {pressed}")
         now = clock.now()
+        self._present(now)
         missed = int((now - deadline) / period)
         if missed > 0:
             log.late_steps += missed
+            self._holds.step(max(deadline, self._began), held=True)
             self._number += missed
             deadline = log.start + self._number * period
         number = self._number
         self._number += 1
+        self._began = now
         self._frames(now)
         with losses_stop():
             state = self._robot.state()
@@ -160,6 +192,7 @@ class _Loop:
             observation = self._observation(now, number * period, state)
             decision = self._decider.decide(observation, POLICY_SHARE * period)
         decided = clock.now()
+        self._present(decided)
         before = self._command
         if decision.action is not None:
             wanted = limited(before + decision.action, before, period, self._robot.limits)
@@ -187,7 +220,7 @@ class _Loop:
         )
         if fault is not None:
             raise StopTrialError(Stop.MOTORS, fault)
-        self._limit_hold(now, age, decision)
+        self._limit_hold(now, age, decision, skipped=missed > 0)
         self._conduct.commands(now, self._command)
         if hold is None:
             self._conduct.tilts(now, self._watch.samples[-1])
@@ -217,15 +250,17 @@ class _Loop:
         observation[RobotObservation.TIME] = time
         return observation
 
-    def _limit_hold(self, now: float, age: float, decision: Decision) -> None:
+    def _limit_hold(self, now: float, age: float, decision: Decision, *, skipped: bool) -> None:
         """Stop if the hands have been held for too long."""
-        hold = decision.hold
-        held = self._holds.step(now, held=hold is not None)
+        held = self._holds.step(now, held=decision.hold is not None)
+        hold = decision.hold or (HoldReason.SKIPPED if skipped else None)
         # Steps come a period apart: the one nearest to the limit counts.
         lasted = held > LIMIT - self._settings.period / 2
         if hold is None or not (lasted or (hold is HoldReason.STALE and age > LIMIT)):
             return
         detail = decision.reason
+        if hold is HoldReason.SKIPPED:
+            detail = f"{self._log.late_steps} in all; this machine is too busy"
         if hold is HoldReason.NOT_SEEN:
             detail = self._capture.unseen
         if hold is HoldReason.STALE and self._log.misdated:

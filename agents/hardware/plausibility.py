@@ -2,7 +2,7 @@
 
 import math
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
 
 from .ports import Sample
@@ -37,6 +37,31 @@ SETTLED: Final = 0.1
 def stamped(sample: Sample, now: float) -> bool:
     """Return whether a frame's time stamp is possible: a number, and not ahead of the clock."""
     return -math.inf < sample.time <= now + AHEAD
+
+
+def in_order(samples: Iterable[Sample], newest: float = -math.inf) -> Iterator[Sample]:
+    """Yield the frames that are newer than all before them, the rule for all uses of frames.
+
+    A frame that was repeated or overtaken says nothing new, and one whose clock has gone back says
+    when it was captured no more.
+
+    Parameters
+    ----------
+    samples
+        Frames in the order in which they came.
+    newest
+        Time of the newest frame before them [s].
+    """
+    for sample in samples:
+        if sample.time > newest:
+            newest = sample.time
+            yield sample
+
+
+def disordered(samples: Sequence[Sample]) -> int:
+    """Return the number of frames that :func:`in_order` leaves out."""
+    stamps = [sample for sample in samples if not math.isnan(sample.time)]
+    return len(stamps) - len(list(in_order(stamps)))
 
 
 def seen(sample: Sample) -> bool:
@@ -95,21 +120,19 @@ class CaptureMonitor:
         return self._kept
 
     def take(self, frames: Sequence[Sample], misdated: int = 0) -> None:
-        """Add new frames; a frame that is not newer than the last is left out.
+        """Add new frames, without those out of order.
 
         Parameters
         ----------
         frames
-            New frames with possible time stamps, oldest first.
+            New frames with possible time stamps, as they came.
         misdated
             Number of other frames that came with them. If there are any, no stamp is trusted: a
             clock that is ahead makes an older frame look new.
         """
         self._misdated = misdated > 0
-        for frame in frames:
-            last = self._newest
-            if last is not None and frame.time <= last.time:
-                continue
+        last = self._newest
+        for frame in in_order(frames, -math.inf if last is None else last.time):
             self._newest = frame
             self._begin = frame.time if self._begin is None else self._begin
             self._times.append(frame.time)

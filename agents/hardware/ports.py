@@ -30,6 +30,8 @@ class ArmState(NamedTuple):
     """Lowest stiffness of the arms' motors, 0 (off) to 1."""
     astray: float = 0.0
     """Largest distance of a joint's set-point from the path of this client's commands [rad]."""
+    late: bool = False
+    """Whether such set-points are those of an earlier command: it was carried out late."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -123,6 +123,12 @@ def motor_fault(state: ArmState) -> str | None:
     """Return the fault of the hands, or None if they follow their commands."""
     if not state.stiffness >= LOWEST_STIFFNESS:
         return f"an arm motor has the stiffness {state.stiffness:.2f}"
+    if state.late and not state.astray <= ASTRAY:
+        return (
+            f"a joint has a set-point that is {state.astray:.3f} rad off the path of the last "
+            "commands, on that of earlier ones: they are carried out late; the robot, the network "
+            "or this machine is too busy"
+        )
     if not state.astray <= ASTRAY:
         return (
             f"a joint has a set-point that is {state.astray:.3f} rad off the path of the commands "

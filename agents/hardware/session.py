@@ -1,6 +1,7 @@
 """A session in the laboratory: set-up, trials, and return to rest."""
 
 import gc
+import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, contextmanager
@@ -16,28 +17,18 @@ from .decisions import Decider, Timed
 from .dry_run import DryArm
 from .frames import drained
 from .loop import LoopSettings, run_trial
+from .nao.health import refuse_unless_well
 from .nao.naoqi import NaoqiArm
 from .operator import StopButton, key_stops
 from .plausibility import seen
 from .ports import Clock, HandLimits, RobotArm, RobotLostError, TableCapture
+from .release import release
 from .stops import Stop, StopTrialError, losses_stop
 from .trial_end import TrialEnd
 from .trial_log import TrialLog
 
 READY: Final = 0.015
 """Largest height of an end at which a trial may begin [m]."""
-
-BACK: Final = 3.0
-"""Longest wait for a robot that does not answer [s]."""
-
-RELEASE: Final = "Take the table out of the hands: the arms go limp."
-"""Instruction to the operator before the arms are released."""
-
-UNKNOWN: Final = (
-    "The robot does not answer; nothing is known of the arms: they may be stiff, limp, or on the "
-    "way to their last target. Take the table out with care, and press the chest button twice."
-)
-"""Instruction to the operator when the robot does not answer."""
 
 GO: Final = "Go"
 """Spoken signal at the start of a trial."""
@@ -82,8 +73,10 @@ class Session:
             self._zero()
             return
         with losses_stop():
+            refuse_unless_well(self.arm)
             self.confirm("Clear the space around the robot's arms: they move to the rest posture.")
-            self.arm.take_hold()
+            with self._stoppable():
+                self.arm.take_hold()
             self.confirm("Put the table into its hands, hold the other end level, and keep still.")
             sag = setup.measure_sag(self.arm, self.clock)
             self.arm.weight_offset += sag
@@ -97,6 +90,29 @@ class Session:
                 f"test move: the robot's end follows by {direction.robot_end:.2f}, the human's by "
                 f"{direction.human_end:.2f} m per m"
             )
+
+    @contextmanager
+    def _stoppable(self) -> Iterator[None]:
+        """Freeze the arms at once if the operator stops while a call moves them."""
+        over = threading.Event()
+
+        def stop() -> None:
+            while not over.wait(0.05):
+                if self.button.reason is not None:
+                    self.arm.stop()
+
+        watcher = threading.Thread(target=stop, name="stop", daemon=True)
+        watcher.start()
+        try:
+            yield
+        except RobotLostError:
+            # A call that was cut short fails.
+            setup.wait(self.clock, 0.0)
+            raise
+        finally:
+            over.set()
+            watcher.join()
+        setup.wait(self.clock, 0.0)
 
     def _zero(self) -> None:
         """Take the ends' present heights as zero."""
@@ -122,6 +138,8 @@ class Session:
         with policy as agent:
             warm_up(agent, seed)
             with losses_stop():
+                if not self.dry:
+                    refuse_unless_well(self.arm)
                 self._ready()
                 decider = self.asked_by(agent)
                 self.arm.say(f"Lift {number}. {GO}!")
@@ -155,36 +173,14 @@ class Session:
             self.arm.stop()
 
     def finish(self, taken_out: Callable[[], None]) -> None:
-        """Release the arms smoothly, and bring the robot to rest.
-
-        A robot that another client commands is left alone. If a robot does not answer, wait for it
-        up to :data:`BACK`.
+        """Release the arms smoothly, and bring the robot to rest; see :func:`.release.release`.
 
         Parameters
         ----------
         taken_out
             Waits until the operator has taken the table out of the hands.
         """
-        if self.arm.taken:
-            self.tell(f"Nothing more is sent to the robot: {self.arm.taken}.")
-            return
-        known = self.arm.answers()
-        self.tell(RELEASE if known else UNKNOWN)
-        taken_out()
-        try:
-            if not known:
-                self._await_answer()
-            self.arm.release()
-            self.tell("the arms are released, the robot is at rest")
-        except RobotLostError as error:
-            self.tell(f"the arms are NOT released: {error}; press the robot's chest button twice")
-
-    def _await_answer(self) -> None:
-        """Return when a robot that did not answer does, or after :data:`BACK`."""
-        end = self.clock.now() + BACK
-        while not self.arm.answers() and self.clock.now() < end:
-            if self.clock.wait_until(self.clock.now() + 0.25) is not None:
-                return
+        release(self.arm, self.clock, self.tell, taken_out)
 
 
 def warm_up(policy: Agent, seed: int) -> None:

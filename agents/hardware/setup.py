@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from .frames import drained
-from .plausibility import seen
+from .plausibility import in_order, seen
 from .ports import ArmState, Clock, MotionCapture, RobotArm
 from .safety import ASTRAY, motor_fault
 from .stops import Stop, StopTrialError, losses_stop
@@ -109,11 +109,12 @@ def _ends(capture: MotionCapture, clock: Clock, seconds: float) -> _Ends:
     """Return the heights of both ends over some seconds."""
     drained(capture, clock.now())
     wait(clock, seconds)
-    frames, misdated = drained(capture, clock.now())
+    came, misdated = drained(capture, clock.now())
+    frames = list(in_order(came))
     rate = len(frames) / seconds
     if misdated:
         raise InputError(
-            f"{misdated} of {misdated + len(frames)} frames have time stamps ahead of this "
+            f"{misdated} of {misdated + len(came)} frames have time stamps ahead of this "
             "machine's clock, or none: a stamp is when the frame was captured, on the clock of "
             "the layer (local_clock)"
         )
@@ -177,7 +178,7 @@ def measure_direction(robot: RobotArm, capture: MotionCapture, clock: Clock) -> 
     """
     drained(capture, clock.now())
     hands = move_to(robot, clock, TEST_MOVE) + move_to(robot, clock, 0.0)
-    frames = [frame for frame in drained(capture, clock.now()).frames if seen(frame)]
+    frames = [frame for frame in in_order(drained(capture, clock.now()).frames) if seen(frame)]
     if len(frames) < 10:
         raise InputError("the motion capture did not see the table while the hands moved")
     times, heights = zip(*hands, strict=True)

@@ -18,13 +18,14 @@ class HoldReason(StrEnum):
     POLICY_FAILED = "the policy failed"
     POLICY_LATE = "the policy was late"
     POLICY_BUSY = "the policy is still at an earlier step"
+    SKIPPED = "a period was skipped"
 
 
 class Stop(IntEnum):
     """Kind of stop; the value is the exit code of ``colift nao run``."""
 
     OPERATOR = 10
-    """Ctrl-C, or the operator's key."""
+    """Ctrl-C, the operator's key, another signal that ends a process, or a vanished terminal."""
     ROBOT_LOST = 11
     """No connection to the robot, or no answer in time."""
     CAPTURE_LOST = 12
@@ -36,6 +37,8 @@ class Stop(IntEnum):
     table."""
     MOTORS = 15
     """Hands that do not follow their commands or follow another client's, or limp motors."""
+    CONTROLLER = 16
+    """This machine was away: stopped, suspended, paused, or too busy."""
 
     @classmethod
     def after(cls, hold: HoldReason) -> "Stop":
@@ -44,6 +47,8 @@ class Stop(IntEnum):
             return cls.CAPTURE_LOST
         if hold in (HoldReason.POLICY_FAILED, HoldReason.POLICY_LATE, HoldReason.POLICY_BUSY):
             return cls.POLICY
+        if hold is HoldReason.SKIPPED:
+            return cls.CONTROLLER
         return cls.CAPTURE_UNUSABLE
 
 

@@ -60,7 +60,7 @@ class AfterLift:
             if isinstance(event, Step):
                 if event.time - log.start > self.longest:
                     return True
-            elif seen(event):
+            elif seen(event) and (not recent or event.time > recent[-1].time):
                 self._risen |= event.human_end > RISEN
                 recent.append(event)
         if not recent or recent[-1].time - recent[0].time < self.rest:

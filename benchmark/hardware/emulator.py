@@ -56,7 +56,7 @@ class Emulator:
                 for name, service in self._laboratory.services.items()
             },
         )
-        self._outlet = Outlet(stream)
+        self._outlet = Outlet(stream, source=url)
 
     def run(self, button: StopButton) -> None:
         """Run until the button is pressed."""
@@ -141,6 +141,8 @@ class Outlet:
     ----------
     name
         The stream's name.
+    source
+        Its source id, which tells it from others of its name.
 
     Raises
     ------
@@ -148,11 +150,9 @@ class Outlet:
         If pylsl is not installed.
     """
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, source: str) -> None:
         self._lsl = lsl = import_optional("pylsl")
-        info = lsl.StreamInfo(
-            name, "MoCap", 3 * len(MARKERS), 1 / FRAME, lsl.cf_double64, f"colift-emulator-{name}"
-        )
+        info = lsl.StreamInfo(name, "MoCap", 3 * len(MARKERS), 1 / FRAME, lsl.cf_double64, source)
         channels = info.desc().append_child("channels")
         for marker in MARKERS:
             for axis in "XYZ":

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...agents.errors import InputError
 from ...agents.hardware.loop import DEAD_TIME
-from ...agents.hardware.plausibility import seen
+from ...agents.hardware.plausibility import in_order, seen
 from ...agents.hardware.trial_log import LoggedTrial
 from ...robots.nao.kinematics import arm_path
 from ..world.table import WEIGHT_SHARE
@@ -84,7 +84,7 @@ def _noise(trial: LoggedTrial) -> float:
     They have the variance 20 s^2 for white noise of the variance s^2; the median of their size is
     0.6745 standard deviations, even with a few jumps.
     """
-    frames = [sample for sample in trial.log.samples if seen(sample)]
+    frames = [sample for sample in in_order(trial.log.samples) if seen(sample)]
     if len(frames) < FEWEST:
         raise InputError(f"{len(frames)} frames are too few to estimate from")
     differences = np.diff(np.array(frames)[:, 1:], n=3, axis=0)
@@ -106,7 +106,7 @@ def _ramps(trial: LoggedTrial, times: NDArray[np.float64]) -> NDArray[np.float64
 
 def _delay(trial: LoggedTrial) -> float:
     """Return the delay [s] at which the robot's end fits its commands best, up to an offset."""
-    frames = np.array([s for s in trial.log.samples if seen(s)])
+    frames = np.array([s for s in in_order(trial.log.samples) if seen(s)])
     commands = [step.command for step in trial.log.steps]
     if not commands or np.ptp(commands) < LOWEST_MOTION:
         raise InputError(

@@ -14,6 +14,10 @@ KINDS: Final = {
     "unit-change": "the motion capture sends millimetres instead of metres",
     "future-stamps": "the motion capture's time stamps are VALUE s ahead (default 5)",
     "nan-stamps": "the motion capture's time stamps are not numbers",
+    "past-stamps": "the motion capture's clock goes back by VALUE s (default 5)",
+    "loss": "of the motion capture's frames, the share VALUE is lost, at random (default 0.3)",
+    "duplicate": "of the motion capture's frames, the share VALUE comes twice (default 0.3)",
+    "reorder": "the motion capture's frames overtake each other, by up to VALUE s (default 0.05)",
     "swap": "the motion capture takes the ends for each other",
     "drift": "the motion capture drifts upwards by VALUE m/s (default 0.05)",
     "latency": "the motion capture comes VALUE s later (default 0.25)",
@@ -24,12 +28,17 @@ KINDS: Final = {
     "foreign-setpoint": "somebody else moves the left shoulder to VALUE rad (default 0.5)",
     "stream-end": "the stream is closed, for good",
     "motor-off": "the robot's motors have no stiffness",
+    "hot": "the left elbow has VALUE degrees Celsius (default 76)",
+    "battery": "the robot's battery has VALUE % left (default 10)",
+    "breathing": "the robot breathes: both shoulders move by up to VALUE rad (default 0.05)",
+    "idle-posture": "the robot has an idle posture switched on for its arms",
 }
 """The faults by name, with their effects."""
 
 DEFAULTS: Final = {
     "slow": 10.0, "freeze": 4.0, "future-stamps": 5.0, "drift": 0.05, "latency": 0.25,
-    "jitter": 0.05, "foreign-setpoint": 0.5,
+    "jitter": 0.05, "foreign-setpoint": 0.5, "past-stamps": 5.0, "loss": 0.3, "duplicate": 0.3,
+    "reorder": 0.05, "hot": 76.0, "battery": 10.0, "breathing": 0.05,
 }  # fmt: skip
 """Values of the faults that have one."""
 

@@ -108,6 +108,7 @@ class JointMotion:
         self._stiffness = dict.fromkeys(BODY, 1.0)
         self._ramps: dict[str, tuple[float, float]] = {}
         self._off = False
+        self._breath: dict[str, float] = {}
 
     def tick(self) -> None:
         """Advance all set-points and stiffnesses by one cycle."""
@@ -120,6 +121,22 @@ class JointMotion:
                 self._stiffness[joint] = stepped(self._stiffness[joint], target, rate * TICK)
                 if self._stiffness[joint] == target:
                     del self._ramps[joint]
+
+    def breathe(self, joint: str, angle: float) -> None:
+        """Add a movement of the robot's own to a set-point, unless the joint follows a command.
+
+        Parameters
+        ----------
+        joint
+            The joint.
+        angle
+            Distance from where it is without that movement [rad]; 0 at first and at last.
+        """
+        with self._lock:
+            more = angle - self._breath.get(joint, 0.0)
+            self._breath[joint] = angle
+            if joint not in self._moves:
+                self._set_points[joint] = clipped(joint, self._set_points[joint] + more)
 
     def set_angles(self, names: Sequence[str], angles: Sequence[float], fraction: float) -> None:
         """Move joints to angles at a fraction of their greatest speeds.

@@ -5,7 +5,7 @@ The person begins a lift when the robot says "Go".
 
 import queue
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -14,11 +14,13 @@ import numpy as np
 from ...agents.agent import FRAME
 from ...robots.nao.kinematics import ARM_JOINTS, arm_path
 from ..episode.scenario import Scenario
+from .body import CHARGE, WARM, Body
 from .emulated_lift import EmulatedLift
 from .faults import Fault, Schedule
 from .joint_motion import TICK, JointMotion
 from .markers import Markers, Row
 from .services import (
+    BatteryService,
     FaultService,
     LifeService,
     Log,
@@ -39,6 +41,9 @@ FRAMES_PER_TICK: Final = round(TICK / FRAME)
 
 FOREIGN_FRACTION: Final = 0.1
 """Fraction of its greatest speed at which another client moves a joint: 0.8 rad/s."""
+
+BREATHS: Final = 0.2
+"""Breaths per second: 12 a minute, NAOqi's default."""
 
 CAPTURE_LATENCY: Final = 0.01
 """Time from a motion-capture frame to its sending [s]."""
@@ -81,6 +86,7 @@ class Laboratory:
         self._lift = EmulatedLift(conditions.scenario)
         rest = dict(zip(NAMES, arm_path().joint_angles(0.0), strict=True))
         self._motion = JointMotion(rest)
+        self._body = Body()
         self._ahead = self._before = np.array(self._motion.set_points(NAMES))
         self._frame = self._lifts = 0
         self._faults = Schedule(conditions.faults)
@@ -90,8 +96,9 @@ class Laboratory:
         """Whether the robot answers calls for its joint angles; callers wait for it."""
         self.answering.set()
         self.services: dict[str, Any] = {
-            "ALMotion": MotionService(self._motion, log, pause, self.answering),
-            "ALMemory": MemoryService(log),
+            "ALMotion": MotionService(self._motion, self._body, log, pause, self.answering),
+            "ALMemory": MemoryService(self._body, log),
+            "ALBattery": BatteryService(self._body),
             "ALRobotPosture": PostureService(),
             "ALAutonomousLife": LifeService(),
             "ALTextToSpeech": SpeechService(self._heard, log, pause),
@@ -163,8 +170,21 @@ class Laboratory:
                 self._log(f"fault {fault.kind}")
             if fault.kind == "foreign-setpoint":
                 self._motion.set_angles(NAMES[:1], [fault.value], FOREIGN_FRACTION)
-        self._motion.motors_off(any(fault.kind == "motor-off" for fault in active))
+        self._harm({fault.kind: fault for fault in active}, now)
         return active
+
+    def _harm(self, active: Mapping[str, Fault], now: float) -> None:
+        """Let the active faults of the robot's body take effect."""
+        body, breath = self._body, active.get("breathing")
+        self._motion.motors_off("motor-off" in active)
+        body.elbow = active["hot"].value if "hot" in active else WARM
+        body.charge = round(active["battery"].value) if "battery" in active else CHARGE
+        body.idle_posture = "idle-posture" in active
+        if breath or body.breathing:
+            phase = 2 * np.pi * BREATHS * (now - breath.start) if breath else 0.0
+            for joint in ("LShoulderPitch", "RShoulderPitch"):
+                self._motion.breathe(joint, breath.value * float(np.sin(phase)) if breath else 0.0)
+        body.breathing = breath is not None
 
     def close(self) -> None:
         """Release the world."""

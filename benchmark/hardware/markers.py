@@ -1,6 +1,6 @@
 """The emulated motion capture: four markers on the table, and the effects of faults on them."""
 
-from collections import deque
+import bisect
 from collections.abc import Iterator, Sequence
 from typing import Final
 
@@ -44,7 +44,7 @@ class Markers:
     def __init__(self, latency: float) -> None:
         self._latency = latency
         self._rng = np.random.default_rng(derive_seed(0, "hardware/markers"))
-        self._waiting: deque[tuple[float, Row]] = deque()
+        self._waiting: list[tuple[float, Row]] = []
         self._due = 0.0
         self._frames = 0
         self._heights: list[float] = []
@@ -84,6 +84,8 @@ class Markers:
         stamp = now
         if "future-stamps" in active:
             stamp += active["future-stamps"].value
+        if "past-stamps" in active:
+            stamp -= active["past-stamps"].value
         if "nan-stamps" in active:
             stamp = np.nan
         delay = self._latency
@@ -93,12 +95,21 @@ class Markers:
             delay += float(self._rng.uniform(0.0, active["jitter"].value))
         self._frames += 1
         left_out = "slow" in active and self._frames % round(active["slow"].value)
-        if "dropout" not in active and not left_out:
-            # A network may delay a frame, but does not change the order.
-            self._due = max(self._due, now + delay)
-            self._waiting.append((self._due, (stamp, row)))
+        if "dropout" in active or left_out or self._happens(active.get("loss")):
+            return
+        # The layer may delay a frame, but does not change the order; what comes before it may.
+        self._due = max(self._due, now + delay)
+        due = self._due
+        if "reorder" in active:
+            due += float(self._rng.uniform(0.0, active["reorder"].value))
+        for _ in range(2 if self._happens(active.get("duplicate")) else 1):
+            bisect.insort(self._waiting, (due, (stamp, row)), key=lambda each: each[0])
+
+    def _happens(self, fault: Fault | None) -> bool:
+        """Return whether a fault hits this frame: its value is the share of those that it hits."""
+        return fault is not None and bool(self._rng.uniform() < fault.value)
 
     def due(self, now: float) -> Iterator[Row]:
-        """Yield the frames that are to be sent now, oldest first."""
+        """Yield the frames that are to be sent now, in the order of their sending."""
         while self._waiting and self._waiting[0][0] <= now + 1e-9:
-            yield self._waiting.popleft()[1]
+            yield self._waiting.pop(0)[1]

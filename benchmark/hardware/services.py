@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import Any, Final
 
 from ...robots.nao.facts import JOINTS
+from .body import Body, idle_chain
 from .joint_motion import BODY, TICK, JointMotion, MotionError, joint_names, per_joint
 
 VERSION: Final = "2.8.7-emulated"
@@ -32,9 +33,14 @@ class MotionService:
     __qi_threading__ = "multi"
 
     def __init__(
-        self, motion: JointMotion, log: Log, pause: Pause, answering: threading.Event
+        self,
+        motion: JointMotion,
+        body: Body,
+        log: Log,
+        pause: Pause,
+        answering: threading.Event,
     ) -> None:
-        self._motion = motion
+        self._motion, self._body = motion, body
         self._log, self._pause = log, pause
         self._awake = True
         self._killed = threading.Event()
@@ -133,6 +139,14 @@ class MotionService:
             raise MotionError(f"ALMotion: {pChainName!r} is not LArm, RArm or Arms")
         return True
 
+    def getBreathEnabled(self, pChain: str) -> bool:
+        """Return whether a chain breathes when it has no command."""
+        return self._body.breathing and idle_chain(pChain) not in ("Legs", "Head")
+
+    def getIdlePostureEnabled(self, pChain: str) -> bool:
+        """Return whether a chain has an idle posture, to which it returns without a command."""
+        return self._body.idle_posture and idle_chain(pChain) not in ("Legs", "Head")
+
     def getSmartStiffnessEnabled(self) -> bool:
         """Return that smart stiffness is off: the emulated motors do not save power."""
         return False
@@ -143,8 +157,8 @@ class MemoryService:
 
     __qi_threading__ = "multi"
 
-    def __init__(self, log: Log) -> None:
-        self._log = log
+    def __init__(self, body: Body, log: Log) -> None:
+        self._body, self._log = body, log
         self._data: dict[str, Any] = {}
 
     def insertData(self, key: str, value: Any) -> None:
@@ -157,17 +171,37 @@ class MemoryService:
 
     def getData(self, key: str) -> Any:
         """Return the value of a key."""
-        if key not in self._data:
+        known = self._known()
+        if key not in known:
             raise MotionError(f"ALMemory: there is no data under the key {key!r}")
-        return self._data[key]
+        return known[key]
+
+    def getListData(self, keys: list[str]) -> list[Any]:
+        """Return the values of keys; None for a key without one."""
+        known = self._known()
+        return [known.get(key) for key in keys]
+
+    def _known(self) -> dict[str, Any]:
+        return {**self._body.sensors(), **self._data}
 
     def getDataList(self, filter: str) -> list[str]:
         """Return the keys that contain a text."""
-        return [key for key in list(self._data) if filter in key]
+        return [key for key in self._known() if filter in key]
 
     def removeData(self, key: str) -> None:
         """Forget a key."""
         self._data.pop(key, None)
+
+
+class BatteryService:
+    """ALBattery: the charge."""
+
+    def __init__(self, body: Body) -> None:
+        self._body = body
+
+    def getBatteryCharge(self) -> int:
+        """Return the charge [%]."""
+        return self._body.charge
 
 
 class PostureService:

@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from ...agents.hardware.plausibility import disordered
+from ...agents.hardware.stops import HoldReason
 from ...agents.hardware.trial_log import TrialLog
 
 
@@ -16,16 +18,20 @@ def timing_report(logs: Sequence[TrialLog]) -> dict[str, Any]:
     sensing_age_ms    age of the newest motion-capture frame when a step begins
     lowest_rate_hz    fewest frames of any second
     misdated          frames whose time stamps were ahead of the clock, or no numbers
+    disordered        frames that were not newer than one before them: repeated, overtaken, or
+                      stamped by a clock that went back
     state_ms          time to read the robot
     policy_ms         time of the policy, where it answered
     command_ms        time to give a command, where one was given
     period_error_ms   distance of the time between two steps from the control period
     late_steps        periods that were skipped because the loop came too late
-    held              steps without a command, by their reason
+    held              steps without a command, by their reason; skipped periods count as well
     ================= ============================================================================
     """
     steps = [step for log in logs for step in log.steps]
     acted = [step for step in steps if not np.isnan(step.action)]
+    late = sum(log.late_steps for log in logs)
+    skipped = +Counter({HoldReason.SKIPPED.value: late})
     errors = [
         abs(error)
         for log in logs
@@ -40,8 +46,9 @@ def timing_report(logs: Sequence[TrialLog]) -> dict[str, Any]:
         "policy_ms": percentiles([step.policy_time for step in acted]),
         "command_ms": percentiles([step.command_time for step in acted]),
         "period_error_ms": percentiles(errors),
-        "late_steps": sum(log.late_steps for log in logs),
-        "held": dict(Counter(step.hold for step in steps if step.hold)),
+        "late_steps": late,
+        "disordered": sum(disordered(log.samples) for log in logs),
+        "held": dict(+Counter([step.hold for step in steps if step.hold]) + skipped),
     }
 
 

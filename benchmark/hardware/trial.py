@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ...agents.agent import FRAME
 from ...agents.errors import InputError
-from ...agents.hardware.plausibility import seen
+from ...agents.hardware.plausibility import in_order, seen
 from ...agents.hardware.ports import Sample
 from ...agents.hardware.trial_log import TrialLog
 from ...agents.humans import SUBJECTS, Plan, Subject
@@ -154,7 +154,7 @@ def possible(sample: Sample) -> bool:
 
 def _resampled(log: TrialLog, frames: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return both ends' heights at the ends of frames, linear between those that were captured."""
-    samples = sorted(filter(possible, log.samples))
+    samples = list(filter(possible, in_order(log.samples)))
     if not samples or not frames:
         return np.zeros(frames), np.zeros(frames)
     times, human, robot = np.array(samples).T

@@ -2,7 +2,7 @@
 
 import typer
 
-from . import calibrate, check, emulate, replay, run
+from . import calibrate, check, emulate, replay, run, watchdog
 
 app = typer.Typer(
     help="Use a policy with a real NAO and a motion-capture system, or with emulated ones.",
@@ -10,6 +10,7 @@ app = typer.Typer(
 )
 app.command("run")(run.run_on_robot)
 app.command("check")(check.check_setup)
+app.command("watchdog")(watchdog.watch_robot)
 app.command("emulate")(emulate.emulate)
 app.command("replay")(replay.replay_recording)
 app.command("calibrate")(calibrate.calibrate_setup)

@@ -12,8 +12,9 @@ from rich.console import Console
 from ...agents.errors import InputError
 from ...agents.extras import how_to_install
 from ...agents.hardware.claim import BEAT, holder
-from ...agents.hardware.clocks import MonotonicClock
+from ...agents.hardware.clocks import MonotonicClock, awake_or_asleep
 from ...agents.hardware.lsl import LslCapture
+from ...agents.hardware.nao.health import findings
 from ...agents.hardware.nao.naoqi import NaoqiArm
 from ...agents.hardware.ports import Naoqi, RobotLostError
 from ...agents.hardware.safety import LOWEST_STIFFNESS
@@ -24,6 +25,8 @@ from .connections import (
     MotionCapture,
     RobotMarkers,
     UpAxis,
+    describe_robot,
+    describe_stream,
     layout_of,
     open_capture,
     open_robot,
@@ -80,9 +83,7 @@ def package_lines() -> Iterator[Line]:
 def robot_lines(arm: NaoqiArm) -> Iterator[Line]:
     """Yield the state of the robot."""
     session = arm.session
-    if session.has("ALSystem"):
-        name, naoqi = session.calls("ALSystem", [("robotName",), ("systemVersion",)], within=2.0)
-        yield True, "robot", f"{name} at {session.url}, NAOqi {naoqi}"
+    yield True, "robot", describe_robot(session)
     if session.has("ALRobotPosture"):
         posture = session.call("ALRobotPosture", "getPosture", within=2.0)
         yield True, "posture", str(posture)
@@ -109,6 +110,12 @@ def robot_lines(arm: NaoqiArm) -> Iterator[Line]:
         yield on, name, "on" if on else "off: switch it on"
     smart = arm.motion("getSmartStiffnessEnabled", within=2.0)
     yield True, "smart stiffness", "on: the arms give way more at rest" if smart else "off"
+    for finding in findings(arm):
+        yield (
+            not finding.remedy,
+            finding.name,
+            f"{finding.state}{finding.remedy and ': '}{finding.remedy}",
+        )
     yield commander(session)
     times = []
     for _ in range(READINGS):
@@ -137,7 +144,7 @@ def capture_lines(capture: LslCapture) -> Iterator[Line]:
     yield (
         True,
         "stream",
-        f"{info['name']} of {info['host']}, {info['channels']} channels at "
+        f"{describe_stream(info)}, {info['channels']} channels at "
         f"{info['rate_hz']:g} Hz, clock offset {1000 * info['clock_offset_s']:.3f} ms",
     )
     capture.drain()
@@ -146,7 +153,7 @@ def capture_lines(capture: LslCapture) -> Iterator[Line]:
         time.sleep(0.02)
         frames = capture.drain()
         if frames:
-            ages.append(time.monotonic() - frames[-1].time)
+            ages.append(awake_or_asleep() - frames[-1].time)
     if ages:
         yield max(ages) < 0.2, "age of the newest frame", _milliseconds(ages)
     rest = measure_rest(capture, MonotonicClock())

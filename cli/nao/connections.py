@@ -1,6 +1,6 @@
 """Options for a robot and a motion-capture system, and the connections to both."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Final
 
@@ -14,7 +14,7 @@ from ...agents.hardware.lsl import Layout, LslCapture
 from ...agents.hardware.nao.naoqi import NaoqiArm
 from ...agents.hardware.nao.session import NaoqiSession
 from ...agents.hardware.operator import StopButton
-from ...agents.hardware.ports import Clock, RobotLostError, TableCapture
+from ...agents.hardware.ports import Clock, Naoqi, RobotLostError, TableCapture
 from ...benchmark.hardware.laboratory import Conditions
 from ...benchmark.hardware.simulated import SimulatedLaboratory
 from ...benchmark.suites.catalogue import make_scenario
@@ -26,7 +26,12 @@ URL: Final = "tcp://127.0.0.1:9559"
 """The default address of a robot's NAOqi."""
 
 MotionCapture = Annotated[
-    str, typer.Option(metavar="lsl:NAME", help="Stream of the motion capture.")
+    str,
+    typer.Option(
+        metavar="lsl:NAME[@HOST]",
+        help="Stream of the motion capture; with the sender's host or source id, where several "
+        "streams have the name.",
+    ),
 ]
 HumanMarkers = Annotated[
     str, typer.Option(metavar="NAMES", help="Markers at the human's end, separated by commas.")
@@ -76,7 +81,7 @@ def open_place(robot: str, mocap: str, layout: Layout, button: StopButton) -> Pl
 
 
 def open_capture(text: str, layout: Layout) -> LslCapture:
-    """Return the motion capture of ``lsl:NAME``.
+    """Return the motion capture of ``lsl:NAME`` or ``lsl:NAME@HOST``.
 
     Raises
     ------
@@ -85,7 +90,7 @@ def open_capture(text: str, layout: Layout) -> LslCapture:
     """
     kind, colon, name = text.partition(":")
     if kind != "lsl" or not colon or not name:
-        raise InputError(f"the motion capture must be lsl:NAME, got {text!r}")
+        raise InputError(f"the motion capture must be lsl:NAME or lsl:NAME@HOST, got {text!r}")
     return LslCapture(name, layout)
 
 
@@ -101,6 +106,19 @@ def open_robot(url: str) -> NaoqiArm:
         return NaoqiArm(NaoqiSession(url))
     except RobotLostError as error:
         raise InputError(f"the robot cannot be used: {error}") from error
+
+
+def describe_robot(session: Naoqi) -> str:
+    """Return the name, address and version of a robot, as far as it tells them."""
+    if not session.has("ALSystem"):
+        return f"at {session.url}"
+    name, naoqi = session.calls("ALSystem", [("robotName",), ("systemVersion",)], within=2.0)
+    return f"{name} at {session.url}, NAOqi {naoqi}"
+
+
+def describe_stream(info: Mapping[str, object]) -> str:
+    """Return the name and the sender of a stream."""
+    return f"{info['name']} of {info['host']} (source id {info['source_id'] or 'none'})"
 
 
 def layout_of(human: str, robot: str, up: str) -> Layout:

@@ -1,5 +1,6 @@
 """``colift nao emulate``: an emulated NAO with a motion-capture system."""
 
+import signal
 import sys
 import time
 from typing import Annotated
@@ -72,7 +73,7 @@ def emulate(
     button = StopButton()
     log(f"ready: robot {url}, stream {stream}")
     try:
-        with armed(button):
+        with armed(button, (signal.SIGINT, signal.SIGTERM)):
             emulator.run(button)
     finally:
         emulator.close()

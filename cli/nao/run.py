@@ -1,10 +1,8 @@
 """``colift nao run``: trials of a policy on a robot."""
 
 import re
-import signal
-import sys
-from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, nullcontext, suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any, Final
 
@@ -13,11 +11,19 @@ import typer
 from ...agents.errors import InputError
 from ...agents.hardware.claim import claimed
 from ...agents.hardware.loop import LoopSettings
-from ...agents.hardware.operator import StopButton, armed, await_enter
+from ...agents.hardware.operator import (
+    HANDOVER,
+    StopButton,
+    armed,
+    await_enter,
+    await_table_out,
+)
 from ...agents.hardware.session import Session
 from ...agents.hardware.stops import StopTrialError
+from ...agents.hardware.terminal import tell, watched
 from ...agents.hardware.trial_end import AfterDuration, AfterLift
 from ...agents.hardware.trial_log import LoggedTrial, TrialLog, write_trial
+from ...agents.hardware.watchdog import guarded
 from ...agents.spec import AgentSpec
 from ...benchmark.bundle import check_bundle_folder, is_bundle, results, write_bundle
 from ...benchmark.bundle.files import HARDWARE
@@ -39,6 +45,8 @@ from .connections import (
     Place,
     RobotMarkers,
     UpAxis,
+    describe_robot,
+    describe_stream,
     layout_of,
     open_place,
 )
@@ -99,9 +107,9 @@ def run_on_robot(
 ) -> None:
     """Let a policy lift with a person, and score it; Ctrl-C or Enter stops the robot.
 
-    Exit code 0: done; 2: wrong usage or set-up. A stopped trial: 10 by the operator, 11 robot lost,
-    12 motion capture lost, 13 motion capture not plausible, 14 by the policy, 15 by the motors or
-    another program that commands the robot.
+    Exit code 0: done; 2: wrong usage or set-up. A stopped trial: 10 by the operator or a hang-up,
+    11 robot lost, 12 motion capture lost, 13 motion capture not plausible, 14 by the policy, 15 by
+    the motors or another program that commands the robot, 16 by a pause of this computer.
     """
     spec = choose_policy(policy, isolation)
     spec.check()
@@ -118,19 +126,22 @@ def run_on_robot(
     button = StopButton()
 
     def confirm(line: str) -> None:
-        _report_line(line)
+        tell(line)
         if not unattended:
-            _report_line("  Enter when ready, Ctrl-C to stop.")
+            tell("  Enter when ready, Ctrl-C to stop.")
             with naming("confirmation", "--yes confirms in advance"):
                 await_enter(button)
 
     place = open_place(robot, mocap, layout, button)
     unattended = yes or dry_run or place.simulated
+    if not place.simulated:
+        tell(f"robot: {describe_robot(place.arm.session)}")
+        tell(f"motion capture: {describe_stream(place.capture.info)}")
     session = Session(
         arm=place.arm,
         capture=place.capture,
         clock=place.clock,
-        tell=_report_line,
+        tell=tell,
         confirm=confirm,
         button=button,
         dry=dry_run,
@@ -138,43 +149,50 @@ def run_on_robot(
     )
     records: list[TrialLog] = []
     ended: Exception | None = None
-    try:
-        with armed(button), _alone(place, dry_run):
-            try:
-                for played in _trials(session, spec, trials, settings, duration):
-                    records.append(played)
-                    if record is not None:
-                        number = first + len(records) - 1
-                        _record(record, policy, session, played, number=number)
-            except StopTrialError as stop:
-                session.stop(stop)
-                raise
-            finally:
-                if not dry_run:
-                    session.finish(_nothing if unattended else _enter)
-    except Exception as error:
-        # The earlier lifts are still reported.
-        ended = error
-    finally:
-        place.capture.close()
     about = {"robot": robot, "motion_capture": place.capture.info, "dry_run": dry_run}
-    try:
-        if records:
-            _report(_scored(spec, suite, records, person), records, about, out, as_json)
-    except Exception as error:
-        # A stopped lift sets the exit code, whatever else fails.
-        if ended is None:
-            raise
-        _report_line(f"there is no report: {error}")
+    # Also the report is made with the button armed: a second Ctrl-C does not change the exit code.
+    with armed(button), watched(button):
+        try:
+            with _alone(place, dry_run):
+                try:
+                    for played in _trials(session, spec, trials, settings, duration):
+                        records.append(played)
+                        if record is not None:
+                            number = first + len(records) - 1
+                            _record(record, policy, session, played, number=number)
+                except StopTrialError as stop:
+                    session.stop(stop)
+                    raise
+                finally:
+                    if not dry_run:
+                        session.finish(_taken_out(place, button, unattended))
+        except Exception as error:
+            # The earlier lifts are still reported.
+            ended = error
+        finally:
+            place.capture.close()
+        try:
+            if records:
+                _report(_scored(spec, suite, records, person), records, about, out, as_json)
+        except Exception as error:
+            # A stopped lift sets the exit code, whatever else fails.
+            if ended is None:
+                raise
+            tell(f"there is no report: {error}")
     if isinstance(ended, StopTrialError):
         raise typer.Exit(int(ended.stop))
     if ended is not None:
         raise ended
 
 
-def _alone(place: Place, dry_run: bool) -> AbstractContextManager[None]:
-    """Return a claim of the robot for this command, if it is real and moves."""
-    return nullcontext() if dry_run or place.simulated else claimed(place.arm, place.clock)
+@contextmanager
+def _alone(place: Place, dry_run: bool) -> Iterator[None]:
+    """Claim the robot for this command, under a watchdog, if it is real and moves."""
+    if dry_run or place.simulated:
+        yield
+        return
+    with claimed(place.arm, place.clock) as claim, guarded(place.arm, claim):
+        yield
 
 
 def _trials(
@@ -194,7 +212,7 @@ def _trials(
         yield played
         if played.stop is not None:
             raise StopTrialError(played.stop, played.reason)
-        _report_line(f"lift {number} of {trials}: {counted(len(played.steps), 'step')}")
+        tell(f"lift {number} of {trials}: {counted(len(played.steps), 'step')}")
 
 
 def _check_empty(folder: Path) -> None:
@@ -232,21 +250,19 @@ def _scored(spec: AgentSpec, suite: Suite, records: Sequence[TrialLog], person: 
     return hardware_run(spec.name, spec.digest(), suite, episodes, spec.isolation)
 
 
-def _enter() -> None:
-    """Wait until the operator has taken the table out; Ctrl-C counts as well."""
-    _report_line("  Enter when it is out.")
-    armed_with = signal.signal(signal.SIGINT, signal.default_int_handler)
-    with suppress(KeyboardInterrupt):
-        sys.stdin.readline()
-    signal.signal(signal.SIGINT, armed_with)
+def _taken_out(place: Place, button: StopButton, unattended: bool) -> Callable[[], None]:
+    """Return what waits until the table is out of the hands; in a simulation, it is at once."""
 
+    def wait() -> None:
+        if place.simulated:
+            return
+        if not unattended:
+            tell("  Enter when it is out.")
+        if unattended or not button.at_terminal:
+            tell(f"  They do in {HANDOVER:g} s by themselves.")
+        await_table_out(button, attended=not unattended)
 
-def _nothing() -> None:
-    """Do not wait: there is no operator."""
-
-
-def _report_line(line: str) -> None:
-    print(line, file=sys.stderr, flush=True)
+    return wait
 
 
 def _report(

@@ -132,6 +132,8 @@ def timing_table(report: dict[str, Any]) -> Table:
         frames += f", fewer than the {LOWEST_RATE:.0f} that a set-up needs"
     if report["misdated"]:
         frames += f"; {report['misdated']} left out because of their time stamps"
+    if report["disordered"]:
+        frames += f"; {report['disordered']} left out as repeated, overtaken or dated back"
     return table(
         "Times in ms",
         ("", "median", "p99", "largest"),

@@ -14,12 +14,15 @@ Importing colift loads none of its parts: each is loaded when it is first used. 
 ``colift/Lift-v0`` with Gymnasium, whichever of the two is imported first.
 """
 
-import importlib
-from typing import TYPE_CHECKING, Any, Final
+from __future__ import annotations
 
-from .registration import register_with_gymnasium
+import importlib
+
+from .registration import TYPE_CHECKING, register_with_gymnasium
 
 if TYPE_CHECKING:
+    from typing import Any, Final
+
     from . import colift_v0
     from .colift_v0 import env, parallel_env
     from .evaluation import Evaluation, evaluate

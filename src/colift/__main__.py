@@ -1,5 +1,5 @@
 """``python -m colift``: the command line."""
 
-from .cli.main import main
+from .cli.start import start
 
-main()
+start()

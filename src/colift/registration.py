@@ -1,14 +1,17 @@
 """Registration of the environments with Gymnasium, and the environment by one call."""
 
-import importlib.util
+from __future__ import annotations
+
 import sys
-from collections.abc import Sequence
-from importlib.abc import MetaPathFinder
-from importlib.machinery import ModuleSpec
-from types import ModuleType
-from typing import TYPE_CHECKING, Any, Final
+
+TYPE_CHECKING = False  # As in ``typing``, which takes longer to import than all of this.
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from importlib.machinery import ModuleSpec
+    from types import ModuleType
+    from typing import Any, Final
+
     from gymnasium import Env
     from gymnasium.vector import VectorEnv
 
@@ -29,10 +32,11 @@ def register_with_gymnasium() -> None:
         sys.meta_path.insert(0, _Awaited())
 
 
-class _Awaited(MetaPathFinder):
+class _Awaited:
     """A finder that waits for the import of Gymnasium, and then registers the environments.
 
-    It finds the module by the other finders.
+    It finds the module by the other finders. The abstract base class of finders would take most of
+    the time in which colift is imported.
     """
 
     def find_spec(
@@ -41,7 +45,9 @@ class _Awaited(MetaPathFinder):
         if name != GYMNASIUM:
             return None
         sys.meta_path.remove(self)
-        spec = importlib.util.find_spec(name)
+        from importlib.util import find_spec
+
+        spec = find_spec(name)
         if spec is None or spec.loader is None:
             sys.meta_path.insert(0, self)
             return spec
@@ -64,7 +70,7 @@ def _register(gymnasium: ModuleType) -> None:
     gymnasium.register(id=TWIN_ID, vector_entry_point=_twin)
 
 
-def _twin(**settings: Any) -> "VectorEnv[Any, Any, Any]":
+def _twin(**settings: Any) -> VectorEnv[Any, Any, Any]:
     """Return the vector environment on the twin, which needs the extra ``train``."""
     from colift.benchmark.twin.libraries import require_jax
 
@@ -80,7 +86,7 @@ def make(
     *,
     render_mode: str | None = None,
     **settings: Any,
-) -> "Env[Any, Any]":
+) -> Env[Any, Any]:
     """Return ``gymnasium.make("colift/Lift-v0", ...)``: the robot is the agent.
 
     Parameters

@@ -29,6 +29,30 @@ main()
 """A command that is interrupted in the middle of its first lift, as by Ctrl-C."""
 
 
+LOADING = """
+import signal, sys
+
+class Interrupted:
+    def find_spec(self, name, path=None, target=None):
+        if name == {module!r}:
+            signal.raise_signal(signal.SIGINT)
+
+sys.meta_path.insert(0, Interrupted())
+from colift.cli.start import start
+start()
+"""
+"""A command that is interrupted while it imports a module."""
+
+
+@pytest.mark.parametrize(
+    "module", ["colift.cli.main", "typer", "colift.cli.nao", "numpy", "pybullet", "rich.table"]
+)
+def test_ctrl_c_while_a_command_loads_ends_it_without_a_word(module):
+    command = [sys.executable, "-c", LOADING.format(module=module), "nao", "run", "blend"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+
+
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_ctrl_c_keeps_what_is_finished_and_says_so(tmp_path, jobs):
     started = tmp_path / "started"

@@ -4,13 +4,17 @@ The robot and the motion capture are another process.
 """
 
 import json
+import socket
 import subprocess
 import sys
+from contextlib import closing, contextmanager
 
 import numpy as np
 import pytest
 from colift.agents.extras import how_to_install
 from colift.agents.hardware.trial_log import read_trial
+
+from ..agents.hardware.conftest import PatientSession
 
 WITHOUT_EXTRA = """
 import sys
@@ -65,9 +69,81 @@ def test_check_finds_robot_and_stream_and_nothing_moves(colift, laboratory):
         "age of the newest frame: median",
         "frames a second",
         "commanded by: nobody",
+        f"{laboratory.stream} of {socket.gethostname()} (source id {laboratory.url})",
+        "temperatures: 38 °C or less",
+        "battery: 90 %",
+        "breathing: off",
+        "idle posture: off",
     ):
         assert told in done.stdout
     assert laboratory.happened_since(before) == []
+
+
+@contextmanager
+def faulty(laboratory, *faults):
+    """Let a laboratory have faults."""
+    with closing(PatientSession(laboratory.url)) as session:
+        for fault in faults:
+            session.call("ColiftFaults", "request", fault)
+        try:
+            yield
+        finally:
+            session.call("ColiftFaults", "clear", within=3.0)
+
+
+def test_check_and_run_refuse_a_robot_that_is_not_well(colift, laboratory):
+    before = len(laboratory.lines)
+    with faulty(laboratory, "hot@0:99:81", "battery@0", "breathing@0", "idle-posture@0"):
+        checked = colift("nao", "check", *laboratory.place)
+        refused = colift("nao", "run", "blend", *laboratory.place, "--yes")
+    assert checked.returncode == 1
+    for told in (
+        "MISSING temperatures: LElbowRoll 81 °C: let the robot rest",
+        "MISSING battery: 10 %",
+        "MISSING breathing: on in LArm, RArm: switch it off",
+        "MISSING idle posture: on in LArm, RArm",
+    ):
+        assert told in checked.stdout
+    assert refused.returncode == 2
+    assert "the robot must not lift: temperatures: LElbowRoll 81 °C" in refused.stderr
+    lines = laboratory.happened_since(before)
+    assert not any(line.startswith("motion") for line in lines)
+
+
+def test_a_robot_that_becomes_hot_lifts_no_more(colift, emulate):
+    heating = emulate("--fault", "hot@1")
+    options = ("--yes", "--json", "--trials", 3, "--duration", 3)
+    done = colift("nao", "run", "blend", *heating.place, *options)
+    assert done.returncode == 2, done.stderr
+    assert "the robot must not lift: temperatures: LElbowRoll 76 °C" in done.stderr
+    content = json.loads(done.stdout)
+    assert (content["summary"]["episodes"], content["summary"]["failed"]) == (1, 0)
+    assert "the arms are released" in done.stderr
+    assert not any(line.startswith("say Lift 2") for line in heating.lines)
+
+
+def test_two_motion_captures_of_a_name_are_refused_and_one_can_be_chosen(colift, emulate):
+    ours = emulate()
+    theirs = emulate("--stream", ours.stream)
+    told = f"2 streams are called '{ours.stream}': "
+    sources = [
+        f"{ours.stream} of {socket.gethostname()} (source id {each.url})" for each in (ours, theirs)
+    ]
+    checked = colift("nao", "check", *ours.place)
+    assert checked.returncode == 1
+    assert f"MISSING motion capture: {told}{'; '.join(sorted(sources))}" in checked.stdout
+    refused = colift("nao", "run", "blend", *ours.place, "--yes")
+    assert refused.returncode == 2
+    assert told in refused.stderr
+    assert not any(line.startswith("motion") for line in (*ours.lines, *theirs.lines))
+    chosen = ("--mocap", f"lsl:{ours.stream}@{ours.url}")
+    checked = colift("nao", "check", "--robot", ours.url, *chosen)
+    assert checked.returncode == 0, checked.stdout
+    assert sources[0] in checked.stdout
+    options = ("--dry-run", "--trials", 1, "--duration", 1)
+    done = colift("nao", "run", "copy", "--robot", ours.url, *chosen, *options)
+    assert done.returncode == 0, done.stderr
+    assert f"motion capture: {sources[0]}" in done.stderr
 
 
 def test_a_dry_run_sends_the_robot_no_motion(colift, laboratory, tmp_path):

@@ -13,7 +13,7 @@ to 2.7 times the requested speed.
 
 import dataclasses
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Any, Final
 
@@ -21,10 +21,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....robots.nao.kinematics import ARM_JOINTS, MIRROR, REST_Z, arm_path, hand_position
+from ..clocks import awake_or_asleep
 from ..ports import ArmState, HandLimits, Naoqi, RobotLostError, RobotTakenError
-from ..safety import hand_limits, next_command
+from ..safety import ASTRAY, hand_limits, next_command
 
 NAMES: Final = list(ARM_JOINTS)
+
+ARMS: Final = ["LArm", "RArm"]
+"""The chains of the arms."""
 
 PAIRS: Final = [(joint, joint + 5) for joint in range(5)]
 """Each joint of the left arm and its mirror image, as places in ``NAMES``."""
@@ -37,6 +41,12 @@ RELEASE_TIME: Final = 2.0
 
 SLOW: Final = 0.08
 """Fraction of the greatest speed at which the arms go to the rest posture: 0.6 rad/s."""
+
+EARLIER: Final = 64
+"""Number of commands of which a late one is recognised."""
+
+STALE: Final = 3.0
+"""Time without a heartbeat after which a claim is dead [s]: six of them."""
 
 LAG: Final = 0.3
 """Longest time by which set-points may lag behind their commands [s]: two ALMotion cycles (0.04 s),
@@ -71,10 +81,14 @@ class NaoqiArm:
         # Joint angles of this client's last commands, and the number of them that count.
         self._targets = deque([self._set_angles])
         self._kept = 2
+        self._given = deque([self._set_angles], maxlen=EARLIER)
         self._stopped = False
         self.taken = ""
         """Message naming another client that commands the robot, else empty; once it is set,
         nothing more is sent to the robot."""
+        self.look: Callable[[], None] = lambda: None
+        """Looks whether another client commands the robot, and sets ``taken``."""
+        self._last_state = awake_or_asleep()
         self.weight_offset = 0.0
         """Added to every command [m], for the sag under the table's weight."""
 
@@ -92,7 +106,7 @@ class NaoqiArm:
 
     def state(self) -> ArmState:
         """Return the state of the hands; see :meth:`.RobotArm.state`."""
-        self._refuse_if_taken()
+        self.refuse_if_taken()
         measured, set_angles, stiffness = self.session.calls(
             "ALMotion",
             [
@@ -101,6 +115,7 @@ class NaoqiArm:
                 ("getStiffnesses", NAMES),
             ],
         )
+        self._last_state = awake_or_asleep()
         targets = np.array(self._targets)
         # A joint is on its way between its last seen set-point and its newest targets. The range of
         # all recent targets limits this: otherwise a joint held by another client would never be
@@ -115,23 +130,29 @@ class NaoqiArm:
         outside = np.maximum(low - now, now - high)
         height, set_point = hand_heights(np.array([measured, set_angles]))
         self._set_point = set_point - self.weight_offset
-        return ArmState(height, self._set_point, min(stiffness), max(0.0, float(outside.max())))
+        astray = max(0.0, float(outside.max()))
+        late = astray > ASTRAY and distance_to_path(now, np.array(self._given)) <= ASTRAY
+        return ArmState(height, self._set_point, min(stiffness), astray, late)
 
     def command(self, height: float, duration: float) -> float:
         """Move the hands, within the limits; see :meth:`.RobotArm.command`.
 
         It starts from the set-points that :meth:`state` read last.
         """
-        if self._stopped:
-            raise RobotLostError("the hands are stopped: no more commands are accepted")
-        self._refuse_if_taken()
+        self._refuse_if_stopped()
+        self.refuse_if_taken()
         self._command = next_command(height, self._command, self._set_point, duration, self.limits)
         self._kept = 1 + round(LAG / duration)
         angles = self._path.joint_angles(self._command + self.weight_offset)
         self._send(angles, duration)
         return self._command
 
-    def _refuse_if_taken(self) -> None:
+    def _refuse_if_stopped(self) -> None:
+        if self._stopped:
+            raise RobotLostError("the hands are stopped: no more commands are accepted")
+
+    def refuse_if_taken(self) -> None:
+        """Raise a :class:`.RobotTakenError` if another client commands the robot."""
         if self.taken:
             raise RobotTakenError(self.taken)
 
@@ -139,6 +160,7 @@ class NaoqiArm:
         shares = np.abs(np.array(angles) - self._set_angles) / self._speeds / duration
         fractions = np.clip(shares, SMALLEST_FRACTION, 1.0).tolist()
         self._targets[-1] = np.array(angles)
+        self._given.append(self._targets[-1])
         self.session.calls(
             "ALMotion",
             [
@@ -155,9 +177,13 @@ class NaoqiArm:
     def stop(self) -> None:
         """Freeze the arms where they are, stiff; every later command is refused.
 
-        Arms that another client commands are left alone.
+        Arms that another client commands are left alone: after a pause in which the claim may have
+        died, this looks first.
         """
         self._stopped = True
+        if awake_or_asleep() - self._last_state > STALE:
+            with suppress(RobotLostError):
+                self.look()
         if not self.taken:
             with suppress(RobotLostError):
                 self.session.call("ALMotion", "killAll")
@@ -175,23 +201,31 @@ class NaoqiArm:
         return self.session.call("ALMotion", method, *arguments, within=within)
 
     def take_hold(self) -> None:
-        """Wake the robot, stiffen the arms smoothly and bring them to the rest posture, slowly."""
+        """Wake the robot, stiffen the arms smoothly and bring them to the rest posture, slowly.
+
+        Raises
+        ------
+        RobotLostError
+            If it does not answer, or another thread stops the arms meanwhile.
+        """
         if not self.motion("robotIsWakeUp"):
-            self.motion("wakeUp")
+            self._move("wakeUp")
         if self.state().stiffness < 1.0:
             # A limp arm is away from its set-points, and would jump to them when stiffened.
             here = self.motion("getAngles", NAMES, True)
-            self.motion("setAngles", NAMES, here, 1.0)
-            self.stiffen(1.0)
+            self._move("setAngles", NAMES, here, 1.0)
+            self._move("stiffnessInterpolation", ARMS, 1.0, RELEASE_TIME)
         rest = self._path.joint_angles(0.0)
-        self.motion("angleInterpolationWithSpeed", NAMES, rest, SLOW)
+        self._move("angleInterpolationWithSpeed", NAMES, rest, SLOW)
         self._command = 0.0
         self.state()
         self._targets = deque([np.array(rest)])
+        self._given = deque(self._targets, maxlen=EARLIER)
 
-    def stiffen(self, stiffness: float) -> None:
-        """Bring the arms' stiffness to a value in [0, 1], smoothly."""
-        self.motion("stiffnessInterpolation", ["LArm", "RArm"], stiffness, RELEASE_TIME)
+    def _move(self, method: str, *arguments: Any) -> None:
+        """Call a method of ALMotion that moves or stiffens something."""
+        self._refuse_if_stopped()
+        self.motion(method, *arguments)
 
     def release(self) -> None:
         """Reduce the arms' stiffness to 0, smoothly, and let the robot go to rest.
@@ -200,15 +234,44 @@ class NaoqiArm:
         ------
         RobotLostError
             If it does not answer.
+        RobotTakenError
+            If another client commands it.
         """
         self._stopped = True
-        self.stiffen(0.0)
+        self.refuse_if_taken()
+        self.motion("stiffnessInterpolation", ARMS, 0.0, RELEASE_TIME)
         self.motion("rest")
 
     def say(self, text: str) -> None:
         """Say a text, if the robot can speak; return when it has been said."""
         if self.session.has("ALTextToSpeech"):
             self.session.call("ALTextToSpeech", "say", text, within=30.0)
+
+
+def distance_to_path(angles: NDArray[np.float64], path: NDArray[np.float64]) -> float:
+    """Return the distance of joint angles from a path of straight lines [rad].
+
+    On the way from one command to the next, all joints move at constant speeds: the set-points of a
+    late command are on this path, and those that somebody else gives to a joint are not.
+
+    Parameters
+    ----------
+    angles
+        Angles of the joints [rad], shape (j,).
+    path
+        Its corners [rad], shape (n, j); at least one.
+
+    Returns
+    -------
+    float
+        The largest difference of a joint from the nearest point (by the sum of squares) of the
+        nearest line.
+    """
+    begins, ways = path, np.diff(path, axis=0, append=path[-1:])
+    lengths = np.maximum((ways**2).sum(axis=1), np.finfo(float).tiny)
+    shares = np.clip(((angles - begins) * ways).sum(axis=1) / lengths, 0.0, 1.0)
+    nearest = begins + shares[:, None] * ways
+    return float(np.abs(nearest - angles).max(axis=1).min())
 
 
 def hand_heights(angles: NDArray[np.float64]) -> Sequence[float]:

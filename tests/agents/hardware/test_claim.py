@@ -7,7 +7,9 @@ from colift.agents.errors import InputError
 from colift.agents.hardware.claim import KEY, NOBODY, STALE, RobotClaim, claimed, holder
 from colift.agents.hardware.clocks import MonotonicClock
 from colift.agents.hardware.nao.naoqi import NaoqiArm
+from colift.agents.hardware.operator import StopButton
 from colift.agents.hardware.ports import RobotTakenError
+from colift.agents.hardware.stops import StopTrialError
 
 from .conftest import PatientSession
 
@@ -63,6 +65,15 @@ def test_a_claim_without_a_heartbeat_is_taken_over_and_its_owner_stops(connect, 
     assert "killAll" not in laboratory.lines[before:]
     # A claim that is not one's own is not given up.
     assert holder(old).name == "another"
+
+
+def test_a_stop_while_it_is_claimed_leaves_no_claim(connect):
+    session, button = connect(), StopButton()
+    session.call("ALMemory", "insertData", KEY, list(NOBODY))
+    button.press("SIGINT")
+    with pytest.raises(StopTrialError), claimed(NaoqiArm(connect()), MonotonicClock(button)):
+        pytest.fail("it is claimed")
+    assert holder(session) == NOBODY
 
 
 def test_two_who_claim_at_once_are_one(connect):

@@ -33,6 +33,9 @@ def rests(trial):
         ("future-stamps@0:99:0.05", HoldReason.STALE, 0.2, Stop.CAPTURE_LOST, 1.0),
         ("nan-stamps@0", HoldReason.STALE, 0.2, Stop.CAPTURE_LOST, 1.0),
         ("slow@0", HoldReason.FEW, 0.85, Stop.CAPTURE_LOST, 1.8),
+        ("past-stamps@0", HoldReason.STALE, 0.2, Stop.CAPTURE_LOST, 1.0),
+        ("past-stamps@0:99:0.3", HoldReason.STALE, 0.3, Stop.CAPTURE_LOST, 1.2),
+        ("loss@0:99:1", HoldReason.STALE, 0.2, Stop.CAPTURE_LOST, 1.0),
     ],
 )
 def test_motion_capture_that_stays_bad_holds_the_hands_and_then_stops_them(
@@ -111,6 +114,12 @@ def test_what_cannot_be_waited_for_stops_at_once(play, fault, stop, within):
         ("latency@0:99:0.08", {""}),
         ("future-stamps@0:99:0.02", {""}),
         ("slow@0:99:3", {""}),
+        ("past-stamps@0:0.1", {""}),
+        ("past-stamps@0:99:0.1", {""}),
+        ("past-stamps@0:0.5", {"", HoldReason.STALE}),
+        ("loss@0:99:0.4", {""}),
+        ("duplicate@0:99:1", {""}),
+        ("reorder@0:99:0.08", {""}),
         ("freeze@0:0.5", {"", HoldReason.NOT_SEEN}),
         ("dropout@0:0.5", {"", HoldReason.STALE}),
         ("nan@0:0.5", {"", HoldReason.NOT_SEEN}),

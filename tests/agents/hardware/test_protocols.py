@@ -36,7 +36,9 @@ REACTION = 0.2
 
 LATE = {HoldReason.POLICY_LATE, HoldReason.POLICY_BUSY}
 OLD = {HoldReason.STALE, HoldReason.FEW}
-AGEING = ("dropout", "slow", "future", "nan-stamps", "latency", "jitter", "stream-end")
+AGEING = (
+    "dropout", "slow", "future", "nan-stamps", "latency", "jitter", "stream-end", "past", "loss",
+)  # fmt: skip
 LOSING = ("silence", "hang")
 
 
@@ -207,6 +209,8 @@ def comes_to_rest(laboratory, seconds=30):
         ("future-stamps@0", 0.2, Stop.CAPTURE_LOST),
         ("nan-stamps@0", 0.2, Stop.CAPTURE_LOST),
         ("slow@0", 0.95, Stop.CAPTURE_LOST),
+        ("past-stamps@0", 0.2, Stop.CAPTURE_LOST),
+        ("loss@0:99:0.95", 0.95, Stop.CAPTURE_LOST),
     ],
 )
 def test_motion_capture_that_stays_bad_holds_the_hands_and_then_stops_them(
@@ -256,7 +260,17 @@ def test_a_policy_that_tilts_the_table_is_stopped(laboratory, lift):
     assert still(laboratory)
 
 
-@pytest.mark.parametrize("fault", ["jitter@0:0.8:0.08", "dropout@0:0.1"])
+@pytest.mark.parametrize(
+    "fault",
+    [
+        "jitter@0:0.8:0.08",
+        "dropout@0:0.1",
+        "loss@0:0.8:0.3",
+        "duplicate@0:0.8:1",
+        "reorder@0:0.8:0.05",
+        "past-stamps@0:0.1",
+    ],
+)
 def test_what_can_be_lived_with_is(lift, fault):
     log, came = lift(fault, 1.6)
     assert log.stop is None

@@ -44,6 +44,17 @@ def test_each_fault_of_the_motion_capture_does_what_it_says():
     ages, rows = captured(parse_fault("jitter@0:9:0.05"))
     assert min(ages) < 0.03 < 0.05 < max(ages) <= 0.07
     assert min(np.diff([when for when, _ in rows])) > 0
+    back = [when for when, _ in captured(parse_fault("past-stamps@0:9:3"))[1]]
+    assert back == pytest.approx(np.arange(99) * 0.01 - 3)
+    kept = [when for when, _ in captured(parse_fault("loss@0:99:0.4"), count=1000)[1]]
+    assert 560 < len(kept) < 640
+    assert min(np.diff(kept)) > 0
+    twice = [when for when, _ in captured(parse_fault("duplicate@0:99:0.5"), count=1000)[1]]
+    assert 1450 < len(twice) < 1550
+    assert len(set(twice)) == 999
+    mixed = [when for when, _ in captured(parse_fault("reorder@0:99:0.05"), count=1000)[1]]
+    assert min(np.diff(mixed)) < -0.01
+    assert sorted(mixed) == pytest.approx(np.arange(len(mixed)) * 0.01, abs=0.06)
 
 
 def test_planned_faults_wait_for_the_first_lift_and_asked_ones_do_not():

@@ -108,7 +108,10 @@ def test_the_latency_report_counts_and_measures():
     assert report["policy_ms"] == pytest.approx({"p50": 2.0, "p99": 2.98, "max": 3.0})
     assert report["sensing_age_ms"]["max"] == pytest.approx(30.0)
     assert report["period_error_ms"] == pytest.approx({"p50": 4.0, "p99": 4.0, "max": 4.0})
-    assert (report["late_steps"], report["held"]) == (2, {"the policy was late": 1})
+    assert (report["late_steps"], report["held"]) == (
+        2,
+        {"the policy was late": 1, "a period was skipped": 2},
+    )
     empty = timing_report([TrialLog(period=T, latency=0.1)])
     assert empty["period_error_ms"] == {"p50": None, "p99": None, "max": None}
 
