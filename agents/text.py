@@ -23,7 +23,7 @@ INTEGER_BITS: Final = 63
 """Bits of the largest whole number of TOML, besides its sign (toml.io/en/v1.0.0#integer)."""
 
 
-def read_bytes(path: Path, largest: int, kind: str) -> bytes:
+def read_bytes(path: Path, largest: int) -> bytes:
     """Return the content of a file.
 
     Parameters
@@ -32,8 +32,6 @@ def read_bytes(path: Path, largest: int, kind: str) -> bytes:
         The file.
     largest
         Largest allowed number of bytes; more are not read.
-    kind
-        The kind of file, for messages, such as ``channel``.
 
     Raises
     ------
@@ -44,11 +42,11 @@ def read_bytes(path: Path, largest: int, kind: str) -> bytes:
         with path.open("rb") as file:
             data = file.read(largest + 1)
     except OSError as error:
-        raise InputError(f"cannot read {kind} {path}: {error.strerror}") from None
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
     except ValueError as error:  # A name with a null character.
-        raise InputError(f"cannot read {kind} {str(path)!r}: {error}") from None
+        raise InputError(f"{str(path)!r}: cannot be read: {error}") from None
     if len(data) > largest:
-        raise InputError(f"{kind} {path} has more than {largest} bytes")
+        raise InputError(f"{path} has more than {largest} bytes")
     return data
 
 

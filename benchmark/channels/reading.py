@@ -29,7 +29,7 @@ def read_channel(path: Path) -> Channel:
         If there is no such file, it is too long or not TOML, a key is unknown, or a value is of
         another type or out of range; the message names the file, the key and the valid values.
     """
-    content = parse_toml(read_bytes(path, LONGEST, "channel"), str(path))
+    content = parse_toml(read_bytes(path, LONGEST), str(path))
     return parse_channel(content, str(path))
 
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from ..channels import recorded
 from ..results.baselines import HUMAN_HUMAN_LABEL
+from ..suites.treatments import plain_treatments
 from .captions import picture_axis, picture_title
 from .comparison import Comparison
 from .html import html_page
@@ -24,7 +25,8 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
 
     ``policies`` covers all episodes; each of ``behaviours`` and ``subjects`` covers a part of them.
     The fields of a policy are those of :class:`.RankedPolicy`. Where ``decisive`` is false, the
-    episodes are too few for any test, and all policies have rank 1.
+    episodes are too few for any test, and all policies have rank 1. ``recordings`` is there if the
+    suite has some: the sampling of each trial, and the changes to it.
     """
     suite = comparison.results.suite
     by_name = {policy.name: policy for policy in comparison.results.policies}
@@ -40,13 +42,14 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
                 "step_ms": {"p50": p50, "p99": p99},
             }
         )
-    channel = comparison.results.channel
+    channel, recordings = comparison.results.channel, plain_treatments(suite)
     return {
         "colift": version("colift"),
         **({} if channel is None else {"channel": recorded(channel)}),
         "suite": suite.name,
         "suite_digest": suite.digest,
         "episodes": comparison.overall.episodes,
+        **({"recordings": recordings} if recordings else {}),
         "decisive": comparison.overall.decisive,
         "human_human": _baseline(comparison, HUMAN_HUMAN_LABEL),
         "bounds": [

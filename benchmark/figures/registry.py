@@ -81,7 +81,7 @@ def read_figures(folder: Path) -> dict[str, RecordedFigure]:
         If an entry is not as :class:`RecordedFigure` requires, or two record the same file.
     """
     path = folder / REGISTRY
-    content = parse_toml(read_bytes(path, LONGEST, "registry"), str(path))
+    content = parse_toml(read_bytes(path, LONGEST), str(path))
     figures = {name: _figure(name, entry, path) for name, entry in content.items()}
     owners: dict[str, str] = {}
     for figure in figures.values():

@@ -44,7 +44,7 @@ def test_marks_and_line_ends_of_editors_are_read(mark, end):
     ],
 )
 def test_other_encodings_are_named(data, told):
-    with pytest.raises(InputError, match="^f: must be UTF-8") as caught:
+    with pytest.raises(InputError, match=r"^f: must be UTF-8") as caught:
         decoded(data, "f")
     assert told in str(caught.value)
 
@@ -59,7 +59,7 @@ def test_numbers_of_64_bits_are_read():
 @pytest.mark.parametrize("number", TOO_LARGE.values(), ids=TOO_LARGE)
 @pytest.mark.parametrize("place", ["x = {}", "[x]\ny = {}", "x = [[1], {{y = [{}]}}]"])
 def test_larger_numbers_are_refused_anywhere_in_a_file(number, place):
-    with pytest.raises(InputError, match="^f: ") as caught:
+    with pytest.raises(InputError, match=r"^f: ") as caught:
         parse_toml(place.format(number).encode(), "f")
     assert len(str(caught.value)) < 200
 
@@ -68,9 +68,9 @@ def test_larger_numbers_are_refused_anywhere_in_a_file(number, place):
 def test_every_reader_of_toml_refuses_them(number, tmp_path):
     channel = tmp_path / "own.toml"
     channel.write_text(f"[down]\ndelay = {number}\n")
-    with pytest.raises(InputError, match="own.toml"):
+    with pytest.raises(InputError, match=r"own\.toml"):
         read_channel(channel)
-    with pytest.raises(InputError, match="policy.toml"):
+    with pytest.raises(InputError, match=r"policy\.toml"):
         read_manifest(f"name = {number}\n".encode())
     (tmp_path / REGISTRY).write_text(f"[figure]\nmachine = {number}\n")
     with pytest.raises(InputError, match=REGISTRY):
@@ -79,12 +79,12 @@ def test_every_reader_of_toml_refuses_them(number, tmp_path):
 
 def test_a_path_that_cannot_be_a_file_is_refused(tmp_path):
     for path, told in (
-        (tmp_path / "none", "cannot read note .*none: No such file"),
-        (tmp_path, "cannot read note .*: Is a directory"),
-        (tmp_path / "a\0b", "cannot read note"),
+        (tmp_path / "none", "none: cannot be read: No such file"),
+        (tmp_path, "cannot be read: Is a directory"),
+        (tmp_path / "a\0b", "cannot be read"),
     ):
         with pytest.raises(InputError, match=told):
-            read_bytes(path, 10, "note")
+            read_bytes(path, 10)
     (tmp_path / "long").write_bytes(b"x" * 11)
     with pytest.raises(InputError, match="has more than 10 bytes"):
-        read_bytes(tmp_path / "long", 10, "note")
+        read_bytes(tmp_path / "long", 10)

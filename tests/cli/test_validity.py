@@ -11,9 +11,9 @@ FEW = ("--policies", "copy,hold,reactive,proportional,gain=0.4", "--suite", "qui
 
 
 def write(path, shape, trials=4):
-    """Write lifts of two seconds, each a little slower than the one before."""
+    """Write lifts of two seconds, each with a later peak than the one before."""
     rows = [
-        f"{trial},{k / 30 * (1 + 0.1 * trial):.4f},{0.3 * shape(k / 60):.5f}\n"
+        f"{trial},{k / 30:.4f},{0.3 * shape((k / 60) ** (1 + 0.1 * trial)):.5f}\n"
         for trial in range(trials)
         for k in range(61)
     ]

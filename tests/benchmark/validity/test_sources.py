@@ -3,11 +3,13 @@ from colift.agents.errors import InputError
 from colift.benchmark.validity.sources import source_of, sources_of
 
 
-def write(path, trials=2):
+def write(path, trials=2, first=20):
+    """Write lifts that rise for some frames, two more in each lift, and fall in the rest of 60."""
     path.parent.mkdir(exist_ok=True)
     rows = [
-        f"{trial},{k / 50:.2f},{0.3 * min(k, 60 - k) / 30:.3f}\n"
+        f"{trial},{k / 50:.2f},{0.3 * min(k / up, (60 - k) / (60 - up)):.3f}\n"
         for trial in range(trials)
+        for up in [first + 3 * trial]
         for k in range(61)
     ]
     path.write_text("trial,t_s,z_m\n" + "".join(rows))

@@ -40,7 +40,11 @@ class TestTrue:
 
     def test_a_recorded_run_is_verified_without_the_recordings_file(self, tmp_path):
         path = tmp_path / "lifts.csv"
-        samples = ((trial, k / 50, 0.3 * min(k, 60 - k) / 30) for trial in "ab" for k in range(61))
+        samples = (
+            (trial, k / 50, 0.3 * min(k / up, (60 - k) / (60 - up)))
+            for trial, up in (("a", 30), ("b", 20))
+            for k in range(61)
+        )
         path.write_text("trial,t_s,z_m\n" + "".join(f"{a},{b},{c}\n" for a, b, c in samples))
         run = run_suite(PolicySpec(text="copy"), recorded_suite(path).with_timing(0.05, 0.05))
         write_bundle(tmp_path / "recorded", run, results(run, {}).plain())
