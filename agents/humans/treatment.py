@@ -4,6 +4,7 @@
 of suites, which a report must not change.
 """
 
+import functools
 from dataclasses import asdict, dataclass
 
 import numpy as np
@@ -44,15 +45,34 @@ class Treatment:
 class Shape:
     """A recording as it is played, before it is scaled and slowed down."""
 
+    duration: float
+    """Duration of the recording [s]."""
     knot: float
     """Interval of the control points [s]."""
     control: NDArray[np.float64]
     """Heights of the control points [m], shape (n,), the first one at ``-knot``."""
-    highest: float
-    """Largest smoothed height above the start [m]."""
-    dip: float
-    """Largest smoothed depth below the start [m]."""
     inverted: bool
+
+    def heights(self, points: int) -> NDArray[np.float64]:
+        """Return smoothed heights [m], evenly over the duration, shape (points,)."""
+        return _spline(self.control, np.linspace(0.0, self.duration / self.knot, points))
+
+    @functools.cached_property
+    def _all(self) -> NDArray[np.float64]:
+        """Smoothed heights above the start, at four times the rate of a plan [m]."""
+        smooth = self.heights(4 * round(self.duration / FRAME) + 2)
+        smooth -= smooth[0]
+        return smooth
+
+    @property
+    def highest(self) -> float:
+        """Largest smoothed height above the start [m]."""
+        return float(self._all.max())
+
+    @property
+    def dip(self) -> float:
+        """Largest smoothed depth below the start [m]."""
+        return float(-self._all.min())
 
     @property
     def scale(self) -> float:
@@ -85,14 +105,7 @@ def shape_of(recording: Recording) -> Shape:
     duration = float(times[-1])
     knot = max(KNOT, float(np.median(np.diff(times))))
     control = np.interp(knot * np.arange(-1, np.ceil(duration / knot) + 3), times, heights)
-    smooth = _spline(control, np.linspace(0.0, duration / knot, 4 * round(duration / FRAME) + 2))
-    return Shape(
-        knot=knot,
-        control=control,
-        highest=float(smooth.max() - smooth[0]),
-        dip=float(smooth[0] - smooth.min()),
-        inverted=inverted,
-    )
+    return Shape(duration=duration, knot=knot, control=control, inverted=inverted)
 
 
 def treatment_of(recording: Recording) -> Treatment:

@@ -31,8 +31,9 @@ def refused(tmp_path, times, heights):
         (TIMES, 2.0 - HEIGHTS),
         (TIMES, np.round(HEIGHTS, 3)),
         (TIMES[::2], HEIGHTS[::2]),
+        (TIMES / 1.5, HEIGHTS),
     ],
-    ids=["equal", "later", "higher", "scaled", "inverted", "rounded", "half the rate"],
+    ids=["equal", "later", "higher", "scaled", "inverted", "rounded", "half the rate", "faster"],
 )
 def test_a_copy_is_refused(tmp_path, times, heights):
     told = refused(tmp_path, times, heights)

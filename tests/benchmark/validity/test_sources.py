@@ -27,6 +27,13 @@ def test_one_lift_is_refused(tmp_path):
         source_of(write(tmp_path / "one.csv", trials=1))
 
 
+def test_a_lift_is_in_one_source(tmp_path):
+    paths = [write(tmp_path / "one.csv"), write(tmp_path / "other.csv", first=23)]
+    with pytest.raises(InputError, match="^other has the lift '1' of one, as '0': a lift can"):
+        sources_of(paths)
+    assert len(sources_of([paths[0], write(tmp_path / "new.csv", first=40)])) == 2
+
+
 def test_two_sources_have_two_names(tmp_path):
     paths = [write(tmp_path / place / "lifts.csv") for place in ("here", "there")]
     with pytest.raises(InputError, match="2 sources are called 'lifts'"):
