@@ -23,6 +23,7 @@ events                   the human's intentions, each with its first frame
 drawn                    only of tasks that add some: the series of :class:`.DrawnSeries`, each
                          with ``name``, ``label``, ``where``, ``goal`` and ``values``, packed as
                          heights are
+holder                   only without a NAO: ``person``, or words on a robot without a picture
 ghost                    ``human``, ``robot`` and ``drawn`` as above, and ``rmse_mm``, of two people
                          instead
 ======================== =========================================================================
@@ -50,6 +51,7 @@ from ...benchmark.episode.metric import drawn_series
 from ...benchmark.episode.scenario import Scenario
 from ...benchmark.episode.seat import hand_commands
 from ...benchmark.episode.trace import Trace
+from ...benchmark.rendering.bodies import NAO, PERSON, no_picture, shown_body
 from ...benchmark.results.baselines import partner_spec
 
 
@@ -147,6 +149,7 @@ def replay_content(
         "role": _said(internals.get("role"), 1e-3),
         "events": [[name, frame] for name, frame in ghost.plan.events],
         **_drawn(scenario, trace),
+        **_holder(scenario.partner),
         "ghost": {
             "human": changes(human_human.trace.human_end),
             "robot": changes(human_human.trace.robot_end),
@@ -163,6 +166,14 @@ def _drawn(scenario: Scenario, trace: Trace) -> dict[str, Any]:
         for each in drawn_series(scenario.task.metrics)
     ]
     return {"drawn": shown} if shown else {}
+
+
+def _holder(partner: str) -> dict[str, str]:
+    """Return the body at the robot's end unless it is a NAO: a person, or words in its place."""
+    body = shown_body(partner)
+    if body == NAO:
+        return {}
+    return {"holder": PERSON if body == PERSON else no_picture(partner)}
 
 
 def changes(heights: ArrayLike) -> list[int]:

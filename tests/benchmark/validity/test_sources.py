@@ -29,7 +29,7 @@ def test_one_lift_is_refused(tmp_path):
 
 def test_a_lift_is_in_one_source(tmp_path):
     paths = [write(tmp_path / "one.csv"), write(tmp_path / "other.csv", first=23)]
-    with pytest.raises(InputError, match="^other has the lift '1' of one, as '0': a lift can"):
+    with pytest.raises(InputError, match=r"^other has the lift '1' of one, as '0': a lift can"):
         sources_of(paths)
     assert len(sources_of([paths[0], write(tmp_path / "new.csv", first=40)])) == 2
 
