@@ -32,10 +32,9 @@ def recordings_text(suite: Suite) -> str:
         f"{inverted} inverted" + (" (further down than up)" if inverted else ""),
     ]
     enlarged = sum(each.scale > ENLARGED for each in found)
-    noise = (
-        f" {enlarged} enlarged more than {ENLARGED:g} times, noise included." if enlarged else ""
-    )
-    return f"Read {lifts}: {', '.join(parts)}.{noise}"
+    if enlarged:
+        parts.append(f"{enlarged} enlarged more than {ENLARGED:g} times, noise included")
+    return f"Read {lifts}: {', '.join(parts)}."
 
 
 def show_recordings(suite: Suite, as_json: bool = False, name: str = "") -> None:
