@@ -22,6 +22,13 @@ LARGEST: Final = 256 * 1024 * 1024
 MISSING: Final = ("", "nan", "na", "n/a", "null", "none", "-", "--", "inf", "-inf")
 """Texts, in any case, for the height of a marker that was not seen."""
 
+OTHER_NAMES: Final = {
+    "trial": ("trial", "name", "lift", "take", "recording", "file", "id"),
+    "t_s": ("t_s", "t", "time", "time_s", "time [s]", "time (s)", "seconds", "timestamp"),
+    "z_m": ("z_m", "z", "height", "height_m", "height [m]", "height (m)", "y_m", "position_z"),
+}
+"""Names, in lower case, that other programs give to the columns."""
+
 Sample = tuple[int, float, float]
 """Line, time [s] and height [m]."""
 
@@ -150,7 +157,14 @@ def _hint(header: Sequence[str]) -> str:
         )
     if all(column in lower for column in COLUMNS):
         return f" (write the names in lower case: {', '.join(COLUMNS)})"
-    return ""
+    likely = [
+        f"{name!r} to {column}"
+        for column in COLUMNS
+        if column not in header
+        for name in header
+        if name.lower() in OTHER_NAMES[column]
+    ]
+    return f" (rename the columns: {', '.join(likely)}?)" if likely else ""
 
 
 def _number(text: str, column: str, where: str) -> float:
