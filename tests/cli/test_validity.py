@@ -137,7 +137,7 @@ def test_shipped_scores_of_colifts_own_policies_are_not_played_again(colift, fil
     [
         ("hdm05", ["hdm05"]),
         ("heldout_hdm05", ["heldout_", "hdm05"]),
-        ("heldout_buetepage_hr", ["heldout_", "buetepage_hr"]),
+        ("heldout_buetepage_hr", ["heldout_", "buetepage_", "hr"]),
         ("our people", ["our people"]),
         ("two-people-2027", ["two-people-", "2027"]),
     ],
