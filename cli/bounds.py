@@ -25,6 +25,7 @@ from .printing import show, table
 from .progress import workers
 from .remedies import naming
 from .tables.comparison import behaviours_table, ranks_table
+from .tables.recordings import show_recordings
 
 People = Annotated[int, typer.Option(metavar="N", help="Number of drawn subjects.", min=1)]
 LiftsEach = Annotated[
@@ -55,6 +56,7 @@ def bounds(
     specs = {name: PolicySpec(text=name) for name in (POLICY, *RIVALS)}
     total = episodes_to_play(len(specs), suite, bounds=len(BOUNDS))
     with workers("bounds", total, jobs) as (pool, progress):
+        show_recordings(suite)
         results = play_policies(specs, suite, bounds=BOUNDS, executor=pool, progress=progress)
     comparison = compare(results)
     show(ranks_table(comparison))
@@ -102,6 +104,8 @@ def ablate_policies(
         suites.append(recorded_suite(recordings))
     total = ROUNDS * lifts + (1 + len(VARIANTS)) * sum(suite.size for suite in suites)
     with workers("ablation", total, jobs) as (pool, progress):
+        for suite in suites:
+            show_recordings(suite)
         first, *_, last = learn_anticipation(lifts=lifts, executor=pool, progress=progress)
         robots = tuple(variants(first, last))
         found = [

@@ -27,6 +27,7 @@ from .policies import choose_policy
 from .printing import Cell, print_json, show, table
 from .progress import reported_interrupt, workers
 from .tables.comparison import policy_cell
+from .tables.recordings import recordings_json, show_recordings
 
 MEASURED: Final = ("copy", "extrapolate", "blend", "minimum_jerk", "anticipate", "learned")
 """The policies that are measured by default: from no prediction to the best."""
@@ -70,11 +71,13 @@ def measure_channels(
         reported_interrupt("policies are measured on all lifts or not at all"),
         workers("channels", total, jobs) as (pool, progress),
     ):
+        show_recordings(episodes, as_json)
         found = list(over_channels(specs, networks, episodes, executor=pool, progress=progress))
     if as_json:
         content = {
             "suite": episodes.name,
             "suite_digest": episodes.digest,
+            **recordings_json(episodes),
             "channels": {text: channel.plain() for text, channel in networks.items()},
             "policies": [dataclasses.asdict(each) for each in found],
         }

@@ -41,6 +41,7 @@ from .policies import choose_policy
 from .printing import print_json, show
 from .progress import reported_interrupt, workers
 from .tables.comparison import behaviours_table, differences_table, ranks_table
+from .tables.recordings import show_recordings
 
 
 def compare_policies(
@@ -105,7 +106,7 @@ def compare_policies(
         try_folder("--out", out)
     limits = suite_bounds(episodes) if bounds else {}
     results = [each.policy for each in stored]
-    comparison = _compare(specs, results, episodes, limits, network, jobs)
+    comparison = _compare(specs, results, episodes, limits, network, jobs, as_json)
     if out is not None:
         write_comparison(out, comparison)
     if as_json:
@@ -171,6 +172,7 @@ def _compare(
     bounds: Mapping[str, Bound],
     channel: Channel | None,
     jobs: int | None,
+    as_json: bool,
 ) -> Comparison:
     """Play the episodes and compare."""
     total = episodes_to_play(len(specs), suite, bounds=len(bounds))
@@ -178,6 +180,7 @@ def _compare(
         reported_interrupt("policies are compared on all lifts or not at all"),
         workers("compare", total, jobs) as (pool, progress),
     ):
+        show_recordings(suite, as_json)
         results = play_policies(
             specs,
             suite,

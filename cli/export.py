@@ -19,10 +19,11 @@ from ..benchmark.export.provenance import VIEWS, Provenance, of_scenario
 from ..benchmark.export.proving import proved_lifts
 from ..benchmark.export.rules import CONVERTED, NAMES, RULES, digest, rule
 from ..benchmark.live.session import is_session
-from ..benchmark.suites.suite import Suite
+from ..benchmark.suites.suite import Suite, recorded_suite
 from .options import Jobs
-from .printing import counted
+from .printing import counted, show
 from .progress import reported_interrupt, workers
+from .tables.recordings import recordings_text
 
 SIZE: Final = 300
 """Lifts of a fixed set."""
@@ -165,6 +166,8 @@ def _set(
         licence=OWN_LICENCE if chosen.recorded else LICENCE,
     )
     with workers("lifting", lifts, min(jobs, lifts)) as (pool, progress):
+        if recordings is not None:
+            show(recordings_text(recorded_suite(recordings)))
         contents = export(
             out,
             play_set(plan, executor=pool, progress=progress),

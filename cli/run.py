@@ -17,7 +17,6 @@ from ..agents.spec import AgentSpec
 from ..benchmark.bundle import Results, check_bundle_folder, check_unfinished, results, write_bundle
 from ..benchmark.bundle.recipe import FROM_NAMES, Recipe
 from ..benchmark.channels import Channel, recorded
-from ..benchmark.episode.metric import Metrics
 from ..benchmark.execution.cluster import Cluster
 from ..benchmark.execution.fitting import check_fits
 from ..benchmark.execution.journal import Journal, journal_path, open_journal
@@ -47,6 +46,7 @@ from .policies import AUTO, choose_policy
 from .printing import argument, counted, print_json, show
 from .progress import progress_bar
 from .remedies import naming, opened
+from .tables.recordings import recordings_json, show_recordings
 from .tables.results import results_table, results_text
 
 GO_ON: Final = "the finished lifts are kept: resume with the same command and --resume"
@@ -111,6 +111,7 @@ def run(
         if isinstance(workers, Cluster):
             there = workers.origin
             _mention_idle(workers)
+        show_recordings(episodes, as_json)
         with _journal(out, resume, _identity(spec, episodes, network, there)) as journal:
             done, baselines = _evaluate(spec, episodes, network, workers, journal)
             finished = done.complete and baselines.keys() == set(BASELINES)
@@ -120,7 +121,7 @@ def run(
             if journal is not None and finished:
                 journal.remove()
     if content is not None:
-        _print_results(content, episodes.metrics, out, verifiable, as_json=as_json)
+        _print_results(content, episodes, out, verifiable, as_json=as_json)
     if _complain(done, finished=finished, hint="" if out is None else GO_ON):
         raise typer.Exit(1)
 
@@ -181,13 +182,13 @@ def _evaluate(
 
 
 def _print_results(
-    content: Results, metrics: Metrics, out: Path | None, verifiable: bool, *, as_json: bool
+    content: Results, suite: Suite, out: Path | None, verifiable: bool, *, as_json: bool
 ) -> None:
     """Print the results, as tables and text or as JSON."""
     if as_json:
-        print_json(content.plain())
+        print_json({**content.plain(), **recordings_json(suite)})
         return
-    show(results_table(content, metrics), results_text(content))
+    show(results_table(content, suite.metrics), results_text(content))
     if out is not None:
         print(f"Result bundle: {out}")
         if content.complete and verifiable:

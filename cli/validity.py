@@ -30,6 +30,7 @@ from .options import AsJson, Jobs, report_left_out
 from .policies import choose_policy
 from .printing import print_json, show
 from .progress import reported_interrupt, workers
+from .tables.recordings import recordings_json, show_recordings
 from .tables.validity import MEANINGS, heading, ratios_table, source_table
 
 SUITES: Final = ("standard-v1", "paper-v1", "quick-v1")
@@ -76,14 +77,17 @@ def validity(
     for each in judged:
         check_same_task(each)
     specs = _chosen(policies)
-    found = _play(sources, judged, specs, jobs)
+    found = _play(sources, judged, specs, jobs, as_json)
     if as_json:
-        print_json(validity_json(found))
+        content = validity_json(found)
+        for told, source in zip(content["sources"], sources, strict=True):
+            told.update(recordings_json(source.suite))
+        print_json(content)
     else:
         show(ratios_table(found))
-        for source in found.sources:
-            show(heading(source), source_table(source))
-            show(*source.texts, "")
+        for judgement in found.sources:
+            show(heading(judgement), source_table(judgement))
+            show(*judgement.texts, "")
         show(MEANINGS)
     failed = _failures([*(each.source for each in found.sources), *found.suites])
     if failed:
@@ -130,6 +134,7 @@ def _play(
     judged: Sequence[Suite],
     specs: Mapping[str, AgentSpec],
     jobs: int | None,
+    as_json: bool,
 ) -> Validity:
     known = [_known(each, specs) for each in judged]
     total = sum(validity_lifts(specs, *pair) for pair in zip(judged, known, strict=True))
@@ -138,6 +143,8 @@ def _play(
         reported_interrupt("a suite is judged on all lifts or not at all"),
         workers("validity", total, jobs) as (pool, progress),
     ):
+        for each in sources:
+            show_recordings(each.suite, as_json, each.name)
         return validity_of(
             [
                 (source.kind, play_source(specs, source, executor=pool, progress=progress))

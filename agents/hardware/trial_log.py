@@ -7,13 +7,16 @@ top holds the trial's settings and outcome.
 
 import csv
 import dataclasses
+import io
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, NamedTuple
 
+from ..agent import FRAME
 from ..errors import InputError
+from ..text import decoded, read_bytes
 from .ports import HandLimits, Sample
 from .stops import Stop
 
@@ -117,6 +120,19 @@ class LoggedTrial:
     """The log."""
 
 
+FARTHEST: Final = 1e10
+"""Largest size of a number; times of day are below."""
+
+LONGEST: Final = 10.0
+"""Longest control period and latency [s]."""
+
+UNKNOWN: Final = ("action", "sensing_age", "rate")
+"""Numbers of a step that may be infinite or NaN."""
+
+LARGEST: Final = 256 * 1024 * 1024
+"""Largest file of a trial [bytes]."""
+
+
 def write_trial(path: Path, trial: LoggedTrial) -> None:
     """Write a trial; numbers read back to the same bits."""
     log = trial.log
@@ -129,7 +145,7 @@ def write_trial(path: Path, trial: LoggedTrial) -> None:
         "stop": "" if log.stop is None else log.stop.name,
         "reason": log.reason,
     }
-    with path.open("w", newline="") as file:
+    with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, fieldnames=COLUMNS, restval="", lineterminator="\n")
         writer.writeheader()
         writer.writerow({"event": "trial", **head})
@@ -146,16 +162,13 @@ def read_trial(path: Path) -> LoggedTrial:
     InputError
         If it cannot be read, or is not a trial log.
     """
+    text = decoded(read_bytes(path, LARGEST), str(path))
     try:
-        with path.open(newline="") as file:
-            rows = list(csv.DictReader(file))
-        return _trial(rows)
-    except OSError as error:
-        raise InputError(f"cannot read {path}: {error.strerror}") from error
+        return _trial(list(csv.DictReader(io.StringIO(text, newline=""))))
     except KeyError as error:
         raise InputError(f"{path} is not a trial log: it has no column {error}") from error
-    except (ValueError, TypeError, IndexError) as error:
-        raise InputError(f"{path} is not a trial log: {error}") from error
+    except (ValueError, OverflowError, TypeError, IndexError, csv.Error) as error:
+        raise InputError(f"{path} is not a trial log: {error!s:.200}") from error
 
 
 def _trial(rows: list[dict[str, str]]) -> LoggedTrial:
@@ -163,30 +176,64 @@ def _trial(rows: list[dict[str, str]]) -> LoggedTrial:
     if head["event"] != "trial":
         raise ValueError(f"the first row is {head['event']!r} instead of 'trial'")
     log = TrialLog(
-        period=float(head["period"]),
-        latency=float(head["latency"]),
-        begin=float(head["begin"]),
-        late_steps=int(head["late_steps"]),
+        period=_number(head, "period", FRAME, LONGEST),
+        latency=_number(head, "latency", 0.0, LONGEST),
+        begin=_number(head, "begin"),
+        late_steps=int(_number(head, "late_steps", 0.0)),
         events=list(_events(events)),
-        stop=Stop[head["stop"]] if head["stop"] else None,
+        stop=_stop(head["stop"]),
         reason=head["reason"],
     )
-    limits = HandLimits(**{name: float(head[name]) for name in ("low", "high", "speed", "tilt")})
+    limits = HandLimits(
+        **{
+            name: _number(head, name, -math.inf, math.inf)
+            for name in ("low", "high", "speed", "tilt")
+        }
+    )
     return LoggedTrial(
         policy=head["policy"],
         limits=limits,
-        weight_offset=float(head["weight_offset"]),
+        weight_offset=_number(head, "weight_offset"),
         dry=bool(int(head["dry"])),
         log=log,
     )
 
 
+def _stop(name: str) -> Stop | None:
+    if name and name not in Stop.__members__:
+        raise ValueError(f"stop is {name!r}, must be empty or one of {', '.join(Stop.__members__)}")
+    return Stop[name] if name else None
+
+
+def _number(
+    row: dict[str, str], name: str, low: float = -FARTHEST, high: float = FARTHEST
+) -> float:
+    value = float(row[name])
+    if not low <= value <= high:
+        raise ValueError(f"{name} is {row[name]!r}, must be from {low:g} to {high:g}")
+    return value
+
+
+def _any_number(row: dict[str, str], name: str) -> float:
+    """Return a number that may also be infinite or NaN."""
+    return _number(row, name) if math.isfinite(float(row[name])) else float(row[name])
+
+
 def _events(rows: list[dict[str, str]]) -> Iterable[Sample | Step]:
+    last = -math.inf
     for row in rows:
         if row["event"] == "sample":
-            yield Sample(*(float(row[name]) for name in Sample._fields))
+            yield Sample(*(_any_number(row, name) for name in Sample._fields))
         elif row["event"] == "step":
-            values = {name: float(row[name]) for name in Step._fields if name != "hold"}
-            yield Step(hold=row["hold"], **values)
+            values = {
+                name: _any_number(row, name) if name in UNKNOWN else _number(row, name)
+                for name in Step._fields
+                if name != "hold"
+            }
+            step = Step(hold=row["hold"], **values)
+            if step.time <= last:
+                raise ValueError(f"a step's time goes from {last} s to {step.time} s")
+            last = step.time
+            yield step
         else:
             raise ValueError(f"unknown event {row['event']!r}")

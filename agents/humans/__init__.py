@@ -14,7 +14,8 @@ from .person_as_robot import PersonAsRobot
 from .plan import Behaviour, Embodied, Plan
 from .played import Played, PlayedHand
 from .recorded import Recorded
-from .recordings import Recording, load_recordings
+from .recording_file import load_recordings
+from .recordings import Recording
 from .scripted import ScriptedHuman
 from .smooth import Smooth
 from .subject import BOUNDS, GOAL_RANGE, SUBJECTS, Subject

@@ -1,15 +1,12 @@
-"""Recorded lifts, read from a CSV file."""
+"""Recorded lifts."""
 
-import csv
-import math
-from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
 from ..errors import InputError
 
 COLUMNS: Final = ("trial", "t_s", "z_m")
+"""Columns of a file of recordings."""
 
 LEAST_MOVEMENT: Final = 0.01
 """Least range of the heights of a lift [m]."""
@@ -63,68 +60,3 @@ class Recording:
                 f"trial {self.name!r} does not move: its heights span {span:.4f} m, must be at "
                 f"least {LEAST_MOVEMENT} m (is z_m in metres?)"
             )
-
-
-def load_recordings(path: str | Path) -> tuple[Recording, ...]:
-    """Return the recordings of a CSV file with the columns ``trial,t_s,z_m``, in order.
-
-    Other columns are ignored. Heights [m] may have any origin, times [s] any rate.
-
-    Raises
-    ------
-    InputError
-        When the file cannot be read, a column is missing, a value is not a number, or a trial is
-        not a lift: time that does not increase, a single sample, less than 1 cm of movement.
-    """
-    samples: dict[str, tuple[list[float], list[float]]] = {}
-    for trial, time, height in _rows(Path(path)):
-        times, heights = samples.setdefault(trial, ([], []))
-        times.append(time)
-        heights.append(height)
-    if not samples:
-        raise InputError(f"{path}: no samples, needs rows of {','.join(COLUMNS)}")
-    try:
-        return tuple(
-            Recording(name=trial, times=tuple(times), heights=tuple(heights))
-            for trial, (times, heights) in samples.items()
-        )
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
-
-
-def _rows(path: Path) -> Iterator[tuple[str, float, float]]:
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.DictReader(file)
-            header = [name.strip() for name in reader.fieldnames or ()]
-            missing = [name for name in COLUMNS if name not in header]
-            if not header:
-                raise InputError(f"{path}: empty file, needs the columns {','.join(COLUMNS)}")
-            if missing:
-                hint = "" if len(header) > 1 else " (are the columns separated by commas?)"
-                raise InputError(
-                    f"{path}: missing column(s) {', '.join(missing)}; found {', '.join(header)}"
-                    f"{hint}"
-                )
-            reader.fieldnames = header
-            for row in reader:
-                where = f"{path}, line {reader.line_num}"
-                trial = (row["trial"] or "").strip()
-                if not trial:
-                    raise InputError(f"{where}: trial is empty, must name the trial")
-                yield trial, _number(row, "t_s", where), _number(row, "z_m", where)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f"{path}: not a CSV file in UTF-8: {error}") from None
-
-
-def _number(row: dict[str, str], column: str, where: str) -> float:
-    text = row[column]
-    try:
-        value = float(text)
-    except (TypeError, ValueError):
-        raise InputError(f"{where}: {column} is {text!r}, must be a number") from None
-    if not math.isfinite(value):
-        raise InputError(f"{where}: {column} is {text!r}, must be finite")
-    return value

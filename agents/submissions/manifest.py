@@ -1,6 +1,5 @@
 """``policy.toml``, the manifest of a submission."""
 
-import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass
 from dataclasses import fields as fields_of
@@ -8,6 +7,7 @@ from typing import Any, Final
 
 from ..errors import InputError
 from ..near_names import did_you_mean
+from ..text import parse_toml
 from . import fields
 
 MANIFEST: Final = "policy.toml"
@@ -90,14 +90,7 @@ def read_manifest(data: bytes, where: str = MANIFEST) -> Manifest:
     """
     if len(data) > LONGEST:
         raise InputError(f"{where} has {len(data)} bytes; at most {LONGEST} are allowed")
-    try:
-        content = tomllib.loads(data.decode())
-    except UnicodeDecodeError as error:
-        raise InputError(f"{where}: must be UTF-8; byte {error.start} is not") from error
-    except ValueError as error:
-        raise InputError(f"{where}: {error}") from error
-    except RecursionError as error:
-        raise InputError(f"{where}: lists or tables are nested too deeply") from error
+    content = parse_toml(data, where)
     for key in content:
         if key not in READ:
             near = did_you_mean(key, READ)

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Final
 
 from ..comparison.playing import Bound
+from ..suites.catalogue import PLAYED, RECORDED
 from ..suites.suite import Suite
 from .causal import CAUSAL_BOUND, causal_run, has_causal_bound
 from .oracle import ORACLE, ORACLES, oracle_run
@@ -15,8 +16,13 @@ BOUNDS: Final[Mapping[str, Bound]] = {CAUSAL_BOUND: causal_run, ORACLE: oracle_r
 def suite_bounds(suite: Suite) -> Mapping[str, Bound]:
     """Return the bounds of a suite by name, as far as its task has them.
 
-    The causal bound is left out if it was learned with another latency or control period.
+    The causal bound is left out if it was learned with another latency or control period, and for
+    real lifts: it was learned from simulated people, and policies may be better with real ones.
     """
-    has_oracle = suite.scenarios[0].task.name in ORACLES
-    known = {CAUSAL_BOUND: has_causal_bound(suite), ORACLE: has_oracle}
+    first = suite.scenarios[0]
+    real = first.behaviour in (RECORDED, PLAYED)
+    known = {
+        CAUSAL_BOUND: has_causal_bound(suite) and not real,
+        ORACLE: first.task.name in ORACLES,
+    }
     return {name: BOUNDS[name] for name, has in known.items() if has}

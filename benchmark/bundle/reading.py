@@ -25,7 +25,7 @@ from .files import (
 )
 from .json_text import dump_json, of_type, parse_json, pick
 from .recipe import FROM_NAMES, Recipe
-from .table import parse_table
+from .table import parse_table, treated
 from .traces import LARGEST_LIFT, parse_traces
 from .writing import FORMAT, kept_logs
 
@@ -144,7 +144,10 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
     logs = _logs(files[LOGS], len(traces)) if LOGS in files else [""] * len(traces)
     results = _results(files[RESULTS], acted=any(len(trace.action) for trace in traces))
     outdated = results["scoring"] != SCORING
-    episodes = parse_table(files[EPISODES], traces, logs, recipe.metrics(), outdated=outdated)
+    played = {} if recipe.recordings is None else treated(recipe.suite())
+    episodes = parse_table(
+        files[EPISODES], traces, logs, recipe.metrics(), played, outdated=outdated
+    )
     kept = kept_logs(episodes)
     if LOGS in files and (not kept or files[LOGS] != dump_json(kept)):
         raise InputError(f"{LOGS}: must be the end of each failed lift's output, in order")

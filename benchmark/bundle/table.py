@@ -10,6 +10,9 @@ from ...agents.errors import InputError
 from ..episode.episode import Episode
 from ..episode.metric import LEADING, Metrics, Scores, reached
 from ..episode.trace import Trace
+from ..suites.catalogue import RECORDED
+from ..suites.suite import Suite
+from ..suites.treatments import TREATED, Treatments, treatments
 from .files import EPISODES, TRACES
 
 NEEDED: Final = ("behaviour", "subject", "trial", "seed", LEADING, "failure")
@@ -25,13 +28,30 @@ def one_line(text: str) -> str:
     return "".join(shown)[:LONGEST_REASON]
 
 
-def column_names(metrics: Metrics) -> tuple[str, ...]:
-    """Return the names of the columns."""
-    return ("behaviour", "subject", "trial", "seed", *metrics, "reached", "failure")
+def treated(suite: Suite) -> Treatments:
+    """Return the treatments of a suite's recordings, by their trials as the table has them."""
+    return {one_line(trial): each for trial, each in treatments(suite).items()}
 
 
-def table_row(episode: Episode, metrics: Metrics) -> dict[str, object]:
-    """Return an episode as one row of the table, by column."""
+def column_names(metrics: Metrics, *, recorded: bool = False) -> tuple[str, ...]:
+    """Return the names of the columns; ``recorded`` is whether recordings were played."""
+    names = ("behaviour", "subject", "trial", "seed", *metrics, "reached", "failure")
+    return (*names, *TREATED) if recorded else names
+
+
+def table_row(
+    episode: Episode, metrics: Metrics, played: Treatments | None = None
+) -> dict[str, object]:
+    """Return an episode as one row of the table, by column.
+
+    Parameters
+    ----------
+    episode, metrics
+        The episode and the metrics of its task.
+    played
+        Treatments of the recordings that were played, as of :func:`treated`, whose columns follow
+        the failure; None or empty without recordings.
+    """
     values = (
         episode.behaviour,
         episode.subject,
@@ -41,16 +61,26 @@ def table_row(episode: Episode, metrics: Metrics) -> dict[str, object]:
         reached(episode.scores, metrics),
         episode.failure or "",
     )
-    return dict(zip(column_names(metrics), values, strict=True))
+    row: dict[str, object] = dict(zip(column_names(metrics), values, strict=True))
+    if played:
+        found = played.get(one_line(episode.trial)) if episode.behaviour == RECORDED else None
+        row |= dict.fromkeys(TREATED, "") if found is None else found.plain()
+    return row
 
 
-def dump_table(episodes: Sequence[Episode], metrics: Metrics) -> bytes:
-    """Return the table as a CSV file; the field of a missing score is empty."""
+def dump_table(
+    episodes: Sequence[Episode], metrics: Metrics, played: Treatments | None = None
+) -> bytes:
+    """Return the table as a CSV file; the field of a missing value is empty.
+
+    Arguments are as for :func:`table_row`.
+    """
     text = io.StringIO()
-    writer = csv.DictWriter(text, fieldnames=column_names(metrics), lineterminator="\n")
+    names = column_names(metrics, recorded=bool(played))
+    writer = csv.DictWriter(text, fieldnames=names, lineterminator="\n")
     writer.writeheader()
     for episode in episodes:
-        row = table_row(episode, metrics)
+        row = table_row(episode, metrics, played)
         writer.writerow({name: _field(value) for name, value in row.items()})
     return text.getvalue().encode()
 
@@ -66,6 +96,7 @@ def parse_table(
     traces: Sequence[Trace],
     logs: Sequence[str],
     metrics: Metrics,
+    played: Treatments | None = None,
     *,
     outdated: bool = False,
 ) -> tuple[Episode, ...]:
@@ -79,6 +110,8 @@ def parse_table(
         The trace and the output of each row's episode.
     metrics
         The metrics of the task.
+    played
+        As for :func:`table_row`. A table from before these were written lacks their columns.
     outdated
         Whether another version of the metrics computed the scores. A table may then have columns of
         other metrics, which are left out, and lack some, whose scores are NaN.
@@ -97,8 +130,11 @@ def parse_table(
         raise InputError(
             f"{EPISODES}: the first line must have {', '.join(NEEDED)}, and no name twice"
         )
-    if not (outdated or names == column_names(metrics)):
-        raise InputError(f"{EPISODES}: the first line must be {','.join(column_names(metrics))}")
+    wanted = column_names(metrics, recorded=bool(played))
+    if names == column_names(metrics):
+        played = None
+    elif not (outdated or names == wanted):
+        raise InputError(f"{EPISODES}: the first line must be {','.join(wanted)}")
     if len(rows) - 1 != len(traces):
         raise InputError(f"{EPISODES}: {len(rows) - 1} episodes, but {TRACES} has {len(traces)}")
     episodes = []
@@ -109,7 +145,7 @@ def parse_table(
         values = dict(zip(names, row, strict=True))
         scores = _scores(values, metrics, where, outdated=outdated)
         episodes.append(_episode(values, scores, trace, log, where))
-    written = _dump_rows(rows) if outdated else dump_table(episodes, metrics)
+    written = _dump_rows(rows) if outdated else dump_table(episodes, metrics, played)
     if written != data:
         lines = zip(written.split(b"\n"), data.split(b"\n"), strict=False)
         line = next((i for i, (a, b) in enumerate(lines, 1) if a != b), len(rows) + 1)

@@ -12,7 +12,7 @@ from .arrays import dump_arrays
 from .files import EPISODES, INPUTS, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, replace_folder
 from .json_text import dump_json
 from .recipe import Recipe
-from .table import dump_table
+from .table import dump_table, treated
 from .traces import dump_traces
 
 FORMAT: Final = 1
@@ -57,7 +57,7 @@ def write_bundle(
     traces = [episode.trace for episode in run.episodes]
     files = {
         RESULTS: dump_json(content),
-        EPISODES: dump_table(run.episodes, run.suite.metrics),
+        EPISODES: dump_table(run.episodes, run.suite.metrics, treated(run.suite)),
         TRACES: dump_arrays(dump_traces(traces, places(run))),
     }
     if recipe is not None and recipe.recordings is not None:

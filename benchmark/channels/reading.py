@@ -1,6 +1,5 @@
 """Channels from files and from the recipes of bundles."""
 
-import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from pathlib import Path
@@ -8,6 +7,7 @@ from typing import Any, Final
 
 from ...agents.errors import InputError
 from ...agents.near_names import did_you_mean
+from ...agents.text import parse_toml, read_bytes
 from .channel import Channel, Link
 
 LONGEST: Final = 16 * 1024
@@ -29,19 +29,7 @@ def read_channel(path: Path) -> Channel:
         If there is no such file, it is too long or not TOML, a key is unknown, or a value is of
         another type or out of range; the message names the file, the key and the valid values.
     """
-    try:
-        with path.open("rb") as file:
-            data = file.read(LONGEST + 1)
-    except OSError as error:
-        raise InputError(f"cannot read channel {path}: {error.strerror}") from error
-    if len(data) > LONGEST:
-        raise InputError(f"{path} has more than {LONGEST} bytes; a channel has a few lines")
-    try:
-        content = tomllib.loads(data.decode())
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: must be UTF-8; byte {error.start} is not") from error
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"{path}: {error}") from error
+    content = parse_toml(read_bytes(path, LONGEST), str(path))
     return parse_channel(content, str(path))
 
 

@@ -12,6 +12,7 @@ from typing import Any
 from ..channels import recorded
 from ..results.baselines import HUMAN_HUMAN_LABEL
 from ..results.goals import goal_scores
+from ..suites.treatments import plain_treatments
 from .captions import picture_axis, picture_title
 from .comparison import Comparison
 from .html import html_page
@@ -25,7 +26,8 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
 
     ``policies`` covers all episodes; each of ``behaviours`` and ``subjects`` covers a part of them.
     The fields of a policy are those of :class:`.RankedPolicy`. Where ``decisive`` is false, the
-    episodes are too few for any test, and all policies have rank 1.
+    episodes are too few for any test, and all policies have rank 1. ``recordings`` is there if the
+    suite has some: the sampling of each trial, and the changes to it.
     """
     suite = comparison.results.suite
     by_name = {policy.name: policy for policy in comparison.results.policies}
@@ -42,6 +44,7 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
             }
         )
     channel, goals = comparison.results.channel, goal_scores(suite)
+    recordings = plain_treatments(suite)
     return {
         "colift": version("colift"),
         **({} if channel is None else {"channel": recorded(channel)}),
@@ -49,6 +52,7 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
         "suite_digest": suite.digest,
         **({} if goals is None else {"goals": goals.plain()}),
         "episodes": comparison.overall.episodes,
+        **({"recordings": recordings} if recordings else {}),
         "decisive": comparison.overall.decisive,
         "human_human": _baseline(comparison, HUMAN_HUMAN_LABEL),
         "bounds": [

@@ -1,14 +1,17 @@
 """The registry of the recorded figures: ``docs/figures/figures.toml``."""
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
 from ...agents.errors import InputError
+from ...agents.text import parse_toml, read_bytes
 
 REGISTRY: Final = "figures.toml"
+
+LONGEST: Final = 1024 * 1024
+"""Largest registry [bytes]."""
 
 FOLDER: Final = Path("docs") / "figures"
 """Folder of the registry and of the recorded files, in a clone."""
@@ -78,10 +81,7 @@ def read_figures(folder: Path) -> dict[str, RecordedFigure]:
         If an entry is not as :class:`RecordedFigure` requires, or two record the same file.
     """
     path = folder / REGISTRY
-    try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{path}: {error}") from None
+    content = parse_toml(read_bytes(path, LONGEST), str(path))
     figures = {name: _figure(name, entry, path) for name, entry in content.items()}
     owners: dict[str, str] = {}
     for figure in figures.values():

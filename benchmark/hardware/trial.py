@@ -23,6 +23,7 @@ from ...agents.hardware.trial_log import TrialLog
 from ...agents.humans import SUBJECTS, Plan, Subject
 from ..episode import metrics
 from ..episode.episode import Episode
+from ..episode.level import LEVEL
 from ..episode.metric import Scores
 from ..episode.recorder import HASH_BYTES
 from ..episode.scenario import Scenario
@@ -163,21 +164,19 @@ def _resampled(log: TrialLog, frames: int) -> tuple[NDArray[np.float64], NDArray
 
 
 def _scores(trace: Trace, *, failed: bool) -> Scores:
+    """Return the metrics of ``level``; one that motion capture does not give has no value."""
     human, robot = trace.human_end, trace.robot_end
     calm_human, calm_robot = smoothed(human), smoothed(robot)
     strokes = () if failed else find_strokes(calm_human)
     smoothness = functools.partial(metrics.stroke_smoothness, calm_robot, calm_human, strokes)
     empty = len(human) == 0
     horizon = max(len(human), round(SHORTEST / FRAME)) if failed or empty else None
-    return {
+    measured = {
         "rmse_mm": metrics.rmse_mm(human, robot, horizon=horizon),
         "abs_error_mm": metrics.abs_error_mm(human, robot, horizon=horizon),
         "max_tilt_deg": math.nan if empty else metrics.max_tilt_deg(human, robot, TABLE_LENGTH),
         "sparc": math.nan if not strokes else smoothness(metric=sparc),
         "ldlj": math.nan if not strokes else smoothness(metric=ldlj),
-        "human_force_n": math.nan,
-        "human_work_j": math.nan,
         "robot_lag_ms": math.nan if failed else metrics.robot_lag_ms(calm_human, calm_robot),
-        "short_of_goal_mm": math.nan,
-        "clipped": math.nan,
     }
+    return {name: measured.get(name, math.nan) for name in LEVEL.metrics}

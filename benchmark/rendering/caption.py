@@ -13,6 +13,7 @@ from ..episode.drawn import DrawnSeries, ball_and_target, intended_far_end, show
 from ..episode.episode import Episode
 from ..episode.seat import SEATS
 from ..episode.trace import Trace
+from .bodies import PERSON, shown_body
 from .style import FAINT, HUMAN, INK, PAPER, ROBOT
 
 VALUE: Final = 84
@@ -85,7 +86,7 @@ def readout(
     labels = max(letters(size).getlength(label) for label, *_ in rows)
     wide = max(wide, round(labels) + VALUE)
     top = 18
-    left = top if partner == "nao" else (picture.width - wide) // 2
+    left = (picture.width - wide) // 2 if shown_body(partner) == PERSON else top
     for row, (label, value, colour, bold) in enumerate(rows):
         y, font = top + row * line, letters(size, bold=bold)
         pen.text((left, y), label, fill=colour, font=font)

@@ -1,4 +1,4 @@
-"""The scene: NAO on its pedestal (or a second person), table, person; posed from two heights."""
+"""The scene: NAO on its pedestal or a second person, table, person; posed from two heights."""
 
 import logging
 import math
@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageColor
+from PIL import Image, ImageColor, ImageDraw
 
 from ...agents.errors import InputError
 from ...robots.nao.facts import TORSO_HEIGHT
@@ -16,9 +16,11 @@ from ...robots.nao.kinematics import ARM_JOINTS, GRIP_X, REST_Z, STROKE, arm_pat
 from ...robots.nao.urdf import nao_urdf_path
 from ..world.bullet import pybullet
 from ..world.table import TABLE_LENGTH
+from .bodies import NAO, PERSON, UNKNOWN, no_picture, shown_body
+from .caption import letters
 from .mannequin import Mannequin
 from .solids import box, disc, limb
-from .style import AIM, HUMAN, ROBOT, SKY, rgba
+from .style import AIM, HUMAN, INK, ROBOT, SKY, rgba
 
 Picture = NDArray[np.uint8]
 
@@ -78,7 +80,7 @@ class Scene:
     Parameters
     ----------
     partner
-        Holder of the robot's end.
+        Holder of the robot's end. A robot of which there is no picture is replaced by words.
     intended
         Whether :meth:`intend` will show an intended pose of the table.
     ball
@@ -121,16 +123,20 @@ class Scene:
         self._ends = 0.0, 0.0
         stands = [hands[0] + 0.37]
         # The middle of the picture [m], and the width to be shown on each side of it.
-        self._middle, self._half_width = (middle, 1.08) if partner == "human" else (0.65, 0.92)
+        body = shown_body(partner)
+        self._middle, self._half_width = (middle, 1.08) if body == PERSON else (0.65, 0.92)
         self._person = Mannequin(client, hands, -1, FLOOR, rgba(HUMAN))
         self._second: Mannequin | None = None
-        if partner == "human":
+        self._arm_joints: list[int] = []
+        self._words = no_picture(partner) if body == UNKNOWN else ""
+        if body == PERSON:
             self._second = Mannequin(client, far_hands, 1, FLOOR, rgba(ROBOT))
             stands.append(far_hands[0] - 0.37)
         else:
             block = np.array([-0.01, 0.0, FLOOR + PEDESTAL / 2])
             box(client, block, (0.14, 0.15, PEDESTAL / 2), STONE)
-            self._load_nao()
+            if body == NAO:
+                self._load_nao()
             stands.append(block[0])
         for x in stands:
             disc(client, np.array([x, 0.0, FLOOR + 0.004]), 0.30, SHADE)
@@ -160,7 +166,7 @@ class Scene:
         self._person.pose(human_end, tilt)
         if self._second is not None:
             self._second.pose(robot_end, tilt)
-        else:
+        elif self._arm_joints:
             angles = arm_path().joint_angles(min(max(robot_end, STROKE[0]), STROKE[1]))
             for joint, angle in zip(self._arm_joints, angles, strict=True):
                 pybullet.resetJointState(self._nao, joint, angle, physicsClientId=self._client)
@@ -230,7 +236,13 @@ class Scene:
         )
         seen = np.asarray(pixels, dtype=np.uint8).reshape(high, wide, 4)[..., :3].copy()
         seen[np.asarray(bodies).reshape(high, wide) < 0] = ImageColor.getrgb(SKY)
-        return np.array(Image.fromarray(seen).reduce(SMOOTHING))
+        picture = Image.fromarray(seen).reduce(SMOOTHING)
+        if self._words:
+            size = max(8, height // 24)
+            ImageDraw.Draw(picture).text(
+                (size, height // 2), self._words, fill=INK, font=letters(size)
+            )
+        return np.array(picture)
 
     def close(self) -> None:
         """Close the engine, and the window with it."""

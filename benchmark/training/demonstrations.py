@@ -39,6 +39,7 @@ from ...agents.agent import FRAME
 from ...agents.errors import InputError
 from ...agents.humans import Partner
 from ...agents.registry import SUITES, own_entries
+from ...agents.text import decoded, read_bytes
 from ..episode.lift import MOCAP_NOISE, Lift
 from ..episode.scenario import CONTROL_PERIOD
 from ..episode.seeding import derive_seed
@@ -50,6 +51,9 @@ FIRST_SEED: Final = 60_000
 
 LIFTS: Final = 400
 """Lifts from which a robot learns: 100 of each behaviour, each by another person."""
+
+LARGEST: Final = 1024 * 1024 * 1024
+"""Largest file of demonstrations [bytes]."""
 
 SERIES: Final = (
     "seen_human_m",
@@ -194,13 +198,8 @@ def read_demonstrations(path: Path) -> tuple[Demonstration, ...]:
 
 def _rows(path: Path) -> Iterator[tuple[tuple[str, ...], list[float]]]:
     """Yield the words and the numbers of each row."""
-    try:
-        with path.open(encoding="utf-8", newline="") as file:
-            lines = list(file)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: not a CSV file in UTF-8: {error}") from None
+    text = decoded(read_bytes(path, LARGEST), str(path))
+    lines = text.splitlines(keepends=True)
     comments = len(list(itertools.takewhile(lambda line: line.startswith("#"), lines)))
     reader = csv.DictReader(lines[comments:])
     missing = set(COLUMNS) - set(reader.fieldnames or ())

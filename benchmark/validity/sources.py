@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Final
 
 from ...agents.errors import InputError
+from ...agents.humans import Recorded
+from ...agents.humans.copies import first_copy
 from ..live.scenarios import real_lifts
 from ..suites.suite import Suite, plain_name
 
@@ -55,10 +57,23 @@ def sources_of(paths: Sequence[Path]) -> tuple[Source, ...]:
     Raises
     ------
     InputError
-        As :func:`source_of`, or if two have the same name.
+        As :func:`source_of`, or if two have the same name or share a lift.
     """
     found = tuple(source_of(path) for path in paths)
     name, count = Counter(source.name for source in found).most_common(1)[0]
     if count > 1:
         raise InputError(f"{count} sources are called {name!r}; give each source a name of its own")
+    recorded = [
+        (source.name, scenario.human.recording)
+        for source in found
+        for scenario in source.suite.scenarios
+        if isinstance(scenario.human, Recorded)
+    ]
+    copy = first_copy([recording for _, recording in recorded])
+    if copy is not None:
+        (one, lift), (other, again) = (recorded[place] for place in copy)
+        raise InputError(
+            f"{other} has the lift {lift.name!r:.80} of {one}, as {again.name!r:.80}: a lift can "
+            "confirm a suite once; leave one of them out"
+        )
     return found

@@ -276,6 +276,9 @@ def _report(
     if as_json:
         print_json(plain)
         return
-    show(results_table(content, done.suite.metrics), results_text(content), timing_table(timing))
+    show(results_table(content, done.suite.metrics), results_text(content))
+    if len(done.episodes) > 1:
+        show(f"The interval holds for further lifts of {done.episodes[0].subject}.")
+    show(timing_table(timing))
     if out is not None:
         print(f"Result bundle: {out}")

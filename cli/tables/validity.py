@@ -1,5 +1,6 @@
 """The validity of suites as tables for a terminal."""
 
+import re
 import textwrap
 from collections.abc import Callable, Iterator
 from typing import Final
@@ -70,9 +71,15 @@ def ratios_table(validity: Validity) -> Table:
     baseline = ("two people, mm", *(f"{_mm(each.human_human_mm)}    " for each in columns))
     return table(
         "RMSE divided by that of two people, and place",
-        ("policy", *("\n".join(textwrap.wrap(each.name, HEADING)) for each in columns)),
+        ("policy", *(source_heading(each.name) for each in columns)),
         [*rows, styled(baseline, BASELINE)],
     )
+
+
+def source_heading(name: str) -> str:
+    """Return a name on lines that end at blanks, underscores and hyphens."""
+    parts = re.sub(r"([_-])", r"\1 ", name)
+    return re.sub(r"([_-]) ", r"\1", "\n".join(textwrap.wrap(parts, HEADING)))
 
 
 def _ratio(scores: Scores, policy: str) -> str:

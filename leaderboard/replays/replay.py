@@ -27,6 +27,7 @@ goal_error_mm            only of live lifts: how far the hand was from them; nul
 drawn                    only of tasks that add some: the series of :class:`.DrawnSeries`, each
                          with ``name``, ``label``, ``where``, ``goal`` and ``values``, packed as
                          heights are
+holder                   only without a NAO: ``person``, or words on a robot without a picture
 ghost                    ``human``, ``robot`` and ``drawn`` as above, and ``rmse_mm``, of two people
                          instead; ``team`` is true if both are simulated, and not one of them
 ======================== =========================================================================
@@ -54,6 +55,7 @@ from ...benchmark.episode.metric import drawn_series
 from ...benchmark.episode.scenario import Scenario
 from ...benchmark.episode.seat import hand_commands
 from ...benchmark.episode.trace import Trace
+from ...benchmark.rendering.bodies import NAO, PERSON, no_picture, shown_body
 from ...benchmark.results.baselines import partner_spec
 from ...benchmark.results.goals import lift_goal_errors
 
@@ -154,6 +156,7 @@ def replay_content(
         "events": [] if played else [[name, frame] for name, frame in ghost.plan.events],
         **({} if played is None else _goals(played, episode)),
         **_drawn(scenario, trace),
+        **_holder(scenario.partner),
         "ghost": {
             "human": changes(human_human.trace.human_end),
             "robot": changes(human_human.trace.robot_end),
@@ -177,6 +180,14 @@ def _drawn(scenario: Scenario, trace: Trace) -> dict[str, Any]:
         for each in drawn_series(scenario.task.metrics)
     ]
     return {"drawn": shown} if shown else {}
+
+
+def _holder(partner: str) -> dict[str, str]:
+    """Return the body at the robot's end unless it is a NAO: a person, or words in its place."""
+    body = shown_body(partner)
+    if body == NAO:
+        return {}
+    return {"holder": PERSON if body == PERSON else no_picture(partner)}
 
 
 def changes(heights: ArrayLike) -> list[int]:

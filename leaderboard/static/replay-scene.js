@@ -88,12 +88,11 @@
       this.rulers(svg, robotX, humanX, grip[1]);
       this.ghost = make("g", { class: "replay-ghost" }, svg);
       this.partner = new Person(this.ghost, geometry, robotX, 1, "partner");
-      make(
-        "rect",
-        { x: -0.15, y: -floor - pedestal, width: 0.28, height: pedestal, rx: 0.012, class: "stone" },
-        svg
-      );
+      const stone = { x: -0.15, y: -floor - pedestal, width: 0.28, height: pedestal, rx: 0.012 };
+      this.pedestal = make("rect", { ...stone, class: "stone" }, svg);
       new Nao(svg, geometry);
+      this.second = new Person(svg, geometry, robotX, 1, "partner");
+      this.unknown = make("text", { x: -0.6, y: 0.12, class: "none" }, svg);
       this.person = new Person(svg, geometry, humanX, -1, "human");
       this.ghostTable = new Table(make("g", { class: "replay-ghost" }, svg), geometry, "ghost");
       this.table = new Table(svg, geometry, "real");
@@ -154,7 +153,17 @@
         label.setAttribute("font-size", size(LETTERS - 3));
         label.setAttribute("dy", 0.35 * size(LETTERS - 3));
       }
-      this.level.text.setAttribute("font-size", size(LETTERS + 1));
+      for (const text of [this.level.text, this.unknown]) text.setAttribute("font-size", size(LETTERS + 1));
+    }
+
+    // The body at the robot's end: a NAO, "person", or words on a robot without a picture.
+    hold(holder) {
+      this.svg.classList.toggle("no-nao", Boolean(holder));
+      const words = holder && holder !== "person" ? holder : "";
+      this.second.group.classList.toggle("none", holder !== "person");
+      this.pedestal.classList.toggle("none", holder === "person");
+      this.unknown.classList.toggle("none", !words);
+      this.unknown.textContent = words;
     }
 
     showGhost(shown) {
@@ -166,6 +175,7 @@
       this.table.pose(now.human, now.robot);
       this.person.pose(now.human);
       this.arm.pose(now.robot);
+      this.second.pose(now.robot);
       this.ghostTable.pose(now.ghostHuman, now.ghostRobot);
       this.partner.pose(now.ghostRobot);
       const humanHuman = now.ghostRobot - now.ghostHuman;

@@ -120,6 +120,7 @@
 
     describe() {
       const { now } = this;
+      this.scene.hold(now.holder);
       const what = colift.BEHAVIOURS[now.behaviour] || words(now.behaviour);
       const lift = now.trial ? `recording ${now.trial}` : `seed ${now.seed}`;
       const chosen = now.which ? `${colift.SHOWN[now.which]} of its lifts with this behaviour: ` : "";

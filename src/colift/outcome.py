@@ -10,7 +10,7 @@ from rich.console import Console
 
 from .agents.errors import InputError
 from .benchmark.bundle import Results
-from .benchmark.bundle.table import table_row
+from .benchmark.bundle.table import table_row, treated
 from .benchmark.execution.runner import Run
 from .cli.failures import reported_failures
 from .cli.printing import show
@@ -56,8 +56,10 @@ class Evaluation:
         )
 
     def rows(self) -> list[dict[str, object]]:
-        """Return one row per lift: subject, seed, scores, and the reason of a failure."""
-        return [table_row(episode, self.run.suite.metrics) for episode in self.run.episodes]
+        """Return one row per lift, as ``episodes.csv``: subject, seed, scores, failure."""
+        suite = self.run.suite
+        played = treated(suite)
+        return [table_row(episode, suite.metrics, played) for episode in self.run.episodes]
 
     def to_frame(self) -> Any:
         """Return :meth:`rows` as a ``pandas.DataFrame``.

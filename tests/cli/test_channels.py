@@ -65,7 +65,7 @@ def test_list_has_the_numbers_of_each_channel(colift):
     ("command", "text", "message"),
     [
         ("run", "hoem", "--channel: unknown channel 'hoem'; did you mean home? known: lan, home"),
-        ("channels", "no.toml", "--channel: cannot read channel no.toml: No such file"),
+        ("channels", "no.toml", "--channel: no.toml: cannot be read: No such file"),
         ("run", "bad.toml", "--channel: bad.toml: up: unknown key 'lost'"),
         ("run", "far.toml", "--channel: far.toml: down.delay must be from 0 to 10 s, got 99 s"),
     ],

@@ -338,7 +338,7 @@ def test_somebody_elses_policy_runs_in_a_sandbox(colift, tmp_path):
         (("run", "blend", "--up", "W"), "X, Y or Z"),
         (("emulate", "--subject", "S9"), "S9"),
         (("emulate", "--fault", "fire@1"), "unknown fault 'fire'"),
-        (("replay", "none.csv"), "cannot read none.csv"),
+        (("replay", "none.csv"), "none.csv: cannot be read"),
     ],
 )
 def test_what_is_typed_wrong_is_named(colift, arguments, told):

@@ -4,6 +4,7 @@ import json
 import math
 
 import pytest
+from colift.cli.tables.validity import source_heading
 from colift.cli.validity import separated
 from colift.leaderboard.practice.season_import import PlayedSeason
 
@@ -11,9 +12,9 @@ FEW = ("--policies", "copy,hold,reactive,proportional,gain=0.4", "--suite", "qui
 
 
 def write(path, shape, trials=4):
-    """Write lifts of two seconds, each a little slower than the one before."""
+    """Write lifts of two seconds, each with a later peak than the one before."""
     rows = [
-        f"{trial},{k / 30 * (1 + 0.1 * trial):.4f},{0.3 * shape(k / 60):.5f}\n"
+        f"{trial},{k / 30:.4f},{0.3 * shape((k / 60) ** (1 + 0.1 * trial)):.5f}\n"
         for trial in range(trials)
         for k in range(61)
     ]
@@ -129,3 +130,17 @@ def test_shipped_scores_of_colifts_own_policies_are_not_played_again(colift, fil
     for name in suite["shipped"]:
         assert found[name] == pytest.approx(rows[name].public.rmse_mm.mean, abs=0.01)
     assert len(found) == 4
+
+
+@pytest.mark.parametrize(
+    ("name", "lines"),
+    [
+        ("hdm05", ["hdm05"]),
+        ("heldout_hdm05", ["heldout_", "hdm05"]),
+        ("heldout_buetepage_hr", ["heldout_", "buetepage_", "hr"]),
+        ("our people", ["our people"]),
+        ("two-people-2027", ["two-people-", "2027"]),
+    ],
+)
+def test_a_sources_name_is_broken_between_its_parts(name, lines):
+    assert source_heading(name).split("\n") == lines

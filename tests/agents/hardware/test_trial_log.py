@@ -113,7 +113,7 @@ def test_a_dry_run_moves_nothing_and_replays_too(play, tmp_path):
         ("", "not a trial log"),
         ("a,b\n1,2\n", "not a trial log: it has no column 'event'"),
         ("event,policy\nsample,\n", "the first row is 'sample'"),
-        (None, "cannot read"),
+        (None, "cannot be read"),
     ],
 )
 def test_a_file_that_is_not_a_trial_log_is_refused_by_name(tmp_path, text, told):

@@ -67,6 +67,10 @@ def test_a_suite_of_another_timing_has_the_oracle_alone():
     assert list(suite_bounds(suite)) == [CAUSAL_BOUND, "oracle"]
     assert list(suite_bounds(suite.with_timing(0.2, None))) == ["oracle"]
     assert list(suite_bounds(suite.with_timing(None, 0.05))) == ["oracle"]
+    for behaviour in ("recorded", "played"):
+        first = dataclasses.replace(suite.scenarios[0], behaviour=behaviour, trial="a")
+        real = dataclasses.replace(suite, scenarios=(first,))
+        assert list(suite_bounds(real)) == ["oracle"]
 
 
 def test_a_task_without_a_bound_is_named():

@@ -11,7 +11,14 @@ from colift.benchmark.bundle import Recipe
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite, make_suite, recorded_suite
 
-LIFT = "".join(f"{k / 50:.2f},{0.3 * min(k, 60 - k) / 30 + 1 / 3!r}\n" for k in range(61))
+
+def lift(up=30):
+    """Return the samples of a lift that rises in some frames, and falls in the rest of 60."""
+    heights = (0.3 * min(k / up, (60 - k) / (60 - up)) + 1 / 3 for k in range(61))
+    return "".join(f"{k / 50:.2f},{height!r}\n" for k, height in enumerate(heights))
+
+
+LIFT = lift()
 
 
 def told(suite):
@@ -43,7 +50,11 @@ def test_it_takes_recordings_with_it(tmp_path):
     path = tmp_path / "lifts.csv"
     trials = ("a", 'b "x", y', "c/d", "é")
     quoted = ['"' + trial.replace('"', '""') + '"' for trial in trials]
-    rows = [f"{trial},{line}" for trial in quoted for line in LIFT.splitlines()]
+    rows = [
+        f"{trial},{line}"
+        for i, trial in enumerate(quoted)
+        for line in lift(18 + 4 * i).splitlines()
+    ]
     path.write_text("trial,t_s,z_m\n" + "\n".join(rows))
     suite = recorded_suite(path)
     recipe = told(suite)

@@ -99,8 +99,8 @@ def test_a_file_that_is_no_channel_is_refused_by_place(file, text, message):
     ("text", "message"),
     [
         ("hoem", "unknown channel 'hoem'; did you mean home[?] known: lan, home, satellite"),
-        ("missing.toml", "cannot read channel missing.toml: No such file"),
-        (".", "cannot read channel .: Is a directory"),
+        ("missing.toml", "missing.toml: cannot be read: No such file"),
+        (".", ".: cannot be read: Is a directory"),
     ],
 )
 def test_a_name_without_a_channel_is_refused(text, message):

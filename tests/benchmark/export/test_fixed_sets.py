@@ -13,8 +13,8 @@ from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
 from colift.benchmark.training.anticipation import FIRST_SEED, LAST_SEED
 
 MOTION = "trial,t_s,z_m\n" + "".join(
-    f"{name},{k / 50:.2f},{top * min(k, 60 - k) / 30:.3f}\n"
-    for name, top in (("a", 0.3), ("b", 0.2), ("c", 0.25))
+    f"{name},{k / 50:.2f},{0.3 * min(k / up, (60 - k) / (60 - up)):.3f}\n"
+    for name, up in (("a", 20), ("b", 30), ("c", 40))
     for k in range(61)
 )
 

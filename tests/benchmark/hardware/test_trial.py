@@ -8,10 +8,14 @@ from colift.agents.errors import InputError
 from colift.agents.hardware.ports import HandLimits, Sample
 from colift.agents.hardware.stops import Stop
 from colift.agents.hardware.trial_log import LoggedTrial, Step, TrialLog
+from colift.benchmark.bundle import results
+from colift.benchmark.bundle.table import dump_table
+from colift.benchmark.episode.level_metrics import LEVEL_METRICS
+from colift.benchmark.episode.metric import Metric
 from colift.benchmark.hardware.estimates import estimate_setup
 from colift.benchmark.hardware.strokes import find_strokes, smoothed
 from colift.benchmark.hardware.timing import timing_report
-from colift.benchmark.hardware.trial import episode, hardware_suite
+from colift.benchmark.hardware.trial import episode, hardware_run, hardware_suite
 
 T = 0.1
 
@@ -126,3 +130,29 @@ def test_trials_that_say_nothing_are_refused_by_what_they_lack():
         estimate_setup([recorded(log(0.5, up_and_down, up_and_down))])
     with pytest.raises(InputError, match="commanded to move by less than 30 mm"):
         estimate_setup([recorded(log(5.0, up_and_down, up_and_down))])
+
+
+@pytest.mark.parametrize("missing", ["worst", "left out"])
+@pytest.mark.parametrize("stopped", [False, True])
+def test_a_new_metric_of_level_has_no_value_in_a_trial(monkeypatch, missing, stopped):
+    added = Metric(
+        name="peak_force_n", symbol="peak", label="Peak", missing=missing, limit=3.0, meaning="new"
+    )
+    monkeypatch.setitem(LEVEL_METRICS, added.name, added)
+    stop = {"stop": Stop.OPERATOR, "reason": "the Enter key"} if stopped else {}
+    lifts = [
+        episode(log(5.0, up_and_down, up_and_down, **stop), person="Ann", number=number)
+        for number in range(2)
+    ]
+    assert list(lifts[0].scores) == list(LEVEL_METRICS)
+    assert math.isnan(lifts[0].scores["peak_force_n"])
+    suite = hardware_suite("NAO", "Ann", 2, period=T, latency=0.1)
+    run = hardware_run("copy", "0" * 16, suite, lifts, "none")
+    summary = results(run, {}).plain()["summary"]
+    assert summary["peak_force_n"] == {"mean": None, "missing": 2}
+    assert b"peak_force_n" in dump_table(lifts, suite.metrics)
+
+
+def test_a_metric_that_level_no_longer_has_is_left_out(monkeypatch):
+    monkeypatch.delitem(LEVEL_METRICS, "sparc")
+    assert "sparc" not in episode(log(5.0, up_and_down, up_and_down), person="A", number=0).scores

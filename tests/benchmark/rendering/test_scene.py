@@ -5,6 +5,8 @@ import pytest
 from colift.agents.errors import InputError
 from colift.benchmark.environment.parallel import ParallelLift, parallel_env
 from colift.benchmark.episode.recorder import Recorder
+from colift.benchmark.episode.seat import SEATS, NaoSeat
+from colift.benchmark.rendering.bodies import shown_body
 from colift.benchmark.rendering.scene import Picture, Scene, check_render_mode
 from colift.benchmark.rendering.style import HUMAN, ROBOT, SKY
 from PIL import ImageColor
@@ -85,6 +87,41 @@ def test_who_holds_an_end_wears_its_colour() -> None:
     person.close()
     assert amount(with_robot, HUMAN) > 100
     assert amount(with_person, ROBOT) > amount(with_robot, ROBOT) + 100
+
+
+class Crane(NaoSeat):
+    """A robot of another package, with a body of its own."""
+
+    body = SEATS["human"].body
+
+
+def test_a_robot_without_a_picture_is_replaced_by_words(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("colift.benchmark.rendering.bodies.SEATS", {**SEATS, "crane": Crane()})
+    assert [shown_body(name) for name in ("nao", "human", "live", "crane", "nonesuch")] == [
+        "nao",
+        "person",
+        "person",
+        "unknown",
+        "unknown",
+    ]
+    pictures = {}
+    for name in ("nao", "crane", "derrick"):
+        scene = Scene(name)
+        scene.pose(0.1, 0.0)
+        pictures[name] = scene.picture(320, 200)
+        scene.close()
+    robot = (slice(60, 140), slice(0, 120))
+    assert not np.array_equal(pictures["nao"][robot], pictures["crane"][robot])
+    # The names differ, and so do the words; all else is the same.
+    words = (pictures["crane"] != pictures["derrick"]).any(axis=-1)
+    assert 0 < words.sum() < 1000
+
+
+def test_a_real_person_at_the_robots_end_is_drawn_as_a_person() -> None:
+    live, person = Scene("live"), Scene("human")
+    assert np.array_equal(live.picture(160, 100), person.picture(160, 100))
+    live.close()
+    person.close()
 
 
 def test_a_height_beyond_the_arms_is_drawn_at_their_end() -> None:

@@ -165,7 +165,9 @@ def test_recordings_make_one_scenario_a_trial_with_the_subjects_in_turn(tmp_path
     path = tmp_path / "lifts.csv"
     times = np.arange(0, 2, 0.02)
     rows = [
-        f"trial{k},{t:.2f},{0.3 * np.sin(np.pi * t / 2) ** 2:.4f}" for k in range(7) for t in times
+        f"trial{k},{t:.2f},{0.3 * np.sin(np.pi * (t / 2) ** (1 + 0.1 * k)) ** 2:.4f}"
+        for k in range(7)
+        for t in times
     ]
     path.write_text("trial,t_s,z_m\n" + "\n".join(rows) + "\n")
     suite = recorded_suite(path)

@@ -137,7 +137,7 @@ def test_files_that_are_none_are_refused(tmp_path):
     for content, told in (
         (b"", "missing column"),
         (b"# nothing\n" + ",".join(COLUMNS).encode(), "no samples, needs rows of lift,behav"),
-        (b"\xff\xfe", "not a CSV file in UTF-8"),
+        (b"\xff\xfe", "must be UTF-8, is UTF-16"),
     ):
         path.write_bytes(content)
         with pytest.raises(InputError, match=told):

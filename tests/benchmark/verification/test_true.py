@@ -40,11 +40,29 @@ class TestTrue:
 
     def test_a_recorded_run_is_verified_without_the_recordings_file(self, tmp_path):
         path = tmp_path / "lifts.csv"
-        samples = ((trial, k / 50, 0.3 * min(k, 60 - k) / 30) for trial in "ab" for k in range(61))
+        samples = (
+            (trial, k / 50, 0.3 * min(k / up, (60 - k) / (60 - up)))
+            for trial, up in (("a", 30), ("b", 20))
+            for k in range(61)
+        )
         path.write_text("trial,t_s,z_m\n" + "".join(f"{a},{b},{c}\n" for a, b, c in samples))
         run = run_suite(PolicySpec(text="copy"), recorded_suite(path).with_timing(0.05, 0.05))
         write_bundle(tmp_path / "recorded", run, results(run, {}).plain())
         path.unlink()
+        assert verify(tmp_path / "recorded").ok
+        table = tmp_path / "recorded" / "episodes.csv"
+        head, first, _ = table.read_text().splitlines()
+        assert head.endswith(",failure,rate_hz,range_m,scale,slow_down,inverted")
+        assert first.endswith(",50.0,0.3,0.6897,1.724,False")
+        kept = table.read_text()
+        # Another scale is not the recording's; a table from before there were these columns is.
+        table.write_text(kept.replace(",0.6897,", ",0.5,"))
+        mend(tmp_path / "recorded")
+        assert "not as colift writes it" in refused(
+            tmp_path / "recorded", file="episodes.csv, line 2"
+        )
+        table.write_text("".join(f"{row.rsplit(',', 5)[0]}\n" for row in kept.splitlines()))
+        mend(tmp_path / "recorded")
         assert verify(tmp_path / "recorded").ok
         edited = tmp_path / "recorded" / "recordings.csv"
         edited.write_text(edited.read_text().replace("0.3", "0.31", 1))

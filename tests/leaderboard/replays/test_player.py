@@ -300,3 +300,23 @@ def test_hurdles_are_marked_at_their_ends(page_of_lift):
         height = episode.trace.added[f"{end}_hurdle"][499] - episode.trace.target[499]
         assert rest - shown == pytest.approx(height, abs=2e-4)
     expect(page.locator("figcaption", has_text="Height difference")).to_be_visible()
+
+
+def test_the_player_draws_no_nao_for_another_holder(chromium, tmp_path):
+    scenario = make_scenario("smooth", "S1")
+    episode = next(play(PolicySpec(text="copy"), scenario, (0,)))
+    content = replay_content(episode, scenario, play_ghost(scenario, 0), policy="copy")
+    words = "no picture of the robot crane"
+    for holder in (None, "person", words):
+        path = tmp_path / "lift.html"
+        told = {} if holder is None else {"holder": holder}
+        path.write_text(replay_page([{**content, **told}]), encoding="utf-8")
+        page = chromium.new_page(reduced_motion="reduce")
+        page.goto(path.as_uri())
+        robot, second = page.locator(".replay-nao").first, page.locator(".replay-person.partner")
+        expect(robot).to_be_visible() if holder is None else expect(robot).to_be_hidden()
+        expect(second.last).to_be_visible(visible=holder == "person")
+        expect(page.locator(".replay-scene text", has_text="no picture")).to_have_count(
+            1 if holder == words else 0
+        )
+        page.close()

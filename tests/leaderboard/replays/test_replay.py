@@ -136,3 +136,12 @@ def test_a_replay_has_the_series_that_its_task_draws_and_only_those(made):
     assert (drawn["name"], drawn["where"], drawn["goal"]) == ("far_target", "robot", True)
     far = episode.trace.added["far_target"]
     assert np.abs(heights(drawn["values"]) - far).max() <= 0.5e-4 + 1e-12
+
+
+def test_the_body_at_the_robots_end_is_stated_unless_it_is_a_nao(made, episode, ghost, monkeypatch):
+    assert "holder" not in made
+    person = dataclasses.replace(SCENARIO, partner="live")
+    assert replay_content(episode, person, ghost, policy="Ann")["holder"] == "person"
+    monkeypatch.setattr("colift.leaderboard.replays.replay.shown_body", lambda partner: "unknown")
+    content = replay_content(episode, SCENARIO, ghost, policy="lift")
+    assert content["holder"] == "no picture of the robot nao"
