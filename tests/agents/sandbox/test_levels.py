@@ -83,7 +83,7 @@ def test_the_probe_finds_what_is_open_when_restrictions_are_missing(missing):
             "reads numbers of mounts",
             "changes its priority",
             "opens files in a lift",
-            "asks for missing names in a lift",
+            "asks for names in a lift",
             "makes pipes in a lift",
             "makes threads in a lift",
             "wakes others in a lift",
