@@ -3,6 +3,7 @@
 Its files are described in :mod:`.store`, its tables in :mod:`.database.schema`.
 """
 
+import functools
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -26,7 +27,8 @@ from ..records.season import (
 )
 from ..storage.store import Store
 from .seasons import Clock, ImportedSeason, SeasonBook, utc_now
-from .standings import HumanHumanScores, RankedRow, frame, human_human_scores, standings
+from .standings import HumanHumanScores, RankedRow, frame, human_human_scores
+from .tables import Tables
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -124,6 +126,11 @@ class Board:
         """The board's files."""
         return Store(self.folder)
 
+    @functools.cached_property
+    def tables(self) -> Tables:
+        """The tables of the seasons, kept in memory."""
+        return Tables(self.database, self.store)
+
     @property
     def season(self) -> Season:
         """The current season; see :meth:`season_of`."""
@@ -191,8 +198,8 @@ class Board:
     def standings(self, season: str | None = None) -> tuple[RankedRow, ...]:
         """Return the table of a season, best first; rows out of the ranking are at the end.
 
-        Ranks follow from the hidden episodes, lift by lift; see :func:`.rank_groups`. The number
-        of queries does not depend on that of the entries.
+        Ranks follow from the hidden episodes, lift by lift; see :func:`.rank_groups`. They are
+        computed if that has not been done yet; ``tables`` has the table without this wait.
 
         Parameters
         ----------
@@ -204,7 +211,7 @@ class Board:
         InputError
             If there is no such season.
         """
-        return standings(self.database, self.season_info(season).name)
+        return self.tables.ranked(self.season_info(season).name).rows
 
     def ranking(self, season: str | None = None) -> "DataFrame":
         """Return the ranked rows of a season as a data frame, best first.

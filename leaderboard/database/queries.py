@@ -59,12 +59,14 @@ def read_events(
     return tuple(Event(**found) for found in connection.execute(query).mappings())
 
 
-def read_error_numbers(connection: sa.Connection, season: str) -> dict[str, int]:
-    """Return the number of the valid errors, by submission."""
+def read_error_numbers(
+    connection: sa.Connection, season: str, *conditions: sa.ColumnElement[bool]
+) -> dict[str, int]:
+    """Return the number of the valid errors of the submissions for which all conditions hold."""
     table = hidden_errors.c
     query = (
         sa.select(table.submission, sa.func.max(table.number).label("number"))
-        .where(table.season == season)
+        .where(table.season == season, *conditions)
         .group_by(table.submission)
     )
     return {each.submission: each.number for each in connection.execute(query)}

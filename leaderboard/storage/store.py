@@ -9,6 +9,7 @@
     logs/JOB.txt                             the workers' log of a job
     private/SEASON/                          the secret, the human-human baseline, faults in detail
     private/work/                            evaluations in progress
+    private/ranking                          held while ranks are computed
 
 Only ``public`` may be shown to everyone, and a log to those who know the id of its job.
 """
@@ -119,6 +120,21 @@ class Store:
     def alone(self) -> Iterator[None]:
         """Hold the board's lock, which is released when this process ends for any reason."""
         with (self.folder / "lock").open("a") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            yield
+
+    @contextmanager
+    def ranking(self) -> Iterator[None]:
+        """Hold the lock of those who compute ranks; readers never wait for it.
+
+        A folder that cannot be written to has no lock.
+        """
+        try:
+            file = (self.folder / "private" / "ranking").open("a")
+        except OSError:
+            yield
+            return
+        with file:
             fcntl.flock(file, fcntl.LOCK_EX)
             yield
 
