@@ -194,6 +194,7 @@ class Board:
         """
         with self.store.alone():
             self._book.import_season(practice, who, why)
+        self.tables.ranked(practice.info.name)
 
     def standings(self, season: str | None = None) -> tuple[RankedRow, ...]:
         """Return the table of a season, best first; rows out of the ranking are at the end.
@@ -243,12 +244,17 @@ class Board:
         with self.database.reading() as connection:
             return read_entries(connection, entries.c.name == name)
 
-    def events(self, season: str | None = None, submission: str | None = None) -> tuple[Event, ...]:
-        """Return the events of a season, of a submission, or all, oldest first."""
+    def events(
+        self, season: str | None = None, submission: str | None = None, newest: int | None = None
+    ) -> tuple[Event, ...]:
+        """Return the events of a season, of a submission, or all, oldest first.
+
+        With a number, return at most so many, the newest first.
+        """
         wanted = {events.c.season: season, events.c.submission: submission}
         conditions = [column == value for column, value in wanted.items() if value is not None]
         with self.database.reading() as connection:
-            return read_events(connection, *conditions)
+            return read_events(connection, *conditions, newest=newest)
 
     def withdraw(self, season: str, digest: str, who: str, why: str) -> None:
         """Take a row out of the ranking at its submitter's request; it stays visible.
@@ -313,6 +319,7 @@ class Board:
             wanted = suite or SUITE
             if practice and practice.info.current and practice.info.suite == wanted:
                 self._book.import_season(practice, LOCAL, IMPORTED)
+                self.tables.ranked(practice.info.name)
             else:
                 self._book.begin(FIRST, wanted, LOCAL)
         current = self._book.current()

@@ -102,7 +102,8 @@ def compute_ranks(database: Database, season: str, scored: Scored) -> None:
 
     See :func:`.rank_groups`. If the lifts are too few to distinguish any two, the group is 0.
     """
-    sections, groups = [], {}
+    sections: list[tuple[str, ...]] = []
+    groups: dict[str, int] = {}
     for numbers in filter(None, scored.values()):
         with database.reading() as connection:
             errors = read_errors(connection, season, numbers)

@@ -123,6 +123,22 @@ class Tables:
         """Return a row with its present rank; None if there is none. This builds no table."""
         return next(iter(self.rows(season, entries.c.submission == submission)), None)
 
+    def last_ranks(self, season: str) -> Ranks:
+        """Return the ranks of a season that were computed last."""
+        with self._database.reading() as connection:
+            return self.ranks(connection, season)
+
+    def newest(self, season: str, most: int) -> tuple[RankedRow, ...]:
+        """Return the newest rows of a season, as :meth:`row`."""
+        last = (
+            sa.select(entries.c.number)
+            .where(entries.c.season == season, entries.c.refusal.is_(None))
+            .order_by(entries.c.at.desc(), entries.c.number.desc())
+            .limit(most)
+        )
+        found = self.rows(season, entries.c.number.in_(last))
+        return tuple(sorted(found, key=lambda each: each.at, reverse=True))
+
     def rows(self, season: str, *conditions: sa.ColumnElement[bool]) -> tuple[RankedRow, ...]:
         """Return the rows of those entries for which all conditions hold, as :meth:`row`."""
         with self._database.reading() as connection:

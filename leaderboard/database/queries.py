@@ -51,11 +51,15 @@ def read_entries(
 
 
 def read_events(
-    connection: sa.Connection, *conditions: sa.ColumnElement[bool]
+    connection: sa.Connection, *conditions: sa.ColumnElement[bool], newest: int | None = None
 ) -> tuple[Event, ...]:
-    """Return the events for which all conditions hold, oldest first."""
+    """Return the events for which all conditions hold, oldest first.
+
+    With a number, return at most so many, the newest first.
+    """
     columns = [column for column in events.c if column.name != "number"]
-    query = sa.select(*columns).where(*conditions).order_by(events.c.number)
+    order = events.c.number if newest is None else events.c.number.desc()
+    query = sa.select(*columns).where(*conditions).order_by(order).limit(newest)
     return tuple(Event(**found) for found in connection.execute(query).mappings())
 
 

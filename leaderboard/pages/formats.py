@@ -75,10 +75,10 @@ def mib(size: int) -> str:
 def badge_text(standing: RankedRow) -> str:
     """Return the text of a row's badge."""
     mm = f"{number(standing.row.hidden.rmse_mm.mean)} mm"
-    return (
-        f"{mm} · rank {standing.group}"
-        if standing.ranked and standing.group
-        else f"{mm} · not ranked"
+    if standing.pending:
+        return f"{mm} · being ranked"
+    return f"{mm} · " + (
+        f"rank {standing.group}" if standing.ranked and standing.group else "not ranked"
     )
 
 

@@ -1,6 +1,6 @@
 """A board of thousands of rows, made from those of the practice season.
 
-As a program, ``many.py FOLDER ROWS`` makes such a board in a new folder, to measure pages and ranks.
+As a program, ``many.py FOLDER ROWS`` makes such a board in a new folder, to be measured.
 """
 
 import dataclasses

@@ -12,9 +12,10 @@ from colift.leaderboard.database.queries import record_entry
 from colift.leaderboard.pages.formats import interval, number, p_text, signed, tex
 from colift.leaderboard.pages.links import ServiceLinks
 from colift.leaderboard.pages.rendering import render_page
+from colift.leaderboard.views.asked import CHOSEN
 from colift.leaderboard.views.axis import make_axis
 from colift.leaderboard.views.board import board_view
-from colift.leaderboard.views.compare import MOST, compare_view
+from colift.leaderboard.views.compare import compare_view
 from colift.leaderboard.views.exports import standings_csv
 from colift.leaderboard.views.lifts import Part, part_estimate
 from colift.leaderboard.views.picture import make_picture
@@ -88,7 +89,7 @@ def test_only_so_many_are_compared_and_no_one_with_itself(shown):
     copy = digest("copy")
     assert compare_view(shown, "2026", [copy, copy]).pairs == ()
     everyone = [each.row.submission for each in shown.standings("2026")]
-    assert len(compare_view(shown, "2026", [*everyone, "nonsense"]).columns) == MOST
+    assert len(compare_view(shown, "2026", [*everyone, "nonsense"]).columns) == CHOSEN
 
 
 def test_without_single_lifts_there_are_means_and_no_intervals(played, tmp_path):
@@ -201,6 +202,7 @@ def test_a_page_shows_what_is_not_real_time_apart_and_says_what_has_no_rank(tmp_
     add(board, "good", 10.0)
     add(board, "snail", 5.0, change=slow)
     add(board, "free", 1.0, change=unverified)
+    board.standings()  # Computes the ranks.
     view = board_view(board)
     names = [[each.row.name for each in some] for some in (view.slow, view.out)]
     assert ([each.standing.row.name for each in view.rows], *names) == (
