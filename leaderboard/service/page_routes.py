@@ -7,6 +7,7 @@ from fastapi import APIRouter, Depends, Path, Query, Request
 from fastapi.responses import HTMLResponse, Response
 
 from ...agents.errors import InputError
+from ..evaluation.progress import HIDDEN
 from ..pages.formats import badge_text
 from ..pages.rendering import prose, render_page, template_archive
 from ..replays.chosen import has_replays, replays_of
@@ -15,7 +16,7 @@ from ..views.asked import Asked
 from ..views.board import board_view, find_season, ordered_seasons
 from ..views.compare import compare_view
 from ..views.exports import news_of
-from ..views.job import STAGES, job_view, open_jobs
+from ..views.job import job_view, open_jobs
 from ..views.method import method_view
 from ..views.policy import PolicyView, policy_view
 from ..views.scenario import scenario_view, scenarios_view
@@ -208,7 +209,7 @@ def job_page(
         return _missing(service, request, "There is no such job.")
     info = find_season(ordered_seasons(service.board), view.job.season)
     api = f"{links_of(request).root}{JOBS}/{job}"
-    return _page(request, "job.html", season=info, view=view, stages=STAGES, api=api)
+    return _page(request, "job.html", season=info, view=view, api=api, hidden=HIDDEN)
 
 
 def _replays(service: ServiceState, season: str, digest: str) -> list[dict[str, Any]]:
