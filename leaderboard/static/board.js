@@ -63,6 +63,7 @@
       script.addEventListener("load", () => {
         body.insertAdjacentHTML("beforeend", window.coliftRows.html);
         for (const part of document.querySelectorAll("[data-later]")) part.hidden = false;
+        for (const part of table.tHead.querySelectorAll("button")) part.disabled = false;
         for (const part of document.querySelectorAll(".pager, #load")) part.hidden = true;
         start(window.coliftRows.rows);
       });
