@@ -1,5 +1,6 @@
 """The scatter picture of a board: error on hidden lifts, and on public ones a second metric."""
 
+import threading
 from collections.abc import Sequence
 from typing import Final
 from weakref import WeakKeyDictionary
@@ -19,6 +20,9 @@ PICTURED: Final = 100
 Pictures = tuple[ScatterScene | None, ScatterScene | None]
 """A picture for a screen, and one for a telephone; None if there is no policy."""
 
+_drawing: Final = threading.Lock()
+"""Held while pictures are drawn, so that the readers of a new table do not all draw them."""
+
 _made: WeakKeyDictionary[Table, Pictures] = WeakKeyDictionary()
 
 
@@ -26,13 +30,14 @@ def pictures(
     table: Table, human_human: HumanHumanScores | None, bounds: Sequence[PublicBound]
 ) -> Pictures:
     """Return the pictures of a table; they are drawn once."""
-    if table not in _made:
-        rows = _pictured([each.row for each in table.ranking])
-        wide, narrow = (
-            make_picture(rows, human_human, bounds, size=size) for size in (WIDE, NARROW)
-        )
-        _made[table] = wide, narrow
-    return _made[table]
+    with _drawing:
+        if table not in _made:
+            rows = _pictured([each.row for each in table.ranking])
+            wide, narrow = (
+                make_picture(rows, human_human, bounds, size=size) for size in (WIDE, NARROW)
+            )
+            _made[table] = wide, narrow
+        return _made[table]
 
 
 def _pictured(rows: Sequence[BoardRow]) -> list[BoardRow]:
