@@ -202,7 +202,8 @@ class Store:
         """Move a bundle to its place, over the remains of an earlier attempt."""
         place = self.bundle(season, digest)
         shutil.rmtree(place, ignore_errors=True)
-        place.with_name("bundle.zip").unlink(missing_ok=True)
+        for made_of_it in ("bundle.zip", "replays.json"):
+            place.with_name(made_of_it).unlink(missing_ok=True)
         place.parent.mkdir(parents=True, exist_ok=True)
         sync_tree(made)
         made.rename(place)

@@ -27,6 +27,7 @@ from .lifts import (
     parts_of,
     public_lifts,
     stratum_scores,
+    version,
 )
 
 ALL: Final = 40
@@ -140,7 +141,7 @@ def compare_view(
         for digest, path in runs.items()
     )
     human_human = tuple(human_human_mean_rmse(strata, part) for part in parts)
-    pairs = _differences(tuple(runs.values()))
+    pairs = _differences(tuple((path, version(path)) for path in runs.values()))
     names = itertools.combinations(runs, 2)
     return CompareView(
         season=info,
@@ -212,9 +213,11 @@ def _parts(strata: Sequence[StratumScore]) -> tuple[Part, ...]:
 
 
 @functools.lru_cache(maxsize=64)
-def _differences(bundles: tuple[Path, ...]) -> tuple[PairedDifference | None, ...]:
+def _differences(
+    bundles: tuple[tuple[Path, tuple[int, int]], ...],
+) -> tuple[PairedDifference | None, ...]:
     """Return the difference between each two of some bundles, in the order of combinations."""
-    runs = [public_lifts(bundle) for bundle in bundles]
+    runs = [public_lifts(bundle) for bundle, _ in bundles]
     found: list[PairedDifference | None] = []
     for i, a in enumerate(runs):
         errors = [lift.rmse_mm for lift in a]

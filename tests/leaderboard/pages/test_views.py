@@ -1,6 +1,7 @@
 """What pages show, without a browser."""
 
 import dataclasses
+import shutil
 
 import pytest
 from colift.benchmark.bundle.files import EPISODES, RESULTS
@@ -17,11 +18,17 @@ from colift.leaderboard.views.axis import make_axis
 from colift.leaderboard.views.board import board_view
 from colift.leaderboard.views.compare import compare_view
 from colift.leaderboard.views.exports import standings_csv
-from colift.leaderboard.views.lifts import Part, part_estimate
+from colift.leaderboard.views.lifts import (
+    Part,
+    part_estimate,
+    public_lifts,
+    stratum_scores,
+)
 from colift.leaderboard.views.picture import make_picture
 from colift.leaderboard.views.policy import RefusalView, policy_view
 from colift.leaderboard.views.scenario import scenarios_view
 
+from .. import rows
 from ..rows import add, make_entry, make_row, slow, unverified
 from .boards import digest
 
@@ -249,3 +256,21 @@ def test_the_picture_of_another_task_has_that_tasks_second_metric_and_words():
     assert picture.dots[0].tip == "a: RMSE 20.0 mm, settling 1352 ms"
     assert picture.axis == "← more accurate · RMSE on the hidden lifts, mm"
     assert picture.axis_up == "Time to the right pose, ms · quicker →"
+
+
+def test_a_bundle_that_a_rescore_has_replaced_is_read_again(tmp_path, played):
+    board = Board.open(tmp_path / "board", "quick-v1")
+    add(board, "mine", 10.0)
+    first, second, *_ = (each.bundle for each in played.entries)
+    seen = []
+    for bundle in (first, second):
+        copy = shutil.copytree(bundle, tmp_path / "copy")
+        board.store.place_bundle("1", rows.digest("mine"), copy)
+        place = board.bundle("1", rows.digest("mine"))
+        whole = Part(behaviour=None, subject=None)
+        assert public_lifts(place) == public_lifts(bundle)
+        assert stratum_scores(place) == stratum_scores(bundle)
+        assert part_estimate(place, whole) == part_estimate(bundle, whole)
+        seen.append(part_estimate(place, whole).mean)
+    board.close()
+    assert seen[0] != seen[1]
