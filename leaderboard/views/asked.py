@@ -1,4 +1,4 @@
-"""What a reader asks of a table: search, order, a part of the lifts, and a page of rows."""
+"""Questions of readers to a table: search, order, a part of the lifts, and a page of rows."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
