@@ -86,6 +86,7 @@ def rescore(
         watch = Callbacks(stage=bar.stage, progress=bar.advance, total=bar.total)
         worker = Worker(WorkerQueue(place), pool)
         new = worker.rescore(found.row.season, found.row.submission, by, why, watch)
+        place.standings(found.row.season)  # Computes the ranks before a reader looks.
     before, after = found.row.hidden.rmse_mm.mean, new.hidden.rmse_mm.mean
     print(f"{new.name} is rescored: hidden RMSE {after:.2f} mm, before {before:.2f} mm")
 

@@ -5,6 +5,7 @@ import sys
 from asyncio import Protocol
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
+from urllib.parse import urlsplit
 
 import typer
 
@@ -56,7 +57,10 @@ def serve_board(
     ] = "",
     root: Annotated[
         str,
-        typer.Option(metavar="/PATH", help="Path of the board behind a reverse proxy."),
+        typer.Option(
+            metavar="/PATH|URL",
+            help="Path of the board behind a reverse proxy, or its whole address, https://...",
+        ),
     ] = "",
     rooms: Annotated[
         int,
@@ -81,6 +85,7 @@ def serve_board(
         raise InputError(
             f"{error.name} is not installed; a board on the web needs: {how_to_install('board')}"
         ) from error
+    address = root.rstrip("/") if "://" in root else ""
     documentation = Documentation.at(docs) if docs else None
     quota = Quota(rows=rows_a_day, size=kept * MIB)
     if isolation != AUTO:
@@ -93,10 +98,16 @@ def serve_board(
     try:
         with listening_at(host, port) as listener:
             app = create_app(
-                board, contact=contact, quota=quota, docs=documentation, play=rooms > 0
+                board,
+                contact=contact,
+                address=address,
+                quota=quota,
+                docs=documentation,
+                play=rooms > 0,
             )
             sockets = _offer_rooms(app, board, rooms) if rooms else None
-            server = make_server(app, root.rstrip("/"), sockets)
+            path = urlsplit(address).path if address else root.rstrip("/")
+            server = make_server(app, path, sockets)
             with running(command, workers):
                 print(f"Board {board}: {url_of(listener)} (Ctrl-C ends it)", flush=True)
                 server.run(sockets=[listener])

@@ -34,6 +34,12 @@ from .tables.row import SectionRow, row_table, row_text
 POLL_S: Final = 0.5
 """Time between two queries of a job that another process evaluates [s]."""
 
+RANK_POLL_S: Final = 2.0
+"""Time between two queries of a table that has no rank of a new row yet [s]."""
+
+RANKED_S: Final = 600.0
+"""Longest wait for the rank [s]; ranks of thousands of rows take seconds."""
+
 
 def submit_policy(
     context: typer.Context,
@@ -168,11 +174,22 @@ def _submit_to_web(
         digest,
         (
             (each["section"], each["group"], BoardRow.read(each["row"]))
-            for each in board.standings(season)
+            for each in _ranked(board, season, digest)
         ),
     )
     bundle = f"{links.root}{API}/entries/{season}/{digest}/bundle.zip"
     print(f"Bundle of the public run: {bundle}\nIts page: {links.policy(season, digest)}")
+
+
+def _ranked(board: RemoteBoard, season: str, digest: str) -> list[dict[str, Any]]:
+    """Return a season's table when it has the rank of a submission, or after a while without."""
+    end = time.monotonic() + RANKED_S
+    while True:
+        table = board.standings(season)
+        pending = any(each["row"]["submission"] == digest and each.get("pending") for each in table)
+        if not pending or time.monotonic() > end:
+            return table
+        time.sleep(RANK_POLL_S)
 
 
 def _followed(board: RemoteBoard, job: dict[str, Any]) -> dict[str, Any]:

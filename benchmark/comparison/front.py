@@ -5,6 +5,7 @@ References
 K. Miettinen (1999). Nonlinear multiobjective optimization. Kluwer, chapter 2.
 """
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -32,12 +33,6 @@ class FrontPoint:
         value = -math.inf if self.second is None else metric.merit(self.second.mean)
         return -self.missing, value
 
-    def dominates(self, other: "FrontPoint", metric: Metric) -> bool:
-        """Return whether it is at least as good in both, and better in one."""
-        mine = (-self.rmse_mm.mean, self.merit(metric))
-        theirs = (-other.rmse_mm.mean, other.merit(metric))
-        return mine[0] >= theirs[0] and mine[1] >= theirs[1] and mine != theirs
-
 
 def exact(value: float | None) -> Estimate | None:
     """Return a mean without a known interval as an estimate."""
@@ -50,10 +45,16 @@ def pareto_front(points: Sequence[FrontPoint], metric: Metric) -> tuple[FrontPoi
     A policy without a value of the second metric is never on the front: holding still is not
     smooth.
     """
-    policies = [point for point in points if point.kind == "policy"]
-    front = [
-        point
-        for point in policies
-        if point.second and not any(rival.dominates(point, metric) for rival in policies)
-    ]
-    return tuple(sorted(front, key=lambda point: (point.rmse_mm.mean, point.name)))
+    policies = sorted(
+        (point for point in points if point.kind == "policy"),
+        key=lambda point: (point.rmse_mm.mean, point.name),
+    )
+    front: list[FrontPoint] = []
+    best: tuple[float, float] | None = None  # Of all with a smaller error.
+    for _, equal in itertools.groupby(policies, key=lambda point: point.rmse_mm.mean):
+        some = list(equal)
+        top = max(point.merit(metric) for point in some)
+        if best is None or top > best:
+            front += [point for point in some if point.second and point.merit(metric) == top]
+            best = top
+    return tuple(front)

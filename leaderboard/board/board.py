@@ -3,6 +3,7 @@
 Its files are described in :mod:`.store`, its tables in :mod:`.database.schema`.
 """
 
+import functools
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -26,7 +27,8 @@ from ..records.season import (
 )
 from ..storage.store import Store
 from .seasons import Clock, ImportedSeason, SeasonBook, utc_now
-from .standings import HumanHumanScores, RankedRow, frame, human_human_scores, standings
+from .standings import HumanHumanScores, RankedRow, frame, human_human_scores
+from .tables import Tables
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -124,6 +126,11 @@ class Board:
         """The board's files."""
         return Store(self.folder)
 
+    @functools.cached_property
+    def tables(self) -> Tables:
+        """The tables of the seasons, kept in memory."""
+        return Tables(self.database, self.store)
+
     @property
     def season(self) -> Season:
         """The current season; see :meth:`season_of`."""
@@ -187,12 +194,13 @@ class Board:
         """
         with self.store.alone():
             self._book.import_season(practice, who, why)
+        self.tables.ranked(practice.info.name)
 
     def standings(self, season: str | None = None) -> tuple[RankedRow, ...]:
         """Return the table of a season, best first; rows out of the ranking are at the end.
 
-        Ranks follow from the hidden episodes, lift by lift; see :func:`.rank_groups`. The number
-        of queries does not depend on that of the entries.
+        Ranks follow from the hidden episodes, lift by lift; see :func:`.rank_groups`. They are
+        computed if that has not been done yet; ``tables`` has the table without this wait.
 
         Parameters
         ----------
@@ -204,7 +212,7 @@ class Board:
         InputError
             If there is no such season.
         """
-        return standings(self.database, self.season_info(season).name)
+        return self.tables.ranked(self.season_info(season).name).rows
 
     def ranking(self, season: str | None = None) -> "DataFrame":
         """Return the ranked rows of a season as a data frame, best first.
@@ -236,12 +244,17 @@ class Board:
         with self.database.reading() as connection:
             return read_entries(connection, entries.c.name == name)
 
-    def events(self, season: str | None = None, submission: str | None = None) -> tuple[Event, ...]:
-        """Return the events of a season, of a submission, or all, oldest first."""
+    def events(
+        self, season: str | None = None, submission: str | None = None, newest: int | None = None
+    ) -> tuple[Event, ...]:
+        """Return the events of a season, of a submission, or all, oldest first.
+
+        With a number, return at most so many, the newest first.
+        """
         wanted = {events.c.season: season, events.c.submission: submission}
         conditions = [column == value for column, value in wanted.items() if value is not None]
         with self.database.reading() as connection:
-            return read_events(connection, *conditions)
+            return read_events(connection, *conditions, newest=newest)
 
     def withdraw(self, season: str, digest: str, who: str, why: str) -> None:
         """Take a row out of the ranking at its submitter's request; it stays visible.
@@ -306,6 +319,7 @@ class Board:
             wanted = suite or SUITE
             if practice and practice.info.current and practice.info.suite == wanted:
                 self._book.import_season(practice, LOCAL, IMPORTED)
+                self.tables.ranked(practice.info.name)
             else:
                 self._book.begin(FIRST, wanted, LOCAL)
         current = self._book.current()

@@ -1,7 +1,7 @@
-"""The table of a season: rows, sections and ranks."""
+"""Rows of a table: their sections and ranks, and the table as a data frame."""
 
 import functools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from typing import TYPE_CHECKING, Final, Literal
@@ -10,14 +10,10 @@ from ...agents.errors import InputError
 from ...agents.extras import how_to_install
 from ...benchmark.results.baselines import Baseline
 from ...benchmark.statistics import Estimate
-from ..database.database import Database
-from ..database.queries import read_entries, read_error_numbers, read_events
-from ..database.schema import entries, events
 from ..evaluation.scoring import PLACES
 from ..records.metrics import board_metrics, known_means
 from ..records.row import BoardRow
 from ..records.season import OUT, Event
-from .ranks import ranks
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -32,8 +28,8 @@ class RankedRow:
     """A row with its rank and its events."""
 
     group: int
-    """Rank group in its section, 1 the best. 0 is none: the section has no ranks, or the lifts are
-    too few to distinguish any two policies."""
+    """Rank group in its section, 1 the best. 0 is none: the section has no ranks, the lifts are
+    too few to distinguish any two policies, or the rank is ``pending``."""
     row: BoardRow
     """The row of the last rescore, or of the entry if there was none."""
     at: datetime
@@ -41,6 +37,8 @@ class RankedRow:
     events: tuple[Event, ...]
     """Its later events, oldest first."""
     submitter: str
+    pending: bool = False
+    """Whether its rank is still being computed."""
 
     @property
     def section(self) -> Section:
@@ -79,53 +77,9 @@ RANKED: Final[tuple[Section, ...]] = ORDER[:2]
 """The sections that have ranks."""
 
 
-def standings(database: Database, season: str) -> tuple[RankedRow, ...]:
-    """Return the table of a season; see :meth:`.Board.standings`."""
-    with database.reading() as connection:
-        found = read_entries(connection, entries.c.season == season, entries.c.refusal.is_(None))
-        found_events = read_events(
-            connection, events.c.season == season, events.c.submission.is_not(None)
-        )
-        numbers = read_error_numbers(connection, season)
-    of: dict[str | None, list[Event]] = {}
-    for event in found_events:
-        of.setdefault(event.submission, []).append(event)
-    histories = {entry.submission: tuple(of.get(entry.submission, ())) for entry in found}
-    rows = {
-        entry.submission: _row_now(entry.row, histories[entry.submission])
-        for entry in found
-        if entry.row is not None
-    }
-    sections = {digest: section(row, histories[digest]) for digest, row in rows.items()}
-    scored: dict[str, dict[str, int]] = {name: {} for name in RANKED}
-    for digest, name in sections.items():
-        if name in scored and digest in numbers:
-            scored[name][digest] = numbers[digest]
-    rank = ranks(database, season, scored)
-    place = {digest: number for number, digest in enumerate(rank)}
-    shown = sorted(
-        (entry for entry in found if entry.submission in rows),
-        key=lambda entry: (
-            ORDER.index(sections[entry.submission]),
-            place.get(entry.submission, len(place)),
-            rows[entry.submission].hidden.rmse_mm.mean,
-        ),
-    )
-    return tuple(
-        RankedRow(
-            group=rank.get(entry.submission, 0),
-            row=rows[entry.submission],
-            at=entry.at,
-            events=histories[entry.submission],
-            submitter=entry.submitter,
-        )
-        for entry in shown
-    )
-
-
-def _row_now(row: BoardRow, found_events: tuple[Event, ...]) -> BoardRow:
+def row_now(row: BoardRow, events: Sequence[Event]) -> BoardRow:
     """Return the row of the last rescore, or the row itself."""
-    scored = [event.content for event in found_events if event.kind == "rescore"]
+    scored = [event.content for event in events if event.kind == "rescore"]
     return BoardRow.read(scored[-1]["row"]) if scored and scored[-1] is not None else row
 
 
@@ -141,7 +95,7 @@ def human_human_scores(human_human: Baseline, suite: str) -> HumanHumanScores:
     )
 
 
-def frame(table: tuple[RankedRow, ...], suite: str) -> "DataFrame":
+def frame(table: Sequence[RankedRow], suite: str) -> "DataFrame":
     """Return the rows of a suite's table that have ranks; see :meth:`.Board.ranking`."""
     try:
         import pandas as pd

@@ -51,20 +51,26 @@ def read_entries(
 
 
 def read_events(
-    connection: sa.Connection, *conditions: sa.ColumnElement[bool]
+    connection: sa.Connection, *conditions: sa.ColumnElement[bool], newest: int | None = None
 ) -> tuple[Event, ...]:
-    """Return the events for which all conditions hold, oldest first."""
+    """Return the events for which all conditions hold, oldest first.
+
+    With a number, return at most so many, the newest first.
+    """
     columns = [column for column in events.c if column.name != "number"]
-    query = sa.select(*columns).where(*conditions).order_by(events.c.number)
+    order = events.c.number if newest is None else events.c.number.desc()
+    query = sa.select(*columns).where(*conditions).order_by(order).limit(newest)
     return tuple(Event(**found) for found in connection.execute(query).mappings())
 
 
-def read_error_numbers(connection: sa.Connection, season: str) -> dict[str, int]:
-    """Return the number of the valid errors, by submission."""
+def read_error_numbers(
+    connection: sa.Connection, season: str, *conditions: sa.ColumnElement[bool]
+) -> dict[str, int]:
+    """Return the number of the valid errors of the submissions for which all conditions hold."""
     table = hidden_errors.c
     query = (
         sa.select(table.submission, sa.func.max(table.number).label("number"))
-        .where(table.season == season)
+        .where(table.season == season, *conditions)
         .group_by(table.submission)
     )
     return {each.submission: each.number for each in connection.execute(query)}

@@ -35,7 +35,7 @@ from ...benchmark.verification.checking import (
 from ..records.row import BoardRow, HiddenScores, PublicScores
 from ..records.season import Season
 from .entrant import Entrant
-from .progress import HIDDEN, Budget, Callbacks
+from .progress import HIDDEN, Budget, Callbacks, Stage
 from .scoring import failure_lines, gap, hidden_scores, public_scores
 
 LIBRARIES: Final = ("colift", "numpy", "pybullet")
@@ -167,9 +167,20 @@ def _check(entrant: Entrant, suite: Suite, playing: PlayingOptions, watch: Callb
 
 def episode_count(season: Season) -> int:
     """Return the number of episodes that :func:`evaluate` counts, if nothing is refused."""
-    size = season.suite.size
-    played = 0 if shipped_baselines(season.suite) else len(BASELINES) * size
-    return check_part(checked_with(season.suite)).size + 2 * (size + audited(size)) + played + size
+    played = 0 if shipped_baselines(season.suite) else len(BASELINES) * season.suite.size
+    return sum(stage_episodes(season.suite).values()) + played
+
+
+def stage_episodes(suite: Suite) -> dict[Stage, int]:
+    """Return the number of episodes of each stage of an evaluation on a suite, in their order."""
+    audit = audited(suite.size)
+    return {
+        "check": check_part(checked_with(suite)).size,
+        "public run": suite.size,
+        "audit": audit,
+        "verification": suite.size,
+        "hidden run": suite.size + audit,
+    }
 
 
 def play_human_human(

@@ -1,6 +1,6 @@
 """Formats of numbers and times on the pages."""
 
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from typing import Final
 
 from ...benchmark.statistics import Estimate
@@ -62,6 +62,15 @@ def minute(at: datetime) -> str:
     return f"{day(at)}, {at.astimezone(UTC):%H:%M} UTC"
 
 
+def duration(time: timedelta) -> str:
+    """Return a duration in its largest units, such as 40 s, 12 min or 1 h 5 min."""
+    seconds = max(0, round(time.total_seconds()))
+    if seconds < 100:
+        return f"{seconds} s"
+    hours, minutes = divmod(round(seconds / 60), 60)
+    return f"{hours} h {minutes} min" if hours else f"{minutes} min"
+
+
 def words(name: str) -> str:
     """Return a name of the code, such as ``changing_goal``, as words."""
     return name.replace("_", " ")
@@ -75,10 +84,10 @@ def mib(size: int) -> str:
 def badge_text(standing: RankedRow) -> str:
     """Return the text of a row's badge."""
     mm = f"{number(standing.row.hidden.rmse_mm.mean)} mm"
-    return (
-        f"{mm} · rank {standing.group}"
-        if standing.ranked and standing.group
-        else f"{mm} · not ranked"
+    if standing.pending:
+        return f"{mm} · being ranked"
+    return f"{mm} · " + (
+        f"rank {standing.group}" if standing.ranked and standing.group else "not ranked"
     )
 
 
@@ -97,6 +106,7 @@ FILTERS: Final = {
         percent,
         day,
         minute,
+        duration,
         words,
         mib,
         badge_text,

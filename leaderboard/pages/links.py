@@ -162,6 +162,14 @@ class SiteLinks:
         """Return the page on submitting: there are no jobs without a service."""
         return self.submit()
 
+    def rows(self, season: str, page: int) -> str:
+        """Return the address of a page of rows: the board's page is the first."""
+        return self.board(season) if page == 1 else f"rows-{season}-{page}.html"
+
+    def rest(self, season: str) -> str:
+        """Return ``data/SEASON-rows.js``, which has the rows behind the first page."""
+        return f"data/{season}-rows.js"
+
     def csv(self, season: str) -> str:
         """Return ``data/SEASON.csv``."""
         return f"data/{season}.csv"

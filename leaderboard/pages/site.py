@@ -12,8 +12,9 @@ from ...agents.errors import InputError
 from ..board.board import Board
 from ..records.season import SeasonInfo
 from ..replays.chosen import replays_of
-from ..replays.html import replay_files, replay_page
+from ..replays.html import replay_files, replay_page, script_json
 from ..storage.archive import pack_archive
+from ..views.asked import ROWS, Asked
 from ..views.board import board_view, ordered_seasons
 from ..views.compare import compare_view
 from ..views.exports import news_of, standings_csv, standings_json
@@ -80,7 +81,8 @@ def _write(board: Board, folder: Path) -> None:
 def _season(board: Board, info: SeasonInfo, links: SiteLinks) -> Iterator[Page]:
     """Yield the pages and the data of a season."""
     season = info.name
-    yield links.board(season), render_page("board.html", links, view=board_view(board, season))
+    rows = board.standings(season)  # With its own ranks, for all pages.
+    yield from _boards(board, info, links)
     yield links.csv(season), standings_csv(board, season)
     yield links.json(season), standings_json(board, season)
     news = news_of(board, season)
@@ -90,7 +92,7 @@ def _season(board: Board, info: SeasonInfo, links: SiteLinks) -> Iterator[Page]:
         render_page("compare.html", links, view=compare_view(board, season), asked=None),
     )
     yield from _scenarios(board, info, links)
-    for each in board.standings(season):
+    for each in rows:
         digest = each.row.submission
         bundle = board.bundle(season, digest)
         found = [] if bundle is None else _replays(bundle, each.row.name)
@@ -106,6 +108,21 @@ def _season(board: Board, info: SeasonInfo, links: SiteLinks) -> Iterator[Page]:
             yield links.replays(season, digest), replay_page(found)
         for name, replay in replay_files(found).items():
             yield links.replay(season, digest, name), replay_page([replay])
+
+
+def _boards(board: Board, info: SeasonInfo, links: SiteLinks) -> Iterator[Page]:
+    """Yield the pages of a table, and the script with the rows behind the first page."""
+    total = len(board.tables.read(info.name).ranking)
+    for number, first in enumerate(range(0, max(total, 1), ROWS), 1):
+        view = board_view(board, info.name, Asked(first=first))
+        yield links.rows(info.name, number), render_page("board.html", links, view=view)
+    rest = board_view(board, info.name, Asked(first=ROWS), most=total)
+    if total > ROWS and rest is not None:
+        content = {
+            "html": render_page("rows.html", links, view=rest),
+            "rows": rest.data["rows"],
+        }
+        yield links.rest(info.name), f"window.coliftRows = {script_json(content)};\n"
 
 
 def _replays(bundle: Path, policy: str) -> list[dict[str, Any]]:

@@ -96,7 +96,7 @@ class Worker:
             self._log(claimed, str(lost))
         now = Queue(self._board).job(claimed.id)
         if now is not None and now.state == "done":
-            self._board.standings(now.season)  # Computes the ranks before a reader asks.
+            self._board.standings(now.season)  # Computes the ranks before a reader looks.
         return now
 
     def rescore(

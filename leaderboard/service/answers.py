@@ -47,6 +47,8 @@ class StandingAnswer(Answer):
 
     group: int
     """Rank group in its section over all hidden episodes, 1 the best; 0 is none."""
+    pending: bool
+    """Whether its rank is still being computed."""
     section: Section
     """The ranking, that of policies that are not real-time, or a section without ranks."""
     at: datetime

@@ -21,6 +21,7 @@ from .answers import Health
 from .dependencies import PREFIX, Rates, Service, ServiceState
 from .documentation import PLACE, Documentation, Pages
 from .errors import FaultHandler, Problem, answer_errors, log
+from .ranker import Ranker
 from .security import Guard, RateLimit
 from .uploads import remove_orphans
 
@@ -36,6 +37,7 @@ def create_app(
     rates: Rates | None = None,
     *,
     contact: str = "",
+    address: str = "",
     quota: Quota | None = None,
     docs: Documentation | None = None,
     play: bool = False,
@@ -50,6 +52,8 @@ def create_app(
         Rate limits of clients.
     contact
         Contact of the maintainer, shown with the rules.
+    address
+        Address of the board for clients, if it is known; without it, links in feeds are relative.
     quota
         Limits of a submitter.
     docs
@@ -78,8 +82,11 @@ def create_app(
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         anyio.to_thread.current_default_thread_limiter().total_tokens = THREADS
         sweeper = asyncio.create_task(keep_clean())
+        ranker = Ranker(board)
+        ranker.start()
         yield
         sweeper.cancel()
+        await anyio.to_thread.run_sync(ranker.stop)
         board.close()
 
     app = FastAPI(
@@ -98,6 +105,7 @@ def create_app(
         tokens=Tokens(board),
         uploads=RateLimit(rate=rates.submitter),
         contact=contact,
+        address=address,
         docs=docs,
         play=play,
     )

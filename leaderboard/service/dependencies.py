@@ -3,6 +3,7 @@
 import asyncio
 from dataclasses import dataclass, field
 from typing import Annotated, Any, Final
+from urllib.parse import urlsplit
 
 from fastapi import Depends, Path, Query, Request
 
@@ -46,6 +47,9 @@ class ServiceState:
     """Rate of uploads, by submitter."""
     contact: str = ""
     """Contact of the maintainer."""
+    address: str = ""
+    """Address of the board for clients, without a slash at its end; empty if it is not known: the
+    ``Host`` of a request is never taken for it."""
     docs: Documentation | None = None
     """The documentation that the pages link to."""
     play: bool = False
@@ -62,7 +66,7 @@ class ServiceState:
     packing: asyncio.Lock = field(default_factory=asyncio.Lock)
     """Held while a bundle is packed."""
     streams: Slots = field(
-        default_factory=lambda: Slots(what="streams", each=100, total=100, patience_s=0.0)
+        default_factory=lambda: Slots(what="streams", each=20, total=100, patience_s=0.0)
     )
     """Slots for streams of jobs, by address."""
 
@@ -125,6 +129,12 @@ UNKNOWN: Final[dict[int | str, dict[str, Any]]] = {
 def api_root(request: Request) -> str:
     """Return the address of the API for the client: a proxy may have put it below a path."""
     return f"{request.scope.get('root_path', '').rstrip('/')}{PREFIX}"
+
+
+def origin_of(request: Request) -> str:
+    """Return scheme and host of the board for clients; nothing if they are not known."""
+    parts = urlsplit(service_state(request).address)
+    return f"{parts.scheme}://{parts.netloc}" if parts.netloc else ""
 
 
 def links_of(request: Request) -> ServiceLinks:

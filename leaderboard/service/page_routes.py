@@ -3,22 +3,24 @@
 import contextlib
 from typing import Annotated, Any, Final
 
-from fastapi import APIRouter, Path, Query, Request
+from fastapi import APIRouter, Depends, Path, Query, Request
 from fastapi.responses import HTMLResponse, Response
 
 from ...agents.errors import InputError
+from ..evaluation.progress import HIDDEN
 from ..pages.formats import badge_text
 from ..pages.rendering import prose, render_page, template_archive
 from ..replays.chosen import has_replays, replays_of
 from ..replays.html import KEYS, SCRIPTS, replay_data, replay_files, replay_page
+from ..views.asked import Asked
 from ..views.board import board_view, find_season, ordered_seasons
 from ..views.compare import compare_view
 from ..views.exports import news_of
-from ..views.job import STAGES, job_view, open_jobs
+from ..views.job import job_view, open_jobs
 from ..views.method import method_view
 from ..views.policy import PolicyView, policy_view
 from ..views.scenario import scenario_view, scenarios_view
-from .dependencies import Service, ServiceState, links_of, service_state
+from .dependencies import Service, ServiceState, links_of, origin_of, service_state
 from .published import rules_of
 
 SUBMISSIONS: Final = "/api/v1/submissions"
@@ -29,19 +31,31 @@ SeasonName = Annotated[str, Path(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,39}$")]
 Digest = Annotated[str, Path(pattern="^[0-9a-f]{64}$")]
 Chosen = Annotated[list[str] | None, Query(max_length=20)]
 
+
+def _question(request: Request) -> Asked:
+    """Return what the address asks of a table; of a name that comes twice, the last value."""
+    given = request.query_params
+    names = ("q", "sort", "behaviour", "subject", "columns", "first")
+    return Asked.read(p=given.getlist("p"), **{name: given.get(name, "") for name in names})
+
+
+Question = Annotated[Asked, Depends(_question)]
+
 router: Final = APIRouter(include_in_schema=False, default_response_class=HTMLResponse)
 
 
 @router.get("/")
-def front(service: Service, request: Request) -> HTMLResponse:
+def front(service: Service, request: Request, asked: Question) -> HTMLResponse:
     """Show the board of the current season."""
-    return _board(service, request, None)
+    return _board(service, request, None, asked)
 
 
 @router.get("/seasons/{season}")
-def season_board(service: Service, request: Request, season: SeasonName) -> HTMLResponse:
+def season_board(
+    service: Service, request: Request, season: SeasonName, asked: Question
+) -> HTMLResponse:
     """Show the board of a season."""
-    return _board(service, request, season)
+    return _board(service, request, season, asked)
 
 
 @router.get("/seasons/{season}/policies/{digest}")
@@ -62,10 +76,10 @@ def submission_page(
 @router.get("/seasons/{season}/policies/{digest}/badge.svg", response_class=Response)
 def badge_svg(service: Service, request: Request, season: SeasonName, digest: Digest) -> Response:
     """Send the badge of a row, for other sites."""
-    found = [s for s in service.board.standings(season) if s.row.submission == digest]
-    if not found:
+    found = service.board.tables.row(season, digest)
+    if found is None:
         return _missing(service, request, f"Season {season} has no row {digest[:16]}.")
-    svg = render_page("badge.svg", links_of(request), text=badge_text(found[0]))
+    svg = render_page("badge.svg", links_of(request), text=badge_text(found))
     headers = {"Cross-Origin-Resource-Policy": "cross-origin", "Cache-Control": "max-age=300"}
     return Response(svg, media_type="image/svg+xml", headers=headers)
 
@@ -76,7 +90,7 @@ def feed(service: Service, request: Request, season: SeasonName) -> Response:
     news = news_of(service.board, season)
     if news is None:
         return _missing(service, request, f"There is no season {season}.")
-    text = render_page("feed.xml", links_of(request), news=news, prefix=_origin(request))
+    text = render_page("feed.xml", links_of(request), news=news, prefix=origin_of(request))
     return Response(text, media_type="application/atom+xml")
 
 
@@ -181,7 +195,7 @@ def submit_page(service: Service, request: Request) -> HTMLResponse:
         api=root + SUBMISSIONS,
         mine=root + MINE,
         rules=rules_of(service),
-        address=str(request.base_url).rstrip("/"),
+        address=service.address,
     )
 
 
@@ -195,7 +209,7 @@ def job_page(
         return _missing(service, request, "There is no such job.")
     info = find_season(ordered_seasons(service.board), view.job.season)
     api = f"{links_of(request).root}{JOBS}/{job}"
-    return _page(request, "job.html", season=info, view=view, stages=STAGES, api=api)
+    return _page(request, "job.html", season=info, view=view, api=api, hidden=HIDDEN)
 
 
 def _replays(service: ServiceState, season: str, digest: str) -> list[dict[str, Any]]:
@@ -207,8 +221,10 @@ def _replays(service: ServiceState, season: str, digest: str) -> list[dict[str, 
     return []
 
 
-def _board(service: ServiceState, request: Request, season: str | None) -> HTMLResponse:
-    view = board_view(service.board, season)
+def _board(
+    service: ServiceState, request: Request, season: str | None, asked: Asked
+) -> HTMLResponse:
+    view = board_view(service.board, season, asked)
     if view is None:
         return _missing(service, request, f"There is no season {season}.")
     return _page(request, "board.html", view=view)
@@ -226,8 +242,3 @@ def _missing(service: ServiceState, request: Request, message: str) -> HTMLRespo
 
 def _page(request: Request, template: str, *, status: int = 200, **content: Any) -> HTMLResponse:
     return HTMLResponse(render_page(template, links_of(request), **content), status)
-
-
-def _origin(request: Request) -> str:
-    """Return the service's address as clients see it, without a path."""
-    return f"{request.url.scheme}://{request.url.netloc}"

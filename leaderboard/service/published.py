@@ -134,7 +134,7 @@ async def bundle(
 
 def _standings(service: ServiceState, season: str | None) -> tuple[RankedRow, ...]:
     _check_season(service, season)
-    return service.board.standings(season)
+    return service.board.tables.read(service.board.season_info(season).name).rows
 
 
 def _check_season(service: ServiceState, season: str | None) -> None:

@@ -7,6 +7,7 @@ from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Final
+from urllib.parse import urlsplit, urlunsplit
 
 from fastapi.responses import JSONResponse
 from starlette.datastructures import MutableHeaders
@@ -83,6 +84,8 @@ class Guard:
                 headers = MutableHeaders(scope=message)
                 for name, value in HEADERS.items():
                     headers.setdefault(name, value)
+                if "location" in headers:
+                    headers["location"] = local_path(headers["location"])
             await send(message)
 
         names = [name for name, _ in scope["headers"]]
@@ -99,6 +102,12 @@ class Guard:
             await answer(scope, receive, guarded)
             return
         await self.app(scope, receive, guarded)
+
+
+def local_path(address: str) -> str:
+    """Return the path of a redirect: its host came from the request, and was not checked."""
+    parts = urlsplit(address)
+    return urlunsplit(("", "", f"/{parts.path.lstrip('/')}", parts.query, parts.fragment))
 
 
 def client_of(connection: HTTPConnection) -> str:

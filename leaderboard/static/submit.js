@@ -2,6 +2,8 @@
 // Shows the submissions of the token's owner. The token stays in this tab.
 "use strict";
 (() => {
+  const address = document.getElementById("address");
+  if (address) address.textContent = location.origin + address.dataset.root;
   const form = document.getElementById("upload");
   const [file, token, sent, answer] = ["file", "token", "sent", "answer"].map((id) => document.getElementById(id));
   const button = form.querySelector("button");

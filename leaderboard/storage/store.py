@@ -9,6 +9,7 @@
     logs/JOB.txt                             the workers' log of a job
     private/SEASON/                          the secret, the human-human baseline, faults in detail
     private/work/                            evaluations in progress
+    private/ranking                          held while ranks are computed
 
 Only ``public`` may be shown to everyone, and a log to those who know the id of its job.
 """
@@ -122,6 +123,21 @@ class Store:
             fcntl.flock(file, fcntl.LOCK_EX)
             yield
 
+    @contextmanager
+    def ranking(self) -> Iterator[None]:
+        """Hold the lock of those who compute ranks; readers never wait for it.
+
+        A folder that cannot be written to has no lock.
+        """
+        try:
+            file = (self.folder / "private" / "ranking").open("a")
+        except OSError:
+            yield
+            return
+        with file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            yield
+
     def secrets(self, season: str) -> SeasonSecrets:
         """Return the private files of a season."""
         return SeasonSecrets(folder=self.folder / "private" / season)
@@ -186,7 +202,8 @@ class Store:
         """Move a bundle to its place, over the remains of an earlier attempt."""
         place = self.bundle(season, digest)
         shutil.rmtree(place, ignore_errors=True)
-        place.with_name("bundle.zip").unlink(missing_ok=True)
+        for made_of_it in ("bundle.zip", "replays.json"):
+            place.with_name(made_of_it).unlink(missing_ok=True)
         place.parent.mkdir(parents=True, exist_ok=True)
         sync_tree(made)
         made.rename(place)

@@ -1,37 +1,36 @@
-"""The board page: a season's table, and its picture."""
+"""The board page: rows of a season's table, and its picture."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
+from weakref import WeakKeyDictionary
 
-from ...benchmark.comparison.scatter.scene import NARROW, WIDE, ScatterScene
-from ...benchmark.episode.metric import Metric
+from ...benchmark.comparison.scatter.scene import ScatterScene
+from ...benchmark.statistics import Estimate
 from ..board.board import Board
 from ..board.standings import HumanHumanScores, RankedRow
+from ..board.tables import Table
 from ..records.metrics import board_metrics
 from ..records.season import Event, SeasonInfo
+from .asked import ROWS, Asked
 from .axis import Axis, make_axis
 from .bounds import PublicBound, bounds_of
-from .lifts import Part, StratumScore, human_human_mean_rmse, mean_rmse, stratum_scores
-from .picture import make_picture
+from .lifts import Part, StratumScore, human_human_mean_rmse, known
+from .lines import Lines, RankedLine, lines_of, strata_of
+from .picture import PICTURED, pictures
 
 
 @dataclass(frozen=True, kw_only=True)
-class RankedLine:
-    """A line of the table."""
+class Reference:
+    """A line below the policies: the human-human baseline, or a bound."""
 
-    standing: RankedRow
-    strata: tuple[StratumScore, ...]
-    """Its public lifts, stratum by stratum; nothing if its bundle is gone."""
-    shared: int
-    """Number of policies in its rank group."""
-    leads: bool
-    """Whether it is the first of its group."""
-
-    def mean_mm(self, behaviour: str) -> float | None:
-        """Return the mean RMSE [mm] on the public lifts of a behaviour, if its bundle is there."""
-        return mean_rmse(self.strata, Part(behaviour=behaviour, subject=None))
+    bound: PublicBound | None
+    """None: the human-human baseline."""
+    rmse_mm: Estimate | None
+    ratio: float | None
+    """RMSE over that of the human-human baseline."""
+    means: Mapping[str, float | None]
+    """Means of the other metrics of a board; none on a part of the lifts."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,45 +40,83 @@ class BoardView:
     season: SeasonInfo
     seasons: tuple[SeasonInfo, ...]
     """All seasons, the current one first: the tabs."""
-    rows: tuple[RankedLine, ...]
+    asked: Asked
+    lines: Lines
+    leader: RankedLine | None
+    """The first of the ranking."""
+    total: int
+    """Number of policies in the ranking."""
+    current: bool
+    """Whether the ranks are those of these rows; otherwise the next ones are being computed."""
+    chosen: tuple[RankedRow, ...]
+    """The rows that are ticked and not among the lines."""
     slow: tuple[RankedRow, ...]
     """Not real-time: ranked among themselves."""
     out: tuple[RankedRow, ...]
     """Unverified, withdrawn or removed."""
+    people: Reference | None
+    """The human-human baseline, on the lifts of the lines."""
+    bounds: tuple[Reference, ...]
+    """The bounds on the public lifts."""
     human_human: HumanHumanScores | None
     """The human-human baseline on the hidden lifts."""
-    bounds: tuple[PublicBound, ...]
-    """The bounds on the public lifts."""
     axis: Axis
     events: tuple[Event, ...]
-    """The events of the season and its rows, newest first."""
-    names: dict[str, str]
+    """The events of the season and its rows, newest first; at most :data:`.ROWS`."""
+    names: Mapping[str, str]
     """Names of the submissions of the events."""
+    strata: tuple[StratumScore, ...]
+    """The strata of the suite, as a public run has them."""
     wide: ScatterScene | None
     narrow: ScatterScene | None
+    pictured: int
+    """Number of policies in the picture."""
+
+    most: int = ROWS
+    """Maximum number of rows of a page, and of each list."""
+    most_pictured: int = PICTURED
+
+    @property
+    def rows(self) -> tuple[RankedLine, ...]:
+        """The lines."""
+        return self.lines.rows
+
+    @property
+    def complete(self) -> bool:
+        """Whether they are the whole ranking, in its order."""
+        return self.asked.plain and len(self.rows) == self.total
 
     @property
     def causal(self) -> float | None:
         """The RMSE [mm] of the causal bound on the public lifts, if that is known."""
-        return next((each.rmse_mm.mean for each in self.bounds if each.causal), None)
+        return next(
+            (
+                each.rmse_mm.mean
+                for each in self.bounds
+                if each.bound and each.bound.causal and each.rmse_mm
+            ),
+            None,
+        )
 
     def human_human_mm(self, behaviour: str) -> float | None:
         """Return the human-human baseline's mean RMSE [mm] on the public lifts of a behaviour."""
-        return human_human_mean_rmse(self._strata, Part(behaviour=behaviour, subject=None))
+        return human_human_mean_rmse(self.strata, Part(behaviour=behaviour, subject=None))
 
     @property
     def behaviours(self) -> tuple[str, ...]:
         """The behaviours of the suite, in its order."""
-        return tuple(dict.fromkeys(stratum.behaviour for stratum in self._strata))
-
-    @property
-    def _metrics(self) -> tuple[Metric, ...]:
-        return board_metrics(self.season.suite)
+        return _behaviours(self.strata)
 
     @property
     def subjects(self) -> tuple[str, ...]:
         """The subjects of the suite, in its order."""
-        return tuple(dict.fromkeys(stratum.subject for stratum in self._strata))
+        return tuple(dict.fromkeys(stratum.subject for stratum in self.strata))
+
+    @property
+    def empty_part(self) -> bool:
+        """Whether the suite has no lifts of the part that was asked for."""
+        part = self.asked.part
+        return part is not None and not any(part.has(stratum) for stratum in self.strata)
 
     @property
     def data(self) -> dict[str, Any]:
@@ -89,72 +126,91 @@ class BoardView:
         each row of the table in its order and each stratum, the RMSE [mm], then for each of
         ``metrics`` the mean and the lifts without a value; ``bounds`` has each bound's RMSE [mm].
         """
+        metrics = board_metrics(self.season.suite)
         return {
             "top": self.axis.top,
             "metrics": [
                 {name: getattr(each, name) for name in ("name", "digits", "better", "missing")}
-                for each in self._metrics
+                for each in metrics
             ],
             "strata": [
-                [c.behaviour, c.subject, c.episodes, c.human_human_rmse_mm] for c in self._strata
+                [c.behaviour, c.subject, c.episodes, c.human_human_rmse_mm] for c in self.strata
             ],
             "rows": [
-                [_numbers(stratum, self._metrics) for stratum in row.strata] for row in self.rows
+                [_numbers(stratum, [metric.name for metric in metrics]) for stratum in row.strata]
+                for row in self.rows
             ],
             "bounds": [
                 [
-                    round(bound.strata[stratum.behaviour, stratum.subject], 4)
-                    for stratum in self._strata
+                    round(each.bound.strata[stratum.behaviour, stratum.subject], 4)
+                    for stratum in self.strata
                 ]
-                for bound in self.bounds
+                for each in self.bounds
+                if each.bound is not None
             ],
         }
 
-    @property
-    def _strata(self) -> tuple[StratumScore, ...]:
-        return next((row.strata for row in self.rows if row.strata), ())
 
-
-def board_view(board: Board, season: str | None = None) -> BoardView | None:
+def board_view(
+    board: Board, season: str | None = None, asked: Asked | None = None, most: int = ROWS
+) -> BoardView | None:
     """Return the page of a season, by default of the current one; None if there is no such season.
 
-    The number of queries does not depend on the number of rows.
+    The number of queries does not depend on the number of rows, nor does the size of the page.
+
+    Parameters
+    ----------
+    board, season
+        The table.
+    asked
+        What to show of it; by default its first rows.
+    most
+        Maximum number of rows.
     """
     seasons = ordered_seasons(board)
     info = find_season(seasons, season)
     if info is None:
         return None
-    standings = board.standings(info.name)
-    ranked = [each for each in standings if each.ranked]
-    sizes: dict[int, int] = {}
-    for each in ranked:
-        sizes[each.group] = sizes.get(each.group, 0) + 1
-    rows = tuple(
-        RankedLine(
-            standing=each,
-            strata=_strata_of(board.bundle(info.name, each.row.submission)),
-            shared=sizes[each.group],
-            leads=i == 0 or ranked[i - 1].group != each.group,
-        )
-        for i, each in enumerate(ranked)
-    )
-    human_human = board.human_human(info.name)
-    hidden = [each.row.hidden.rmse_mm for each in ranked]
-    bounds = bounds_of(info)
-    pictured = [each.row for each in ranked]
+    table, asked = board.tables.read(info.name), asked or Asked()
+    strata = next((found for each in table.ranking if (found := strata_of(board, each.row))), ())
+    lines = lines_of(board, table, asked, _behaviours(strata), most)
+    human_human, bounds = board.human_human(info.name), bounds_of(info)
+    events = board.events(season=info.name, newest=ROWS)
+    wide, narrow = pictures(table, human_human, bounds)
+    leader = lines_of(board, table, Asked(), (), 1).rows
+    shown = {each.standing.row.submission for each in lines.rows}
+    slow = table.sections["not real-time"]
+    out = (*table.sections["unverified"], *table.sections["out"])
     return BoardView(
         season=info,
         seasons=seasons,
-        rows=rows,
-        slow=tuple(each for each in standings if each.section == "not real-time"),
-        out=tuple(each for each in standings if each.section in ("unverified", "out")),
+        asked=asked,
+        lines=lines,
+        leader=leader[0] if leader else None,
+        total=len(table.ranking),
+        current=table.current,
+        chosen=tuple(
+            table.by_digest[each]
+            for each in asked.chosen
+            if each in table.by_digest and each not in shown
+        ),
+        slow=slow,
+        out=out,
+        people=_people(human_human, strata, asked.part),
+        bounds=tuple(_bound(each, strata, asked.part) for each in bounds),
         human_human=human_human,
-        bounds=bounds,
-        axis=make_axis(hidden, () if human_human is None else (human_human.rmse_mm.ci95[1],)),
-        events=tuple(reversed(board.events(season=info.name))),
-        names={each.row.submission: each.row.name for each in standings},
-        wide=make_picture(pictured, human_human, bounds, size=WIDE),
-        narrow=make_picture(pictured, human_human, bounds, size=NARROW),
+        axis=_axis(table, human_human),
+        events=events,
+        names={
+            each.submission: table.by_digest[each.submission].row.name
+            for each in events
+            if each.submission is not None and each.submission in table.by_digest
+        },
+        strata=strata,
+        wide=wide,
+        narrow=narrow,
+        most=most,
+        pictured=sum(dot.point.kind == "policy" for dot in wide.dots) if wide else 0,
     )
 
 
@@ -169,13 +225,53 @@ def find_season(seasons: Sequence[SeasonInfo], name: str | None) -> SeasonInfo |
     return next((info for info in seasons if name in (None, info.name)), None)
 
 
-def _strata_of(bundle: Path | None) -> tuple[StratumScore, ...]:
-    return () if bundle is None else stratum_scores(bundle)
+_axes: WeakKeyDictionary[Table, Axis] = WeakKeyDictionary()
 
 
-def _numbers(
-    stratum: StratumScore, metrics: tuple[Metric, ...]
-) -> list[float | list[float | None]]:
-    found = [stratum.metrics[metric.name] for metric in metrics]
+def _axis(table: Table, human_human: HumanHumanScores | None) -> Axis:
+    """Return the scale of all pages of a table."""
+    if table not in _axes:
+        hidden = [each.row.hidden.rmse_mm for each in table.ranking]
+        marks = () if human_human is None else (human_human.rmse_mm.ci95[1],)
+        _axes[table] = make_axis(hidden, marks)
+    return _axes[table]
+
+
+def _behaviours(strata: Sequence[StratumScore]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(stratum.behaviour for stratum in strata))
+
+
+def _people(
+    human_human: HumanHumanScores | None, strata: Sequence[StratumScore], part: Part | None
+) -> Reference | None:
+    """Return the line of the human-human baseline."""
+    if human_human is None:
+        return None
+    if part is None:
+        rmse: Estimate | None = human_human.rmse_mm
+        return Reference(bound=None, rmse_mm=rmse, ratio=1.0, means=human_human.means)
+    mean = human_human_mean_rmse(strata, part)
+    rmse, ratio = (None, None) if mean is None else (known(mean), 1.0)
+    return Reference(bound=None, rmse_mm=rmse, ratio=ratio, means=dict.fromkeys(human_human.means))
+
+
+def _bound(bound: PublicBound, strata: Sequence[StratumScore], part: Part | None) -> Reference:
+    if part is None:
+        return Reference(
+            bound=bound, rmse_mm=bound.rmse_mm, ratio=bound.vs_human, means=bound.means
+        )
+    some = [stratum for stratum in strata if part.has(stratum)]
+    lifts = sum(each.episodes for each in some)
+    means = dict.fromkeys(bound.means)
+    if not lifts:
+        return Reference(bound=bound, rmse_mm=None, ratio=None, means=means)
+    mean = sum(bound.strata[each.behaviour, each.subject] * each.episodes for each in some) / lifts
+    people = human_human_mean_rmse(some)
+    ratio = mean / people if people else None
+    return Reference(bound=bound, rmse_mm=known(mean), ratio=ratio, means=means)
+
+
+def _numbers(stratum: StratumScore, metrics: Sequence[str]) -> list[float | list[float | None]]:
+    found = [stratum.metrics[name] for name in metrics]
     means = [[None if each.mean is None else round(each.mean, 4), each.missing] for each in found]
     return [round(stratum.rmse_mm, 4), *means]

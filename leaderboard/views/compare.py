@@ -15,6 +15,7 @@ from ..board.board import Board
 from ..board.standings import RankedRow
 from ..records.season import SeasonInfo
 from ..replays.chosen import made_replays
+from .asked import CHOSEN, ROWS
 from .axis import Axis, make_axis
 from .board import find_season, ordered_seasons
 from .lifts import (
@@ -26,10 +27,8 @@ from .lifts import (
     parts_of,
     public_lifts,
     stratum_scores,
+    version,
 )
-
-MOST: Final = 4
-"""Maximum number of policies that are compared at a time."""
 
 ALL: Final = 40
 """Number of policies, from the best, in a page that shows only some of them at a time."""
@@ -64,7 +63,9 @@ class CompareView:
 
     season: SeasonInfo
     choice: tuple[RankedRow, ...]
-    """All policies that can be chosen: the ranking."""
+    """The policies that can be chosen here: the first of the ranking, and those that are shown."""
+    total: int
+    """Number of policies in the ranking."""
     names: Mapping[str, str]
     """What each of them is called here, by its digest; see :func:`_distinct_names`."""
     parts: tuple[Part, ...]
@@ -112,19 +113,25 @@ def compare_view(
         The table.
     digests
         The submissions; those that are not in the ranking are left out, and those beyond
-        :data:`MOST`. An empty sequence compares the first two of the table. None compares the best
-        :data:`ALL`, for a page that shows only some of them at a time.
+        :data:`.CHOSEN`. An empty sequence compares the first two of the table. None compares the
+        best :data:`ALL`, for a page that shows only some of them at a time.
     """
     info = find_season(ordered_seasons(board), season)
     if info is None:
         return None
-    ranked = {each.row.submission: each for each in board.standings(info.name) if each.ranked}
+    ranking = board.tables.read(info.name).ranking
+    ranked = {each.row.submission: each for each in ranking}
     if digests is None:
         chosen = list(ranked)[:ALL]
     elif not digests:
         chosen = list(ranked)[:2]
     else:
-        chosen = [digest for digest in dict.fromkeys(digests) if digest in ranked][:MOST]
+        chosen = [digest for digest in dict.fromkeys(digests) if digest in ranked][:CHOSEN]
+    most = ALL if digests is None else ROWS
+    choice = (
+        *ranking[:most],
+        *(ranked[each] for each in chosen if ranked[each] not in ranking[:most]),
+    )
     bundles = {digest: board.bundle(info.name, digest) for digest in chosen}
     runs = {digest: path for digest, path in bundles.items() if path is not None}
     strata = next((stratum_scores(path) for path in runs.values()), ())
@@ -134,12 +141,13 @@ def compare_view(
         for digest, path in runs.items()
     )
     human_human = tuple(human_human_mean_rmse(strata, part) for part in parts)
-    pairs = _differences(tuple(runs.values()))
+    pairs = _differences(tuple((path, version(path)) for path in runs.values()))
     names = itertools.combinations(runs, 2)
     return CompareView(
         season=info,
-        choice=tuple(ranked.values()),
-        names=_distinct_names(tuple(ranked.values())),
+        choice=choice,
+        total=len(ranking),
+        names=_distinct_names(ranking, choice),
         parts=parts,
         columns=columns,
         human_human_mm=human_human,
@@ -159,14 +167,14 @@ def compare_view(
     )
 
 
-def _distinct_names(rows: Sequence[RankedRow]) -> dict[str, str]:
-    """Return the names of rows by digest; one that repeats, with its submitter and its digest."""
-    count = Counter(each.row.name for each in rows)
+def _distinct_names(ranking: Sequence[RankedRow], shown: Sequence[RankedRow]) -> dict[str, str]:
+    """Return the names of some rows by digest; one that repeats, with submitter and digest."""
+    count = Counter(each.row.name for each in ranking)
     return {
         each.row.submission: each.row.name
         if count[each.row.name] == 1
         else f"{each.row.name} by {each.submitter}, {each.row.submission[:8]}"
-        for each in rows
+        for each in shown
     }
 
 
@@ -205,9 +213,11 @@ def _parts(strata: Sequence[StratumScore]) -> tuple[Part, ...]:
 
 
 @functools.lru_cache(maxsize=64)
-def _differences(bundles: tuple[Path, ...]) -> tuple[PairedDifference | None, ...]:
+def _differences(
+    bundles: tuple[tuple[Path, tuple[int, int]], ...],
+) -> tuple[PairedDifference | None, ...]:
     """Return the difference between each two of some bundles, in the order of combinations."""
-    runs = [public_lifts(bundle) for bundle in bundles]
+    runs = [public_lifts(bundle) for bundle, _ in bundles]
     found: list[PairedDifference | None] = []
     for i, a in enumerate(runs):
         errors = [lift.rmse_mm for lift in a]

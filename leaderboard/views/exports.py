@@ -7,7 +7,7 @@ from datetime import datetime
 from typing import Final
 
 from ..board.board import Board
-from ..board.standings import RankedRow
+from ..board.standings import RankedRow, frame
 from ..records.season import SeasonInfo
 from .board import find_season, ordered_seasons
 
@@ -25,8 +25,9 @@ def standings_csv(board: Board, season: str | None = None) -> str:
     InputError
         If there is no such season, or pandas is not installed.
     """
-    frame = board.ranking(season)
-    return str(frame.map(_harmless).to_csv(index=False, lineterminator="\n"))
+    info = board.season_info(season)
+    rows = frame(board.tables.read(info.name).rows, info.suite)
+    return str(rows.map(_harmless).to_csv(index=False, lineterminator="\n"))
 
 
 def standings_json(board: Board, season: str) -> str:
@@ -40,7 +41,7 @@ def standings_json(board: Board, season: str) -> str:
             "row": each.row.plain(),
             "events": [event.plain() for event in each.events],
         }
-        for each in board.standings(season)
+        for each in board.tables.read(season).rows
     ]
     return json.dumps(table, indent=1) + "\n"
 
@@ -79,7 +80,7 @@ def news_of(board: Board, season: str) -> News | None:
     info = find_season(ordered_seasons(board), season)
     if info is None:
         return None
-    newest = sorted(board.standings(season), key=lambda each: each.at, reverse=True)[:MOST]
+    newest = board.tables.newest(season, MOST)
     rows = tuple(
         NewRow(
             id=_identifier(info, each.row.submission),

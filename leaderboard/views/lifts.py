@@ -1,6 +1,6 @@
 """Public lifts of a bundle, by part: behaviour, subject or stratum.
 
-A bundle never changes once it is written, so it is read only once.
+A bundle is read only once: it never changes, unless a rescore replaces it by another one.
 """
 
 import csv
@@ -43,16 +43,30 @@ class PublicLift:
     """Reason of a failure, in the policy's own words if the policy failed."""
 
 
-@functools.lru_cache(maxsize=8192)
+def version(bundle: Path) -> tuple[int, int]:
+    """Return what tells a bundle from another one that replaces it."""
+    found = (bundle / RESULTS).stat()
+    return found.st_ino, found.st_mtime_ns
+
+
 def stratum_scores(bundle: Path) -> tuple[StratumScore, ...]:
     """Return the means of each stratum of a bundle, in the suite's order."""
+    return _stratum_scores(bundle, version(bundle))
+
+
+@functools.lru_cache(maxsize=8192)
+def _stratum_scores(bundle: Path, _: tuple[int, int]) -> tuple[StratumScore, ...]:
     results = read_json(bundle / RESULTS)
     return tuple(_stratum(group, results["suite"]) for group in results["groups"])
 
 
-@functools.lru_cache(maxsize=64)
 def public_lifts(bundle: Path) -> tuple[PublicLift, ...]:
     """Return the lifts of a bundle, in the suite's order; none if it has only results."""
+    return _public_lifts(bundle, version(bundle))
+
+
+@functools.lru_cache(maxsize=64)
+def _public_lifts(bundle: Path, _: tuple[int, int]) -> tuple[PublicLift, ...]:
     if not (bundle / EPISODES).is_file():
         return ()
     with (bundle / EPISODES).open(newline="", encoding="utf-8") as file:
@@ -120,12 +134,16 @@ def parts_of(strata: Sequence[StratumScore]) -> Iterator[Part]:
         yield Part(behaviour=None, subject=subject)
 
 
-@functools.lru_cache(maxsize=4096)
 def part_estimate(bundle: Path, part: Part) -> Estimate:
     """Return the mean RMSE [mm] of a bundle over a part, with its 95 % interval.
 
     The interval has no width if the bundle has only results.
     """
+    return _part_estimate(bundle, version(bundle), part)
+
+
+@functools.lru_cache(maxsize=4096)
+def _part_estimate(bundle: Path, _: tuple[int, int], part: Part) -> Estimate:
     lifts = [lift for lift in public_lifts(bundle) if part.has(lift)]
     if not lifts:
         return known(mean_rmse(stratum_scores(bundle), part) or 0.0)

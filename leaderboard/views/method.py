@@ -39,11 +39,11 @@ def method_view(board: Board) -> MethodView:
     info = find_season(seasons, None)
     if info is None:
         raise ValueError("a board has a season from the moment it is made")
-    standings, bounds = board.standings(info.name), bounds_of(info)
+    newest, bounds = board.tables.newest(info.name, 1), bounds_of(info)
     return MethodView(
         season=info,
         seasons=seasons,
-        lifts=standings[0].row.public.episodes if standings else None,
+        lifts=newest[0].row.public.episodes if newest else None,
         human_human=board.human_human(info.name),
         causal=any(each.causal for each in bounds),
         oracle=any(not each.causal for each in bounds),

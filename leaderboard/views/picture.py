@@ -1,13 +1,63 @@
 """The scatter picture of a board: error on hidden lifts, and on public ones a second metric."""
 
+import threading
 from collections.abc import Sequence
+from typing import Final
+from weakref import WeakKeyDictionary
 
-from ...benchmark.comparison.front import FrontPoint, exact
-from ...benchmark.comparison.scatter.scene import ScatterScene, make_scene
+from ...benchmark.comparison.front import FrontPoint, exact, pareto_front
+from ...benchmark.comparison.scatter.scene import NARROW, WIDE, ScatterScene, make_scene
+from ...benchmark.episode.metric import Metric
 from ..board.standings import HumanHumanScores
+from ..board.tables import Table
 from ..records.metrics import picture_axes
 from ..records.row import BoardRow
 from .bounds import PublicBound
+
+PICTURED: Final = 100
+"""Number of policies, from the best, in a picture, beside those on the front."""
+
+Pictures = tuple[ScatterScene | None, ScatterScene | None]
+"""A picture for a screen, and one for a telephone; None if there is no policy."""
+
+_drawing: Final = threading.Lock()
+"""Held while pictures are drawn, so that the readers of a new table do not all draw them."""
+
+_made: WeakKeyDictionary[Table, Pictures] = WeakKeyDictionary()
+
+
+def pictures(
+    table: Table, human_human: HumanHumanScores | None, bounds: Sequence[PublicBound]
+) -> Pictures:
+    """Return the pictures of a table; they are drawn once."""
+    with _drawing:
+        if table not in _made:
+            rows = _pictured([each.row for each in table.ranking])
+            wide, narrow = (
+                make_picture(rows, human_human, bounds, size=size) for size in (WIDE, NARROW)
+            )
+            _made[table] = wide, narrow
+        return _made[table]
+
+
+def _pictured(rows: Sequence[BoardRow]) -> list[BoardRow]:
+    """Return the rows of a picture: the best, and those that no other beats in both axes."""
+    if len(rows) <= PICTURED:
+        return list(rows)
+    _, second = picture_axes(rows[0].suite)
+    points = [_point(row, second) for row in rows]
+    front = set(map(id, pareto_front(points, second)))
+    drawn = zip(rows, points, strict=True)
+    return [row for i, (row, point) in enumerate(drawn) if i < PICTURED or id(point) in front]
+
+
+def _point(row: BoardRow, second: Metric) -> FrontPoint:
+    return FrontPoint(
+        name=row.name,
+        rmse_mm=row.hidden.rmse_mm,
+        second=exact(row.public.metrics[second.name].mean),
+        missing=row.public.metrics[second.name].missing,
+    )
 
 
 def make_picture(
@@ -34,15 +84,7 @@ def make_picture(
     if not rows:
         return None
     leading, second = axes = picture_axes(rows[0].suite)
-    policies = [
-        FrontPoint(
-            name=row.name,
-            rmse_mm=row.hidden.rmse_mm,
-            second=exact(row.public.metrics[second.name].mean),
-            missing=row.public.metrics[second.name].missing,
-        )
-        for row in rows
-    ]
+    policies = [_point(row, second) for row in rows]
     others = [
         FrontPoint(
             name=name, rmse_mm=each.rmse_mm, second=exact(each.means[second.name]), kind=kind

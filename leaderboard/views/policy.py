@@ -1,5 +1,6 @@
 """The page of a policy: description, scores part by part, and history."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -7,7 +8,8 @@ from typing import Final
 
 from ...benchmark.statistics import Estimate
 from ..board.board import Board
-from ..board.standings import RankedRow
+from ..board.standings import RANKED, RankedRow
+from ..database.schema import entries
 from ..records.season import BoardEntry, Event, SeasonInfo
 from .axis import Axis, make_axis
 from .board import find_season, ordered_seasons
@@ -116,25 +118,28 @@ def policy_view(board: Board, season: str, digest: str) -> PolicyView | RefusalV
     info = find_season(ordered_seasons(board), season)
     if info is None:
         return None
-    standings = board.standings(season)
-    mine = next((each for each in standings if each.row.submission == digest), None)
+    mine = board.tables.row(season, digest)
     bundle = board.bundle(season, digest)
     if mine is None:
         entry = board.entry(season, digest)
         whole = is_whole(bundle)
         return None if entry is None else RefusalView(season=info, entry=entry, has_bundle=whole)
-    blend = next((each.row.submission for each in standings if each.row.name == BLEND), None)
-    other = None if blend in (None, digest) else board.bundle(season, str(blend))
+    ranks = board.tables.last_ranks(season)
+    others = sorted(
+        (each.row.submission for each in board.tables.rows(season, entries.c.name == BLEND)),
+        key=lambda each: ranks.places.get(each, math.inf),
+    )
+    other = board.bundle(season, others[0]) if others and others[0] != digest else None
+    fellows = ranks.fellows(digest) if mine.section in RANKED else ()
     parts = () if bundle is None else _parts(bundle, other)
     marks = [
         mark for each in parts for mark in (each.human_human_mm, each.blend_mm) if mark is not None
     ]
-    fellows = [each for each in standings if each.section == mine.section]
-    neighbours = _neighbours([each for each in standings if each.ranked], digest)
+    neighbours = _neighbours(board, season, fellows if mine.ranked else (), digest)
     return PolicyView(
         season=info,
         standing=mine,
-        shared=sum(each.group == mine.group for each in fellows),
+        shared=ranks.shared(digest),
         ranked=len(fellows),
         parts=parts,
         axis=make_axis([each.rmse_mm for each in parts], marks),
@@ -149,14 +154,19 @@ def policy_view(board: Board, season: str, digest: str) -> PolicyView | RefusalV
 
 
 def _neighbours(
-    ranked: Sequence[RankedRow], digest: str
+    board: Board, season: str, ranked: Sequence[str], digest: str
 ) -> tuple[RankedRow | None, RankedRow | None]:
-    """Return the policies before and after one in the table."""
-    place = next((i for i, each in enumerate(ranked) if each.row.submission == digest), None)
+    """Return the policies before and after one in the ranking, if they still are in it."""
+    place = ranked.index(digest) if digest in ranked else None
     if place is None:
         return None, None
-    after = ranked[place + 1] if place + 1 < len(ranked) else None
-    return (ranked[place - 1] if place else None), after
+    around = (
+        ranked[place - 1] if place else None,
+        ranked[place + 1] if place + 1 < len(ranked) else None,
+    )
+    rows = [None if each is None else board.tables.row(season, each) for each in around]
+    before, after = (each if each is not None and each.ranked else None for each in rows)
+    return before, after
 
 
 def _failures(bundle: Path | None) -> tuple[Failure, ...]:

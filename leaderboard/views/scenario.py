@@ -13,6 +13,7 @@ from ...benchmark.statistics import Estimate
 from ..board.board import Board
 from ..board.standings import RankedRow
 from ..records.season import SeasonInfo
+from .asked import ROWS
 from .axis import Axis, make_axis
 from .board import find_season, ordered_seasons
 from .lifts import Part, StratumScore, known, part_estimate, stratum_scores
@@ -57,7 +58,9 @@ class ScenarioView:
     subject: Subject
     curves: tuple[Curve, ...]
     rows: tuple[ScenarioRow, ...]
-    """Best first."""
+    """Best first; at most :data:`.ROWS`."""
+    total: int
+    """Number of policies that have played it."""
     human_human_mm: float | None
     axis: Axis
 
@@ -162,7 +165,7 @@ def scenario_view(board: Board, season: str, behaviour: str, subject: str) -> Sc
         ScenarioRow(
             standing=each, score=score, rmse_mm=_estimate(board, each, score, part, i < BEST)
         )
-        for i, (each, score) in enumerate(scored)
+        for i, (each, score) in enumerate(scored[:ROWS])
     )
     human_human = rows[0].score.human_human_rmse_mm if rows else None
     return ScenarioView(
@@ -172,6 +175,7 @@ def scenario_view(board: Board, season: str, behaviour: str, subject: str) -> Sc
         subject=scenario.subject,
         curves=_curves(scenario, suite.seeds[:CURVES]),
         rows=rows,
+        total=len(scored),
         human_human_mm=human_human,
         axis=make_axis(
             [row.rmse_mm for row in rows], () if human_human is None else (human_human,)
@@ -182,9 +186,9 @@ def scenario_view(board: Board, season: str, behaviour: str, subject: str) -> Sc
 def _scored(board: Board, info: SeasonInfo) -> list[tuple[RankedRow, tuple[StratumScore, ...]]]:
     """Return the ranked rows that have a bundle, with their strata."""
     found = []
-    for each in board.standings(info.name):
+    for each in board.tables.read(info.name).ranking:
         bundle = board.bundle(info.name, each.row.submission)
-        if each.ranked and bundle is not None:
+        if bundle is not None:
             found.append((each, stratum_scores(bundle)))
     return found
 

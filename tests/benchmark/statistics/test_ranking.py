@@ -108,3 +108,46 @@ def test_what_is_decisive_can_be_told_apart_and_nothing_else(behind, episodes):
     errors = {f"p{k}": np.full(episodes, 1.0 + 100.0 * k) for k in range(behind + 1)}
     apart = len(rank_groups(errors, resamples=100_000)) > 1
     assert decisive(behind + 1, episodes) == apart
+
+
+def plain_groups(errors: dict[str, np.ndarray]) -> tuple[tuple[str, ...], ...]:
+    """Return the groups by tests of every anchor against all behind it."""
+    waiting, groups = sorted(errors, key=lambda name: errors[name].mean()), []
+    while waiting:
+        anchor, *behind = waiting
+        flips = max(10_000, 40 * len(errors))
+        ps = [paired_permutation_p(errors[anchor], errors[b], resamples=flips) for b in behind]
+        apart = holm_correction(ps) <= 0.05
+        size = 1 + (int(apart.argmax()) if apart.any() else len(behind))
+        groups.append(tuple(waiting[:size]))
+        waiting = waiting[size:]
+    return tuple(groups)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_what_is_not_tested_because_it_is_far_away_would_have_been_told_apart(seed: int) -> None:
+    """With clear and unclear differences, in some or in all lifts, and with ruined lifts."""
+    rng = np.random.default_rng(seed)
+    lifts = rng.gamma(2.0, 5.0, 40)
+    errors = {
+        f"p{i}": lifts
+        + mean
+        + rng.normal(0.0, 3.0, 40) * (rng.random(40) < (0.2, 1.0)[seed % 2])
+        + 100.0 * (rng.random(40) < 0.03)
+        for i, mean in enumerate(rng.uniform(0.0, 20.0, 25))
+    }
+    assert rank_groups(errors) == plain_groups(errors)
+
+
+def test_of_a_thousand_policies_those_that_can_be_told_apart_are() -> None:
+    """A cluster of equals, one that is better and one that is worse than all of them."""
+    rng = np.random.default_rng(0)
+    lifts = rng.gamma(2.0, 5.0, 100)
+    errors = {f"p{i}": lifts + 10.0 + rng.normal(0.0, 2.0, 100) for i in range(1000)}
+    errors["better"] = lifts + 7.0 + rng.normal(0.0, 2.0, 100)
+    errors["worse"] = lifts + 13.0 + rng.normal(0.0, 2.0, 100)
+    groups = rank_groups(errors)
+    assert groups[0] == ("better",)
+    assert groups[-1] == ("worse",)
+    assert sum(map(len, groups)) == 1002
+    assert len(groups) <= 4

@@ -6,8 +6,8 @@ from contextlib import contextmanager
 import pytest
 import sqlalchemy as sa
 from colift.agents.errors import InputError
+from colift.benchmark.statistics import decisive
 from colift.benchmark.suites.suite import make_suite
-from colift.leaderboard.board.ranks import can_distinguish
 from colift.leaderboard.board.seasons import ImportedEntry, ImportedSeason
 from colift.leaderboard.board.standings import columns
 from colift.leaderboard.records.season import Season, SeasonInfo
@@ -160,7 +160,7 @@ def test_lifts_that_are_too_few_to_tell_anybody_give_no_rank(board):
     [(1, 2, True), (2, 5, False), (2, 6, True), (3, 6, False), (103, 12, True), (104, 12, False)],
 )
 def test_whether_a_rank_can_be_told_follows_from_the_number_of_lifts(policies, lifts, told):
-    assert can_distinguish(policies, lifts) is told
+    assert decisive(policies, lifts) is told
 
 
 def test_seasons_have_tables_of_their_own(board):

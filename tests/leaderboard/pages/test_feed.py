@@ -4,7 +4,7 @@ import io
 import xml.etree.ElementTree as ET
 import zipfile
 from pathlib import Path
-from urllib.parse import urlsplit
+from urllib.parse import urljoin, urlsplit
 
 import httpx
 from colift.agents.submissions.submission import read_submission
@@ -23,10 +23,10 @@ def test_the_feed_has_the_rows_newest_first_and_leads_to_their_pages(url, folder
     newest = sorted(board.standings("2026"), key=lambda each: each.at, reverse=True)
     board.close()
     entries = feed.findall(f"{ATOM}entry")
-    links = [entry.find(f"{ATOM}link").get("href") for entry in entries]
+    links = [urljoin(url, entry.find(f"{ATOM}link").get("href")) for entry in entries]
     assert links == [f"{url}/seasons/2026/policies/{each.row.submission}" for each in newest]
     assert httpx.get(links[0]).status_code == 200
-    assert feed.find(f"{ATOM}link[@rel='self']").get("href") == str(answer.url)
+    assert urljoin(url, feed.find(f"{ATOM}link[@rel='self']").get("href")) == str(answer.url)
     titles = [entry.find(f"{ATOM}title").text for entry in entries]
     assert titles[0].startswith("<b>sly</b>: ")
     assert "trained on: <i>recorded</i> lifts." in entries[0].find(f"{ATOM}summary").text

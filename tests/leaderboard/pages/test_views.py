@@ -1,6 +1,7 @@
 """What pages show, without a browser."""
 
 import dataclasses
+import shutil
 
 import pytest
 from colift.benchmark.bundle.files import EPISODES, RESULTS
@@ -12,15 +13,22 @@ from colift.leaderboard.database.queries import record_entry
 from colift.leaderboard.pages.formats import interval, number, p_text, signed, tex
 from colift.leaderboard.pages.links import ServiceLinks
 from colift.leaderboard.pages.rendering import render_page
+from colift.leaderboard.views.asked import CHOSEN
 from colift.leaderboard.views.axis import make_axis
 from colift.leaderboard.views.board import board_view
-from colift.leaderboard.views.compare import MOST, compare_view
+from colift.leaderboard.views.compare import compare_view
 from colift.leaderboard.views.exports import standings_csv
-from colift.leaderboard.views.lifts import Part, part_estimate
+from colift.leaderboard.views.lifts import (
+    Part,
+    part_estimate,
+    public_lifts,
+    stratum_scores,
+)
 from colift.leaderboard.views.picture import make_picture
 from colift.leaderboard.views.policy import RefusalView, policy_view
 from colift.leaderboard.views.scenario import scenarios_view
 
+from .. import rows
 from ..rows import add, make_entry, make_row, slow, unverified
 from .boards import digest
 
@@ -88,7 +96,7 @@ def test_only_so_many_are_compared_and_no_one_with_itself(shown):
     copy = digest("copy")
     assert compare_view(shown, "2026", [copy, copy]).pairs == ()
     everyone = [each.row.submission for each in shown.standings("2026")]
-    assert len(compare_view(shown, "2026", [*everyone, "nonsense"]).columns) == MOST
+    assert len(compare_view(shown, "2026", [*everyone, "nonsense"]).columns) == CHOSEN
 
 
 def test_without_single_lifts_there_are_means_and_no_intervals(played, tmp_path):
@@ -201,6 +209,7 @@ def test_a_page_shows_what_is_not_real_time_apart_and_says_what_has_no_rank(tmp_
     add(board, "good", 10.0)
     add(board, "snail", 5.0, change=slow)
     add(board, "free", 1.0, change=unverified)
+    board.standings()  # Computes the ranks.
     view = board_view(board)
     names = [[each.row.name for each in some] for some in (view.slow, view.out)]
     assert ([each.standing.row.name for each in view.rows], *names) == (
@@ -247,3 +256,21 @@ def test_the_picture_of_another_task_has_that_tasks_second_metric_and_words():
     assert picture.dots[0].tip == "a: RMSE 20.0 mm, settling 1352 ms"
     assert picture.axis == "← more accurate · RMSE on the hidden lifts, mm"
     assert picture.axis_up == "Time to the right pose, ms · quicker →"
+
+
+def test_a_bundle_that_a_rescore_has_replaced_is_read_again(tmp_path, played):
+    board = Board.open(tmp_path / "board", "quick-v1")
+    add(board, "mine", 10.0)
+    first, second, *_ = (each.bundle for each in played.entries)
+    seen = []
+    for bundle in (first, second):
+        copy = shutil.copytree(bundle, tmp_path / "copy")
+        board.store.place_bundle("1", rows.digest("mine"), copy)
+        place = board.bundle("1", rows.digest("mine"))
+        whole = Part(behaviour=None, subject=None)
+        assert public_lifts(place) == public_lifts(bundle)
+        assert stratum_scores(place) == stratum_scores(bundle)
+        assert part_estimate(place, whole) == part_estimate(bundle, whole)
+        seen.append(part_estimate(place, whole).mean)
+    board.close()
+    assert seen[0] != seen[1]

@@ -7,7 +7,7 @@ import re
 import httpx
 import pytest
 from colift.benchmark.suites.suite import make_suite
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.service import published
 
 DIGEST = "0" * 64
 JOB = "0" * 32
@@ -110,10 +110,10 @@ def test_nothing_can_be_changed(client, method):
 
 
 def test_a_fault_of_ours_is_logged_and_told_without_its_inside(client, monkeypatch, caplog):
-    def fail(board, season):
-        raise RuntimeError(f"{board.folder} is broken")
+    def fail(service, season):
+        raise RuntimeError(f"{service.board.folder} is broken")
 
-    monkeypatch.setattr(Board, "standings", fail)
+    monkeypatch.setattr(published, "_standings", fail)
     with caplog.at_level(logging.ERROR, "colift.service"):
         answer = client.get("/api/v1/standings")
     request = answer.headers["X-Request-ID"]
@@ -127,10 +127,10 @@ def test_a_fault_of_ours_is_logged_and_told_without_its_inside(client, monkeypat
 
 
 def test_a_full_disk_is_told(client, monkeypatch):
-    def fail(board, season):
+    def fail(service, season):
         raise OSError(errno.ENOSPC, "No space left on device", "/board/x")
 
-    monkeypatch.setattr(Board, "standings", fail)
+    monkeypatch.setattr(published, "_standings", fail)
     answer = client.get("/api/v1/standings")
     assert answer.status_code == 507
     assert answer.json() == {"error": "the board has no room left; please inform its maintainer"}

@@ -78,15 +78,15 @@ def test_who_listens_to_a_job_hears_on_when_the_database_is_back(
         assert any('"stage":"audit"' in line for line in lines)
 
 
-def test_no_more_listen_than_there_are_places(client, url, ada, zipped):
+def test_no_more_listen_from_an_address_than_there_are_places_for_it(client, url, ada, zipped):
     job = client.post("/api/v1/submissions", headers=ada, content=zipped("many")).json()
     path = f"{url}/api/v1/jobs/{job['id']}/events"
     limits = httpx.Limits(max_connections=None)
     with httpx.Client(timeout=60, limits=limits) as one:
-        requests = [one.build_request("GET", path) for _ in range(110)]
-        with ThreadPoolExecutor(110) as pool:
+        requests = [one.build_request("GET", path) for _ in range(40)]
+        with ThreadPoolExecutor(40) as pool:
             answers = list(pool.map(lambda each: one.send(each, stream=True), requests))
         codes = [answer.status_code for answer in answers]
         for answer in answers:
             answer.close()
-    assert (codes.count(200), codes.count(429) + codes.count(503)) == (100, 10)
+    assert (codes.count(200), codes.count(429)) == (20, 20)

@@ -5,7 +5,7 @@ import socket
 import httpx
 import pytest
 from colift.leaderboard.service.dependencies import Rates
-from colift.leaderboard.service.security import Rate, RateLimit, network
+from colift.leaderboard.service.security import Rate, RateLimit, local_path, network
 
 SELDOM = Rate(per_second=0.01, burst=3)
 OFTEN = Rate(per_second=1e6, burst=10**6)
@@ -105,3 +105,43 @@ def test_every_answer_tells_browsers_to_trust_nothing_else(client, path):
     assert headers["Referrer-Policy"] == "no-referrer"
     assert len(headers["X-Request-ID"]) == 16
     assert "server" not in headers or "uvicorn" not in headers["server"]
+
+
+HOST = {"Host": "evil.example"}
+
+
+def test_no_answer_has_the_host_of_the_request(url, client):
+    """A cache in front could give it to others."""
+    for path in ("/", "/submit", "/api", "/seasons/1/feed.atom", "/api/v1/openapi.json"):
+        answer = client.get(path, headers=HOST)
+        assert answer.status_code == 200
+        assert "evil.example" not in answer.text
+
+
+@pytest.mark.parametrize("path", ["/seasons/1/", "/method/", "/seasons/1/feed.atom/?x=1"])
+def test_a_redirect_stays_on_the_board(client, path):
+    answer = client.get(path, headers=HOST)
+    assert answer.status_code == 307
+    assert answer.headers["Location"] == path.replace("/?", "?").removesuffix("/")
+
+
+@pytest.mark.parametrize(
+    ("address", "path"),
+    [
+        ("http://evil.example/seasons/x%00", "/seasons/x%00"),
+        ("//evil.example/x", "/x"),
+        ("https://a/b?c=1#d", "/b?c=1#d"),
+        ("/api/v1/jobs/1", "/api/v1/jobs/1"),
+        ("http://a//evil.example", "/evil.example"),
+    ],
+)
+def test_a_location_is_a_path(address, path):
+    assert local_path(address) == path
+
+
+def test_a_board_that_knows_its_address_tells_it(folder, serving):
+    with serving(folder, address="https://board.example/lift") as url:
+        feed = httpx.get(f"{url}/seasons/1/feed.atom", headers=HOST).text
+        submit = httpx.get(f"{url}/submit", headers=HOST).text
+    assert 'href="https://board.example/' in feed
+    assert "--board https://board.example/lift</code>" in submit

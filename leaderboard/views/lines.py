@@ -1,0 +1,200 @@
+"""Lines of the board's table: their numbers, the search, and the order of the columns."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from ...benchmark.statistics import Estimate, MeanWithMissing
+from ..board.board import Board
+from ..board.standings import RankedRow
+from ..board.tables import Table
+from ..records.metrics import board_metrics, sort_key
+from ..records.row import BoardRow
+from .asked import ROWS, Asked
+from .lifts import Part, StratumScore, human_human_mean_rmse, known, mean_rmse, stratum_scores
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scores:
+    """The numbers of a line: on all hidden lifts, or on a part of the public ones."""
+
+    rmse_mm: Estimate | None
+    """None if the public run is missing, or has no such lifts."""
+    ratio: float | None
+    """RMSE over that of the human-human baseline."""
+    metrics: Mapping[str, MeanWithMissing]
+    """The other metrics of a board, always on public lifts."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RankedLine:
+    """A line of the table."""
+
+    standing: RankedRow
+    index: int
+    """Place in the ranking, from 0."""
+    strata: tuple[StratumScore, ...]
+    """Its public lifts, stratum by stratum; nothing if its bundle is gone."""
+    scores: Scores
+    shared: int
+    """Number of policies in its rank group."""
+    leads: bool
+    """Whether it is the first of its group."""
+
+    def mean_mm(self, behaviour: str) -> float | None:
+        """Return the mean RMSE [mm] on the public lifts of a behaviour, if its bundle is there."""
+        return mean_rmse(self.strata, Part(behaviour=behaviour, subject=None))
+
+    @property
+    def text(self) -> str:
+        """The text in which a search looks."""
+        return search_text(self.standing.row)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lines:
+    """The lines that were asked for."""
+
+    rows: tuple[RankedLine, ...]
+    first: int
+    """Place of the first one among those that fit."""
+    count: int
+    """Number of lines that fit the search."""
+
+
+def lines_of(
+    board: Board, table: Table, asked: Asked, behaviours: Sequence[str], most: int = ROWS
+) -> Lines:
+    """Return the lines of a ranking that were asked for.
+
+    Parameters
+    ----------
+    board
+        The board, for the public runs.
+    table
+        The table.
+    asked
+        The question.
+    behaviours
+        The behaviours of the suite: their columns are ``b0``, ``b1`` ...
+    most
+        Maximum number of lines.
+    """
+    words = asked.search.lower().split()
+    places = [
+        place
+        for place, each in enumerate(table.ranking)
+        if not words or all(word in search_text(each.row) for word in words)
+    ]
+    if asked.sort != "rank":
+        places = _sorted(board, table, places, asked, behaviours)
+    first = min(asked.first, max(0, len(places) - 1))
+    rows = tuple(_line(board, table, place, asked) for place in places[first : first + most])
+    return Lines(rows=rows, first=first, count=len(places))
+
+
+def search_text(row: BoardRow) -> str:
+    """Return the text of a row in which a search looks."""
+    method = "learned" if row.learned else "designed"
+    return f"{row.name} {' '.join(row.authors)} {row.licence} {method}".lower()
+
+
+def strata_of(board: Board, row: BoardRow) -> tuple[StratumScore, ...]:
+    """Return the public lifts of a row, stratum by stratum; nothing if its bundle is gone."""
+    bundle = board.bundle(row.season, row.submission)
+    return () if bundle is None else stratum_scores(bundle)
+
+
+def _line(board: Board, table: Table, place: int, asked: Asked) -> RankedLine:
+    each = table.ranking[place]
+    strata = strata_of(board, each.row)
+    before = table.ranking[place - 1] if place else None
+    return RankedLine(
+        standing=each,
+        index=place,
+        strata=strata,
+        scores=_scores(each.row, strata, asked.part),
+        shared=1 if each.pending else table.sizes[each.group],
+        leads=not each.pending and (before is None or before.group != each.group),
+    )
+
+
+def _scores(row: BoardRow, strata: Sequence[StratumScore], part: Part | None) -> Scores:
+    if part is None:
+        hidden = row.hidden
+        return Scores(
+            rmse_mm=hidden.rmse_mm, ratio=hidden.vs_human.mean, metrics=row.public.metrics
+        )
+    some = [stratum for stratum in strata if part.has(stratum)]
+    rmse, human_human = mean_rmse(some, part), human_human_mean_rmse(some)
+    return Scores(
+        rmse_mm=None if rmse is None else known(rmse),
+        ratio=rmse / human_human if rmse is not None and human_human else None,
+        metrics={metric.name: _mean(some, metric.name) for metric in board_metrics(row.suite)},
+    )
+
+
+def _mean(strata: Sequence[StratumScore], name: str) -> MeanWithMissing:
+    """Return the mean of a metric over the lifts of some strata that have a value."""
+    found = [(each.metrics[name], each.episodes) for each in strata]
+    weighted = [(m.mean, lifts - m.missing) for m, lifts in found if m.mean is not None]
+    lifts = sum(weight for _, weight in weighted)
+    return MeanWithMissing(
+        mean=sum(mean * weight for mean, weight in weighted) / lifts if lifts else None,
+        missing=sum(m.missing for m, _ in found),
+    )
+
+
+Key = float | str | None
+"""What lines are sorted by; None, a missing value, is last either way."""
+
+_OF_ROW: Final[Mapping[str, Callable[[RankedRow], Key]]] = {
+    "name": lambda each: each.row.name.lower(),
+    "step": lambda each: each.row.public.step_ms_p50,
+    "gap": lambda each: each.row.gap_mm.mean,
+    "learned": lambda each: float(each.row.learned),
+    "licence": lambda each: each.row.licence.lower(),
+    "at": lambda each: -each.at.timestamp(),
+}
+"""The columns that need no public run."""
+
+
+def _sorted(
+    board: Board, table: Table, places: Sequence[int], asked: Asked, behaviours: Sequence[str]
+) -> list[int]:
+    """Return places in the order that was asked for; in that of the ranks if it is unknown."""
+    name = asked.column
+
+    def key(place: int) -> Key:
+        each = table.ranking[place]
+        if name in _OF_ROW:
+            return _OF_ROW[name](each)
+        if name in columns:
+            strata = strata_of(board, each.row)
+            return mean_rmse(strata, Part(behaviour=columns[name], subject=None))
+        strata = () if asked.part is None else strata_of(board, each.row)
+        scores = _scores(each.row, strata, asked.part)
+        if name == "rmse":
+            return None if scores.rmse_mm is None else scores.rmse_mm.mean
+        if name == "ratio":
+            return scores.ratio
+        return next(
+            (
+                sort_key(metric, scores.metrics[name])
+                for metric in board_metrics(each.row.suite)
+                if metric.name == name
+            ),
+            float(place),
+        )
+
+    columns = {f"b{i}": behaviour for i, behaviour in enumerate(behaviours)}
+    keys = {place: key(place) for place in places}
+    there = [place for place in places if not _missing(keys[place])]
+    # Two passes, so that equal ones stay in the order of the ranks either way.
+    there.sort(key=lambda place: keys[place], reverse=asked.down)  # type: ignore[arg-type,return-value]
+    return [*there, *(place for place in places if _missing(keys[place]))]
+
+
+def _missing(key: Key) -> bool:
+    return key is None or (isinstance(key, float) and math.isnan(key))
