@@ -121,12 +121,12 @@ def _attempts(secrets: dict[str, Any]) -> Iterator[tuple[str, Callable[[], objec
         yield "locks files of others", lambda: fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
         yield "locks parts of files", lambda: fcntl.lockf(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
         yield (
-            "empties the page cache",
-            lambda: os.posix_fadvise(file.fileno(), 0, 0, os.POSIX_FADV_DONTNEED),
-        )
-        yield (
             "asks what the page cache holds",
             lambda: os.preadv(file.fileno(), [bytearray(1)], 0, _RWF_NOWAIT),
+        )
+        yield (
+            "empties the page cache",
+            lambda: os.posix_fadvise(file.fileno(), 0, 0, os.POSIX_FADV_DONTNEED),
         )
         yield "asks what is in memory", lambda: _called("mincore", 0, 0, bytes(1))
 
