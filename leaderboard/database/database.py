@@ -5,6 +5,7 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 from typing import Final, Self
 
@@ -13,7 +14,7 @@ import sqlalchemy as sa
 from ...agents.errors import InputError
 from ...agents.extras import how_to_install
 from .migration import migrate
-from .transactions import make_engine, reading, writing
+from .transactions import database_time, make_engine, reading, writing
 
 URL: Final = "COLIFT_DATABASE_URL"
 """Environment variable that names another database than the file in the board's folder."""
@@ -99,6 +100,14 @@ class Database:
         """
         with writing(self.engine) as connection:
             yield connection
+
+    def now(self, connection: sa.Connection) -> datetime:
+        """Return the time of the database.
+
+        Times that machines compare, such as those of leases, are all of this clock: the machines'
+        own may differ by any amount.
+        """
+        return database_time(connection)
 
     def close(self) -> None:
         """Close all connections."""

@@ -4,6 +4,7 @@
   const box = document.getElementById("job");
   const bar = document.getElementById("bar"), status = document.getElementById("status");
   const state = document.getElementById("state");
+  const unattended = document.getElementById("unattended");
   let pause = 1000, last = status.textContent;
 
   function show(job) {
@@ -14,6 +15,9 @@
     status.setAttribute("aria-live", text.split(":")[0] === last.split(":")[0] ? "off" : "polite");
     if (job.state !== "queued" || last.split(/[.,]/)[0] !== "Waiting") status.textContent = text;
     last = text;
+    unattended.hidden = !job.unattended;
+    const told = job.unattended ? job.unattended + ". The submission is kept, and waits for a worker." : "";
+    if (unattended.textContent !== told) unattended.textContent = told;
     for (const step of document.querySelectorAll("[data-stage]")) {
       if (step.dataset.stage === job.stage) step.setAttribute("aria-current", "step");
       else step.removeAttribute("aria-current");

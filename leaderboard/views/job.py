@@ -25,6 +25,8 @@ class JobView:
     """Its outcome."""
     ahead: int
     """Number of jobs that are taken before it."""
+    unattended: str | None
+    """That nobody evaluates at present; None if somebody does."""
 
     @property
     def share(self) -> float:
@@ -44,6 +46,7 @@ def job_view(board: Board, queue: Queue, job_id: str) -> JobView | None:
         job=job,
         entry=board.entry(job.season, job.submission) if job.ended else None,
         ahead=waiting.index(job.id) if job.id in waiting else 0,
+        unattended=queue.unattended(job),
     )
 
 
