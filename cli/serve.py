@@ -15,7 +15,7 @@ from ..agents.submissions.folder import MIB
 from ..benchmark.execution.pool import default_jobs
 from ..leaderboard.evaluation.entrant import AUTO
 from ..leaderboard.queue import Quota
-from .board_options import BOARD, BoardFolder, BoardIsolation
+from .board_options import BOARD, BoardFolder, BoardIsolation, open_patiently, opened_board
 from .listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
 from .partners import partners
 
@@ -91,6 +91,8 @@ def serve_board(
     command += ["--isolation", isolation]
     interrupted_by_signals()  # uvicorn raises them again after closing.
     try:
+        with opened_board(board, open_patiently, new=True):
+            pass  # Its database server may start at the same time.
         with listening_at(host, port) as listener:
             app = create_app(
                 board, contact=contact, quota=quota, docs=documentation, play=rooms > 0

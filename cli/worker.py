@@ -10,10 +10,18 @@ import typer
 
 from ..agents.errors import EvaluatorFault
 from ..leaderboard.evaluation.entrant import AUTO
+from ..leaderboard.practice.season_import import open_with_practice
 from ..leaderboard.queue import WorkerQueue
 from ..leaderboard.queue.worker import Worker
 from ..leaderboard.records.job import Job
-from .board_options import BOARD, BoardFolder, BoardIsolation, opened_board, report_isolation
+from .board_options import (
+    BOARD,
+    BoardFolder,
+    BoardIsolation,
+    open_patiently,
+    opened_board,
+    report_isolation,
+)
 from .options import Dask, Jobs, executor
 
 ENDING = (signal.SIGINT, signal.SIGTERM)
@@ -31,17 +39,20 @@ def worker(
 ) -> None:
     """Evaluate the submissions in a board's queue, one after the other.
 
-    Any number of workers may share a board. If one is killed, another takes over its job.
+    Any number of workers may share a board. If one is killed, another takes over its job. A worker
+    waits for a database server that is away.
     """
     for number in ENDING:
         signal.signal(number, _stop)
     report_isolation(isolation)
     try:
-        with opened_board(board, new=True) as place, executor(jobs, dask) as workers:
+        opening = open_with_practice if once else open_patiently
+        with opened_board(board, opening, new=True) as place, executor(jobs, dask) as workers:
             here = Worker(WorkerQueue(place), workers, isolation=isolation)
             if once:
-                while (job := here.once()) is not None:
-                    _report(job)
+                with here.attending():
+                    while (job := here.once()) is not None:
+                        _report(job)
             else:
                 print(f"working for {place.folder}; Ctrl-C ends it", file=sys.stderr, flush=True)
                 here.run(ended=_report)

@@ -22,8 +22,15 @@ URL: Final = "COLIFT_DATABASE_URL"
 FILE: Final = "board.sqlite"
 """That file."""
 
+AWAY: Final = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
+"""Errors that are raised when the database is away, or has no free connection."""
+
 SERVERS: Final = ("postgresql", "postgres", "postgresql+psycopg")
 """Schemes that the variable may have before ``://``."""
+
+
+class DatabaseAwayError(InputError):
+    """A database server does not answer; that may end."""
 
 
 @dataclass(frozen=True)
@@ -47,8 +54,10 @@ class Database:
 
         Raises
         ------
+        DatabaseAwayError
+            If a server does not answer.
         InputError
-            If there is no such database, it does not answer, or a later colift made it.
+            If there is no such database, or a later colift made it.
         """
         place = _url(url) if url else sa.URL.create("sqlite", database=str(folder / FILE))
         shown = place.render_as_string(hide_password=True)
@@ -62,7 +71,9 @@ class Database:
             migrate(engine, shown)
         except sa.exc.DBAPIError as error:
             engine.dispose()
-            raise InputError(f"database {shown} cannot be opened: {error.orig}") from error
+            away = engine.dialect.name != "sqlite" and isinstance(error, AWAY)
+            kind = DatabaseAwayError if away else InputError
+            raise kind(f"database {shown} cannot be opened: {error.orig}") from error
         except InputError:
             engine.dispose()
             raise

@@ -76,5 +76,5 @@ def read_attendance(connection: sa.Connection, now: datetime) -> Attendance:
     seen = [each.seen_at for each in signed] + ([] if last is None else [last])
     return Attendance(
         present=waiting or any(is_held(each, now) for each in held),
-        seen_at=max(seen, default=None),
+        seen_at=min(max(seen), now) if seen else None,
     )

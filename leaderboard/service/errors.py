@@ -18,6 +18,7 @@ from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ...agents.errors import InputError
+from ..database.database import AWAY
 from ..queue import QuotaError
 
 log: Final = logging.getLogger("colift.service")
@@ -30,9 +31,6 @@ CLOSE: Final = {"Connection": "close"}
 
 LINGER_S: Final = 10.0
 """Longest time for which the rest is discarded [s]."""
-
-AWAY: Final = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
-"""Errors that are raised when the database is away, or has no free connection."""
 
 QUOTA_S: Final = 60
 """Time after which a submitter over quota may ask again [s]."""
