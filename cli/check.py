@@ -13,7 +13,8 @@ from rich.text import Text
 from ..agents.errors import InputError
 from ..agents.spec import AgentSpec
 from ..agents.submissions import from_file
-from ..agents.submissions.new import AUTHOR, DESCRIPTION, template
+from ..agents.submissions.manifest import Manifest
+from ..agents.submissions.new import AUTHOR, DESCRIPTION, check_author, template
 from ..agents.submissions.packages import undeclared
 from ..agents.submissions.submission import Submission, open_submission
 from ..benchmark.execution.runner import Run, run_suite
@@ -113,7 +114,7 @@ def _files(submission: Submission) -> Iterator[Check]:
     wanted = [
         missing
         for missing, wanting in (
-            ("the authors", AUTHOR in manifest.authors),
+            (f"the authors (boards refuse {AUTHOR!r})", _unsigned(manifest)),
             ("a description (it is that of 'colift new')", _undescribed(submission)),
         )
         if wanting
@@ -125,6 +126,15 @@ def _files(submission: Submission) -> Iterator[Check]:
     none = "none: a network runs without code" if manifest.model else "none but Python's own"
     text = "; ".join(wrong) or ", ".join(manifest.packages) or none
     yield Check(name="packages", ok=not wrong, message=text)
+
+
+def _unsigned(manifest: Manifest) -> bool:
+    """Return whether a manifest still has the author that 'colift new' wrote."""
+    try:
+        check_author(manifest)
+    except InputError:
+        return True
+    return False
 
 
 def _undescribed(submission: Submission) -> bool:

@@ -1,9 +1,9 @@
 """The tables.
 
 The record is append-only: ``seasons``, ``entries``, ``hidden_errors`` and ``events`` only
-grow, and triggers in the database refuse anything else (:func:`.protect`). ``jobs``, ``workers`` and
-``tokens`` change state. ``rank_groups`` can be thrown away: it is computed from the others.
-A change of the tables is a new revision in ``migrations/versions``; older ones stay as they are.
+grow, and triggers in the database refuse anything else (:func:`.protect`). ``jobs``, ``workers``
+and ``tokens`` change state. ``rank_groups`` can be thrown away: it is computed from the others. A
+change of the tables is a new revision in ``migrations/versions``; older ones stay as they are.
 """
 
 from datetime import UTC, datetime

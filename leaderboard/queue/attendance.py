@@ -1,7 +1,7 @@
 """Attendance: whether anybody works for a board.
 
-A worker that waits for jobs signs in every few seconds; one that has a job sends its heartbeats. All
-times are those of the database's clock.
+A worker that waits for jobs signs in every few seconds; one that has a job sends its heartbeats.
+All times are those of the database's clock.
 """
 
 from collections.abc import Mapping
@@ -13,11 +13,12 @@ import sqlalchemy as sa
 
 from ..database.schema import jobs, workers
 from ..records.job import HELD
+from ..records.times import utc_minute
 from .jobs import is_gone
 
 LEASE: Final = timedelta(seconds=30)
-"""Time after the last heartbeat at which another worker may take a job, and after the last signature
-at which a worker counts as gone."""
+"""Time after the last heartbeat at which another worker may take a job, and after the last
+signature at which a worker counts as gone."""
 
 RENEWED: Final = timedelta(seconds=10)
 """Time between two signatures of a waiting worker: each is a write to the disk."""
@@ -39,7 +40,7 @@ class Attendance:
         """Return the last sign of life in words."""
         if self.seen_at is None:
             return "no worker of this board has been seen yet"
-        return f"no worker of this board has been seen since {self.seen_at:%Y-%m-%d %H:%M} UTC"
+        return f"no worker of this board has been seen since {utc_minute(self.seen_at)}"
 
 
 def is_held(job: Mapping[str, Any], now: datetime, lease: timedelta = LEASE) -> bool:

@@ -1,8 +1,8 @@
 """The worker's side of the queue: claims, progress reports and ends of jobs.
 
 A worker has a job as long as its heartbeats arrive. Every change is one transaction that first
-checks whether the job is still its worker's, so a worker that lost a job cannot change it. All times
-are those of the database's clock, so the clocks of the workers do not matter.
+checks whether the job is still its worker's, so a worker that lost a job cannot change it. All
+times are those of the database's clock, so the clocks of the workers do not matter.
 """
 
 from collections.abc import Iterator, Sequence
@@ -142,7 +142,7 @@ class WorkerQueue:
         job
             What :meth:`claim` has returned.
         entry
-            The row, or the refusal: then the job has failed. Its time is replaced by the database's.
+            The row, or the refusal: then the job has failed. Its time becomes the database's.
         hidden_rmse_mm
             RMSE of each hidden episode [mm], if there is a row.
         bundle

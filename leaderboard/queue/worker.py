@@ -24,6 +24,7 @@ from ..evaluation.scoring import failure_lines
 from ..records.job import Job
 from ..records.row import BoardRow
 from ..records.season import BoardEntry
+from ..records.times import utc_second
 from . import LostError, Queue, WorkerQueue
 from .heartbeat import Heartbeat
 from .jobs import this_worker
@@ -259,7 +260,7 @@ class Worker:
         return replace(watch, stage=stage, output=output)
 
     def _log(self, job: Job, *lines: str) -> None:
-        now = f"{self._board.clock():%Y-%m-%d %H:%M:%S} UTC"
+        now = utc_second(self._board.clock())
         for line in lines:
             try:
                 self._board.store.add_to_log(job.id, f"{now} {line}")

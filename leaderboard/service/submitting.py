@@ -76,7 +76,7 @@ MINE: Final = 50
 """Maximum number of listed submissions of a submitter."""
 
 _token: Final = HTTPBearer(
-    auto_error=False, description="A token, made with: colift token add NAME --board PATH"
+    auto_error=False, description="A token, from the maintainer of the board"
 )
 Credentials = Annotated[HTTPAuthorizationCredentials | None, Depends(_token)]
 
@@ -201,7 +201,7 @@ async def _submitter(
 ) -> str:
     """Return a token's owner."""
     if credentials is None:
-        raise _nobody("a header 'Authorization: Bearer TOKEN' is missing")
+        raise _nobody("no token was given, in a header 'Authorization: Bearer TOKEN'")
     known = await run_in_threadpool(_known, service, credentials)
     if known is None:
         raise _nobody(REVOKED)
@@ -213,7 +213,7 @@ def _known(service: ServiceState, credentials: HTTPAuthorizationCredentials | No
 
 
 def _nobody(message: str) -> HTTPException:
-    message = f"{message}; the maintainer makes tokens with: colift token add NAME"
+    message = f"{message}; ask the maintainer of the board for a token"
     return problem(401, message, {**CLOSE, "WWW-Authenticate": "Bearer"})
 
 

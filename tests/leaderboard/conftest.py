@@ -100,7 +100,8 @@ def write_submission(tmp_path: Path) -> WriteSubmission:
         if code:
             (folder / "policy.py").write_text(code)
         told = folder / "policy.toml"
-        told.write_text(told.read_text().replace(*manifest) if manifest[0] else told.read_text())
+        text = told.read_text().replace(*manifest) if manifest[0] else told.read_text()
+        told.write_text(text.replace("Your Name", "Ada Lovelace"))
         return folder
 
     return write

@@ -135,7 +135,7 @@ def test_tables_that_only_have_the_number_of_a_revision_are_refused_and_stay(res
     engine = restored("0001")
     with engine.begin() as connection:
         connection.execute(sa.text("ALTER TABLE jobs DROP COLUMN size"))
-    with pytest.raises(InputError, match="it lacks jobs.size: its tables are those of a develop"):
+    with pytest.raises(InputError, match=r"it lacks jobs\.size: its tables are those of a develop"):
         migrate(engine, "it")
     assert revision(engine) == "0001"
     assert "workers" not in sa.inspect(engine).get_table_names()

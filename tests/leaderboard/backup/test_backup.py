@@ -18,7 +18,6 @@ import zlib
 import pytest
 import sqlalchemy as sa
 from colift.agents.errors import InputError
-from colift.agents.submissions.new import write_template
 from colift.leaderboard.backup.backup import back_up
 from colift.leaderboard.backup.restoring import restore
 from colift.leaderboard.board.board import Board
@@ -30,6 +29,7 @@ from colift.leaderboard.records.job import STATES
 from .. import tiny
 from ..conftest import new_schema
 from ..rows import add, digest
+from ..signed import write_signed
 
 
 @pytest.fixture
@@ -207,7 +207,7 @@ def test_a_board_in_use_is_backed_up_whole(tmp_path, tiny_suite):
         number = 0
         while not done.is_set():
             folder = tmp_path / f"p{number}"
-            write_template(folder)
+            write_signed(folder)
             told = (folder / "policy.toml").read_text()
             told = re.sub('name = ".*"', f'name = "p{number}"', told)
             (folder / "policy.toml").write_text(told)

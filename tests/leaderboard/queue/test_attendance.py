@@ -35,7 +35,8 @@ def test_a_worker_that_waits_is_there_until_a_lease_after_its_last_sign(submit, 
     assert told(queue, job) is None
     clock.turn(seconds=2)
     assert told(queue, job) == (
-        "Nobody evaluates at present: no worker of this board has been seen since 2027-03-01 12:00 UTC"
+        "Nobody evaluates at present: "
+        "no worker of this board has been seen since 2027-03-01 12:00 UTC"
     )
 
 

@@ -1,7 +1,7 @@
-"""Stored databases of a small board, one for each revision of the tables and each kind of database.
+"""Stored databases of a small board, one for each revision and each kind of database.
 
-``python -m tests.leaderboard.revisions.make`` writes those of the present revision, once, when it is
-new; those of older revisions stay as the colift of their time wrote them.
+``python -m tests.leaderboard.revisions.make`` writes those of the present revision, once, when it
+is new; those of older revisions stay as the colift of their time wrote them.
 """
 
 import sqlite3
@@ -10,7 +10,6 @@ import tempfile
 from datetime import UTC, datetime
 from pathlib import Path
 
-from colift.agents.submissions.new import write_template
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.tokens import Tokens
 from colift.leaderboard.database.database import FILE
@@ -19,6 +18,7 @@ from colift.leaderboard.queue import Queue, WorkerQueue
 
 from ..postgresql import binaries, server
 from ..rows import add, digest
+from ..signed import write_signed
 
 HERE = Path(__file__).parent
 BEGAN = datetime(2026, 11, 20, 8, 30, tzinfo=UTC)
@@ -37,7 +37,7 @@ def fill(folder: Path, url: str | None) -> None:
     board.remove("1", digest("yours"), "local", "a mistake")
     Tokens(board).add("ada")
     for name in ("first", "second"):
-        write_template(folder / name)
+        write_signed(folder / name)
         Queue(board).enqueue(board.keep(folder / name), "ada")
     work = WorkerQueue(board)
     job = work.claim("host/machine/12/34")

@@ -55,6 +55,27 @@ def test_a_submission_is_taken_and_its_job_can_be_asked_for(client, ada, zipped)
     assert again.json()["id"] == job["id"]
 
 
+def test_a_board_without_a_worker_says_so_with_the_answer_to_the_upload(client, ada, zipped):
+    job = client.post(SUBMIT, headers=ada, content=zipped("unattended")).json()
+    said = "Nobody evaluates at present: no worker of this board has been seen"
+    assert job["unattended"].startswith(said)
+    path = f"/api/v1/jobs/{job['id']}"
+    assert client.get(path).json()["unattended"] == job["unattended"]
+    assert said in client.get(f"/jobs/{job['id']}").text
+    ended = client.delete(path, headers=ada).json()
+    assert (ended["state"], ended["unattended"]) == ("cancelled", None)
+    assert "colift queue" not in client.get(f"/jobs/{job['id']}").text, "that is for the maintainer"
+
+
+@pytest.mark.parametrize("authors", ['["Your Name"]', '["Ada", "your name"]'])
+def test_the_author_of_the_template_is_refused(client, ada, zipped, authors, folder):
+    signed = ('authors = ["Your Name"]', f"authors = {authors.replace('Your', 'YOUR')}")
+    answer = client.post(SUBMIT, headers=ada, content=zipped("unsigned", manifest=signed))
+    assert answer.status_code == 422
+    assert "policy.toml: authors still has " in answer.json()["error"]
+    assert "put your own name there" in answer.json()["error"]
+
+
 @pytest.mark.parametrize(
     "authorization",
     [
@@ -74,7 +95,8 @@ def test_without_a_token_that_counts_nothing_is_taken(client, folder, zipped, au
     answer = client.post(SUBMIT, headers=headers, content=zipped("nobody"))
     assert answer.status_code == 401
     assert answer.headers["WWW-Authenticate"] == "Bearer"
-    assert "colift token add" in answer.json()["error"]
+    assert answer.json()["error"].endswith("; ask the maintainer of the board for a token")
+    assert "colift token" not in answer.text, "that is for the maintainer"
 
 
 def test_who_asks_whose_a_token_is_gets_told(client, ada):
