@@ -21,7 +21,7 @@ SHOWN: Final = 3
 
 
 def no_manifest(paths: Iterable[str], what: str, action: str) -> InputError:
-    """Return the error for files without a manifest, from the arguments of :func:`near_manifest`."""
+    """Return the error for files without a manifest; arguments as :func:`near_manifest`."""
     near = near_manifest(paths, what, action)
     if near is not None:
         return InputError(near)
