@@ -8,12 +8,14 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Final
 
+import sqlalchemy as sa
 import typer
 
-from ..agents.errors import InputError
+from ..agents.errors import EvaluatorFault, InputError
 from ..agents.sandbox.host.levels import VERIFIABLE
 from ..leaderboard.board.board import Board
 from ..leaderboard.database.database import DatabaseAwayError
+from ..leaderboard.database.room import NoRoomError, is_full
 from ..leaderboard.evaluation.entrant import NoSandboxError, board_level
 from ..leaderboard.practice.season_import import open_with_practice
 from ..leaderboard.storage.store import has_board
@@ -102,6 +104,8 @@ def opened_board(
     ------
     InputError
         If there is no board and none is to be made, or as :meth:`.Board.open`.
+    EvaluatorFault
+        If its disk is full, or its database fails.
     """
     if not new and not has_board(folder):
         raise InputError(
@@ -111,6 +115,12 @@ def opened_board(
     board = opening(folder)
     try:
         yield board
+    except (OSError, sa.exc.DBAPIError) as error:
+        if is_full(error, folder):
+            raise NoRoomError(folder) from error
+        if isinstance(error, OSError):
+            raise
+        raise EvaluatorFault(f"the board's database does not work: {error.orig}") from error
     finally:
         board.close()
 

@@ -5,10 +5,8 @@ import sys
 from types import FrameType
 from typing import Annotated
 
-import sqlalchemy as sa
 import typer
 
-from ..agents.errors import EvaluatorFault
 from ..leaderboard.evaluation.entrant import AUTO
 from ..leaderboard.practice.season_import import open_with_practice
 from ..leaderboard.queue import WorkerQueue
@@ -58,8 +56,6 @@ def worker(
                 here.run(ended=_report)
     except KeyboardInterrupt:
         print("ended; an unfinished evaluation is back in the queue", file=sys.stderr)
-    except sa.exc.OperationalError as error:
-        raise EvaluatorFault(f"the board's database does not work: {error.orig}") from error
 
 
 def _report(job: Job) -> None:

@@ -30,6 +30,10 @@ _OPEN: Final = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
 _DIRECTORY: Final = _OPEN | os.O_DIRECTORY
 
 
+class UnwritableError(OSError):
+    """The target of a copy cannot be written to."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class FolderLimits:
     """Limits on the size of a submission."""
@@ -124,8 +128,9 @@ def copy_folder(folder: Path, target: Path, limits: FolderLimits = LIMITS) -> Fo
     Raises
     ------
     InputError
-        As :func:`read_folder`, or if the target cannot be written to; it then holds a part of the
-        files.
+        As :func:`read_folder`; the target then holds a part of the files.
+    UnwritableError
+        If the target cannot be written to.
     """
 
     def keep(path: str, data: bytes) -> None:
@@ -135,7 +140,7 @@ def copy_folder(folder: Path, target: Path, limits: FolderLimits = LIMITS) -> Fo
             with place.open("ab") as file:
                 file.write(data)
         except OSError as error:
-            raise unwritable(target, error) from error
+            raise UnwritableError(error.errno, error.strerror) from error
 
     return _walk(folder, limits, keep)
 
@@ -168,6 +173,8 @@ def _walk(folder: Path, limits: FolderLimits, keep: Callable[[str, bytes], None]
             keep(path, b"")
             budget -= length
             files.append(File(path=path, size=length, sha256=sha.hexdigest()))
+    except UnwritableError:
+        raise
     except OSError as error:
         where = f" ({error.filename!r})" if error.filename else ""
         raise InputError(f"cannot read {folder}: {error.strerror}{where}") from error

@@ -4,6 +4,7 @@ Its files are described in :mod:`.store`, its tables in :mod:`.database.schema`.
 """
 
 import os
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -14,6 +15,7 @@ from ...agents.errors import InputError
 from ...agents.submissions.submission import Submission
 from ..database.database import URL, Database
 from ..database.queries import read_entries, read_events, record_errors, record_event
+from ..database.room import NoRoomError, is_full
 from ..database.schema import entries, events
 from ..records.row import BoardRow
 from ..records.season import (
@@ -84,6 +86,8 @@ class Board:
 
         Raises
         ------
+        NoRoomError
+            If its disk is full.
         InputError
             If the folder has other content or cannot be written to, the board has another suite, or
             its database does not answer.
@@ -96,6 +100,8 @@ class Board:
                 with board._closed_on_error():
                     board._ready(suite, practice)
         except OSError as error:
+            if is_full(error):
+                raise NoRoomError(folder) from error
             raise InputError(f"cannot use {folder} as a board: {error.strerror}") from error
         return board
 
@@ -113,6 +119,8 @@ class Board:
             store.check("PostgreSQL" if place else "SQLite")
             return cls(store.folder, Database.look(store.folder, place))
         except OSError as error:
+            if is_full(error):
+                raise NoRoomError(Path(tempfile.gettempdir())) from error
             raise InputError(f"cannot read the board {folder}: {error.strerror}") from error
 
     def close(self) -> None:

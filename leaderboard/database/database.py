@@ -14,6 +14,7 @@ import sqlalchemy as sa
 from ...agents.errors import InputError
 from ...agents.extras import how_to_install
 from .migration import migrate
+from .room import NoRoomError, folder_with_room, is_full
 from .transactions import database_time, make_engine, reading, writing
 
 URL: Final = "COLIFT_DATABASE_URL"
@@ -56,6 +57,8 @@ class Database:
         ------
         DatabaseAwayError
             If a server does not answer.
+        NoRoomError
+            If its disk is full.
         InputError
             If there is no such database, or a later colift made it.
         """
@@ -71,6 +74,8 @@ class Database:
             migrate(engine, shown)
         except sa.exc.DBAPIError as error:
             engine.dispose()
+            if is_full(error, folder):
+                raise NoRoomError(folder) from error
             away = engine.dialect.name != "sqlite" and isinstance(error, AWAY)
             kind = DatabaseAwayError if away else InputError
             raise kind(f"database {shown} cannot be opened: {error.orig}") from error
@@ -83,15 +88,17 @@ class Database:
     def look(cls, folder: Path, url: str | None = None) -> Self:
         """Return the database of a board in a folder that cannot be written to.
 
-        SQLite needs to write beside the file in order to read it, so a copy is opened.
+        SQLite needs to write beside the file in order to read it, so a copy is opened, in a folder
+        with room for it.
         """
         if url:
             return cls.open(folder, url)
-        copy = tempfile.TemporaryDirectory(prefix="colift-")
+        files = [folder / name for name in (FILE, f"{FILE}-wal") if (folder / name).exists()]
+        room = folder_with_room(2 * sum(file.stat().st_size for file in files))
+        copy = tempfile.TemporaryDirectory(prefix="colift-", dir=room)
         try:
-            for name in (FILE, f"{FILE}-wal"):
-                if (folder / name).exists():
-                    shutil.copyfile(folder / name, Path(copy.name, name))
+            for file in files:
+                shutil.copyfile(file, Path(copy.name, file.name))
             return cls(cls.open(Path(copy.name)).engine, copy)
         except BaseException:
             copy.cleanup()

@@ -43,7 +43,7 @@ class Attendance:
         return f"no worker of this board has been seen since {utc_minute(self.seen_at)}"
 
 
-def is_held(job: Mapping[str, Any], now: datetime, lease: timedelta = LEASE) -> bool:
+def is_held(job: Mapping[Any, Any], now: datetime, lease: timedelta = LEASE) -> bool:
     """Return whether a job has a worker."""
     alive = job["heartbeat_at"] is not None and abs(job["heartbeat_at"] - now) <= lease
     return job["state"] in HELD and alive and not is_gone(job["worker"])

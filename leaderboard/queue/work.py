@@ -120,7 +120,7 @@ class WorkerQueue:
             If the job is no longer this worker's.
         """
         state: State = "verifying" if stage == VERIFYING else "running"
-        content = {"state": state, "stage": stage, "done": done}
+        content: dict[str, Any] = {"state": state, "stage": stage, "done": done}
         with self._now() as (connection, now):
             content |= {"heartbeat_at": now} | ({} if total is None else {"total": total})
             self._change(connection, job, content)

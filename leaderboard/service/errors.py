@@ -2,7 +2,6 @@
 
 import asyncio
 import contextlib
-import errno
 import logging
 import secrets
 from collections.abc import Callable, Mapping, Sequence
@@ -18,6 +17,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ...agents.errors import InputError
 from ..database.database import AWAY
+from ..database.room import is_full
 from ..queue import QuotaError
 
 log: Final = logging.getLogger("colift.service")
@@ -45,9 +45,6 @@ PAGE: Final = (
 
 NO_PAGE: Final = "This board has no page at this address."
 """What the page says that a browser gets for a wrong address."""
-
-FULL: Final = {errno.ENOSPC, errno.EDQUOT}
-"""Error numbers (errno) of a full disk."""
 
 
 class Problem(BaseModel):
@@ -147,14 +144,14 @@ class FaultHandler:
         try:
             await self.app(scope, receive, named)
         except Exception as error:
-            away = isinstance(error, AWAY)
+            known = _known(error)
             log.error(
                 "request %s: %s %s failed%s",
                 name,
                 scope["method"],
                 ascii(scope["path"]),
-                f": the database does not answer: {error}" if away else "",
-                exc_info=not away,
+                f": {known}" if known else "",
+                exc_info=not known,
             )
             if started:
                 raise  # The answer has begun, so it can only be broken off.
@@ -180,10 +177,16 @@ def _is_of_page(path: str) -> bool:
     return not path.startswith(("/api/", "/healthz"))
 
 
+def _known(error: Exception) -> str:
+    """Return the cause of an error in a sentence, if it is one that needs no traceback."""
+    if is_full(error):
+        return f"the disk of the board is full: {' '.join(str(error).split())}"
+    return f"the database does not answer: {error}" if isinstance(error, AWAY) else ""
+
+
 def _fault(error: Exception, name: str) -> tuple[int, str]:
     """Return status and text of the answer to a request that ended with an error."""
-    full = isinstance(error, OSError) and error.errno in FULL
-    if full or getattr(getattr(error, "orig", None), "sqlite_errorname", "") == "SQLITE_FULL":
+    if is_full(error):
         return 507, "the board has no room left; please inform its maintainer"
     if isinstance(error, AWAY):
         return 503, f"the board's database does not answer; try again in {AWAY_S} s"
