@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ..leaderboard.evaluation.entrant import AUTO
+from ..leaderboard.logs import write_log
 from ..leaderboard.practice.season_import import open_with_practice
 from ..leaderboard.queue import WorkerQueue
 from ..leaderboard.queue.worker import Worker
@@ -34,6 +35,12 @@ def worker(
     once: Annotated[
         bool, typer.Option("--once", help="End when the queue is empty, instead of waiting.")
     ] = False,
+    verbose: Annotated[
+        bool,
+        typer.Option(
+            "--verbose", "-v", help="Print the system's own words if a sandbox does not work."
+        ),
+    ] = False,
 ) -> None:
     """Evaluate the submissions in a board's queue, one after the other.
 
@@ -42,6 +49,8 @@ def worker(
     """
     for number in ENDING:
         signal.signal(number, _stop)
+    if verbose:
+        write_log("colift.sandbox")
     report_isolation(isolation)
     try:
         opening = open_with_practice if once else open_patiently

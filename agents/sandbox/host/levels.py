@@ -1,6 +1,7 @@
 """The isolation levels, strongest first, and which of them work here."""
 
 import contextlib
+import logging
 import math
 import os
 import socket
@@ -17,7 +18,11 @@ from ...errors import EvaluatorFault, InputError, PolicyError
 from ..protocol import AGENTS, Limits
 from .agent import allowed
 from .process import BUBBLEWRAP, LANDLOCK, LIMITS
+from .refusals import in_words
 from .sandbox import Sandbox
+
+log: Final = logging.getLogger("colift.sandbox")
+"""The reasons in the system's words, as information."""
 
 LEVELS: Final = {
     BUBBLEWRAP: "bubblewrap: own file system, processes, network and users; Landlock, filter",
@@ -62,7 +67,14 @@ class Choice:
 
 
 def _faults(reasons: Mapping[str, str]) -> list[str]:
-    return [f"{name} does not work here: {reason}" for name, reason in reasons.items()]
+    """Return each reason once, with the levels that it stops."""
+    levels: dict[str, list[str]] = {}
+    for name, reason in reasons.items():
+        levels.setdefault(reason, []).append(name)
+    return [
+        f"{' and '.join(names)} {'does' if len(names) == 1 else 'do'} not work here: {reason}"
+        for reason, names in levels.items()
+    ]
 
 
 def working_levels() -> tuple[str, ...]:
@@ -127,7 +139,8 @@ def _tried(name: str) -> str | None:
         try:
             found = holes(name)
         except (EvaluatorFault, PolicyError) as error:
-            reason = str(error)
+            log.info("%s does not work here: %s", name, error)
+            reason = in_words(str(error))
         else:
             reason = "; ".join(found) if name in VERIFIABLE else None
         if not reason:
