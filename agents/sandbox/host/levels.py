@@ -72,8 +72,8 @@ def _faults(reasons: Mapping[str, str]) -> list[str]:
     for name, reason in reasons.items():
         levels.setdefault(reason, []).append(name)
     return [
-        f"{' and '.join(names)} {'does' if len(names) == 1 else 'do'} not work here: {reason}"
-        for reason, names in levels.items()
+        "; nor does ".join((f"{first} does not work here: {reason}", *others))
+        for reason, (first, *others) in levels.items()
     ]
 
 

@@ -53,7 +53,7 @@ def test_other_reasons_stay_as_they_are(reason):
 
 def test_a_reason_of_several_levels_is_told_once():
     told = str(Choice(level="limits", passed={"bubblewrap": "no room", "landlock": "no room"}))
-    assert told == "isolation limits; bubblewrap and landlock do not work here: no room"
+    assert told == "isolation limits; bubblewrap does not work here: no room; nor does landlock"
 
 
 @pytest.mark.parametrize(
