@@ -4,7 +4,6 @@ from typing import Any
 
 import sqlalchemy as sa
 
-from ...agents.errors import InputError
 from ..database.database import Database
 from ..database.queries import (
     legible,
@@ -17,11 +16,12 @@ from ..database.queries import (
 from ..database.schema import metadata
 from ..records.row import BoardRow
 from ..records.season import BoardEntry, Event, SeasonInfo
+from ..storage.damage import DamagedError
 from ..storage.typed import mistyped
 
 
 def check_tables(database: Database) -> None:
-    """Raise InputError with the first damage of an SQLite database, if there is one."""
+    """Raise DamagedError with the first damage of an SQLite database, if there is one."""
     with database.reading() as connection:
         _check_file(connection)
         for table in metadata.sorted_tables:
@@ -51,17 +51,19 @@ def _check_entries(connection: sa.Connection) -> None:
             continue
         number = numbers[entry.season].get(entry.submission)
         if number is None:
-            raise InputError(f"{where} has no errors of its hidden episodes")
+            raise DamagedError(f"{where} has no errors of its hidden episodes")
         read_errors(connection, entry.season, {entry.submission: number})
 
 
 def _check_file(connection: sa.Connection) -> None:
     told = connection.exec_driver_sql("PRAGMA integrity_check(1)").scalar_one()
     if told != "ok":
-        raise InputError(f"its database is damaged: {told}")
+        raise DamagedError(f"its database is damaged: {told}")
     strange = connection.exec_driver_sql("PRAGMA foreign_key_check").first()
     if strange is not None:
-        raise InputError(f"its table {strange[0]} refers to a row that {strange[2]} does not have")
+        raise DamagedError(
+            f"its table {strange[0]} refers to a row that {strange[2]} does not have"
+        )
 
 
 def _check_row(table: sa.Table, row: sa.RowMapping) -> None:
@@ -72,10 +74,10 @@ def _check_row(table: sa.Table, row: sa.RowMapping) -> None:
             continue
         fault = mistyped(value, column.type.python_type, f"its table {table.name}, {column.name}")
         if fault is not None:
-            raise InputError(fault)
+            raise DamagedError(fault)
 
 
 def _check(record: object, kind: Any, where: str) -> None:
     fault = mistyped(record, kind, where)
     if fault is not None:
-        raise InputError(fault)
+        raise DamagedError(fault)

@@ -19,6 +19,7 @@ from ...benchmark.suites.hidden import commitment
 from ..database.database import FILE, URL, Database
 from ..database.queries import copy_tables
 from ..database.schema import metadata, rank_groups
+from ..storage.damage import DamagedError
 from ..storage.files import sync, sync_tree, write_json
 from ..storage.season_secrets import FOLDER, PRIVATE_FILE
 from ..storage.store import FORMAT as LAYOUT
@@ -90,7 +91,14 @@ def _intact(file: Path, made: Path) -> Iterator[None]:
     """Raise what is wrong with the content of a backup as an InputError that names the backup."""
     try:
         yield
-    except (InputError, sa.exc.SQLAlchemyError, ValueError, TypeError, LookupError) as error:
+    except (
+        InputError,
+        DamagedError,
+        sa.exc.SQLAlchemyError,
+        ValueError,
+        TypeError,
+        LookupError,
+    ) as error:
         reason = str(error.orig if isinstance(error, sa.exc.DBAPIError) else error)
         shown = reason.replace(f"{made}/", "").replace(f"{made.name}/", "")
         raise InputError(f"{file} cannot be restored: {shown}") from error

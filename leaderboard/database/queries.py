@@ -7,9 +7,10 @@ from typing import Any, Final
 import numpy as np
 import sqlalchemy as sa
 
-from ...agents.errors import InputError, error_text
+from ...agents.errors import error_text
 from ..records.row import BoardRow
 from ..records.season import BoardEntry, Event, SeasonInfo
+from ..storage.damage import DAMAGE, DamagedError
 from .schema import entries, events, hidden_errors, metadata, seasons
 
 Errors = np.ndarray[tuple[int], np.dtype[np.float64]]
@@ -18,13 +19,11 @@ Errors = np.ndarray[tuple[int], np.dtype[np.float64]]
 
 @contextmanager
 def legible(what: str) -> Iterator[None]:
-    """Raise the errors of damaged records, of which there are many, as an InputError."""
+    """Raise the many errors of damaged records as a DamagedError."""
     try:
         yield
-    except InputError:
-        raise
-    except (ValueError, TypeError, LookupError, AttributeError) as error:
-        raise InputError(
+    except DAMAGE as error:
+        raise DamagedError(
             f"{what} of the board cannot be read ({error_text(error)}): its database is damaged; "
             "restore an earlier backup"
         ) from error

@@ -19,6 +19,7 @@ from ...agents.errors import InputError
 from ..database.database import AWAY
 from ..database.room import is_full
 from ..queue import QuotaError
+from ..storage.damage import DamagedError
 
 log: Final = logging.getLogger("colift.service")
 
@@ -181,6 +182,8 @@ def _known(error: Exception) -> str:
     """Return the cause of an error in a sentence, if it is one that needs no traceback."""
     if is_full(error):
         return f"the disk of the board is full: {' '.join(str(error).split())}"
+    if isinstance(error, DamagedError):
+        return str(error)
     return f"the database does not answer: {error}" if isinstance(error, AWAY) else ""
 
 

@@ -10,6 +10,7 @@ from typing import Final
 from ...agents.errors import InputError, error_text
 from ...benchmark.results.baselines import Baseline
 from ...benchmark.suites.hidden import SECRET_BYTES
+from .damage import DAMAGE, DamagedError
 from .files import read_json, sync, write_json
 from .typed import mistyped
 
@@ -84,17 +85,17 @@ class SeasonSecrets:
 
         Raises
         ------
-        InputError
+        DamagedError
             If its file is damaged.
         """
         path = self.folder / "human_human.json"
         try:
             known = Baseline.read(read_json(path)) if path.exists() else None
-        except (ValueError, TypeError, LookupError, AttributeError) as error:
-            raise InputError(_damaged(path, error_text(error))) from error
+        except DAMAGE as error:
+            raise _damaged(path, error_text(error)) from error
         fault = None if known is None else mistyped(known, Baseline, "the baseline")
         if fault is not None:
-            raise InputError(_damaged(path, fault))
+            raise _damaged(path, fault)
         return known
 
     def keep_human_human(self, human_human: Baseline) -> None:
@@ -107,8 +108,8 @@ class SeasonSecrets:
         return self.folder / "secret"
 
 
-def _damaged(path: Path, reason: str) -> str:
-    return (
+def _damaged(path: Path, reason: str) -> DamagedError:
+    return DamagedError(
         f"{path} is damaged ({reason}): restore it from a backup, or remove it, and the next "
         "evaluation plays the human-human baseline again"
     )

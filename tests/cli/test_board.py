@@ -203,3 +203,26 @@ def test_a_first_look_without_a_board_shows_the_practice_season(colift):
     done = colift("board")
     assert done.returncode == 0
     assert "Season practice" in done.stdout
+
+
+@pytest.mark.parametrize("command", ["board", "row"])
+def test_a_damaged_row_is_named_in_a_sentence_by_the_first_command_that_reads_it(
+    colift, filled, tmp_path, command
+):
+    with filled.database.writing() as connection:
+        connection.exec_driver_sql("DROP TRIGGER entries_no_UPDATE")
+        connection.exec_driver_sql("UPDATE entries SET row = '{}' WHERE name = 'blend'")
+    more = {"board": (), "row": ("withdraw", "cheat", "--why", "x", "--by", "Ada")}[command]
+    done = colift(command, *more, "--board", "board")
+    assert done.returncode == 1
+    assert done.stderr.startswith(
+        "error: the entry of 'blend' in season '1' of the board cannot be"
+    )
+    assert done.stderr.endswith("its database is damaged; restore an earlier backup\n")
+    (filled.folder / "private/1/human_human.json").write_text("{")
+    with filled.database.writing() as connection:
+        connection.exec_driver_sql("DELETE FROM jobs")
+        connection.exec_driver_sql("DROP TRIGGER entries_no_DELETE")
+        connection.exec_driver_sql("DELETE FROM entries WHERE name = 'blend'")
+    done = colift("board", "--board", "board")
+    assert (done.returncode, "human_human.json is damaged (" in done.stderr) == (1, True)

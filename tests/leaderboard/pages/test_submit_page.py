@@ -111,6 +111,7 @@ def test_an_uploaded_template_becomes_a_verified_row_before_ones_eyes(
     upload(page, url, zipped("template"), token)
     page.wait_for_url("**/jobs/*")
     expect(page.locator("#status")).to_have_text("Waiting.")
+    expect(page.locator("#unattended")).to_contain_text("Nobody evaluates at present: no worker")
     page.evaluate("""() => {
         window.seen = [];
         const read = (id) => document.getElementById(id).textContent;
