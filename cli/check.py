@@ -114,11 +114,13 @@ def _files(submission: Submission) -> Iterator[Check]:
     wanted = [
         missing
         for missing, wanting in (
-            (f"the authors (boards refuse {AUTHOR!r})", _unsigned(manifest)),
+            ("the authors", _unsigned(manifest)),
             ("a description (it is that of 'colift new')", _undescribed(submission)),
         )
         if wanting
     ]
+    if _unsigned(manifest):
+        text += f"; boards refuse the author {AUTHOR!r}"
     if wanted:
         text += f". Add to policy.toml {' and '.join(wanted)}"
     yield Check(name="manifest", ok=True, message=text, warning=bool(wanted))
