@@ -22,9 +22,10 @@ SHOWN: Final = 3
 
 def no_manifest(paths: Iterable[str], what: str, action: str) -> InputError:
     """Return the error for files without a manifest; arguments as :func:`near_manifest`."""
-    near = near_manifest(paths, what, action)
+    known = tuple(paths)
+    near = near_manifest(known, what, action)
     if near is not None:
-        return InputError(near)
+        return InputError(near, remedy=None if known else Remedy.NEW_SUBMISSION)
     return InputError(
         f"{what} has no {MANIFEST}; a submission is a folder with {MANIFEST} and policy.py",
         remedy=Remedy.NEW_SUBMISSION,
