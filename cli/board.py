@@ -85,7 +85,9 @@ def _waiting(place: Board) -> str:
     if not open_jobs:
         return "The queue is empty. To submit: colift submit DIR --board PATH"
     first = ", ".join(f"{job.name} ({job.state})" for job in open_jobs[:5])
-    return f"{len(open_jobs)} in the queue: {first}"
+    text = f"{len(open_jobs)} in the queue: {first}"
+    missed = Queue(place).unattended(open_jobs[0])
+    return text if missed is None else f"{text}\n{missed}. To start one: colift worker --board PATH"
 
 
 def _content(place: Board, season: str | None) -> dict[str, Any]:

@@ -2,22 +2,29 @@
 
 import re
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Final
 
+import sqlalchemy as sa
 import typer
 
-from ..agents.errors import InputError
+from ..agents.errors import EvaluatorFault, InputError
 from ..agents.sandbox.host.levels import VERIFIABLE
 from ..leaderboard.board.board import Board
+from ..leaderboard.database.database import DatabaseAwayError
+from ..leaderboard.database.room import NoRoomError, is_full
 from ..leaderboard.evaluation.entrant import NoSandboxError, board_level
 from ..leaderboard.practice.season_import import open_with_practice
 from ..leaderboard.storage.store import has_board
 
 BOARD: Final = Path("board")
 """The default folder."""
+
+AWAY_S: Final = 1.0
+"""Time between two attempts to reach a database that is away [s]."""
 
 _WEB: Final = re.compile(r"(https?):/+(.*)", re.IGNORECASE)
 """Pattern of an address, also without the second slash, which a path does not keep."""
@@ -97,6 +104,8 @@ def opened_board(
     ------
     InputError
         If there is no board and none is to be made, or as :meth:`.Board.open`.
+    EvaluatorFault
+        If its disk is full, or its database fails.
     """
     if not new and not has_board(folder):
         raise InputError(
@@ -106,8 +115,31 @@ def opened_board(
     board = opening(folder)
     try:
         yield board
+    except (OSError, sa.exc.DBAPIError) as error:
+        if is_full(error, folder):
+            raise NoRoomError(folder) from error
+        if isinstance(error, OSError):
+            raise
+        raise EvaluatorFault(f"the board's database does not work: {error.orig}") from error
     finally:
         board.close()
+
+
+def open_patiently(folder: Path) -> Board:
+    """Open a board as :func:`.open_with_practice`; wait for a database server that is away.
+
+    The reason of the wait is printed on stderr, once.
+    """
+    told = ""
+    while True:
+        try:
+            return open_with_practice(folder)
+        except DatabaseAwayError as away:
+            if str(away) != told:
+                told = str(away)
+                shown = " ".join(told.split())
+                print(f"waiting for the database: {shown}", file=sys.stderr, flush=True)
+            time.sleep(AWAY_S)
 
 
 def report_isolation(isolation: str) -> None:

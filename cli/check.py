@@ -13,7 +13,8 @@ from rich.text import Text
 from ..agents.errors import InputError
 from ..agents.spec import AgentSpec
 from ..agents.submissions import from_file
-from ..agents.submissions.new import AUTHOR, DESCRIPTION, template
+from ..agents.submissions.manifest import Manifest
+from ..agents.submissions.new import AUTHOR, DESCRIPTION, check_author, template
 from ..agents.submissions.packages import undeclared
 from ..agents.submissions.submission import Submission, open_submission
 from ..benchmark.execution.runner import Run, run_suite
@@ -125,11 +126,13 @@ def _files(submission: Submission) -> Iterator[Check]:
     wanted = [
         missing
         for missing, wanting in (
-            ("the authors", AUTHOR in manifest.authors),
+            ("the authors", _unsigned(manifest)),
             ("a description (it is that of 'colift new')", _undescribed(submission)),
         )
         if wanting
     ]
+    if _unsigned(manifest):
+        text += f"; boards refuse the author {AUTHOR!r}"
     if wanted:
         text += f". Add to policy.toml {' and '.join(wanted)}"
     yield Check(name="manifest", ok=True, message=text, warning=bool(wanted))
@@ -137,6 +140,15 @@ def _files(submission: Submission) -> Iterator[Check]:
     none = "none: a network runs without code" if manifest.model else "none but Python's own"
     text = "; ".join(wrong) or ", ".join(manifest.packages) or none
     yield Check(name="packages", ok=not wrong, message=text)
+
+
+def _unsigned(manifest: Manifest) -> bool:
+    """Return whether a manifest still has the author that 'colift new' wrote."""
+    try:
+        check_author(manifest)
+    except InputError:
+        return True
+    return False
 
 
 def _undescribed(submission: Submission) -> bool:

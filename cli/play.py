@@ -1,7 +1,6 @@
 """``colift play``: real people lift with policies, and with each other, in a browser."""
 
 import ipaddress
-import logging
 import os
 import sys
 import webbrowser
@@ -12,6 +11,7 @@ import typer
 
 from ..agents.errors import InputError
 from ..agents.extras import how_to_install
+from ..leaderboard.logs import write_log
 from .completion import policies
 from .listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
 from .options import PolicyIsolation, check_folder
@@ -80,7 +80,7 @@ def play(
         rooms=rooms,
         hosts=frozenset() if root or not _is_loopback(host) else HOSTS,
     )
-    logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(levelname)s %(message)s")
+    write_log()
     interrupted_by_signals()
     try:
         with listening_at(host, port) as listener:

@@ -1,4 +1,4 @@
-"""Worker processes and the progress bar of long jobs: on stderr, and only on a terminal."""
+"""Worker processes and the progress of long jobs, on stderr: a bar, if that is a terminal."""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -16,6 +16,7 @@ from rich.progress import (
     TextColumn,
     TimeRemainingColumn,
 )
+from rich.text import Text
 
 from ..benchmark.execution.pool import local_pool
 
@@ -54,16 +55,26 @@ def progress_bar(description: str, total: int | None) -> Iterator[Callable[[int]
         yield bar.advance
 
 
-@dataclass(frozen=True)
+@dataclass
 class JobBar:
     """The progress bar of a job in stages."""
 
     progress: Progress
     task: TaskID
+    words: bool
+    """Whether each new stage is also a line on stderr."""
+    _told: str = ""
 
     def stage(self, name: str) -> None:
         """Name the present stage."""
         self.progress.update(self.task, description=name)
+        if self.words and name != self._told:
+            print(name, file=sys.stderr, flush=True)
+        self._told = name
+
+    def note(self, text: str) -> None:
+        """Print a line on stderr, above the bar."""
+        self.progress.console.print(Text(text), soft_wrap=True)
 
     def advance(self, done: int) -> None:
         """Advance the bar."""
@@ -75,12 +86,16 @@ class JobBar:
 
     def at(self, stage: str, done: int, total: int) -> None:
         """Show the progress of another process."""
-        self.progress.update(self.task, description=stage, completed=done, total=total)
+        self.progress.update(self.task, completed=done, total=total)
+        self.stage(stage)
 
 
 @contextmanager
-def job_bar(description: str, total: int | None) -> Iterator[JobBar]:
-    """Show a bar of a job in stages while the body runs."""
+def job_bar(description: str, total: int | None, *, words: bool = False) -> Iterator[JobBar]:
+    """Show a bar of a job in stages while the body runs.
+
+    With ``words``, each new stage is a line on stderr where there is no terminal for a bar.
+    """
     console = Console(stderr=True)
     columns = (
         TextColumn("{task.description}", markup=False),
@@ -91,4 +106,5 @@ def job_bar(description: str, total: int | None) -> Iterator[JobBar]:
     with Progress(
         *columns, console=console, transient=True, disable=not console.is_terminal
     ) as bar:
-        yield JobBar(bar, bar.add_task(description, total=total))
+        task = bar.add_task(description, total=total)
+        yield JobBar(bar, task, words and not console.is_terminal)

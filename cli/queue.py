@@ -12,6 +12,7 @@ from ..leaderboard.board.board import LOCAL, Board
 from ..leaderboard.practice.season_import import open_to_read, open_with_practice
 from ..leaderboard.queue import Queue
 from ..leaderboard.records.job import STATES, Job
+from ..leaderboard.records.times import utc_minute
 from .board_options import BOARD, ExistingBoard, Why, opened_board
 from .printing import left, show, table
 
@@ -45,16 +46,27 @@ def list_jobs(
     if state is not None and state not in known:
         raise InputError(f"--state {state!r} is none of {', '.join(STATES)}")
     with opened_board(board, open_to_read) as place:
-        jobs = Queue(place).jobs(known[state] if state else None, last)
+        queue = Queue(place)
+        jobs = queue.jobs(known[state] if state else None, last)
+        waiting = [job for job in jobs if not job.ended]
+        missed = queue.unattended(waiting[0]) if waiting else None
     if not jobs:
         print("No job." if state is None else f"No job is {state}.")
         return
     rows = (
-        (job.id[:SHORT], job.name, job.submitter, f"{job.submitted_at:%Y-%m-%d %H:%M}", _state(job))
+        (
+            job.id[:SHORT],
+            job.name,
+            job.submitter,
+            utc_minute(job.submitted_at),
+            _state(job),
+        )
         for job in jobs
     )
     titles = ("job", left("policy"), left("by"), "submitted", left("state"))
     show(table("", titles, rows))
+    if missed is not None:
+        print(f"{missed}. To start one: colift worker --board {board}")
 
 
 @app.command()

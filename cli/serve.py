@@ -1,6 +1,5 @@
 """``colift serve``: a board on the web, and the workers that evaluate its submissions."""
 
-import logging
 import sys
 from asyncio import Protocol
 from pathlib import Path
@@ -15,8 +14,9 @@ from ..agents.sandbox.host.levels import check_level
 from ..agents.submissions.folder import MIB
 from ..benchmark.execution.pool import default_jobs
 from ..leaderboard.evaluation.entrant import AUTO
+from ..leaderboard.logs import write_log
 from ..leaderboard.queue import Quota
-from .board_options import BOARD, BoardFolder, BoardIsolation
+from .board_options import BOARD, BoardFolder, BoardIsolation, open_patiently, opened_board
 from .listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
 from .partners import partners
 
@@ -90,12 +90,14 @@ def serve_board(
     quota = Quota(rows=rows_a_day, size=kept * MIB)
     if isolation != AUTO:
         check_level(isolation)  # Otherwise each worker would fail again and again.
-    logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(levelname)s %(message)s")
+    write_log()
     command = [sys.executable, "-m", "colift.cli", "worker", "--board", str(board.absolute())]
     command += ["--jobs", str(max(1, default_jobs() // max(1, workers)))]  # They share the cores.
     command += ["--isolation", isolation]
     interrupted_by_signals()  # uvicorn raises them again after closing.
     try:
+        with opened_board(board, open_patiently, new=True):
+            pass  # Its database server may start at the same time.
         with listening_at(host, port) as listener:
             app = create_app(
                 board,

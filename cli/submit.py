@@ -9,6 +9,8 @@ from typing import Annotated, Any, Final, NoReturn
 import typer
 
 from ..agents.errors import InputError
+from ..agents.submissions.manifest import MANIFEST
+from ..agents.submissions.new import check_author
 from ..agents.submissions.submission import Submission, open_submission
 from ..benchmark.execution.pool import checked_jobs, local_pool
 from ..benchmark.suites.suite import make_suite
@@ -71,10 +73,12 @@ def submit_policy(
 ) -> None:
     """Submit a policy to a board: check, public and hidden lifts, audit, verification, row.
 
-    For a board in a folder, this command evaluates it; a board on the web has its own workers.
+    For a board in a folder, this command evaluates it; a board on the web has its own workers, and
+    this command says so if none is there.
     """
     count = checked_jobs(jobs)
     submission = open_submission(folder)
+    check_author(submission.manifest, f"{folder}/{MANIFEST}")
     if board.startswith(("http://", "https://")):
         _submit_to_web(submission, folder, board, suite, token, count)
     else:
@@ -129,7 +133,7 @@ def _evaluated(queue: Queue, job: Job, jobs: int) -> Job:
 
     This process evaluates it, unless a worker already does.
     """
-    with local_pool(jobs) as pool, job_bar(job.name, job.total) as bar:
+    with local_pool(jobs) as pool, job_bar(job.name, job.total, words=True) as bar:
         watch = Callbacks(stage=bar.stage, progress=bar.advance, total=bar.total)
         worker = Worker(WorkerQueue(queue.board), pool)
         while True:
@@ -147,8 +151,8 @@ def _submit_to_web(
     """Upload a submission, follow its evaluation, and print its row."""
     if not token:
         raise InputError(
-            f"board {url} needs a token: --token or COLIFT_TOKEN; its maintainer makes one with: "
-            "colift token add NAME"
+            f"board {url} needs a token: --token or COLIFT_TOKEN; ask the maintainer of the board "
+            "for one"
         )
     board = RemoteBoard(url, token)
     board.submitter()  # Refuses an unknown token before any work is done.
@@ -166,7 +170,7 @@ def _submit_to_web(
     if job["state"] == "evaluator fault":
         _refuse(f"evaluator fault, not the policy's: {job['reason']}\nSubmit again.")
     if job["state"] == "cancelled":
-        _refuse(f"cancelled by {job['reason']}")
+        _refuse(f"cancelled by {job['reason']}; to have it evaluated, ask the board's maintainer")
     if job["state"] == "failed":
         _refuse(f"refused, so there is no row: {job['reason']}\nIts log: {page}", fix=folder)
     season, digest = job["season"], job["submission"]
@@ -194,8 +198,14 @@ def _ranked(board: RemoteBoard, season: str, digest: str) -> list[dict[str, Any]
 
 def _followed(board: RemoteBoard, job: dict[str, Any]) -> dict[str, Any]:
     """Return a job when it has ended; show its progress until then."""
-    with job_bar(job["name"], job["total"]) as bar:
+    told = None
+    with job_bar(job["name"], job["total"], words=True) as bar:
         while job["ended_at"] is None:
+            missed = job.get("unattended")  # A board of an earlier colift does not say it.
+            if missed is not None and missed != told:
+                note = f"{missed}. The submission is kept, and waits; Ctrl-C ends only this command"
+                bar.note(note)
+            told = missed
             bar.at(job["stage"] or job["state"], job["done"], job["total"])
             time.sleep(POLL_S)
             job = board.job(job["id"])

@@ -5,15 +5,22 @@ import sys
 from types import FrameType
 from typing import Annotated
 
-import sqlalchemy as sa
 import typer
 
-from ..agents.errors import EvaluatorFault
 from ..leaderboard.evaluation.entrant import AUTO
+from ..leaderboard.logs import write_log
+from ..leaderboard.practice.season_import import open_with_practice
 from ..leaderboard.queue import WorkerQueue
 from ..leaderboard.queue.worker import Worker
 from ..leaderboard.records.job import Job
-from .board_options import BOARD, BoardFolder, BoardIsolation, opened_board, report_isolation
+from .board_options import (
+    BOARD,
+    BoardFolder,
+    BoardIsolation,
+    open_patiently,
+    opened_board,
+    report_isolation,
+)
 from .options import Dask, Jobs, executor
 
 ENDING = (signal.SIGINT, signal.SIGTERM)
@@ -28,27 +35,36 @@ def worker(
     once: Annotated[
         bool, typer.Option("--once", help="End when the queue is empty, instead of waiting.")
     ] = False,
+    verbose: Annotated[
+        bool,
+        typer.Option(
+            "--verbose", "-v", help="Print the system's own words if a sandbox does not work."
+        ),
+    ] = False,
 ) -> None:
     """Evaluate the submissions in a board's queue, one after the other.
 
-    Any number of workers may share a board. If one is killed, another takes over its job.
+    Any number of workers may share a board. If one is killed, another takes over its job. A worker
+    waits for a database server that is away.
     """
     for number in ENDING:
         signal.signal(number, _stop)
+    if verbose:
+        write_log("colift.sandbox")
     report_isolation(isolation)
     try:
-        with opened_board(board, new=True) as place, executor(jobs, dask) as workers:
+        opening = open_with_practice if once else open_patiently
+        with opened_board(board, opening, new=True) as place, executor(jobs, dask) as workers:
             here = Worker(WorkerQueue(place), workers, isolation=isolation)
             if once:
-                while (job := here.once()) is not None:
-                    _report(job)
+                with here.attending():
+                    while (job := here.once()) is not None:
+                        _report(job)
             else:
                 print(f"working for {place.folder}; Ctrl-C ends it", file=sys.stderr, flush=True)
                 here.run(ended=_report)
     except KeyboardInterrupt:
         print("ended; an unfinished evaluation is back in the queue", file=sys.stderr)
-    except sa.exc.OperationalError as error:
-        raise EvaluatorFault(f"the board's database does not work: {error.orig}") from error
 
 
 def _report(job: Job) -> None:

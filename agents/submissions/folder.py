@@ -1,5 +1,6 @@
 """Reading and copying of submitted folders, in which nothing is trusted."""
 
+import errno
 import hashlib
 import os
 import re
@@ -10,16 +11,27 @@ from pathlib import Path
 from typing import Final
 
 from ..errors import InputError
+from .line_ends import is_text, with_unix_line_ends
 
 MIB: Final = 2**20
 CHUNK: Final = MIB
 """Size of one read [bytes]."""
 
+FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT})
+"""Error numbers (errno) of a full disk."""
+
 NAME: Final = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.+-]{0,79}")
 """Valid names of files and folders: none needs quoting on any system."""
 
+LEFTOVERS: Final = frozenset({"__pycache__", "__macosx", "thumbs.db", "ehthumbs.db", "desktop.ini"})
+"""Names, in small letters, of what Python, the Finder and Windows leave in folders and archives."""
+
 _OPEN: Final = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
 _DIRECTORY: Final = _OPEN | os.O_DIRECTORY
+
+
+class UnwritableError(OSError):
+    """The target of a copy cannot be written to."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,7 +60,7 @@ class File:
     size: int
     """Its size [bytes]."""
     sha256: str
-    """Hash of its bytes, 64 hexadecimal digits."""
+    """Hash of its bytes, 64 hexadecimal digits; of a text file, with the line ends of Unix."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +83,8 @@ class FolderContents:
     def digest(self) -> str:
         """SHA-256 (64 hexadecimal digits) over all names and bytes.
 
-        It is the hash of the output of ``sha256sum`` for the files in the order of their paths.
+        It is the hash of the output of ``sha256sum`` for the files in the order of their paths, if
+        text files have the line ends of Unix (:mod:`.line_ends`).
         """
         listing = "".join(f"{file.sha256}  {file.path}\n" for file in self.files)
         return hashlib.sha256(listing.encode()).hexdigest()
@@ -80,9 +93,9 @@ class FolderContents:
 def is_part(name: str) -> bool:
     """Return whether a file or folder of this name belongs to a submission.
 
-    Hidden ones and ``__pycache__`` do not: tools leave them behind.
+    Hidden ones and :data:`LEFTOVERS` do not: tools and systems leave them behind.
     """
-    return not (name.startswith(".") or name == "__pycache__")
+    return not (name.startswith(".") or name.casefold() in LEFTOVERS)
 
 
 def read_folder(folder: Path, limits: FolderLimits = LIMITS) -> FolderContents:
@@ -116,15 +129,27 @@ def copy_folder(folder: Path, target: Path, limits: FolderLimits = LIMITS) -> Fo
     ------
     InputError
         As :func:`read_folder`; the target then holds a part of the files.
+    UnwritableError
+        If the target cannot be written to.
     """
 
     def keep(path: str, data: bytes) -> None:
         place = target / path
-        place.parent.mkdir(parents=True, exist_ok=True)
-        with place.open("ab") as file:
-            file.write(data)
+        try:
+            place.parent.mkdir(parents=True, exist_ok=True)
+            with place.open("ab") as file:
+                file.write(data)
+        except OSError as error:
+            raise UnwritableError(error.errno, error.strerror) from error
 
     return _walk(folder, limits, keep)
+
+
+def unwritable(place: Path, error: OSError) -> InputError:
+    """Return the error for a folder that cannot be written to, such as one on a full disk."""
+    if error.errno in FULL:
+        return InputError(f"the disk of {place} is full: {error.strerror}; free some space there")
+    return InputError(f"cannot write to {place}: {error.strerror}")
 
 
 def _walk(folder: Path, limits: FolderLimits, keep: Callable[[str, bytes], None]) -> FolderContents:
@@ -138,18 +163,32 @@ def _walk(folder: Path, limits: FolderLimits, keep: Callable[[str, bytes], None]
                 most = _mib(limits.total_bytes)
                 raise _refused(folder, path, f"all files together may have at most {most}")
             sha, length = hashlib.sha256(), 0
-            for data in chunks:
+            whole = _whole(folder, path, size, chunks)
+            if is_text(path, size):
+                whole = iter((with_unix_line_ends(b"".join(whole)),))
+            for data in whole:
                 length += len(data)
-                if length > size:
-                    raise _refused(folder, path, "it grew while it was read")
                 sha.update(data)
                 keep(path, data)
             keep(path, b"")
             budget -= length
             files.append(File(path=path, size=length, sha256=sha.hexdigest()))
+    except UnwritableError:
+        raise
     except OSError as error:
-        raise InputError(f"cannot read {folder}: {error.strerror} ({error.filename!r})") from error
+        where = f" ({error.filename!r})" if error.filename else ""
+        raise InputError(f"cannot read {folder}: {error.strerror}{where}") from error
     return FolderContents(files=tuple(sorted(files, key=lambda file: file.path)))
+
+
+def _whole(folder: Path, path: str, size: int, chunks: Iterator[bytes]) -> Iterator[bytes]:
+    """Yield the bytes of a file; refuse one that becomes longer than it was."""
+    length = 0
+    for data in chunks:
+        length += len(data)
+        if length > size:
+            raise _refused(folder, path, "it grew while it was read")
+        yield data
 
 
 def _files(folder: Path, limits: FolderLimits) -> Iterator[tuple[str, int, Iterator[bytes]]]:

@@ -9,7 +9,7 @@ from typing import Any, Final
 
 from ..errors import InputError
 from . import fields
-from .manifest import MANIFEST, OF_CODE
+from .manifest import MANIFEST, OF_CODE, Manifest
 
 PLACEHOLDER: Final = "my-policy"
 """The name of the policy in the template."""
@@ -34,6 +34,22 @@ VIEW: Final = "# what it saw and did in training"
 
 FILES: Final = (MANIFEST, POLICY)
 """The files of the template."""
+
+
+def check_author(manifest: Manifest, where: str = MANIFEST) -> None:
+    """Refuse a manifest that would publish the author of the template.
+
+    Raises
+    ------
+    InputError
+        If it has that author; the message begins with ``where``, the manifest's name.
+    """
+    placeholder = [each for each in manifest.authors if each.casefold() == AUTHOR.casefold()]
+    if placeholder:
+        raise InputError(
+            f"{where}: authors still has {placeholder[0]!r}, the placeholder of the template: put "
+            "your own name there, it is published"
+        )
 
 
 def template(name: str) -> str:

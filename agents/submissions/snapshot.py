@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Final
 
 from ..errors import InputError
-from .folder import LIMITS, FolderContents, copy_folder, read_folder
+from .folder import LIMITS, FolderContents, copy_folder, read_folder, unwritable
+from .line_ends import is_text, with_unix_line_ends
 
 KEPT_DAYS: Final = 7
 """Days that a copy is kept after its last use."""
@@ -44,8 +45,14 @@ def snapshot_file(path: Path) -> tuple[Path, FolderContents]:
     if path.stat().st_size > LIMITS.file_bytes:
         raise InputError(f"{path} has more than {LIMITS.file_bytes} bytes")
 
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"cannot read {path}: {error.strerror}") from error
+
     def copy(target: Path) -> FolderContents:
-        shutil.copyfile(path, target / path.name)
+        made = with_unix_line_ends(data) if is_text(path.name, len(data)) else data
+        (target / path.name).write_bytes(made)
         return read_folder(target)
 
     return _stored(copy)
@@ -54,20 +61,23 @@ def snapshot_file(path: Path) -> tuple[Path, FolderContents]:
 def _stored(copy: Callable[[Path], FolderContents]) -> tuple[Path, FolderContents]:
     """Return the folder that ``copy`` fills, named by its digest, and its files."""
     cache = _cache()
-    with _folder_in(cache) as made:
-        fresh = Path(made) / "submission"
-        fresh.mkdir()
-        contents = copy(fresh)
-        place = cache / contents.digest[:32]
-        if not _holds(place, contents):
-            if place.exists():
-                place.rename(Path(made) / "spoilt")
-            try:
-                fresh.rename(place)
-            except OSError:  # Another process has just made it.
-                if not _holds(place, contents):
-                    raise
-    os.utime(place)
+    try:
+        with tempfile.TemporaryDirectory(dir=cache, prefix="new-") as made:
+            fresh = Path(made) / "submission"
+            fresh.mkdir()
+            contents = copy(fresh)
+            place = cache / contents.digest[:32]
+            if not _holds(place, contents):
+                if place.exists():
+                    place.rename(Path(made) / "spoilt")
+                try:
+                    fresh.rename(place)
+                except OSError:  # Another process has just made it.
+                    if not _holds(place, contents):
+                        raise
+        os.utime(place)
+    except OSError as error:
+        raise _unwritable(cache, error) from error
     return place, contents
 
 
@@ -86,17 +96,8 @@ def _cache() -> Path:
     return cache
 
 
-def _folder_in(cache: Path) -> tempfile.TemporaryDirectory[str]:
-    try:
-        return tempfile.TemporaryDirectory(dir=cache, prefix="new-")
-    except OSError as error:
-        raise _unwritable(cache, error) from error
-
-
 def _unwritable(cache: Path, error: OSError) -> InputError:
-    return InputError(
-        f"cannot write to {cache} ({error.strerror}); set XDG_CACHE_HOME to a folder of your own"
-    )
+    return InputError(f"{unwritable(cache, error)}; or set XDG_CACHE_HOME to another folder")
 
 
 def _holds(place: Path, contents: FolderContents) -> bool:

@@ -15,6 +15,7 @@ from ..sandbox.host.policy import SandboxedPolicy
 from .folder import FolderContents, read_folder
 from .from_file import classes
 from .manifest import MANIFEST, Manifest, read_manifest
+from .near_manifest import NAME, files_of, no_manifest
 from .snapshot import snapshot
 from .trusted import TrustedSubmission
 
@@ -107,7 +108,7 @@ def open_submission(folder: Path) -> Submission:
     """
     _check_no_file(folder)
     if folder.is_dir() and not os.path.lexists(folder / MANIFEST):
-        raise _without_manifest(str(folder))  # Before a large folder of other files is read.
+        raise no_manifest(files_of(folder), str(folder), NAME)  # Before a large folder is read.
     place, contents = snapshot(folder)
     return _submission(place, contents, str(folder))
 
@@ -145,17 +146,10 @@ def _a_file(path: Path) -> InputError:
     return InputError(message, remedy=Remedy.SUBMISSION_FROM_FILE, target=f"{path}:{name}")
 
 
-def _without_manifest(shown: str) -> InputError:
-    return InputError(
-        f"{shown} has no {MANIFEST}; a submission is a folder with {MANIFEST} and policy.py",
-        remedy=Remedy.NEW_SUBMISSION,
-    )
-
-
 def _submission(folder: Path, contents: FolderContents, shown: str) -> Submission:
     """Return the submission of files that have been read; ``shown`` is the user's path."""
     if MANIFEST not in contents.paths:
-        raise _without_manifest(shown)
+        raise no_manifest(contents.paths, shown, NAME)
     manifest = read_manifest((folder / MANIFEST).read_bytes(), f"{shown}/{MANIFEST}")
     if manifest.model:
         _check_network(manifest.model, contents, shown)

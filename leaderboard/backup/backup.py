@@ -22,6 +22,7 @@ from ...agents.errors import InputError
 from ..board.board import BUILTIN, Board
 from ..database.database import FILE, Database
 from ..database.queries import copy_tables, read_entries, read_seasons
+from ..database.room import NoRoomError, is_full
 from ..database.schema import jobs
 from ..storage.files import sync
 from ..storage.season_secrets import PRIVATE_FILE
@@ -112,6 +113,8 @@ def back_up(board: Board, file: Path) -> Backup:
 
     Raises
     ------
+    NoRoomError
+        If the disk of the file is full.
     InputError
         If the file is there already, or cannot be written.
     """
@@ -132,7 +135,11 @@ def back_up(board: Board, file: Path) -> Backup:
             sync(made)
             made.rename(file)
             sync(file.absolute().parent)
-    except OSError as error:
+    except (OSError, NoRoomError, sa.exc.DBAPIError) as error:
+        if is_full(error):
+            raise NoRoomError(file.absolute().parent) from error
+        if not isinstance(error, OSError):
+            raise
         raise InputError(f"cannot write {file}: {error.strerror or error}") from error
     return wanted.summary(missing)
 

@@ -7,6 +7,8 @@ import re
 import tarfile
 import tempfile
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
@@ -16,12 +18,14 @@ from ...agents.errors import InputError
 from ...benchmark.suites.hidden import commitment
 from ..database.database import FILE, URL, Database
 from ..database.queries import copy_tables
-from ..database.schema import metadata
+from ..database.schema import metadata, rank_groups
+from ..storage.damage import DamagedError
 from ..storage.files import sync, sync_tree, write_json
 from ..storage.season_secrets import FOLDER, PRIVATE_FILE
 from ..storage.store import FORMAT as LAYOUT
 from ..storage.store import Store
 from .backup import FORMAT, MARK, Backup, BackupContents, opened_tables
+from .checking import check_tables
 
 PRIVATE: Final = ("private", "submissions", "logs")
 """Folders of a board that only its owner may enter."""
@@ -57,10 +61,16 @@ def restore(file: Path, folder: Path, url: str | None = None) -> Backup:
         with tempfile.TemporaryDirectory(dir=place.parent, prefix=".restore-") as work:
             made = Path(work, "board")
             _unpack(file, made)
-            with opened_tables(made) as tables, tables.reading() as connection:
-                wanted = BackupContents.of(connection)
+            with _intact(file, made), opened_tables(made) as tables:
+                check_tables(tables)
+                with tables.writing() as connection:
+                    # They follow from the rest, and are not checked.
+                    connection.execute(sa.delete(rank_groups))
+                with tables.reading() as connection:
+                    wanted = BackupContents.of(connection)
                 missing = _check(Store(made), wanted)
-                if url:
+            if url:
+                with opened_tables(made) as tables, tables.reading() as connection:
                     _fill(made, url, connection)
             if url:
                 (made / FILE).unlink()
@@ -74,6 +84,24 @@ def restore(file: Path, folder: Path, url: str | None = None) -> Backup:
     except OSError as error:
         raise InputError(f"cannot restore {file} to {folder}: {error.strerror or error}") from error
     return wanted.summary(missing)
+
+
+@contextmanager
+def _intact(file: Path, made: Path) -> Iterator[None]:
+    """Raise what is wrong with the content of a backup as an InputError that names the backup."""
+    try:
+        yield
+    except (
+        InputError,
+        DamagedError,
+        sa.exc.SQLAlchemyError,
+        ValueError,
+        TypeError,
+        LookupError,
+    ) as error:
+        reason = str(error.orig if isinstance(error, sa.exc.DBAPIError) else error)
+        shown = reason.replace(f"{made}/", "").replace(f"{made.name}/", "")
+        raise InputError(f"{file} cannot be restored: {shown}") from error
 
 
 def _unpack(file: Path, folder: Path) -> None:
@@ -127,8 +155,10 @@ def _extract(archive: tarfile.TarFile, entry: tarfile.TarInfo, folder: Path) -> 
 def _check(store: Store, wanted: BackupContents) -> list[str]:
     """Return the missing or damaged contents; refuse a board with a missing or wrong secret."""
     for season, promised in wanted.seasons.items():
-        if commitment(store.secrets(season).secret()) != promised:
+        secrets = store.secrets(season)
+        if commitment(secrets.secret()) != promised:
             raise InputError(f"the secret of season {season} does not match its commitment")
+        secrets.known_human_human()
     missing = []
     for place, needed in wanted.places():
         if needed and not (store.folder / place).exists():

@@ -5,6 +5,7 @@ Its files are described in :mod:`.store`, its tables in :mod:`.database.schema`.
 
 import functools
 import os
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -15,6 +16,7 @@ from ...agents.errors import InputError
 from ...agents.submissions.submission import Submission
 from ..database.database import URL, Database
 from ..database.queries import read_entries, read_events, record_errors, record_event
+from ..database.room import NoRoomError, is_full
 from ..database.schema import entries, events
 from ..records.row import BoardRow
 from ..records.season import (
@@ -86,6 +88,8 @@ class Board:
 
         Raises
         ------
+        NoRoomError
+            If its disk is full.
         InputError
             If the folder has other content or cannot be written to, the board has another suite, or
             its database does not answer.
@@ -98,6 +102,8 @@ class Board:
                 with board._closed_on_error():
                     board._ready(suite, practice)
         except OSError as error:
+            if is_full(error):
+                raise NoRoomError(folder) from error
             raise InputError(f"cannot use {folder} as a board: {error.strerror}") from error
         return board
 
@@ -115,6 +121,8 @@ class Board:
             store.check("PostgreSQL" if place else "SQLite")
             return cls(store.folder, Database.look(store.folder, place))
         except OSError as error:
+            if is_full(error):
+                raise NoRoomError(Path(tempfile.gettempdir())) from error
             raise InputError(f"cannot read the board {folder}: {error.strerror}") from error
 
     def close(self) -> None:

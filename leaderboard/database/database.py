@@ -5,6 +5,7 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 from typing import Final, Self
 
@@ -13,7 +14,8 @@ import sqlalchemy as sa
 from ...agents.errors import InputError
 from ...agents.extras import how_to_install
 from .migration import migrate
-from .transactions import make_engine, reading, writing
+from .room import NoRoomError, folder_with_room, is_full
+from .transactions import database_time, make_engine, reading, writing
 
 URL: Final = "COLIFT_DATABASE_URL"
 """Environment variable that names another database than the file in the board's folder."""
@@ -21,8 +23,15 @@ URL: Final = "COLIFT_DATABASE_URL"
 FILE: Final = "board.sqlite"
 """That file."""
 
+AWAY: Final = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
+"""Errors that are raised when the database is away, or has no free connection."""
+
 SERVERS: Final = ("postgresql", "postgres", "postgresql+psycopg")
 """Schemes that the variable may have before ``://``."""
+
+
+class DatabaseAwayError(InputError):
+    """A database server does not answer; that may end."""
 
 
 @dataclass(frozen=True)
@@ -46,8 +55,12 @@ class Database:
 
         Raises
         ------
+        DatabaseAwayError
+            If a server does not answer.
+        NoRoomError
+            If its disk is full.
         InputError
-            If there is no such database, it does not answer, or a later colift made it.
+            If there is no such database, or a later colift made it.
         """
         place = _url(url) if url else sa.URL.create("sqlite", database=str(folder / FILE))
         shown = place.render_as_string(hide_password=True)
@@ -61,7 +74,11 @@ class Database:
             migrate(engine, shown)
         except sa.exc.DBAPIError as error:
             engine.dispose()
-            raise InputError(f"database {shown} cannot be opened: {error.orig}") from error
+            if is_full(error, folder):
+                raise NoRoomError(folder) from error
+            away = engine.dialect.name != "sqlite" and isinstance(error, AWAY)
+            kind = DatabaseAwayError if away else InputError
+            raise kind(f"database {shown} cannot be opened: {error.orig}") from error
         except InputError:
             engine.dispose()
             raise
@@ -71,15 +88,17 @@ class Database:
     def look(cls, folder: Path, url: str | None = None) -> Self:
         """Return the database of a board in a folder that cannot be written to.
 
-        SQLite needs to write beside the file in order to read it, so a copy is opened.
+        SQLite needs to write beside the file in order to read it, so a copy is opened, in a folder
+        with room for it.
         """
         if url:
             return cls.open(folder, url)
-        copy = tempfile.TemporaryDirectory(prefix="colift-")
+        files = [folder / name for name in (FILE, f"{FILE}-wal") if (folder / name).exists()]
+        room = folder_with_room(2 * sum(file.stat().st_size for file in files))
+        copy = tempfile.TemporaryDirectory(prefix="colift-", dir=room)
         try:
-            for name in (FILE, f"{FILE}-wal"):
-                if (folder / name).exists():
-                    shutil.copyfile(folder / name, Path(copy.name, name))
+            for file in files:
+                shutil.copyfile(file, Path(copy.name, file.name))
             return cls(cls.open(Path(copy.name)).engine, copy)
         except BaseException:
             copy.cleanup()
@@ -99,6 +118,14 @@ class Database:
         """
         with writing(self.engine) as connection:
             yield connection
+
+    def now(self, connection: sa.Connection) -> datetime:
+        """Return the time of the database.
+
+        Times that machines compare, such as those of leases, are all of this clock: the machines'
+        own may differ by any amount.
+        """
+        return database_time(connection)
 
     def close(self) -> None:
         """Close all connections."""

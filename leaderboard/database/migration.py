@@ -6,10 +6,14 @@ from typing import Final
 import sqlalchemy as sa
 
 from ...agents.errors import InputError
+from .schema import metadata
 from .transactions import reading, writing
 
-HEAD: Final = "0001"
+HEAD: Final = "0004"
 """The last revision: that of :mod:`.schema`."""
+
+RETIRED: Final = ("0002", "0003")
+"""Revisions of development versions before the first release; their numbers are not used again."""
 
 
 def migrate(engine: sa.Engine, shown: str) -> None:
@@ -25,10 +29,11 @@ def migrate(engine: sa.Engine, shown: str) -> None:
     Raises
     ------
     InputError
-        If the tables are those of a later colift.
+        If the tables are those of a later colift, or of none.
     """
     with reading(engine) as connection:
-        if _revision(connection) == HEAD:
+        there = set(sa.inspect(connection).get_table_names())
+        if _revision(connection) == HEAD and there >= set(metadata.tables):
             return
     with writing(engine) as connection:
         _run(connection, shown)
@@ -47,10 +52,38 @@ def _run(connection: sa.Connection, shown: str) -> None:
         try:
             command.upgrade(config, HEAD)
         except CommandError as error:
-            raise InputError(
-                f"database {shown} has revision {_revision(connection)}, this colift knows up to "
-                f"{HEAD}: use the colift that made it, or a later one"
-            ) from error
+            raise InputError(_unknown(shown, _revision(connection))) from error
+    missing = _missing(connection)
+    if missing:
+        raise InputError(
+            f"database {shown} lacks {missing[0]}: its tables are those of a development version "
+            "before the first release, which no release reads; make a new board"
+        )
+
+
+def _unknown(shown: str, revision: str | None) -> str:
+    """Return why tables of a revision cannot be used, and which colift can."""
+    found = f"database {shown} has revision {revision}"
+    if revision in RETIRED:
+        return (
+            f"{found}, of a development version before the first release, which no release reads; "
+            "make a new board"
+        )
+    return (
+        f"{found}, this colift knows up to {HEAD}: a later colift made it; use that one, or one "
+        "after it"
+    )
+
+
+def _missing(connection: sa.Connection) -> list[str]:
+    """Return the tables and columns of the schema that a database lacks."""
+    found = sa.inspect(connection)
+    missing = []
+    for table in metadata.sorted_tables:
+        there = found.has_table(table.name)
+        known = {each["name"] for each in found.get_columns(table.name)} if there else set()
+        missing += [f"{table.name}.{each.name}" for each in table.c if each.name not in known]
+    return missing
 
 
 def _revision(connection: sa.Connection) -> str | None:

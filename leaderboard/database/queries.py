@@ -1,19 +1,35 @@
 """Queries that read, add and copy the records of a board."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import Any, Final
 
 import numpy as np
 import sqlalchemy as sa
 
+from ...agents.errors import error_text
 from ..records.row import BoardRow
 from ..records.season import BoardEntry, Event, SeasonInfo
+from ..storage.damage import DAMAGE, DamagedError
 from .schema import entries, events, hidden_errors, metadata, seasons
 
 Errors = np.ndarray[tuple[int], np.dtype[np.float64]]
 """RMSE of each hidden episode [mm]."""
 
 
+@contextmanager
+def legible(what: str) -> Iterator[None]:
+    """Raise the many errors of damaged records as a DamagedError."""
+    try:
+        yield
+    except DAMAGE as error:
+        raise DamagedError(
+            f"{what} of the board cannot be read ({error_text(error)}): its database is damaged; "
+            "restore an earlier backup"
+        ) from error
+
+
+@legible("a season")
 def read_seasons(connection: sa.Connection) -> tuple[SeasonInfo, ...]:
     """Return all seasons, oldest first."""
     found = connection.execute(sa.select(seasons).order_by(seasons.c.number)).all()
@@ -42,14 +58,17 @@ def read_entries(
     """Return the entries for which all conditions hold, oldest first."""
     columns = [column for column in entries.c if column.name != "number"]
     query = sa.select(*columns).where(*conditions).order_by(entries.c.number)
-    return tuple(
-        BoardEntry(
-            **{**found, "row": None if found["row"] is None else BoardRow.read(found["row"])}
-        )
-        for found in connection.execute(query).mappings()
-    )
+    with legible("an entry"):
+        return tuple(map(_entry, connection.execute(query).mappings()))
 
 
+def _entry(found: sa.RowMapping) -> BoardEntry:
+    with legible(f"the entry of {found['name']!a} in season {found['season']!a}"):
+        row = None if found["row"] is None else BoardRow.read(found["row"])
+        return BoardEntry(**{**found, "row": row})
+
+
+@legible("an event")
 def read_events(
     connection: sa.Connection, *conditions: sa.ColumnElement[bool], newest: int | None = None
 ) -> tuple[Event, ...]:
@@ -76,6 +95,7 @@ def read_error_numbers(
     return {each.submission: each.number for each in connection.execute(query)}
 
 
+@legible("an error of a hidden episode")
 def read_errors(
     connection: sa.Connection, season: str, numbers: Mapping[str, int]
 ) -> dict[str, Errors]:

@@ -1,8 +1,9 @@
 """The tables.
 
 The record is append-only: ``seasons``, ``entries``, ``hidden_errors`` and ``events`` only
-grow, and triggers in the database refuse anything else (:mod:`.append_only`). ``jobs`` and
-``tokens`` change state. ``rank_groups`` can be thrown away: it is computed from the others.
+grow, and triggers in the database refuse anything else (:func:`.protect`). ``jobs``, ``workers``
+and ``tokens`` change state. ``rank_groups`` can be thrown away: it is computed from the others. A
+change of the tables is a new revision in ``migrations/versions``; older ones stay as they are.
 """
 
 from datetime import UTC, datetime
@@ -112,6 +113,16 @@ jobs: Final = sa.Table(
     # Of the submission's files [bytes].
     sa.Column("size", sa.Integer, nullable=False, server_default="0"),
     sa.UniqueConstraint("season", "submission"),
+)
+
+workers: Final = sa.Table(
+    "workers",
+    metadata,
+    sa.Column("name", sa.Text, primary_key=True),
+    # When it last waited for a job.
+    sa.Column("seen_at", Time, nullable=False),
+    # Whether it has said that it takes no more jobs.
+    sa.Column("ended", sa.Boolean, nullable=False),
 )
 
 tokens: Final = sa.Table(

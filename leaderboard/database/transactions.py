@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from datetime import UTC, datetime
 from typing import Any, Final
 
 import sqlalchemy as sa
@@ -60,6 +61,20 @@ def writing(engine: sa.Engine) -> Iterator[sa.Connection]:
         if connection.dialect.name == "postgresql":
             connection.exec_driver_sql(f"SELECT pg_advisory_xact_lock({_LOCK})")
         yield connection
+
+
+def database_time(connection: sa.Connection) -> datetime:
+    """Return the time of the database: one clock for all that use it.
+
+    It is the time of this moment, not of the transaction's beginning, which may have waited.
+    """
+    if connection.dialect.name == "postgresql":
+        now: datetime = connection.exec_driver_sql("SELECT clock_timestamp()").scalar_one()
+        return now.astimezone(UTC)
+    text: str = connection.exec_driver_sql(
+        "SELECT strftime('%Y-%m-%d %H:%M:%f', 'now')"
+    ).scalar_one()
+    return datetime.fromisoformat(text).replace(tzinfo=UTC)
 
 
 def _prepare_sqlite(connection: Any, record: object) -> None:

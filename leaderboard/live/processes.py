@@ -17,6 +17,7 @@ from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIO
 
 from ...agents.errors import EvaluatorFault
 from ...benchmark.live.priority import RELAY, take_turn
+from ..logs import write_log
 from ..service.server import make_server
 from .app import create_play
 from .keeper import PlayConfig
@@ -66,7 +67,7 @@ def run_web(config: PlayConfig, listener: socket.socket, root: str) -> None:
     os.setsid()  # Ctrl-C in a terminal is for the parent.
     tether(signal.SIGTERM)
     take_turn(RELAY)  # Frames and samples must not wait for less urgent work.
-    logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(levelname)s %(message)s")
+    write_log()
     make_server(create_play(config), root, SmallBuffers).run(sockets=[listener])
 
 

@@ -22,6 +22,7 @@ from ...benchmark.results.baselines import Baseline
 from ...benchmark.suites.suite import make_suite
 from ..board.board import SUITE, Board
 from ..board.seasons import ImportedEntry, ImportedSeason
+from ..database.room import NoRoomError
 from ..records.season import BoardEntry, SeasonInfo
 from ..storage.store import has_board
 from .practice import SUITES, PracticeRun, practice_season
@@ -209,7 +210,7 @@ def _from_here(folder: Path) -> Path:
 
 
 def open_to_read(folder: Path) -> Board:
-    """Open the board in a folder for reading, even if the folder is read-only.
+    """Open the board in a folder for reading, even if the folder is read-only or its disk is full.
 
     Raises
     ------
@@ -218,4 +219,9 @@ def open_to_read(folder: Path) -> Board:
     """
     if has_board(folder) and not os.access(folder, os.W_OK):
         return Board.look(folder)
-    return open_with_practice(folder)
+    try:
+        return open_with_practice(folder)
+    except NoRoomError:
+        if not has_board(folder):
+            raise
+        return Board.look(folder)

@@ -17,6 +17,7 @@ from ..evaluation.entrant import Entrant
 from ..evaluation.evaluation import episode_count
 from ..records.job import HELD, Job, State
 from ..records.season import Event, Kind
+from .attendance import Attendance, read_attendance
 from .jobs import job_outcome, read_job, storable_reason
 from .quota import Quota, admit, in_turn, last_served
 
@@ -71,10 +72,11 @@ class Queue:
         size: int = 0,
         place: Callable[[], object] = lambda: None,
     ) -> Job:
-        season, now = self.board.season, self.board.clock()
+        season = self.board.season
         this = (jobs.c.season == season.name) & (jobs.c.submission == digest)
-        fresh = _fresh(now)
         with self.board.database.writing() as connection:
+            now = self.board.database.now(connection)
+            fresh = _fresh(now)
             there = connection.execute(sa.select(jobs).where(this)).mappings().first()
             if there is None:
                 if submitter != BUILTIN:
@@ -141,7 +143,7 @@ class Queue:
             return found["ended_at"] is not None and not read_entries(connection, *this)
 
         refusal = f"no job {id!r} has ended without an entry"
-        self._change(id, _fresh(self.board.clock()), "retry", who, why, may, refusal)
+        self._change(id, _fresh, "retry", who, why, may, refusal)
 
     def cancel(self, id: str, who: str, why: str, submitter: str | None = None) -> Job:  # noqa: A002
         """Take a job that has not ended out of the queue; a worker that has it stops.
@@ -167,29 +169,33 @@ class Queue:
         def may(connection: sa.Connection, found: sa.RowMapping) -> bool:
             return submitter in (None, found["submitter"]) and found["ended_at"] is None
 
-        now = self.board.clock()
-        ended = {"state": "cancelled", "reason": storable_reason(f"{who}: {why}"), "ended_at": now}
+        def ended(now: datetime) -> dict[str, Any]:
+            reason = storable_reason(f"{who}: {why}")
+            return {"state": "cancelled", "reason": reason, "ended_at": now}
+
         refusal = f"no job {id!r} is in the queue; see: colift queue list"
         return self._change(id, ended, "cancellation", who, why, may, refusal)
 
     def _change(
         self,
         id: str,  # noqa: A002
-        values: Mapping[str, Any],
+        change: Callable[[datetime], Mapping[str, Any]],
         kind: Kind,
         who: str,
         why: str,
         may: Callable[[sa.Connection, sa.RowMapping], bool],
         refusal: str,
     ) -> Job:
-        """Change a job that may be changed, and record that as an event."""
+        """Change a job that may be changed, at a time, and record that as an event."""
         this = jobs.c.id == id
         with self.board.database.writing() as connection:
             found = connection.execute(sa.select(jobs).where(this)).mappings().first()
             if found is None or not may(connection, found):
                 raise InputError(refusal)
+            now = self.board.database.now(connection)
+            values = change(now)
             connection.execute(sa.update(jobs).where(this).values(**values))
-            record_event(connection, _event(found, self.board.clock(), kind, who, why))
+            record_event(connection, _event(found, now, kind, who, why))
             return self._job({**found, **values})
 
     def waiting(self) -> tuple[Job, ...]:
@@ -201,6 +207,21 @@ class Queue:
         held = [each["submitter"] for each in found if each["state"] in HELD]
         waiting = [each for each in found if each["state"] not in HELD]
         return tuple(map(self._job, in_turn(waiting, held, served)))
+
+    def attendance(self) -> Attendance:
+        """Return who works for the board now."""
+        with self.board.database.reading() as connection:
+            return read_attendance(connection, self.board.database.now(connection))
+
+    def unattended(self, job: Job) -> str | None:
+        """Return, in words for its submitter, that nobody evaluates a job; None if somebody does.
+
+        It is known at once, not only after the job has waited for long.
+        """
+        attendance = None if job.ended else self.attendance()
+        if attendance is None or attendance.present:
+            return None
+        return f"Nobody evaluates at present: {attendance}"
 
     def _job(self, found: Any) -> Job:
         return read_job(found, self.board.store)

@@ -1,11 +1,13 @@
 """The worker's side of the queue: claims, progress reports and ends of jobs.
 
 A worker has a job as long as its heartbeats arrive. Every change is one transaction that first
-checks whether the job is still its worker's, so a worker that lost a job cannot change it.
+checks whether the job is still its worker's, so a worker that lost a job cannot change it. All
+times are those of the database's clock, so the clocks of the workers do not matter.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any, Final
@@ -18,11 +20,9 @@ from ..database.schema import jobs
 from ..evaluation.progress import Stage
 from ..records.job import HELD, Job, State
 from ..records.season import BoardEntry
-from .jobs import is_gone, job_outcome, read_job, storable_reason
+from .attendance import LEASE, is_held, sign_in, sign_out
+from .jobs import job_outcome, read_job, storable_reason
 from .quota import in_turn, last_served
-
-LEASE: Final = timedelta(seconds=30)
-"""Time after the last heartbeat at which another worker may take a job."""
 
 FAULTS: Final = 3
 """Maximum number of retries after faults of this machine."""
@@ -38,7 +38,7 @@ POSTPONED: Final = timedelta(minutes=1)
 """Wait before the next attempt at a job that this machine cannot run at all."""
 
 LONGEST: Final = max(PAUSE * 2**FAULTS, POSTPONED) + timedelta(seconds=30)
-"""Longest wait of a job for its next attempt; clocks may differ by some seconds."""
+"""Longest wait of a job for its next attempt; a longer one comes from a clock that was wrong."""
 
 VERIFYING: Final[Stage] = "verification"
 """The stage that has its own state."""
@@ -69,13 +69,14 @@ class WorkerQueue:
         job
             Id of the wanted job; None is any.
         """
-        now = self.board.clock()
-        passed = (jobs.c.ready_at <= now) | (jobs.c.ready_at > now + LONGEST)
         waits = jobs.c.state.in_(("queued", "evaluator fault")) & jobs.c.ended_at.is_(None)
-        query = sa.select(jobs).where((waits & passed) | jobs.c.state.in_(HELD))
-        with self.board.database.writing() as connection:
+        with self._now() as (connection, now):
+            if job is None:
+                sign_in(connection, worker, now)
+            passed = (jobs.c.ready_at <= now) | (jobs.c.ready_at > now + LONGEST)
+            query = sa.select(jobs).where((waits & passed) | jobs.c.state.in_(HELD))
             found = [dict(each) for each in connection.execute(query).mappings()]
-            held = [each for each in found if self._is_held(each, now)]
+            held = [each for each in found if is_held(each, now, self.lease)]
             waiting = [each for each in found if each not in held and job in (None, each["id"])]
             submitters = [each["submitter"] for each in held]
             for each in in_turn(waiting, submitters, last_served(connection)):
@@ -119,9 +120,10 @@ class WorkerQueue:
             If the job is no longer this worker's.
         """
         state: State = "verifying" if stage == VERIFYING else "running"
-        content = {"state": state, "stage": stage, "done": done, "heartbeat_at": self.board.clock()}
-        with self.board.database.writing() as connection:
-            self._change(connection, job, content | ({} if total is None else {"total": total}))
+        content: dict[str, Any] = {"state": state, "stage": stage, "done": done}
+        with self._now() as (connection, now):
+            content |= {"heartbeat_at": now} | ({} if total is None else {"total": total})
+            self._change(connection, job, content)
 
     def finish(
         self,
@@ -140,7 +142,7 @@ class WorkerQueue:
         job
             What :meth:`claim` has returned.
         entry
-            The row, or the refusal: then the job has failed.
+            The row, or the refusal: then the job has failed. Its time becomes the database's.
         hidden_rmse_mm
             RMSE of each hidden episode [mm], if there is a row.
         bundle
@@ -151,8 +153,9 @@ class WorkerQueue:
         LostError
             If the job is no longer this worker's.
         """
-        with self.board.database.writing() as connection:
-            ended = job_outcome(entry, self.board.clock())
+        with self._now() as (connection, now):
+            entry = replace(entry, at=now)
+            ended = job_outcome(entry, now)
             if entry.row is not None:
                 ended["done"] = jobs.c.total
             self._change(connection, job, ended)
@@ -162,13 +165,9 @@ class WorkerQueue:
 
     def fail(self, job: Job, reason: str, log: str = "") -> None:
         """End a job that failed by the submission's fault; :class:`LostError` as :meth:`report`."""
-        ended = {
-            "state": "failed",
-            "reason": storable_reason(reason),
-            "ended_at": self.board.clock(),
-        }
-        with self.board.database.writing() as connection:
-            self._change(connection, job, ended)
+        ended = {"state": "failed", "reason": storable_reason(reason)}
+        with self._now() as (connection, now):
+            self._change(connection, job, {**ended, "ended_at": now})
         if log:
             self.board.store.add_to_log(job.id, log)
 
@@ -177,8 +176,7 @@ class WorkerQueue:
 
         It does not count towards the submitter's quota. :class:`LostError` as :meth:`report`.
         """
-        now = self.board.clock()
-        with self.board.database.writing() as connection:
+        with self._now() as (connection, now):
             faults: int = connection.execute(
                 sa.select(jobs.c.faults).where(jobs.c.id == job.id)
             ).scalar_one()
@@ -198,16 +196,26 @@ class WorkerQueue:
             "reason": storable_reason(reason),
             "stage": None,
             "done": 0,
-            "ready_at": self.board.clock() + POSTPONED,
         }
-        with self.board.database.writing() as connection:
-            self._change(connection, job, content)
+        with self._now() as (connection, now):
+            self._change(connection, job, {**content, "ready_at": now + POSTPONED})
 
     def release(self, job: Job) -> None:
         """Return an interrupted job to the queue; :class:`LostError` as :meth:`report`."""
-        content = {"state": "queued", "stage": None, "done": 0, "ready_at": self.board.clock()}
+        content = {"state": "queued", "stage": None, "done": 0}
+        with self._now() as (connection, now):
+            self._change(connection, job, {**content, "ready_at": now})
+
+    def leave(self, worker: str) -> None:
+        """Record that a worker ends: it takes no more jobs."""
         with self.board.database.writing() as connection:
-            self._change(connection, job, content)
+            sign_out(connection, worker)
+
+    @contextmanager
+    def _now(self) -> Iterator[tuple[sa.Connection, datetime]]:
+        """Yield a connection that writes, and the time of the database."""
+        with self.board.database.writing() as connection:
+            yield connection, self.board.database.now(connection)
 
     def _change(self, connection: sa.Connection, job: Job, content: dict[str, Any]) -> None:
         """Change a job if it is still its worker's."""
@@ -219,8 +227,3 @@ class WorkerQueue:
         )
         if not connection.execute(sa.update(jobs).where(own).values(**content)).rowcount:
             raise LostError(f"job {job.id} is no longer that of {job.worker}")
-
-    def _is_held(self, job: Mapping[str, Any], now: datetime) -> bool:
-        """Return whether a job has a worker."""
-        alive = abs(job["heartbeat_at"] - now) <= self.lease if job["heartbeat_at"] else False
-        return job["state"] in HELD and alive and not is_gone(job["worker"])

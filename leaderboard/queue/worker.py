@@ -4,7 +4,7 @@ import contextlib
 import logging
 import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -24,6 +24,7 @@ from ..evaluation.scoring import failure_lines
 from ..records.job import Job
 from ..records.row import BoardRow
 from ..records.season import BoardEntry
+from ..records.times import utc_second
 from . import LostError, Queue, WorkerQueue
 from .heartbeat import Heartbeat
 from .jobs import this_worker
@@ -62,15 +63,25 @@ class Worker:
         ended
             Called with every job that was worked on.
         """
-        while not stop():
-            try:
-                job = self.once()
-            except sa.exc.OperationalError:
-                job = None  # The database is away, or its disk is full; that may end.
-            if job is None:
-                time.sleep(IDLE_S)
-            else:
-                ended(job)
+        with self.attending():
+            while not stop():
+                try:
+                    job = self.once()
+                except sa.exc.OperationalError:
+                    job = None  # The database is away, or its disk is full; that may end.
+                if job is None:
+                    time.sleep(IDLE_S)
+                else:
+                    ended(job)
+
+    @contextlib.contextmanager
+    def attending(self) -> Iterator[None]:
+        """Say at the end of the body that this worker takes no more jobs."""
+        try:
+            yield
+        finally:
+            with contextlib.suppress(sa.exc.DBAPIError):  # Without it, its signature gets old.
+                self.work.leave(self.name)
 
     def once(self, job: str | None = None, watch: Callbacks | None = None) -> Job | None:
         """Work on the next job and return it; None if none waits.
@@ -198,7 +209,7 @@ class Worker:
             submission=job.submission,
             name=job.name,
             submitter=job.submitter,
-            at=self._board.clock(),
+            at=self._board.clock(),  # Until it is published, see WorkerQueue.finish.
             row=evaluation.row,
             refusal=evaluation.refusal,
         )
@@ -249,7 +260,7 @@ class Worker:
         return replace(watch, stage=stage, output=output)
 
     def _log(self, job: Job, *lines: str) -> None:
-        now = f"{self._board.clock():%Y-%m-%d %H:%M:%S}"
+        now = utc_second(self._board.clock())
         for line in lines:
             try:
                 self._board.store.add_to_log(job.id, f"{now} {line}")

@@ -116,6 +116,9 @@ class JobAnswer(JobSummary):
     """Number of times that it was begun."""
     log: str | None
     """Log of the workers."""
+    unattended: str | None
+    """That nobody evaluates at present, and since when no worker has been seen; null if one works
+    for the board, or the job has ended."""
 
 
 class SubmissionAnswer(JobSummary):

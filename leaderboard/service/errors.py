@@ -2,13 +2,11 @@
 
 import asyncio
 import contextlib
-import errno
 import logging
 import secrets
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final
 
-import sqlalchemy as sa
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import HTMLResponse, JSONResponse, Response
@@ -18,7 +16,10 @@ from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ...agents.errors import InputError
+from ..database.database import AWAY
+from ..database.room import is_full
 from ..queue import QuotaError
+from ..storage.damage import DamagedError
 
 log: Final = logging.getLogger("colift.service")
 
@@ -30,9 +31,6 @@ CLOSE: Final = {"Connection": "close"}
 
 LINGER_S: Final = 10.0
 """Longest time for which the rest is discarded [s]."""
-
-AWAY: Final = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
-"""Errors that are raised when the database is away, or has no free connection."""
 
 QUOTA_S: Final = 60
 """Time after which a submitter over quota may ask again [s]."""
@@ -48,9 +46,6 @@ PAGE: Final = (
 
 NO_PAGE: Final = "This board has no page at this address."
 """What the page says that a browser gets for a wrong address."""
-
-FULL: Final = {errno.ENOSPC, errno.EDQUOT}
-"""Error numbers (errno) of a full disk."""
 
 
 class Problem(BaseModel):
@@ -150,14 +145,14 @@ class FaultHandler:
         try:
             await self.app(scope, receive, named)
         except Exception as error:
-            away = isinstance(error, AWAY)
+            known = _known(error)
             log.error(
                 "request %s: %s %s failed%s",
                 name,
                 scope["method"],
                 ascii(scope["path"]),
-                f": the database does not answer: {error}" if away else "",
-                exc_info=not away,
+                f": {known}" if known else "",
+                exc_info=not known,
             )
             if started:
                 raise  # The answer has begun, so it can only be broken off.
@@ -183,10 +178,18 @@ def _is_of_page(path: str) -> bool:
     return not path.startswith(("/api/", "/healthz"))
 
 
+def _known(error: Exception) -> str:
+    """Return the cause of an error in a sentence, if it is one that needs no traceback."""
+    if is_full(error):
+        return f"the disk of the board is full: {' '.join(str(error).split())}"
+    if isinstance(error, DamagedError):
+        return str(error)
+    return f"the database does not answer: {error}" if isinstance(error, AWAY) else ""
+
+
 def _fault(error: Exception, name: str) -> tuple[int, str]:
     """Return status and text of the answer to a request that ended with an error."""
-    full = isinstance(error, OSError) and error.errno in FULL
-    if full or getattr(getattr(error, "orig", None), "sqlite_errorname", "") == "SQLITE_FULL":
+    if is_full(error):
         return 507, "the board has no room left; please inform its maintainer"
     if isinstance(error, AWAY):
         return 503, f"the board's database does not answer; try again in {AWAY_S} s"

@@ -76,7 +76,7 @@ MINE: Final = 50
 """Maximum number of listed submissions of a submitter."""
 
 _token: Final = HTTPBearer(
-    auto_error=False, description="A token, made with: colift token add NAME --board PATH"
+    auto_error=False, description="A token, from the maintainer of the board"
 )
 Credentials = Annotated[HTTPAuthorizationCredentials | None, Depends(_token)]
 
@@ -100,7 +100,7 @@ async def submissions(
 @router.get("/jobs/{job}", responses=MISSING)
 def get_job(service: Service, job: JobId) -> JobAnswer:
     """Return a submission and its progress."""
-    return JobAnswer.of(_job(service, job))
+    return _answer(service, _job(service, job))
 
 
 @router.delete(
@@ -122,7 +122,7 @@ async def delete_job(service: Service, job: JobId, credentials: Credentials) -> 
         ended = await run_in_threadpool(service.queue.cancel, job, submitter, CANCELLED, submitter)
     except InputError as error:
         raise problem(409, f"job {job} has ended") from error
-    return JobAnswer.of(ended)
+    return JobAnswer.of(ended, unattended=None)
 
 
 @router.get(
@@ -140,10 +140,10 @@ async def job_events(service: Service, request: Request, job: JobId) -> Response
 
     async def read() -> JobAnswer | None:
         now = await run_in_threadpool(service.queue.job, job)
-        return None if now is None else JobAnswer.of(now)
+        return None if now is None else await run_in_threadpool(_answer, service, now)
 
     news = StreamingResponse(
-        events(JobAnswer.of(found), read),
+        events(await run_in_threadpool(_answer, service, found), read),
         media_type="text/event-stream",
         headers={"X-Accel-Buffering": "no"},  # else nginx would buffer the stream
     )
@@ -193,7 +193,7 @@ async def post_submission(
             service.queue.enqueue, incoming.submission, submitter, place
         )
     response.headers["Location"] = f"{api_root(request)}/jobs/{queued.id}"
-    return JobAnswer.of(queued)
+    return await run_in_threadpool(_answer, service, queued)
 
 
 async def _submitter(
@@ -201,7 +201,7 @@ async def _submitter(
 ) -> str:
     """Return a token's owner."""
     if credentials is None:
-        raise _nobody("a header 'Authorization: Bearer TOKEN' is missing")
+        raise _nobody("no token was given, in a header 'Authorization: Bearer TOKEN'")
     known = await run_in_threadpool(_known, service, credentials)
     if known is None:
         raise _nobody(REVOKED)
@@ -213,8 +213,12 @@ def _known(service: ServiceState, credentials: HTTPAuthorizationCredentials | No
 
 
 def _nobody(message: str) -> HTTPException:
-    message = f"{message}; the maintainer makes tokens with: colift token add NAME"
+    message = f"{message}; ask the maintainer of the board for a token"
     return problem(401, message, {**CLOSE, "WWW-Authenticate": "Bearer"})
+
+
+def _answer(service: ServiceState, job: Job) -> JobAnswer:
+    return JobAnswer.of(job, unattended=service.queue.unattended(job))
 
 
 def _job(service: ServiceState, name: str) -> Job:

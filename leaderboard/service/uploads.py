@@ -17,6 +17,8 @@ from starlette.requests import ClientDisconnect
 
 from ...agents.errors import InputError
 from ...agents.submissions.folder import MIB
+from ...agents.submissions.manifest import MANIFEST
+from ...agents.submissions.near_manifest import PACK, no_manifest
 from ..board.board import Board
 from ..database.schema import jobs
 from ..storage.archive import unpack_archive
@@ -108,7 +110,9 @@ async def _receive(stream: AsyncIterator[bytes], file: IO[bytes]) -> None:
 def _incoming(file: IO[bytes], folder: Path, board: Board) -> Incoming:
     folder.mkdir()
     try:
-        unpack_archive(file, folder)  # type: ignore[arg-type]
+        packed = unpack_archive(file, folder)  # type: ignore[arg-type]
+        if not (folder / MANIFEST).is_file():
+            raise no_manifest(packed, "the zip archive", PACK)
         return board.store.incoming(folder)
     except InputError as error:
         # Messages to clients must not name folders of this machine.

@@ -5,6 +5,7 @@
   const bar = document.getElementById("bar"), status = document.getElementById("status");
   const state = document.getElementById("state"), time = document.getElementById("time");
   const stages = [...document.querySelectorAll("[data-stage]")];
+  const unattended = document.getElementById("unattended");
   let pause = 1000, last = status.textContent;
 
   function show(job) {
@@ -15,6 +16,9 @@
     status.setAttribute("aria-live", text.split(":")[0] === last.split(":")[0] ? "off" : "polite");
     if (job.state !== "queued" || last.split(/[.,]/)[0] !== "Waiting") status.textContent = text;
     last = text;
+    unattended.hidden = !job.unattended;
+    const told = job.unattended ? job.unattended + ". The submission is kept, and waits for a worker." : "";
+    if (unattended.textContent !== told) unattended.textContent = told;
     const now = stages.findIndex((step) => step.dataset.stage === job.stage);
     stages.forEach((step, i) => {
       step.classList.toggle("over", i < now);

@@ -11,6 +11,7 @@ from typing import IO, BinaryIO, Final
 
 from ...agents.errors import InputError
 from ...agents.submissions.folder import CHUNK, LIMITS, MIB, NAME, FolderLimits, is_part
+from ...agents.submissions.line_ends import is_text, with_unix_line_ends
 
 RATIO: Final = 200
 """Largest ratio of the size of all files to that of the archive."""
@@ -31,8 +32,6 @@ _END64_SIZE: Final = 20
 _LONGEST_COMMENT: Final = 2**16
 _ENCRYPTED: Final = 0x1 | 0x40
 _NOBODY: Final = (1980, 1, 1, 0, 0, 0)
-_MACOS: Final = "__MACOSX"
-"""Folder that the Finder adds to its archives."""
 
 
 def pack_archive(folder: Path, file: IO[bytes]) -> None:
@@ -48,13 +47,13 @@ def pack_archive(folder: Path, file: IO[bytes]) -> None:
                     target.write(data)
 
 
-def unpack_archive(file: BinaryIO, folder: Path, limits: FolderLimits = LIMITS) -> None:
-    """Write the files of a zip archive into a folder.
+def unpack_archive(file: BinaryIO, folder: Path, limits: FolderLimits = LIMITS) -> list[str]:
+    """Write the files of a zip archive into a folder; return their paths in the archive.
 
     The rules are those of :func:`.read_folder`; all names and declared sizes are checked before
-    the first byte is written. Names that begin with a dot, and ``__pycache__``, are left out. If
-    all other files lie in one folder, as when a folder itself was packed, that folder is left out
-    of their paths.
+    the first byte is written. What tools leave behind (:func:`.is_part`) is left out. If all other
+    files lie in one folder, as when a folder itself was packed, that folder is left out of their
+    paths. Text files get the line ends of Unix (:mod:`.line_ends`).
 
     Parameters
     ----------
@@ -79,8 +78,11 @@ def unpack_archive(file: BinaryIO, folder: Path, limits: FolderLimits = LIMITS) 
             place = folder / path
             place.parent.mkdir(parents=True, exist_ok=True)
             with _readable(path), archive.open(entry) as source, place.open("xb") as target:
+                if is_text(path, entry.file_size):
+                    target.write(with_unix_line_ends(source.read()))
                 while data := source.read(CHUNK):
                     target.write(data)
+        return [entry.orig_filename for entry in entries.values()]
 
 
 def _check_directory(file: BinaryIO) -> int:
@@ -90,15 +92,36 @@ def _check_directory(file: BinaryIO) -> int:
     tail = file.read()
     at = tail.rfind(_END)
     if at < 0 or len(tail) - at < _END_SIZE:
-        raise InputError(
-            f"this is not a zip archive, or not all of one: {size} bytes without its end record"
-        )
+        file.seek(0)
+        raise InputError(f"{_kind(file.read(LONGEST_MARK))} ({size} bytes)")
     directory = int.from_bytes(tail[at + 12 : at + 16], "little")
     if tail[max(at - _END64_SIZE, 0) :].startswith(_END64) or directory > DIRECTORY:
         raise InputError(
             f"the zip archive's table of contents may have at most {DIRECTORY // MIB} MiB"
         )
     return size
+
+
+MARKS: Final = {
+    b"\x1f\x8b": "a gzip",
+    b"BZh": "a bzip2",
+    b"\xfd7zXZ": "an xz",
+    b"7z\xbc\xaf\x27\x1c": "a 7z",
+    b"Rar!": "a rar",
+}
+"""Other archives, by their first bytes."""
+
+LONGEST_MARK: Final = max(map(len, MARKS))
+
+
+def _kind(beginning: bytes) -> str:
+    """Return what a file is that has no end record of a zip archive."""
+    for mark, name in MARKS.items():
+        if beginning.startswith(mark):
+            return f"{name} file, not a zip file: pack the folder as a zip file"
+    if beginning.startswith(b"PK"):
+        return "a zip file that was cut off: upload it again"
+    return "not a zip file, or cut off"
 
 
 def _check_ratio(entries: Iterable[zipfile.ZipInfo], size: int) -> None:
@@ -116,7 +139,7 @@ def _entries(archive: zipfile.ZipFile, limits: FolderLimits) -> dict[str, zipfil
     names: dict[tuple[str, ...], zipfile.ZipInfo] = {}
     for entry in archive.infolist():
         parts = _parts(entry)
-        if all(map(is_part, parts)) and parts[0] != _MACOS:
+        if all(map(is_part, parts)):
             if parts in names:
                 raise _refused(entry, "it is there twice")
             names[parts] = entry

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ...agents.errors import InputError
+from ...agents.errors import InputError, error_text
 from ...benchmark.results.baselines import Baseline
 from ...benchmark.suites.hidden import SECRET_BYTES
+from .damage import DAMAGE, DamagedError
 from .files import read_json, sync, write_json
+from .typed import mistyped
 
 PRIVATE_FILE: Final = 0o600
 """Mode of a file that only its owner may read."""
@@ -79,9 +81,22 @@ class SeasonSecrets:
         return known
 
     def known_human_human(self) -> Baseline | None:
-        """Return the baseline that :meth:`human_human` has stored, or None if it has not run."""
+        """Return the baseline that :meth:`human_human` has stored, or None if it has not run.
+
+        Raises
+        ------
+        DamagedError
+            If its file is damaged.
+        """
         path = self.folder / "human_human.json"
-        return Baseline.read(read_json(path)) if path.exists() else None
+        try:
+            known = Baseline.read(read_json(path)) if path.exists() else None
+        except DAMAGE as error:
+            raise _damaged(path, error_text(error)) from error
+        fault = None if known is None else mistyped(known, Baseline, "the baseline")
+        if fault is not None:
+            raise _damaged(path, fault)
+        return known
 
     def keep_human_human(self, human_human: Baseline) -> None:
         """Write the human-human baseline."""
@@ -91,3 +106,10 @@ class SeasonSecrets:
     @property
     def _secret(self) -> Path:
         return self.folder / "secret"
+
+
+def _damaged(path: Path, reason: str) -> DamagedError:
+    return DamagedError(
+        f"{path} is damaged ({reason}): restore it from a backup, or remove it, and the next "
+        "evaluation plays the human-human baseline again"
+    )

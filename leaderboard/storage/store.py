@@ -25,6 +25,7 @@ from typing import Final
 
 from ...agents.errors import InputError
 from ...agents.submissions.folder import copy_folder
+from ...agents.submissions.new import check_author
 from ...agents.submissions.submission import Submission, read_submission
 from .archive import pack_archive
 from .files import read_json, sync, sync_tree, write_json
@@ -170,9 +171,10 @@ class Store:
         Raises
         ------
         InputError
-            If the submission is malformed.
+            If the submission is malformed, or still has the author of the template.
         """
         submission = read_submission(files)
+        check_author(submission.manifest)
         target = self.folder / "submissions" / submission.contents.digest
         return Incoming.of(submission, target)
 

@@ -47,6 +47,8 @@ class JobView:
     """The stages of its evaluation, in their order."""
     elapsed: timedelta | None
     """Time since it was begun; None if it was not."""
+    unattended: str | None
+    """That nobody evaluates at present; None if somebody does."""
 
     @property
     def left(self) -> timedelta | None:
@@ -85,6 +87,7 @@ def job_view(board: Board, queue: Queue, job_id: str) -> JobView | None:
         elapsed=None if job.started_at is None else board.clock() - job.started_at,
         entry=board.entry(job.season, job.submission) if job.ended else None,
         ahead=waiting.index(job.id) if job.id in waiting else 0,
+        unattended=queue.unattended(job),
     )
 
 

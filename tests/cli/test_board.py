@@ -5,7 +5,6 @@ import os
 
 import pytest
 from colift.agents.registry import SUITES, entries
-from colift.agents.submissions.new import write_template
 from colift.benchmark.results.baselines import Baseline
 from colift.cli.tables.board import board_table
 from colift.leaderboard.board.board import Board
@@ -14,6 +13,7 @@ from colift.leaderboard.queue import Queue
 from rich.console import Console
 
 from ..leaderboard.rows import add, digest, unverified
+from ..leaderboard.signed import write_signed
 from ..leaderboard.tiny import ENTRY
 
 LONG = "a-policy-with-a-rather-long-name-indeed-so-long-that-it-is-cut"
@@ -78,7 +78,7 @@ def test_a_row_that_is_not_verified_is_marked_at_any_width(board):
 
 
 def test_the_command_shows_what_happened_and_what_waits(filled, colift, tmp_path):
-    write_template(tmp_path / "mine")
+    write_signed(tmp_path / "mine")
     Queue(filled).enqueue(filled.keep(tmp_path / "mine"), "Ada")
     done = colift("board", "--board", "board")
     assert (done.returncode, done.stderr) == (0, "")
@@ -116,7 +116,7 @@ def test_a_board_that_begins_with_a_token_has_the_practice_rows(colift, tmp_path
 def test_a_worker_does_what_waits_and_ends(colift, tmp_path, monkeypatch):
     monkeypatch.setitem(entries(SUITES), "tiny", ENTRY)
     board = Board.open(tmp_path / "board", "tiny")
-    write_template(tmp_path / "mine")
+    write_signed(tmp_path / "mine")
     Queue(board).enqueue(board.keep(tmp_path / "mine"), "Ada")
     done = colift("worker", "--board", "board", "--once")
     assert done.returncode == 0, done.stderr
@@ -141,7 +141,7 @@ def test_a_worker_does_what_waits_and_ends(colift, tmp_path, monkeypatch):
     ],
 )
 def test_what_is_wrong_is_said_in_a_line(board, colift, tmp_path, arguments, words):
-    write_template(tmp_path / "mine")
+    write_signed(tmp_path / "mine")
     done = colift(*arguments)
     assert done.returncode == 2
     assert words in done.stderr
@@ -203,3 +203,26 @@ def test_a_first_look_without_a_board_shows_the_practice_season(colift):
     done = colift("board")
     assert done.returncode == 0
     assert "Season practice" in done.stdout
+
+
+@pytest.mark.parametrize("command", ["board", "row"])
+def test_a_damaged_row_is_named_in_a_sentence_by_the_first_command_that_reads_it(
+    colift, filled, tmp_path, command
+):
+    with filled.database.writing() as connection:
+        connection.exec_driver_sql("DROP TRIGGER entries_no_UPDATE")
+        connection.exec_driver_sql("UPDATE entries SET row = '{}' WHERE name = 'blend'")
+    more = {"board": (), "row": ("withdraw", "cheat", "--why", "x", "--by", "Ada")}[command]
+    done = colift(command, *more, "--board", "board")
+    assert done.returncode == 1
+    assert done.stderr.startswith(
+        "error: the entry of 'blend' in season '1' of the board cannot be"
+    )
+    assert done.stderr.endswith("its database is damaged; restore an earlier backup\n")
+    (filled.folder / "private/1/human_human.json").write_text("{")
+    with filled.database.writing() as connection:
+        connection.exec_driver_sql("DELETE FROM jobs")
+        connection.exec_driver_sql("DROP TRIGGER entries_no_DELETE")
+        connection.exec_driver_sql("DELETE FROM entries WHERE name = 'blend'")
+    done = colift("board", "--board", "board")
+    assert (done.returncode, "human_human.json is damaged (" in done.stderr) == (1, True)

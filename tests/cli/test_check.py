@@ -240,7 +240,7 @@ def test_a_plain_number_is_an_action_and_a_sound_policy_is_not_warned_of(checked
 
 def test_the_templates_words_about_itself_are_to_be_replaced(checked, mine):
     told = checked((mine / "policy.py").read_text())["manifest"].message
-    assert told.endswith("Add to policy.toml the authors")
+    assert told.endswith("; boards refuse the author 'Your Name'. Add to policy.toml the authors")
     own = FAILING["no act"][0]
     told = checked(own)["manifest"].message
     assert told.endswith("the authors and a description (it is that of 'colift new')")

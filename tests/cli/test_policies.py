@@ -150,7 +150,7 @@ def test_a_module_beside_the_user_is_refused_with_what_to_do(here, monkeypatch):
         ("colift.benchmark.episode.lift:Lift", "which a sandbox does not see"),
         ("itertools:count", "module 'itertools' has no source file"),
         ("here", "unknown policy 'here'"),
-        (".", ". has no policy.toml; a submission is a folder with policy.toml and policy.py"),
+        (".", ". has no policy.toml; found mine/policy.toml: give the folder that contains it"),
         ("", "unknown policy ''"),
     ],
 )

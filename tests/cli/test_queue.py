@@ -1,8 +1,9 @@
 """``colift queue`` as the keeper of a board meets it."""
 
 import pytest
-from colift.agents.submissions.new import write_template
 from colift.leaderboard.queue import Queue, WorkerQueue
+
+from ..leaderboard.signed import write_signed
 
 BOARD = ("--board", "board")
 
@@ -12,7 +13,7 @@ def jobs(board, tmp_path):
     """A job that has failed, one under way, one that waits."""
     work, made = WorkerQueue(board), []
     for name in ("broken", "busy", "patient"):
-        write_template(tmp_path / name)
+        write_signed(tmp_path / name)
         (tmp_path / name / "policy.py").write_text(f"# {name}\n")
         made.append(Queue(board).enqueue(board.keep(tmp_path / name), "Ada"))
     work.fail(work.claim("one", made[0].id), "numpy [b]is missing[/b]", "attempt 1\nImportError")

@@ -10,9 +10,11 @@ import time
 
 import pytest
 from colift.agents.submissions.new import write_template
+from colift.leaderboard.views.job import STAGES
 
 from ..agents.sandbox.keeping import COUNTING
 from ..leaderboard import tiny
+from ..leaderboard.signed import write_signed
 
 TO_BOARD = ("--board", "board", "--suite", "quick-v1")
 TO_TINY = ("--board", "tiny", "--suite", "tiny")
@@ -72,7 +74,7 @@ def make(place):
 
     def write(name, old="", new=""):
         folder = place / name
-        write_template(folder)
+        write_signed(folder)
         policy = folder / "policy.py"
         policy.write_text(
             policy.read_text().replace(old, new) if old else new or policy.read_text()
@@ -96,8 +98,9 @@ def told(done):
 
 def test_a_submission_becomes_a_verified_row_whose_bundle_can_be_verified(colift, first, place):
     assert first.returncode == 0
-    assert all(" does not work here: " in line for line in first.stderr.splitlines()[1:])
-    for words in ("mine by Your Name", "public lifts", "hidden lifts", "0 of 12", "Rank 1 of 1"):
+    lines = set(first.stderr.splitlines()) - {*STAGES, "human-human baseline"}
+    assert all(" does not work here: " in line for line in lines)
+    for words in ("mine by Ada Lovelace", "public lifts", "hidden lifts", "0 of 12", "Rank 1 of 1"):
         assert words in told(first)
     assert re.search(r"Isolation (bubblewrap|landlock): verified", told(first))
     next_step = first.stdout.splitlines()[-1]
@@ -106,10 +109,18 @@ def test_a_submission_becomes_a_verified_row_whose_bundle_can_be_verified(colift
     assert verified.returncode == 0, verified.stdout + verified.stderr
 
 
-def test_an_author_who_is_the_templates_is_told_before_all_else(first):
-    line = first.stderr.splitlines()[0]
-    assert line.startswith("warning: mine by Your Name; licence ")
-    assert line.endswith("Add to policy.toml the authors")
+def test_the_author_of_the_template_is_refused_before_all_else(colift, place):
+    write_template(place / "unsigned")
+    done = colift("submit", "unsigned", "--board", "none", cwd=place)
+    assert done.returncode == 2
+    assert "unsigned/policy.toml: authors still has 'Your Name'" in done.stderr
+    assert "put your own name there" in done.stderr
+    assert not (place / "none").exists()
+
+
+def test_without_a_terminal_the_stages_are_lines_in_their_order(first):
+    lines = first.stderr.splitlines()
+    assert [line for line in lines if line in STAGES] == list(STAGES)
 
 
 def test_the_row_has_the_number_that_check_prints(colift, first, place):

@@ -12,6 +12,7 @@ from colift.agents.registry import SUITES, entries
 from colift.agents.submissions.new import write_template
 from colift.benchmark.results.baselines import Baseline
 from colift.leaderboard.board.board import Board
+from colift.leaderboard.database.database import Database
 from colift.leaderboard.evaluation.entrant import Entrant
 from colift.leaderboard.evaluation.evaluation import play_human_human
 from colift.leaderboard.records.season import Season
@@ -99,7 +100,8 @@ def write_submission(tmp_path: Path) -> WriteSubmission:
         if code:
             (folder / "policy.py").write_text(code)
         told = folder / "policy.toml"
-        told.write_text(told.read_text().replace(*manifest) if manifest[0] else told.read_text())
+        text = told.read_text().replace(*manifest) if manifest[0] else told.read_text()
+        told.write_text(text.replace("Your Name", "Ada Lovelace"))
         return folder
 
     return write
@@ -132,8 +134,11 @@ def clock() -> Clock:
 
 
 @pytest.fixture
-def open_board(tmp_path: Path, database: str | None, clock: Clock) -> Iterator[OpenBoard]:
-    """Return what opens the board of this test, on either database."""
+def open_board(
+    tmp_path: Path, database: str | None, clock: Clock, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[OpenBoard]:
+    """Return what opens the board of this test, on either database; the test turns their clock."""
+    monkeypatch.setattr(Database, "now", lambda *_: clock.now)
     opened = []
 
     def make(name: str = "board", suite: str | None = None) -> Board:

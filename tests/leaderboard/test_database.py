@@ -1,17 +1,25 @@
 """The tables: how they come to be, and that what was said stays said."""
 
+import sqlite3
+from pathlib import Path
+
 import pytest
 import sqlalchemy as sa
 from alembic.autogenerate import compare_metadata
 from alembic.migration import MigrationContext
 from colift.agents.errors import InputError
+from colift.leaderboard import database as tables
 from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.tokens import Tokens
 from colift.leaderboard.database.database import Database
 from colift.leaderboard.database.migration import HEAD, migrate
+from colift.leaderboard.database.queries import read_entries, read_error_numbers, read_errors
 from colift.leaderboard.database.schema import APPEND_ONLY, metadata
 from colift.leaderboard.database.transactions import make_engine
+from colift.leaderboard.queue import Queue, WorkerQueue
 
-from .rows import add
+from .revisions.make import HERE, stored
+from .rows import add, digest, make_errors
 
 
 @pytest.fixture
@@ -49,12 +57,88 @@ def test_a_migration_that_fails_leaves_nothing(engine, monkeypatch):
     assert revision(engine) == HEAD
 
 
-def test_a_database_of_a_later_colift_is_refused(engine):
+VERSIONS = Path(tables.__file__).parent / "migrations" / "versions"
+REVISIONS = sorted(path.name[:4] for path in VERSIONS.glob("0*.py"))
+
+
+@pytest.fixture
+def restored(engine):
+    """Return what fills the empty database with the stored one of a revision."""
+
+    def fill(revision, change=("", "")):
+        text = stored(revision, engine.dialect.name).replace(*change)
+        if engine.dialect.name == "sqlite":
+            with sqlite3.connect(engine.url.database) as connection:
+                connection.executescript(text)
+        else:
+            with engine.begin() as connection:
+                connection.connection.driver_connection.execute(text)
+        return engine
+
+    return fill
+
+
+@pytest.mark.parametrize("revision", REVISIONS)
+def test_a_database_of_each_revision_becomes_one_of_the_last_and_loses_nothing(
+    restored, revision, tmp_path
+):
+    """A new revision needs a stored database: python -m tests.leaderboard.revisions.make"""
+    engine = restored(revision)
     migrate(engine, "it")
-    with engine.begin() as connection:
-        connection.execute(sa.text("UPDATE alembic_version SET version_num = '9999'"))
-    with pytest.raises(InputError, match="it has revision 9999, this colift knows up to"):
+    assert [each for each in differences(engine) if "alembic_version" not in str(each)] == []
+    board = Board(tmp_path, Database(engine))
+    with board.database.reading() as connection:
+        mine, yours = read_entries(connection)
+        numbers = read_error_numbers(connection, "1")
+        errors = read_errors(connection, "1", numbers)
+    assert (mine.name, mine.row.hidden.rmse_mm.mean, yours.submitter) == ("mine", 10.0, "Ada")
+    assert errors[digest("mine")] == pytest.approx(make_errors(10.0))
+    assert [each.kind for each in board.events()] == ["season", "removal"]
+    assert [each.name for each in Tokens(board).all()] == ["ada"]
+    queue, work = Queue(board), WorkerQueue(board)
+    assert {job.state for job in queue.jobs()} == {"queued", "running"}
+    assert "has been seen since 2026-11-" in queue.unattended(queue.jobs("queued")[0])
+    taken = {work.claim("new").name for _ in range(2)}
+    assert taken == {"first", "second"}
+    assert queue.unattended(queue.jobs()[0]) is None
+    add(board, "new", 11.0)  # Sequences of numbers go on, too.
+    with pytest.raises(sa.exc.DBAPIError), board.database.writing() as connection:
+        connection.execute(sa.text("DELETE FROM entries"))
+
+
+def test_every_revision_has_a_stored_database_that_really_is_of_it(restored):
+    assert REVISIONS[-1] == HEAD
+    for kind in ("sqlite", "postgresql"):
+        assert sorted(path.name[:4] for path in HERE.glob(f"*_{kind}.sql")) == REVISIONS
+    engine = restored(REVISIONS[0])
+    assert revision(engine) == REVISIONS[0]
+    assert "workers" not in sa.inspect(engine).get_table_names()
+
+
+@pytest.mark.parametrize(
+    ("number", "told"),
+    [
+        ("9999", f"revision 9999, this colift knows up to {HEAD}: a later colift made it"),
+        ("0002", "revision 0002, of a development version before the first release"),
+        ("0003", "revision 0003, of a development version before the first release"),
+    ],
+)
+def test_tables_that_this_colift_does_not_know_are_refused_and_stay(restored, number, told):
+    engine = restored("0001", ("'0001'", f"'{number}'"))
+    with pytest.raises(InputError, match=told):
         migrate(engine, "it")
+    assert revision(engine) == number
+
+
+def test_tables_that_only_have_the_number_of_a_revision_are_refused_and_stay(restored):
+    """As of a development version, whose jobs had no size."""
+    engine = restored("0001")
+    with engine.begin() as connection:
+        connection.execute(sa.text("ALTER TABLE jobs DROP COLUMN size"))
+    with pytest.raises(InputError, match=r"it lacks jobs\.size: its tables are those of a develop"):
+        migrate(engine, "it")
+    assert revision(engine) == "0001"
+    assert "workers" not in sa.inspect(engine).get_table_names()
 
 
 @pytest.mark.parametrize("table", APPEND_ONLY)

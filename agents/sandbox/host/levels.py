@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import logging
 import math
 import os
 import socket
@@ -21,7 +22,11 @@ from ..guest.probe import SECRETS
 from ..protocol import AGENTS, Assignment, Limits
 from .agent import allowed, remote_agent
 from .process import BUBBLEWRAP, LANDLOCK, LIMITS
+from .refusals import in_words
 from .sandbox import Load, Sandbox
+
+log: Final = logging.getLogger("colift.sandbox")
+"""The reasons in the system's words, as information."""
 
 LEVELS: Final = {
     BUBBLEWRAP: "bubblewrap: own file system, processes, network and users; Landlock, filter",
@@ -71,7 +76,14 @@ class Choice:
 
 
 def _faults(reasons: Mapping[str, str]) -> list[str]:
-    return [f"{name} does not work here: {reason}" for name, reason in reasons.items()]
+    """Return each reason once, with the levels that it stops."""
+    levels: dict[str, list[str]] = {}
+    for name, reason in reasons.items():
+        levels.setdefault(reason, []).append(name)
+    return [
+        "; nor does ".join((f"{first} does not work here: {reason}", *others))
+        for reason, (first, *others) in levels.items()
+    ]
 
 
 def working_levels() -> tuple[str, ...]:
@@ -136,7 +148,8 @@ def _tried(name: str) -> str | None:
         try:
             found = holes(name)
         except (EvaluatorFault, PolicyError) as error:
-            reason = str(error)
+            log.info("%s does not work here: %s", name, error)
+            reason = in_words(str(error))
         else:
             reason = "; ".join(found) if name in VERIFIABLE else None
         if not reason:

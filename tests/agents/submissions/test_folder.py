@@ -234,6 +234,43 @@ def test_the_digest_is_that_of_the_tool_sha256sum(mine):
     assert done.stdout.split()[0] == read_folder(mine).digest
 
 
+@pytest.mark.parametrize("name", ["Thumbs.db", "desktop.ini", "data/Desktop.ini", "__MACOSX/x"])
+def test_what_windows_and_the_finder_leave_behind_changes_no_digest(mine, name):
+    before = read_folder(mine)
+    (mine / name).parent.mkdir(exist_ok=True)
+    (mine / name).write_text("left behind")
+    assert read_folder(mine) == before
+
+
+@pytest.mark.parametrize("ends", [b"\r\n", b"\r\r\n"])
+def test_line_ends_change_no_digest_and_what_is_copied_has_those_of_unix(mine, tmp_path, ends):
+    text = b"class Policy:\n    pass\n"
+    (mine / "policy.py").write_bytes(text)
+    (mine / "README.MD").write_bytes(text)
+    before = read_folder(mine)
+    for name in ("policy.py", "README.MD"):
+        (mine / name).write_bytes(text.replace(b"\n", ends))
+    assert read_folder(mine) == before
+    target = tmp_path / "copy"
+    target.mkdir()
+    assert copy_folder(mine, target) == before
+    assert (target / "policy.py").read_bytes() == text
+    assert read_folder(target) == before
+
+
+@pytest.mark.parametrize("name", ["weights.bin", "weights.npy", "weights", "marked.txt"])
+def test_bytes_that_are_no_text_are_not_touched(mine, tmp_path, name):
+    data = b"\x89PNG\r\n\x1a\n\0" + b"\r\n" * 9
+    (mine / name).write_bytes(data)
+    before = read_folder(mine).digest
+    target = tmp_path / "copy"
+    target.mkdir()
+    copy_folder(mine, target)
+    assert (target / name).read_bytes() == data
+    (mine / name).write_bytes(data.replace(b"\r\n", b"\n"))
+    assert read_folder(mine).digest != before
+
+
 @pytest.mark.parametrize("change", ["byte", "name", "moved", "more"])
 def test_every_change_changes_the_digest(mine, change):
     before = read_folder(mine).digest

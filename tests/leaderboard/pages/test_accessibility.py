@@ -4,11 +4,11 @@ import re
 
 import httpx
 import pytest
-from colift.agents.submissions.new import write_template
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.queue import Queue, WorkerQueue
 
 from ..browser import serious
+from ..signed import write_signed
 from .boards import digest
 
 PAGES = (
@@ -34,7 +34,7 @@ PAGES = (
 def job(folder, tmp_path_factory):
     """The page of a job that has failed, with a log."""
     place = tmp_path_factory.mktemp("job") / "mine"
-    write_template(place)
+    write_signed(place)
     board = Board.open(folder)
     queue = Queue(board)
     queued = queue.enqueue(board.keep(place), "ada")

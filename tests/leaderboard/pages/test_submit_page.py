@@ -5,7 +5,6 @@ import threading
 from pathlib import Path
 
 import pytest
-from colift.agents.submissions.new import write_template
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.tokens import Tokens
 from colift.leaderboard.queue import Queue, WorkerQueue
@@ -13,6 +12,7 @@ from colift.leaderboard.queue.worker import Worker
 from colift.leaderboard.storage.archive import pack_archive
 from playwright.sync_api import expect
 
+from ..signed import write_signed
 from .conftest import running
 
 FAULTY = """
@@ -63,7 +63,7 @@ def zipped(tmp_path):
 
     def make(name: str, code: str = "") -> Path:
         folder, path = tmp_path / name, tmp_path / f"{name}.zip"
-        write_template(folder)
+        write_signed(folder)
         manifest = folder / "policy.toml"
         manifest.write_text(manifest.read_text().replace('"my-policy"', f'"{name}"'))
         if code:
@@ -111,6 +111,7 @@ def test_an_uploaded_template_becomes_a_verified_row_before_ones_eyes(
     upload(page, url, zipped("template"), token)
     page.wait_for_url("**/jobs/*")
     expect(page.locator("#status")).to_have_text("Waiting.")
+    expect(page.locator("#unattended")).to_contain_text("Nobody evaluates at present: no worker")
     page.evaluate("""() => {
         window.seen = [];
         const read = (id) => document.getElementById(id).textContent;

@@ -1,5 +1,7 @@
 """Ends of a job: entry, refusal, failure, fault of the machine, cancellation."""
 
+import dataclasses
+
 import pytest
 from colift.agents.errors import InputError
 from colift.leaderboard.queue import (
@@ -29,7 +31,7 @@ def test_entry_bundle_and_state_come_together(submit, queue, board, tmp_path, cl
         now.total,
         clock.now,
     )
-    assert board.entry("1", job.submission) == entry
+    assert board.entry("1", job.submission) == dataclasses.replace(entry, at=clock.now)
     assert (board.bundle("1", job.submission) / "results.json").read_text() == "mine"
     assert work.claim("two") is None
 

@@ -3,15 +3,18 @@
 import os
 import subprocess
 import sys
+import time
+from datetime import UTC, datetime, timedelta
 
 import pytest
-from colift.leaderboard.queue import (
-    LEASE,
-    LostError,
-)
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.queue import LEASE, LostError, Queue, WorkerQueue
 from colift.leaderboard.queue.jobs import is_gone, this_worker
 
 from ..rows import make_errors, outcome
+
+SKEW = timedelta(seconds=2)
+"""PostgreSQL and this process read one clock, SQLite to a millisecond."""
 
 
 def test_a_worker_says_how_far_it_is(submit, queue, clock, work):
@@ -101,8 +104,65 @@ def test_a_clock_that_was_ahead_keeps_no_job_from_being_taken(submit, queue, clo
 
 
 @pytest.mark.parametrize("seconds", [-29, 29])
-def test_clocks_that_differ_by_less_than_a_lease_take_no_job_away(submit, clock, work, seconds):
+def test_a_clock_that_jumps_by_less_than_a_lease_takes_no_job_away(submit, clock, work, seconds):
     submit()
     assert work.claim("one") is not None
     clock.turn(seconds=seconds)
     assert work.claim("two") is None
+
+
+@pytest.fixture
+def machines(tmp_path, database, write_submission):
+    """Yield the queues of three machines of one board: their clocks are hours apart."""
+    boards = [
+        Board.open(
+            tmp_path / "board",
+            "quick-v1",
+            url=database,
+            clock=lambda hours=hours: datetime.now(UTC) + timedelta(hours=hours),
+        )
+        for hours in (0, 1, -1)
+    ]
+    Queue(boards[2]).enqueue(boards[2].keep(write_submission()), "Ada")
+    yield boards
+    for board in boards:
+        board.close()
+
+
+def test_workers_whose_clocks_are_hours_apart_take_no_job_from_each_other(machines):
+    """Submission, claim, heartbeat and the wait after a fault: on each machine in turn."""
+    began = datetime.now(UTC)
+    works = [WorkerQueue(board) for board in machines]
+    for here in works:
+        others = [each for each in works if each is not here]
+        job = here.claim("host/here/1/2")
+        assert job is not None
+        here.report(job, "public run", 1)
+        assert [each.claim("host/there/1/2") for each in others] == [None, None]
+        here.report(job, "audit", 2)
+        here.release(job)
+    job = works[1].claim("host/there/1/2")
+    works[1].fault(job, "no disk")
+    assert [each.claim("host/here/1/2") for each in works] == [None, None, None]
+    now = Queue(machines[0]).job(job.id)
+    assert began - SKEW <= now.submitted_at <= now.started_at <= now.heartbeat_at
+    assert now.heartbeat_at <= datetime.now(UTC) + SKEW
+
+
+def test_what_workers_with_other_clocks_publish_has_one_time(machines):
+    job = WorkerQueue(machines[1]).claim("host/there/1/2")
+    WorkerQueue(machines[1]).finish(job, outcome(job), make_errors(10.0))
+    ended = Queue(machines[0]).job(job.id).ended_at
+    assert machines[0].entry("1", job.submission).at == ended
+    assert abs(ended - datetime.now(UTC)) < timedelta(minutes=5)
+
+
+def test_a_lease_ends_by_the_clock_of_the_database_alone(machines):
+    """A worker that is really silent for a lease loses its job, whatever it believes."""
+    first = WorkerQueue(machines[1], lease=timedelta(seconds=0.3))
+    job = first.claim("host/there/1/2")
+    time.sleep(0.5)
+    second = WorkerQueue(machines[2], lease=timedelta(seconds=0.3))
+    assert second.claim("host/here/1/2").id == job.id
+    with pytest.raises(LostError):
+        first.report(job)

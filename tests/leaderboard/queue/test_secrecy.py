@@ -15,6 +15,8 @@ from colift.leaderboard.database.queries import read_error_numbers, read_errors
 from colift.leaderboard.queue import Queue, WorkerQueue
 from colift.leaderboard.queue.worker import Worker
 
+from ..signed import write_signed
+
 TELLTALE = """
 import sys
 import numpy as np
@@ -58,10 +60,8 @@ def published(tmp_path_factory, tiny_suite):
 
     It knows the public lifts by heart: their seed does not give the hidden ones away.
     """
-    from colift.agents.submissions.new import write_template
-
     folder = tmp_path_factory.mktemp("secrecy")
-    write_template(folder / "telltale")
+    write_signed(folder / "telltale")
     source = f"PUBLIC = {beginnings()}\n{TELLTALE}"
     (folder / "telltale" / "policy.py").write_text(source)
     board = Board.open(folder / "board", "tiny")

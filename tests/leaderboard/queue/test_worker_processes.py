@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from urllib.parse import parse_qs, urlsplit
 
 import pytest
 from colift.benchmark.verification import verify
@@ -18,6 +19,7 @@ from colift.leaderboard.records.job import HELD
 from colift.leaderboard.views.job import STAGES
 
 from .. import tiny
+from ..postgresql import SETTINGS, as_its_user, binaries, server
 
 KILLS = int(os.environ.get("COLIFT_TEST_KILLS", "2"))
 
@@ -130,3 +132,45 @@ def test_a_worker_that_is_asked_to_end_gives_its_job_back(
     assert "Traceback" not in told
     assert queue.job(job.id).state == "queued"
     assert "interrupted; queued again" in queue.job(job.id).log
+
+
+@pytest.mark.usefixtures("postgresql")  # To be skipped where there is none.
+def test_a_worker_waits_for_a_database_that_is_away_at_its_start(
+    tmp_path, tiny_suite, write_submission
+):
+    with server() as url:
+        place = Path(parse_qs(urlsplit(url).query)["host"][0])
+
+        def control(*arguments):
+            command = [binaries() / "pg_ctl", "-D", place / "data", *arguments]
+            subprocess.run(command, check=True, **as_its_user(place))
+
+        board = Board.open(tmp_path / "board", "tiny", url=url)
+        (job,) = enqueue(board, write_submission, "a")
+        board.close()
+        control("stop", "-m", "fast")
+        told = tmp_path / "stderr.txt"
+        words = [sys.executable, tiny.__file__, "worker", "--board", tmp_path / "board"]
+        environment = {**os.environ, "COLIFT_DATABASE_URL": url}
+        with told.open("w") as file:
+            worker = subprocess.Popen([*words, "--jobs", "1"], stderr=file, env=environment)
+        try:
+            wait_for(lambda: "waiting for the database: " in told.read_text())
+            once = subprocess.run(
+                [*words, "--once"], env=environment, capture_output=True, text=True, check=False
+            )
+            assert (once.returncode, "cannot be opened" in once.stderr) == (2, True)
+            assert "Traceback" not in once.stderr
+            assert worker.poll() is None
+            control("start", "-w", "-l", place / "log.txt", "-o", f"{SETTINGS} -k {place}")
+            board = Board.open(tmp_path / "board", "tiny", url=url)
+            wait_for(lambda: Queue(board).job(job.id).state == "done")
+            assert told.read_text().count("waiting for the database") == 1
+            assert Queue(board).attendance().present
+            worker.send_signal(signal.SIGTERM)
+            assert worker.wait(60) == 0
+            assert not Queue(board).attendance().present
+            board.close()
+        finally:
+            worker.kill()
+            worker.wait()

@@ -101,7 +101,8 @@ def zipped(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., bytes]:
         write_template(folder)
         told = (folder / "policy.toml").read_text()
         told = re.sub('name = ".*"', lambda match: f'name = "{name}"', told)
-        (folder / "policy.toml").write_text(told.replace(*manifest) if manifest[0] else told)
+        told = told.replace(*manifest) if manifest[0] else told
+        (folder / "policy.toml").write_text(told.replace("Your Name", "Ada Lovelace"))
         if policy:
             (folder / "policy.py").write_text(policy)
         file = io.BytesIO()

@@ -55,6 +55,41 @@ def test_a_submission_is_taken_and_its_job_can_be_asked_for(client, ada, zipped)
     assert again.json()["id"] == job["id"]
 
 
+def test_a_board_without_a_worker_says_so_with_the_answer_to_the_upload(client, ada, zipped):
+    job = client.post(SUBMIT, headers=ada, content=zipped("unattended")).json()
+    said = "Nobody evaluates at present: no worker of this board has been seen"
+    assert job["unattended"].startswith(said)
+    path = f"/api/v1/jobs/{job['id']}"
+    assert client.get(path).json()["unattended"] == job["unattended"]
+    assert said in client.get(f"/jobs/{job['id']}").text
+    ended = client.delete(path, headers=ada).json()
+    assert (ended["state"], ended["unattended"]) == ("cancelled", None)
+    assert "colift queue" not in client.get(f"/jobs/{job['id']}").text, "that is for the maintainer"
+
+
+def test_one_policy_is_one_job_whatever_system_packed_it(client, ada, zipped):
+    """Its digest is that of the files with the line ends of Unix, without what systems add."""
+    with zipfile.ZipFile(io.BytesIO(zipped("anywhere"))) as archive:
+        files = [(name, archive.read(name)) for name in archive.namelist()]
+    windows = [(name, data.replace(b"\n", b"\r\n")) for name, data in files]
+    junk = [("Thumbs.db", "x"), ("desktop.ini", "x")]
+    finder = [(f"mine/{name}", data) for name, data in files] + [("__MACOSX/mine/._policy.py", "x")]
+    jobs = [
+        client.post(SUBMIT, headers=ada, content=packed(*entries)).json()
+        for entries in (files, files + junk, windows, windows + junk, finder)
+    ]
+    assert len({(job["id"], job["submission"]) for job in jobs}) == 1
+
+
+@pytest.mark.parametrize("authors", ['["Your Name"]', '["Ada", "your name"]'])
+def test_the_author_of_the_template_is_refused(client, ada, zipped, authors, folder):
+    signed = ('authors = ["Your Name"]', f"authors = {authors.replace('Your', 'YOUR')}")
+    answer = client.post(SUBMIT, headers=ada, content=zipped("unsigned", manifest=signed))
+    assert answer.status_code == 422
+    assert "policy.toml: authors still has " in answer.json()["error"]
+    assert "put your own name there" in answer.json()["error"]
+
+
 @pytest.mark.parametrize(
     "authorization",
     [
@@ -74,7 +109,8 @@ def test_without_a_token_that_counts_nothing_is_taken(client, folder, zipped, au
     answer = client.post(SUBMIT, headers=headers, content=zipped("nobody"))
     assert answer.status_code == 401
     assert answer.headers["WWW-Authenticate"] == "Bearer"
-    assert "colift token add" in answer.json()["error"]
+    assert answer.json()["error"].endswith("; ask the maintainer of the board for a token")
+    assert "colift token" not in answer.text, "that is for the maintainer"
 
 
 def test_who_asks_whose_a_token_is_gets_told(client, ada):
@@ -117,6 +153,11 @@ def symlink(name, target):
         ([("a", bytes(30 * 2**20))], "would become 30 MiB, more than 200 times larger"),
         ([(f"f{i}", "x") for i in range(501)], "holds more than 500 files and folders"),
         ([("policy.py", "x")], "the zip archive has no policy.toml"),
+        ([], "the zip archive is empty: it holds no file of a submission"),
+        ([("mine/", "")], "the zip archive is empty: it holds no file of a submission"),
+        ([("a/b/policy.toml", "")], "found a/b/policy.toml: pack the folder that contains it, a/b"),
+        ([("policy.toml.txt", "")], "found policy.toml.txt: rename it to policy.toml"),
+        ([("a/POLICY.TOML", "")], "found a/POLICY.TOML: rename it to policy.toml, in small"),
         ([("policy.toml", "name = 1"), ("policy.py", "")], "policy.toml: "),
         ([("policy.toml", "\xff\x00".encode("latin-1")), ("policy.py", "")], "policy.toml: "),
         ([("policy.toml", "a = " + "[" * 5000), ("policy.py", "")], "policy.toml: "),

@@ -1,7 +1,10 @@
 """A stranger's zip archive: what comes out of it, and why nothing else does."""
 
 import contextlib
+import gzip
 import io
+import lzma
+import re
 import stat
 import struct
 import zipfile
@@ -73,7 +76,8 @@ def test_a_folder_that_was_packed_itself_is_opened(out, explicit):
 
 
 def test_what_tools_leave_behind_is_left_out(out):
-    assert set(out(archive(".git/config", "a", "b/__pycache__/c.pyc", ".env"))) == {"a"}
+    left = (".git/config", "b/__pycache__/c.pyc", ".env", "Thumbs.db", "b/Desktop.ini")
+    assert set(out(archive("a", *left))) == {"a"}
 
 
 def test_a_nested_archive_is_just_a_file(out):
@@ -168,10 +172,30 @@ def test_more_bytes_than_an_entry_declares_do_not_come_out(tmp_path, out):
     assert (tmp_path / "above/out/a").stat().st_size <= 100
 
 
-@pytest.mark.parametrize("content", [b"", b"hello", b"PK\x03\x04" * 50, b"PK\x05\x06", b"\0" * 99])
-def test_what_is_no_archive_is_refused(out, content):
-    with pytest.raises(InputError, match="not a zip archive"):
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (b"", "not a zip file, or cut off (0 bytes)"),
+        (b"a token, in a file of its own\n", "not a zip file, or cut off (30 bytes)"),
+        (b"\0" * 99, "not a zip file, or cut off (99 bytes)"),
+        (b"PK\x03\x04" * 50, "a zip file that was cut off: upload it again (200 bytes)"),
+        (b"PK\x05\x06", "a zip file that was cut off: upload it again (4 bytes)"),
+        (gzip.compress(b"x", mtime=0), "a gzip file, not a zip file: pack the folder as a zip"),
+        (lzma.compress(b"x"), "an xz file, not a zip file: pack the folder as a zip file"),
+    ],
+)
+def test_what_is_no_archive_is_refused_as_what_it_is(out, content, told):
+    with pytest.raises(InputError, match=re.escape(told)):
         out(io.BytesIO(content))
+
+
+def test_text_files_get_the_line_ends_of_unix_and_others_stay_as_they_are(out):
+    ends, marked = b"a = 1\r\n\r\nb = 2\r\r\nc\rd\n", b"\0a\r\n"
+    entries = [("policy.py", ends), ("W.TXT", ends), ("data.npy", ends), ("binary.csv", marked)]
+    unix = b"a = 1\n\nb = 2\nc\rd\n"
+    assert out(archive(*entries)) == {
+        "policy.py": unix, "W.TXT": unix, "data.npy": ends, "binary.csv": marked,
+    }  # fmt: skip
 
 
 def test_a_huge_table_of_contents_is_refused_before_it_is_read(out):

@@ -1,0 +1,83 @@
+"""Check of the tables of a backup: all that a board would read from them is read."""
+
+from typing import Any
+
+import sqlalchemy as sa
+
+from ..database.database import Database
+from ..database.queries import (
+    legible,
+    read_entries,
+    read_error_numbers,
+    read_errors,
+    read_events,
+    read_seasons,
+)
+from ..database.schema import metadata
+from ..records.row import BoardRow
+from ..records.season import BoardEntry, Event, SeasonInfo
+from ..storage.damage import DamagedError
+from ..storage.typed import mistyped
+
+
+def check_tables(database: Database) -> None:
+    """Raise DamagedError with the first damage of an SQLite database, if there is one."""
+    with database.reading() as connection:
+        _check_file(connection)
+        for table in metadata.sorted_tables:
+            with legible(f"the table {table.name}"):
+                for row in connection.execute(sa.select(table)).mappings():
+                    _check_row(table, row)
+        for season in read_seasons(connection):
+            _check(season, SeasonInfo, f"season {season.name}")
+        for event in read_events(connection):
+            where = f"an event of season {event.season}"
+            _check(event, Event, where)
+            if event.kind == "rescore":
+                _check(BoardRow.read((event.content or {})["row"]), BoardRow, f"{where}: row")
+        _check_entries(connection)
+
+
+def _check_entries(connection: sa.Connection) -> None:
+    """Check each entry, and that the errors of its hidden episodes are there."""
+    found = read_entries(connection)
+    numbers = {
+        each.name: read_error_numbers(connection, each.name) for each in read_seasons(connection)
+    }
+    for entry in found:
+        where = f"the entry {entry.submission} of season {entry.season}"
+        _check(entry, BoardEntry, where)
+        if entry.row is None:
+            continue
+        number = numbers[entry.season].get(entry.submission)
+        if number is None:
+            raise DamagedError(f"{where} has no errors of its hidden episodes")
+        read_errors(connection, entry.season, {entry.submission: number})
+
+
+def _check_file(connection: sa.Connection) -> None:
+    told = connection.exec_driver_sql("PRAGMA integrity_check(1)").scalar_one()
+    if told != "ok":
+        raise DamagedError(f"its database is damaged: {told}")
+    strange = connection.exec_driver_sql("PRAGMA foreign_key_check").first()
+    if strange is not None:
+        raise DamagedError(
+            f"its table {strange[0]} refers to a row that {strange[2]} does not have"
+        )
+
+
+def _check_row(table: sa.Table, row: sa.RowMapping) -> None:
+    """Check the types of a row: SQLite keeps whatever it is given."""
+    for column in table.c:
+        value = row[column.name]
+        if isinstance(column.type, sa.JSON) or (value is None and column.nullable):
+            continue
+        fault = mistyped(value, column.type.python_type, f"its table {table.name}, {column.name}")
+        if fault is not None:
+            raise DamagedError(fault)
+
+
+def _check(record: object, kind: Any, where: str) -> None:
+    fault = mistyped(record, kind, where)
+    if fault is not None:
+        raise DamagedError(fault)

@@ -1,0 +1,12 @@
+"""Damage to what a board has stored."""
+
+from typing import Final
+
+from ...agents.errors import EvaluatorFault
+
+DAMAGE: Final = (ValueError, TypeError, LookupError, AttributeError, RecursionError)
+"""Errors of code that reads a record with other content than was written."""
+
+
+class DamagedError(EvaluatorFault):
+    """Something stored cannot be read; the message names it, and what to do."""
