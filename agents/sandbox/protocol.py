@@ -96,7 +96,7 @@ LIMITS: Final = Limits()
 FRAME: Final = 64 * 1024
 """Longest frame [bytes]."""
 
-_FLAGS: Final = socket.MSG_NOSIGNAL | socket.MSG_DONTWAIT
+_FLAGS: Final = getattr(socket, "MSG_NOSIGNAL", 0) | getattr(socket, "MSG_DONTWAIT", 0)
 _LENGTH: Final = struct.Struct(">I")
 _CHUNK: Final = 4 * 1024
 

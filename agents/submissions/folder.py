@@ -4,6 +4,7 @@ import hashlib
 import os
 import re
 import stat
+import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,8 +19,9 @@ CHUNK: Final = MIB
 NAME: Final = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.+-]{0,79}")
 """Valid names of files and folders: none needs quoting on any system."""
 
-_OPEN: Final = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
-_DIRECTORY: Final = _OPEN | os.O_DIRECTORY
+if sys.platform != "win32":
+    _OPEN: Final = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+    _DIRECTORY: Final = _OPEN | os.O_DIRECTORY
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -17,6 +17,7 @@ Importing colift loads none of its parts: each is loaded when it is first used. 
 import importlib
 from typing import TYPE_CHECKING, Any, Final
 
+from .elsewhere import replace_what_needs_linux
 from .registration import register_with_gymnasium
 
 if TYPE_CHECKING:
@@ -72,4 +73,5 @@ def __dir__() -> list[str]:
     return __all__
 
 
+replace_what_needs_linux()
 register_with_gymnasium()

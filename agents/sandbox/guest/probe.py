@@ -1,18 +1,20 @@
 """The probe: a process that tries, in place of a policy, all that a sandbox must prevent."""
 
 import contextlib
-import fcntl
 import mmap
 import os
 import socket
+import sys
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
-from socket import AF_INET, AF_UNIX, SOCK_DGRAM, SOCK_STREAM
 from typing import Any, Final
 
 from ..protocol import Channel, ClosedError, packed
 from . import linux
+
+if sys.platform != "win32":
+    import fcntl
 
 _RWF_NOWAIT: Final = 8
 _MINCORE: Final = {"x86_64": 27, "aarch64": 232}
@@ -43,9 +45,9 @@ def _attempts(secrets: dict[str, Any]) -> Iterator[tuple[str, Callable[[], objec
         yield f"reads {path}", Path(path).read_bytes
     yield f"writes {secrets['directory']}", Path(secrets["directory"], "written").touch
     loopback, local = ("127.0.0.1", secrets["port"]), secrets["socket"]
-    yield "reaches TCP on loopback", partial(_reached, AF_INET, SOCK_STREAM, loopback)
-    yield "sends UDP", partial(_reached, AF_INET, SOCK_DGRAM, loopback)
-    yield "reaches sockets of others", partial(_reached, AF_UNIX, SOCK_STREAM, local)
+    yield "reaches TCP on loopback", partial(_reached, socket.AF_INET, socket.SOCK_STREAM, loopback)
+    yield "sends UDP", partial(_reached, socket.AF_INET, socket.SOCK_DGRAM, loopback)
+    yield "reaches sockets of others", partial(_reached, socket.AF_UNIX, socket.SOCK_STREAM, local)
     yield "makes sockets", socket.socketpair
     if _namespace() in ("", secrets["processes"]):
         process = secrets["process"]

@@ -7,10 +7,10 @@ restrictions remain: Landlock, the filter, the limits.
 
 import contextlib
 import os
-import resource
 import shutil
 import signal
 import socket
+import sys
 import tempfile
 from collections.abc import Callable
 from functools import partial
@@ -20,6 +20,9 @@ from typing import Final, NamedTuple
 from . import linux
 from .restrictions import NOBODY, Restrictions, drop_privileges, enter_root
 from .watch import Watch
+
+if sys.platform != "win32":
+    import resource
 
 _DATA: Final = 3
 """File descriptor of the policy's end of the connection."""

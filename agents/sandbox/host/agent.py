@@ -17,7 +17,7 @@ from .connection import Connection, clean
 TURNS: Final = 8
 """Turns on one processor before the scheduler may choose another."""
 
-_libc = ctypes.CDLL(None)
+_libc = functools.cache(lambda: ctypes.CDLL(None))
 
 
 @functools.cache
@@ -43,7 +43,7 @@ class Caller:
     def begin(self) -> int:
         """Begin a turn, and return the number of its processor."""
         if self._turns == 0:
-            self._here = _libc.sched_getcpu()
+            self._here = _libc().sched_getcpu()
             os.sched_setaffinity(0, (self._here,))
         self._turns += 1
         return self._here
