@@ -38,7 +38,7 @@ def _first(info: "ctypes._Pointer[_Loaded]", size: int, found: list[_Count]) -> 
 def _library_count() -> _Count | None:
     """Return how many libraries this process has loaded and unloaded; None if unknown."""
     found: list[_Count] = []
-    visit = getattr(ctypes.CDLL(None), "dl_iterate_phdr", None)
+    visit = getattr(ctypes.pythonapi, "dl_iterate_phdr", None)
     if visit is not None:
         visit(_first, ctypes.py_object(found))
     return found[0] if found else None

@@ -15,6 +15,7 @@ import sys
 import threading
 import time
 from contextlib import ExitStack, contextmanager
+from importlib.metadata import version
 from pathlib import Path
 
 import colift
@@ -140,10 +141,13 @@ def in_own_process(once):
     """
     if importlib.util.find_spec("jax") is None:
         pytest.skip("JAX is not installed")
+    # Later versions end the process at a flag that is no more.
+    emitters = [int(part) for part in version("jax").split(".")[:2]] < [0, 11]
     compiling = {
         "XLA_FLAGS": "--xla_cpu_multi_thread_eigen=false --xla_backend_optimization_level=0 "
-        "--xla_cpu_use_fusion_emitters=false --xla_llvm_disable_expensive_passes=true "
-        "--xla_cpu_parallel_codegen_split_count=1",
+        "--xla_llvm_disable_expensive_passes=true --xla_cpu_parallel_codegen_split_count=1"
+        + emitters
+        * " --xla_cpu_use_fusion_emitters=false",
         "JAX_COMPILATION_CACHE_DIR": str(once("compiled", lambda folder: None)),
         "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0",
         "JAX_PERSISTENT_CACHE_MIN_ENTRY_SIZE_BYTES": "-1",

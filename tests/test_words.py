@@ -65,9 +65,14 @@ def pieces(path: Path, text: str) -> Iterator[tuple[int, str, Mapping[str, str]]
     if path.suffix != ".py":
         yield 1, text, WORDS
         return
+    inside = 0  # Of how many f-strings; from Python 3.12 on their parts are tokens.
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
-        if token.type == tokenize.COMMENT:
+        kind = tokenize.tok_name[token.type]
+        inside += (kind == "FSTRING_START") - (kind == "FSTRING_END")
+        if token.type == tokenize.COMMENT or kind == "FSTRING_MIDDLE":
             yield token.start[0], token.string, WORDS
+        elif inside:
+            continue
         elif token.type == tokenize.STRING:
             prefix = token.string[:3].lower().partition(token.string[-1])[0]
             shown = re.sub(r"\{[^{}]*\}", "{}", token.string) if "f" in prefix else token.string

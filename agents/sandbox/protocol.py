@@ -37,6 +37,13 @@ REASON``, ``fault TEXT``; that of a lift alone begins with :data:`OF_LIFT`."""
 ORDER: Final = 1 << 17
 """Longest order to a fork server, and its longest settings [bytes]."""
 
+SECRETS: Final = "secrets.json"
+"""File in the folder of the probe. It names ``files`` that must not be readable, a ``directory``
+that must not be writable, a ``port`` on loopback and a ``socket`` in the file system that must not
+be reached, a ``process`` that must not be seen or signalled, ``processes``, the name of its process
+namespace, ``processors`` that must not be taken, and ``shared``, a file that policies may read and
+must not mark."""
+
 INTERNALS: Final = 64
 """Largest number of internals of a policy."""
 
@@ -103,7 +110,7 @@ LIMITS: Final = Limits()
 FRAME: Final = 64 * 1024
 """Longest frame [bytes]."""
 
-_FLAGS: Final = socket.MSG_NOSIGNAL | socket.MSG_DONTWAIT
+_FLAGS: Final = getattr(socket, "MSG_NOSIGNAL", 0) | getattr(socket, "MSG_DONTWAIT", 0)
 _LENGTH: Final = struct.Struct(">I")
 _CHUNK: Final = 4 * 1024
 

@@ -5,6 +5,7 @@ import hashlib
 import os
 import re
 import stat
+import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,8 +27,9 @@ NAME: Final = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.+-]{0,79}")
 LEFTOVERS: Final = frozenset({"__pycache__", "__macosx", "thumbs.db", "ehthumbs.db", "desktop.ini"})
 """Names, in small letters, of what Python, the Finder and Windows leave in folders and archives."""
 
-_OPEN: Final = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
-_DIRECTORY: Final = _OPEN | os.O_DIRECTORY
+if sys.platform != "win32":
+    _OPEN: Final = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+    _DIRECTORY: Final = _OPEN | os.O_DIRECTORY
 
 
 class UnwritableError(OSError):

@@ -5,9 +5,9 @@ A record of the file is ``length of the payload (4 bytes) | CRC-32 of length and
 before a crash can be read after it.
 """
 
-import fcntl
 import os
 import struct
+import sys
 import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -22,6 +22,9 @@ from numpy.typing import NDArray
 from ...agents.errors import InputError, Remedy
 from ..episode.episode import Episode
 from ..episode.trace import Trace
+
+if sys.platform != "win32":
+    import fcntl
 
 FORMAT: Final = "journal 1"
 
@@ -83,7 +86,7 @@ def open_journal(bundle: Path, run: Mapping[str, str], *, resume: bool) -> Itera
     if resume and not path.exists():
         raise InputError(f"there is no interrupted run of {bundle} (no file {path})")
     try:
-        handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC, 0o644)
+        handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
     except OSError as error:
         raise _unwritable(path, error) from error
     try:
@@ -95,6 +98,8 @@ def open_journal(bundle: Path, run: Mapping[str, str], *, resume: bool) -> Itera
 
 
 def _lock(handle: int, path: Path) -> None:
+    if sys.platform == "win32":
+        return  # It has locks of another kind.
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

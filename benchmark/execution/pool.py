@@ -35,7 +35,8 @@ def default_jobs() -> int:
     """
     asked = os.environ.get(JOBS, "")
     if not asked:
-        return len(os.sched_getaffinity(0))
+        here = getattr(os, "sched_getaffinity", None)
+        return len(here(0)) if here else os.cpu_count() or 1
     if not (asked.isascii() and asked.isdecimal() and int(asked) > 0):
         raise InputError(f"{JOBS} must be a whole number above 0, got {asked!r}")
     return int(asked)

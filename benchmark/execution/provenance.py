@@ -7,7 +7,7 @@ import platform
 import re
 import struct
 from collections.abc import Mapping
-from importlib.metadata import distribution, version
+from importlib.metadata import distribution
 from pathlib import Path
 from typing import Final
 
@@ -19,6 +19,7 @@ from ...agents.identity import Root, code_hash
 from ...agents.sandbox.guest import forkserver
 from ..episode.identity import STATED, simulation_hash
 from .batches import Batch
+from .distributions import binaries, engine, library_versions
 from .packaging import PackagedPolicy
 
 POLICIES_ONLY: Final = ("vector_extensions", "linear_algebra")
@@ -37,9 +38,8 @@ def _fingerprint() -> tuple[tuple[str, str], ...]:
         ("libc", " ".join(platform.libc_ver())),
         ("libm", _libm()),
         ("python", f"{platform.python_implementation()} {platform.python_version()}"),
-        ("numpy", version("numpy")),
-        ("pybullet", version("pybullet")),
-        ("binaries", _binaries("numpy", "pybullet")),
+        *library_versions().items(),
+        ("binaries", binaries(distribution("numpy"), engine())),
         ("simulation", simulation_hash()),
     )
 
@@ -89,17 +89,6 @@ def _libm() -> str:
     values = [function(x) for function in one for x in points]
     values += [math.atan2(x, 1.5 - x) for x in points] + [x**1.7 for x in points]
     return hashlib.sha256(struct.pack(f"<{len(values)}d", *values)).hexdigest()[:16]
-
-
-def _binaries(*names: str) -> str:
-    """Return a hash of the compiled parts of packages, from their installers' records."""
-    records = [
-        f"{path}={path.hash.value}"
-        for name in names
-        for path in distribution(name).files or ()
-        if path.hash and ".so" in path.suffixes
-    ]
-    return hashlib.sha256("\n".join(sorted(records)).encode()).hexdigest()[:16]
 
 
 PLAYS: Final[tuple[Root, ...]] = (Batch, PackagedPolicy, forkserver.main)

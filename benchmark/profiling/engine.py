@@ -1,7 +1,7 @@
 """The speed of the benchmark, as ratios of figures measured in one run."""
 
-import resource
 import statistics
+import sys
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
@@ -18,6 +18,9 @@ from ..suites.catalogue import make_scenario
 from ..suites.suite import make_suite
 from ..world.bullet import pybullet
 from ..world.table import GRAVITY
+
+if sys.platform != "win32":
+    import resource
 
 NAIVE_RATE: Final = 240.0
 """PyBullet's default stepping rate [Hz]."""

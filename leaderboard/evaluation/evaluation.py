@@ -6,7 +6,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
-from typing import Final, TypedDict
+from typing import TypedDict
 
 from ...agents.errors import EvaluatorFault, InputError
 from ...agents.sandbox.host.levels import VERIFIABLE
@@ -14,6 +14,7 @@ from ...agents.spec import AgentSpec
 from ...benchmark.bundle import results, write_bundle
 from ...benchmark.episode.episode import Episode
 from ...benchmark.episode.metric import SCORING
+from ...benchmark.execution.distributions import library_versions
 from ...benchmark.execution.runner import Run, run_suite
 from ...benchmark.results.baselines import (
     BASELINES,
@@ -37,9 +38,6 @@ from ..records.season import Season
 from .entrant import Entrant
 from .progress import HIDDEN, Budget, Callbacks, Stage
 from .scoring import failure_lines, gap, hidden_scores, public_scores
-
-LIBRARIES: Final = ("colift", "numpy", "pybullet")
-"""Packages whose version can change a number."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -242,4 +240,4 @@ def _row(
 
 def versions() -> dict[str, str]:
     """Return the versions of the packages that can change a number."""
-    return {name: version(name) for name in LIBRARIES}
+    return {"colift": version("colift"), **library_versions()}

@@ -1,8 +1,8 @@
 """Staging folders for incoming submissions."""
 
-import fcntl
 import os
 import shutil
+import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,6 +14,9 @@ from ...agents.errors import InputError
 from ...agents.submissions.folder import read_folder
 from ...agents.submissions.submission import Submission
 from .files import sync, sync_tree
+
+if sys.platform != "win32":
+    import fcntl
 
 PREFIX: Final = ".new-"
 """Prefix of the name of such a folder."""

@@ -14,9 +14,9 @@
 Only ``public`` may be shown to everyone, and a log to those who know the id of its job.
 """
 
-import fcntl
 import re
 import shutil
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -31,6 +31,9 @@ from .archive import pack_archive
 from .files import read_json, sync, sync_tree, write_json
 from .season_secrets import FOLDER, PRIVATE_FILE, SeasonSecrets
 from .staging import Incoming, staging
+
+if sys.platform != "win32":
+    import fcntl
 
 FORMAT: Final = 2
 """Version of the layout."""

@@ -17,6 +17,7 @@ Importing colift loads none of its parts: each is loaded when it is first used. 
 from __future__ import annotations
 
 import importlib
+import sys
 
 from .registration import TYPE_CHECKING, register_with_gymnasium
 
@@ -75,4 +76,8 @@ def __dir__() -> list[str]:
     return __all__
 
 
+if sys.platform != "linux":
+    from .elsewhere import replace_what_needs_linux
+
+    replace_what_needs_linux()
 register_with_gymnasium()

@@ -167,14 +167,14 @@ def test_run_shows_where_a_policy_fails(colift, mine):
 def test_a_traceback_has_the_policys_own_files_and_lines_alone(checked, mine):
     (mine / "helper.py").write_text("def half(x):\n    return 1 / x\n")
     found = checked("import helper\n" + ACTING + "helper.half(0)\n")
-    assert found["lifts"].printed.splitlines() == [
+    lines = found["lifts"].printed.splitlines()
+    # The marks below the code are others in other versions of Python.
+    assert [line for line in lines if line.strip(" ~^")] == [
         "Traceback (most recent call last):",
         '  File "policy.py", line 5, in act',
         "    def act(self, o): return helper.half(0)",
-        "                             ^^^^^^^^^^^^^^",
         '  File "helper.py", line 2, in half',
         "    return 1 / x",
-        "           ~~^~~",
         "ZeroDivisionError: division by zero",
     ]
 

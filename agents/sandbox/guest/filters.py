@@ -6,7 +6,7 @@ and its end are left: no call by which another process could tell what the lift 
 """
 
 import ctypes
-import os
+import platform
 import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ CHANNEL: Final = 3
 """File descriptor of the connection; 1 and 2 are the output."""
 
 _ARCHITECTURES: Final = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
-_MACHINE: Final = os.uname().machine
+_MACHINE: Final = platform.machine()
 
 _TABLE: Final = """
 read 0 63, write 1 64, readv 19 65, writev 20 66, pread64 17 67, pwrite64 18 68, lseek 8 62, close 3

@@ -3,6 +3,7 @@
 import ctypes
 import os
 import struct
+import sys
 from typing import Final
 
 CLONE_NEWUSER: Final = 0x10000000
@@ -35,8 +36,9 @@ _MNT_DETACH: Final = 2
 _CAPSET: Final = {"x86_64": 126, "aarch64": 91}
 _CAPABILITY_VERSION_3: Final = 0x20080522
 
-libc = ctypes.CDLL(None, use_errno=True)
-libc.syscall.restype = ctypes.c_long
+if sys.platform == "linux":  # Its code is read elsewhere too, for digests, but never run.
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.syscall.restype = ctypes.c_long
 
 
 def checked(result: int, what: str) -> int:

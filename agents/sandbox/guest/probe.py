@@ -1,34 +1,31 @@
 """The probe: a policy that tries all that a sandbox must prevent, and prints what succeeded."""
 
-import fcntl
 import json
 import mmap
 import os
-import resource
+import platform
 import socket
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
-from socket import AF_INET, AF_UNIX, SOCK_DGRAM, SOCK_STREAM
 from typing import Any, Final
 
 from ...agent import Action, Observation
+from ..protocol import SECRETS
 from . import linux
 from .filters import NUMBERS
 
-SECRETS: Final = "secrets.json"
-"""File in its folder. It names ``files`` that must not be readable, a ``directory`` that must not
-be writable, a ``port`` on loopback and a ``socket`` in the file system that must not be reached, a
-``process`` that must not be seen or signalled, ``processes``, the name of its process namespace,
-``processors`` that must not be taken, and ``shared``, a file that policies may read and must not
-mark."""
+if sys.platform != "win32":
+    import fcntl
+    import resource
 
 _RWF_NOWAIT: Final = 8
 _NUMBERS: Final = {
     **NUMBERS,
-    "mincore": {"x86_64": 27, "aarch64": 232}[os.uname().machine],
+    "mincore": {"x86_64": 27, "aarch64": 232}.get(platform.machine(), -1),
 }
 _WAKE: Final = 1
 _PROCESSOR_TIME: Final = 2
@@ -90,9 +87,9 @@ def _attempts(secrets: dict[str, Any]) -> Iterator[tuple[str, Callable[[], objec
         yield f"reads {path}", Path(path).read_bytes
     yield f"writes {secrets['directory']}", Path(secrets["directory"], "written").touch
     loopback, local = ("127.0.0.1", secrets["port"]), secrets["socket"]
-    yield "reaches TCP on loopback", partial(_reached, AF_INET, SOCK_STREAM, loopback)
-    yield "sends UDP", partial(_reached, AF_INET, SOCK_DGRAM, loopback)
-    yield "reaches sockets of others", partial(_reached, AF_UNIX, SOCK_STREAM, local)
+    yield "reaches TCP on loopback", partial(_reached, socket.AF_INET, socket.SOCK_STREAM, loopback)
+    yield "sends UDP", partial(_reached, socket.AF_INET, socket.SOCK_DGRAM, loopback)
+    yield "reaches sockets of others", partial(_reached, socket.AF_UNIX, socket.SOCK_STREAM, local)
     yield "makes sockets", socket.socketpair
     yield "makes pipes", os.pipe
     yield "makes processes", _forked

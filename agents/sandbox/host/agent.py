@@ -20,7 +20,7 @@ from .sandbox import Load, Sandbox
 TURNS: Final = 8
 """Turns on one processor before the scheduler may choose another."""
 
-_libc = ctypes.CDLL(None)
+_libc = functools.cache(lambda: ctypes.CDLL(None))
 
 
 @functools.cache
@@ -46,7 +46,7 @@ class Caller:
     def begin(self) -> int:
         """Begin a turn, and return the number of its processor."""
         if self._turns == 0:
-            self._here = _libc.sched_getcpu()
+            self._here = _libc().sched_getcpu()
             os.sched_setaffinity(0, (self._here,))
         self._turns += 1
         return self._here

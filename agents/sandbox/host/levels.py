@@ -18,8 +18,7 @@ from typing import Final
 import numpy as np
 
 from ...errors import EvaluatorFault, InputError, PolicyError
-from ..guest.probe import SECRETS
-from ..protocol import AGENTS, Assignment, Limits
+from ..protocol import AGENTS, SECRETS, Assignment, Limits
 from .agent import allowed, remote_agent
 from .process import BUBBLEWRAP, LANDLOCK, LIMITS
 from .refusals import in_words
