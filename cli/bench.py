@@ -17,6 +17,7 @@ from ..benchmark.profiling.cluster import scale as measure_scale
 from ..benchmark.profiling.convergence import USUAL, solver_error, study
 from ..benchmark.profiling.engine import endurance, single_process, two_workers_ratio
 from ..benchmark.profiling.policies import LIMIT_MS, StepTime, default_scenarios, step_time
+from ..benchmark.profiling.remembering import bits_of_time
 from ..benchmark.profiling.sandbox import (
     EPISODE_MS,
     ROUNDS,
@@ -176,13 +177,19 @@ def _twin() -> Report:
 def _isolation() -> Report:
     """Return the cost of each isolation level, over the same policy in this process."""
     found: dict[str, IsolationCost] = {}
+    bits: dict[str, float] = {}
     with isolated() as (plain, ways), progress_bar("bench", ROUNDS * len(ways)) as progress:
         for name, policy in ways.items():
             found[name] = isolation_cost(plain, policy, progress=progress)
+            bits[name] = bits_of_time(policy)
     content = {
         "aim": {"step_us": STEP_US, "episode_ms": EPISODE_MS},
         "isolation": {
-            name: {**dataclasses.asdict(cost), "within_aim": cost.within_aim}
+            name: {
+                **dataclasses.asdict(cost),
+                "within_aim": cost.within_aim,
+                "bits_of_time": bits[name],
+            }
             for name, cost in found.items()
         },
     }
@@ -192,11 +199,15 @@ def _isolation() -> Report:
             f"{cost.step_us:.0f}",
             f"{cost.episode_ms:.1f}",
             "reached" if cost.within_aim else "missed",
+            f"{bits[name]:.1f}",
         )
         for name, cost in found.items()
     )
-    titles = ("isolation", "us per step", "ms per episode", "aim")
-    caption = f"over in-process; aim: {STEP_US:g} us per step, {EPISODE_MS:g} ms per episode"
+    titles = ("isolation", "us per step", "ms per episode", "aim", "bits of time")
+    caption = (
+        f"over in-process; aim: {STEP_US:g} us per step, {EPISODE_MS:g} ms per episode; "
+        "bits that a lift can pass on by the time it takes"
+    )
     return content, table("cost of isolation", titles, rows, caption=caption)
 
 
