@@ -56,7 +56,7 @@ def check(
 ) -> None:
     """Check a submission: files, interface, determinism, its score, and the time of a step.
 
-    It plays 16 lifts of about 70 steps: seconds for a policy that answers within milliseconds,
+    It plays 24 lifts of about 70 steps: seconds for a policy that answers within milliseconds,
     minutes for one that takes a tenth of a second per step. The score is the RMSE on quick-v1, the
     same number that a board of that suite shows; or, with --suite, on lifts of another suite. Exit
     code 1 if a check fails.

@@ -1,6 +1,7 @@
 """Pre-submission checks: interface, determinism, score, timing."""
 
 import dataclasses
+import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
@@ -22,7 +23,7 @@ from ..results.headline import headline
 from ..results.summary import Summary
 from ..suites.catalogue import make_scenario
 from ..suites.suite import Suite, make_suite
-from .audit import first_differing_step
+from .audit import audit, audited
 
 SUITE: Final = "quick-v1"
 """The suite of the score by default."""
@@ -31,7 +32,7 @@ FEW: Final = 20
 """Largest number of lifts of a suite that is scored as a whole."""
 
 LIFTS: Final = (("smooth", "S1"), ("changing_goal", "S4"))
-"""Behaviour and subject of the lifts that are played twice."""
+"""Behaviour and subject of the first lifts."""
 
 MEANINGS: Final = {"hold": "never moves", "copy": "goes where the human was"}
 """Descriptions of the simple policies with which every score is compared."""
@@ -102,10 +103,10 @@ def _checks(
     evaluate: Callable[[AgentSpec, Suite], Run],
     whole: Suite,
 ) -> Iterator[Check]:
-    twice = [make_scenario(*names) for names in LIFTS]
+    scenarios = [make_scenario(*names) for names in LIFTS]
     if whole.name != SUITE:
-        twice = [whole.scenarios[0], whole.scenarios[-1]]
-    first = _played(policy, twice)
+        scenarios = [whole.scenarios[0], whole.scenarios[-1]]
+    first = _played(policy, scenarios)
     interface, lifts = _interface(policy, first), _lifts(first)
     yield interface
     if not interface.ok:
@@ -113,12 +114,12 @@ def _checks(
     yield lifts
     if not lifts.ok:
         return
-    determinism = _determinism(first, _played(fresh, twice[::-1])[::-1])
+    suite = check_part(whole)
+    run = evaluate(policy, suite)
+    determinism = _determinism(fresh, run)
     yield determinism
     if not determinism.ok:
         return
-    suite = check_part(whole)
-    run = evaluate(policy, suite)
     content = results(run, shipped_baselines(suite) or _baselines(suite, evaluate))
     yield _score(run, content)
     yield _actions(content.summary)
@@ -183,17 +184,14 @@ def _lifts(episodes: Sequence[Episode]) -> Check:
     return Check(name="lifts", ok=True, message=message)
 
 
-def _determinism(first: Sequence[Episode], again: Sequence[Episode]) -> Check:
-    """Compare the lifts with the same lifts in another order."""
-    for one, other in zip(first, again, strict=True):
-        step = first_differing_step(one, other)
-        if step is not None:
-            message = (
-                f"the same lift again ({_where(one)}) differs from step {step} on: "
-                "actions must follow from the seed and the observations of the lift alone"
-            )
-            return Check(name="determinism", ok=False, message=message, printed=other.log)
-    message = "the same lifts again, started afresh in another order: equal to the bit"
+def _determinism(fresh: AgentSpec, run: Run) -> Check:
+    """Audit the lifts of the score."""
+    finding = audit(fresh, run, os.urandom(16))
+    if finding is not None:
+        printed = run.episodes[finding.place].log
+        return Check(name="determinism", ok=False, message=finding.describe(run), printed=printed)
+    count = audited(len(run.episodes))
+    message = f"{count} of the lifts again, started afresh in another order: equal to the bit"
     return Check(name="determinism", ok=True, message=message)
 
 

@@ -158,7 +158,7 @@ def written(folder, act, imports="import os"):
     ("act", "reason"),
     [
         ("raise ValueError('my fault')", "lifts failed: smooth/S1 seed 7000: step 0: ValueError"),
-        ("return [os.urandom(1)[0] * 1e-6]", "determinism failed: the same lift again"),
+        ("return [os.urandom(1)[0] * 1e-6]", "determinism failed: played again"),
         ("return 'up'", "lifts failed: smooth/S1 seed 7000: step 0: robot's action must be"),
     ],
 )
