@@ -21,8 +21,8 @@ from ..benchmark.suites.suite import Suite, make_suite
 from ..benchmark.verification.checking import SUITE, Check, presubmission_checks
 from .completion import suites
 from .failures import printed_lines
-from .options import AsJson, Jobs
-from .policies import AUTO, NONE, auto_level, usable_level
+from .options import AUTO, NONE, AsJson, Jobs
+from .policies import auto_level, usable_level
 from .printing import argument, counted, print_json
 from .progress import workers
 from .remedies import explained

@@ -37,7 +37,7 @@ from .options import (
     chosen_suite,
     try_folder,
 )
-from .policies import choose_policy
+from .policies import checked_policy
 from .printing import print_json, show
 from .progress import reported_interrupt, workers
 from .tables.comparison import behaviours_table, differences_table, ranks_table
@@ -96,7 +96,6 @@ def compare_policies(
         network = stored[0].channel
     check_same_lifts(stored, episodes, network)
     for spec in specs.values():
-        spec.check()
         check_fits(spec, episodes.scenarios[0], episodes.seeds[0])
     if out is not None:
         # The files need matplotlib, which is slow to load.
@@ -151,7 +150,7 @@ def _policies(
         raise InputError(f"name at least two policies, or --all: {given} was named")
     for text in texts:
         check_plays(text, task)
-    specs = {text: choose_policy(text) for text in texts if text not in stored}
+    specs = {text: checked_policy(text) for text in texts if text not in stored}
     names = Counter(spec.name for spec in specs.values())
     names.update(each.policy.name for each in stored.values())
     # Policies of the same name are distinguished by their place.

@@ -18,6 +18,7 @@ from rich.progress import (
 )
 
 from ..benchmark.execution.pool import local_pool
+from .signals import INTERRUPTED
 
 
 @contextmanager
@@ -44,7 +45,7 @@ def reported_interrupt(message: str) -> Iterator[None]:
         yield
     except KeyboardInterrupt:
         print(f"interrupted: {message}", file=sys.stderr)
-        raise typer.Exit(1) from None
+        raise typer.Exit(INTERRUPTED) from None
 
 
 @contextmanager

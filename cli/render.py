@@ -18,7 +18,7 @@ from ..benchmark.suites.catalogue import make_scenario
 from .completion import behaviours, people
 from .failures import printed_lines
 from .options import LATENCY_OPTION, PERIOD_OPTION, PolicyName, check_output
-from .policies import choose_policy
+from .policies import checked_policy
 from .progress import progress_bar, reported_interrupt
 
 HTML: Final = ".html"
@@ -65,8 +65,7 @@ def render_episode(
         scenario, subject, control_period=control_period, latency=latency, task=task
     )
     check_plays(policy, task)
-    spec = choose_policy(policy)
-    spec.check()
+    spec = checked_policy(policy)
     with reported_interrupt(f"{out} is not drawn"):
         episode = _drawn(spec, played, seed, out)
     print(f"{out}: {episode.behaviour}/{episode.subject} seed {seed}, ", end="")

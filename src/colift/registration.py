@@ -1,9 +1,7 @@
 """Registration of the environments with Gymnasium, and the environment by one call."""
 
-import importlib.util
 import sys
 from collections.abc import Sequence
-from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Final
@@ -29,10 +27,11 @@ def register_with_gymnasium() -> None:
         sys.meta_path.insert(0, _Awaited())
 
 
-class _Awaited(MetaPathFinder):
+class _Awaited:
     """A finder that waits for the import of Gymnasium, and then registers the environments.
 
-    It finds the module by the other finders.
+    It finds the module by the other finders. It has no base class: that of the standard library
+    takes longer to import than all the rest of ``import colift``.
     """
 
     def find_spec(
@@ -40,6 +39,8 @@ class _Awaited(MetaPathFinder):
     ) -> ModuleSpec | None:
         if name != GYMNASIUM:
             return None
+        import importlib.util
+
         sys.meta_path.remove(self)
         spec = importlib.util.find_spec(name)
         if spec is None or spec.loader is None:
