@@ -10,6 +10,7 @@ import functools
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Final
 
+from .docstrings import plain_text
 from .errors import InputError, Remedy
 from .near_names import near_names
 
@@ -164,4 +165,4 @@ def lookup(group: str, name: str) -> Any:
 
 def summary(registered: object) -> str:
     """Return the first line of the docstring of something registered, as shown in lists."""
-    return (registered.__doc__ or "").strip().partition("\n")[0]
+    return plain_text((registered.__doc__ or "").strip().partition("\n")[0])

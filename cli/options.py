@@ -96,7 +96,10 @@ PolicyIsolation = Annotated[
 ]
 Jobs = Annotated[
     int | None,
-    typer.Option(metavar="N", help=f"Worker processes; default: {JOBS} if set, else all cores."),
+    typer.Option(
+        metavar="N",
+        help=f"Worker processes; default: {JOBS} if set, else as many as processors may be used.",
+    ),
 ]
 Dask = Annotated[
     str | None,

@@ -33,7 +33,7 @@ def render_episode(
             help="Film (.gif, .mp4), picture (.png) or page with a player (.html).",
         ),
     ],
-    scenario: Annotated[
+    behaviour: Annotated[
         str,
         typer.Option(
             metavar="NAME",
@@ -41,6 +41,9 @@ def render_episode(
             autocompletion=behaviours,
         ),
     ] = "smooth",
+    scenario: Annotated[
+        str | None, typer.Option(help="The old name of --behaviour.", hidden=True)
+    ] = None,
     subject: Annotated[
         str,
         typer.Option(
@@ -62,7 +65,7 @@ def render_episode(
     if seed < 0:
         raise InputError(f"--seed must not be negative, got {seed}")
     played = make_scenario(
-        scenario, subject, control_period=control_period, latency=latency, task=task
+        scenario or behaviour, subject, control_period=control_period, latency=latency, task=task
     )
     check_plays(policy, task)
     spec = checked_policy(policy)

@@ -212,7 +212,7 @@ def test_a_policy_without_act_is_refused(colift, tmp_path):
 
 
 def test_render_draws_a_picture(colift, tmp_path):
-    done = colift("render", "copy", "--scenario", "pause", "--out", "lift.png", cwd=tmp_path)
+    done = colift("render", "copy", "--behaviour", "pause", "--out", "lift.png", cwd=tmp_path)
     assert done.returncode == 0
     assert (tmp_path / "lift.png").read_bytes().startswith(b"\x89PNG")
     assert "pause/S1 seed 0" in done.stdout
@@ -220,7 +220,7 @@ def test_render_draws_a_picture(colift, tmp_path):
 
 def test_render_draws_the_intended_pose_of_a_task_and_refuses_a_policy_of_another(colift, tmp_path):
     picture = tmp_path / "pose.png"
-    lift = ("--scenario", "pivot", "--out", picture)
+    lift = ("--behaviour", "pivot", "--out", picture)
     code, _, err = colift("render", "pose_wrist", *lift, "--task", "intent")
     assert (code, err) == (0, "")
     assert picture.stat().st_size > 10_000
@@ -230,7 +230,7 @@ def test_render_draws_the_intended_pose_of_a_task_and_refuses_a_policy_of_anothe
 
 
 def test_render_writes_a_page_that_plays_the_lift(colift, tmp_path):
-    lift = ("render", "copy", "--scenario", "pause", "--seed", "2", "--out", "lift.html")
+    lift = ("render", "copy", "--behaviour", "pause", "--seed", "2", "--out", "lift.html")
     done = colift(*lift, cwd=tmp_path)
     assert done.returncode == 0
     page = (tmp_path / "lift.html").read_text()
@@ -281,7 +281,7 @@ def test_alone_it_says_how_to_begin(colift):
         ("run blend --suite q", ["quick-v1"]),
         ("compare blend co", ["copy"]),
         ("list blen", ["blend"]),
-        ("render blend --scenario pau", ["pause"]),
+        ("render blend --behaviour pau", ["pause"]),
         ("run blend --behaviour pau", ["pause"]),
         ("render blend --subject S5", ["S5"]),
         ("verif", ["verify"]),
