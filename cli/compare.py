@@ -24,6 +24,7 @@ from ..benchmark.comparison.playing import Bound, episodes_to_play, play_policie
 from ..benchmark.comparison.stored import Stored, check_same_lifts, read_stored
 from ..benchmark.execution.fitting import check_fits
 from ..benchmark.suites.suite import Suite
+from .bundles import mention_others
 from .completion import policies as named
 from .completion import suites
 from .options import (
@@ -91,6 +92,8 @@ def compare_policies(
         episodes = chosen_suite(suite, seeds, recordings, behaviour)
     task = episodes.scenarios[0].task.name
     specs, stored = _policies(named, playing(task) if everything else (), bundles, task)
+    for each in stored:
+        mention_others(each.folder)
     network = chosen_channel(channel)
     if network is None and stored:
         network = stored[0].channel

@@ -88,6 +88,12 @@ def execute() -> int | None:
     except BrokenPipeError:
         give_up_stdout()
         return 0
+    except SystemExit as end:
+        # Rich and Typer end the process by themselves if nobody reads on.
+        if not isinstance(end.__context__, BrokenPipeError):
+            raise
+        give_up_stdout()
+        return 0
     except OSError as error:
         if error.filename is None:
             give_up_stdout()  # It may be the file that is full.
