@@ -1,4 +1,4 @@
-"""What a text that names no policy probably means, and why a policy probably does not load."""
+"""Remedies for texts that name no policy, and for imports that fail in one."""
 
 import re
 from pathlib import Path

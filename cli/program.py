@@ -123,4 +123,4 @@ def _usage(error: Any) -> str:
     message = message[:1].lower() + message[1:]
     if error.ctx is None:
         return message
-    return f"{message} ('{error.ctx.command_path} --help' shows what there is)"
+    return f"{message} ('{error.ctx.command_path} --help' explains the usage)"

@@ -42,7 +42,7 @@ def processor_quota(root: Path = ROOT) -> float | None:
 
 def _groups(root: Path) -> Iterator[Path]:
     """Yield the folders of this process's groups that can limit its time, and those above them."""
-    own = {}
+    own: dict[str, PurePosixPath] = {}
     for line in (root / "proc/self/cgroup").read_text().splitlines():
         _, controllers, path = line.split(":", 2)
         own |= {each: PurePosixPath(path) for each in controllers.split(",")}

@@ -126,7 +126,7 @@ def test_a_word_for_what_a_command_does_names_it(colift):
     [
         (
             ("render", "blend"),
-            "missing option '--out' ('colift render --help' shows what there is)",
+            "missing option '--out' ('colift render --help' explains the usage)",
         ),
         (("nao",), "a command is missing; 'colift nao --help' lists them"),
         (("nao", "rnu"), "no such command 'rnu'. Did you mean 'run'?"),

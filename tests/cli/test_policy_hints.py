@@ -53,7 +53,7 @@ def lab(tmp_path):
         ),
         (
             "blendd",
-            "unknown policy 'blendd'; did you mean blend? ('colift list' lists all names)\n",
+            "unknown policy 'blendd'; did you mean blend ",
         ),
         ("qqq", "unknown policy 'qqq' ('colift list' lists all names)\n"),
     ],

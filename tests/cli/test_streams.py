@@ -131,9 +131,11 @@ def test_both_signals_keep_what_is_finished(slow, tmp_path, number, code):
     assert not json.loads((tmp_path / "kept" / "results.json").read_text())["complete"]
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=["ctrl-c", "sigterm"])
-@pytest.mark.parametrize("suffix", ["gif", "mp4"])
-def test_a_film_that_is_ended_leaves_nothing(tmp_path, number, suffix):
+@pytest.mark.parametrize(
+    ("suffix", "number"),
+    [("gif", signal.SIGTERM), ("mp4", signal.SIGTERM), ("mp4", signal.SIGINT)],
+)
+def test_a_film_that_is_ended_leaves_nothing(tmp_path, suffix, number):
     if suffix == "mp4":
         pytest.importorskip("imageio_ffmpeg")
     begun = subprocess.Popen(
@@ -142,7 +144,7 @@ def test_a_film_that_is_ended_leaves_nothing(tmp_path, number, suffix):
         stderr=subprocess.PIPE,
         text=True,
     )
-    end = time.monotonic() + 120
+    end = time.monotonic() + 300
     while not list(tmp_path.iterdir()):
         assert begun.poll() is None
         assert time.monotonic() < end
