@@ -226,9 +226,8 @@ def _report_dead(
     )
     if as_json:
         print_json(results(run, {}).plain())
-    print(
-        f"stopped: the policy fails at once in each of {len(run.episodes)} lifts", file=sys.stderr
-    )
+    lifts = counted(len(run.episodes), "lift")
+    print(f"stopped: the policy fails at once in each of the first {lifts}", file=sys.stderr)
     for line in reported_failures(run):
         print(line, file=sys.stderr)
 

@@ -127,14 +127,13 @@ def test_with_three_lifts_a_behaviour_none_is_the_best_there() -> None:
     assert [part["decisive"] for part in (told, *told["behaviours"])] == [True] + [False] * 4
 
 
-def test_a_front_of_one_has_no_line_and_equal_tables_are_shown_once() -> None:
-    axes = paired().axes
+def test_a_front_of_one_has_no_line_and_equal_tables_are_shown_once(comparison: Comparison) -> None:
+    axes = comparison.results.axes
     assert "The line joins the Pareto front: " in picture_caption(axes, ("leader", "follower"))
     alone = picture_caption(axes, ("leader",))
-    assert "line" not in alone
+    assert "line joins" not in alone
     assert "leader alone is the Pareto front" in alone
-    full = paired()
-    made = compare(full)
+    full = comparison.results
     labels = {subject: f"{subject} of one" for _, subject in full.human_human.strata}
     assert len(labels) > 1
     # Each behaviour with one subject of its own.
@@ -144,8 +143,8 @@ def test_a_front_of_one_has_no_line_and_equal_tables_are_shown_once() -> None:
         policies=tuple(dataclasses.replace(each, strata=strata) for each in full.policies),
         human_human=dataclasses.replace(full.human_human, strata=strata),
     )
-    assert not made.one_each
-    assert "By subject" in html_page(made)
+    assert not comparison.one_each
+    assert "By subject" in html_page(comparison)
     page = html_page(compare(single))
     assert "By behaviour" in page
     assert "By subject" not in page
