@@ -10,13 +10,17 @@ import functools
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Final
 
+from .docstrings import plain_text
 from .errors import InputError, Remedy
-from .near_names import did_you_mean
+from .near_names import near_names
 
 POLICIES: Final = "colift.policies"
 HUMANS: Final = "colift.humans"
 SUITES: Final = "colift.suites"
 TASKS: Final = "colift.tasks"
+
+FEW: Final = 8
+"""Number of names that an error lists; of more, it names only those that are near."""
 
 _KIND: Final = {POLICIES: "policy", HUMANS: "human behaviour", SUITES: "suite", TASKS: "task"}
 
@@ -136,17 +140,19 @@ def lookup(group: str, name: str) -> Any:
     Raises
     ------
     UnknownNameError
-        If the name is unknown; the message has the nearest name, or all of them.
+        If the name is unknown; the message has near names, or all if they are few.
     InputError
         If it cannot be loaded, or several packages register it; the message names the package.
     """
     known = entries(group)
     if name not in known:
-        near = did_you_mean(name, known).rstrip()
-        raise UnknownNameError(
-            f"unknown {_KIND[group]} {name!r}; {near or 'known: ' + ', '.join(known)}",
-            remedy=Remedy.LIST if near else None,
-        )
+        text = f"unknown {_KIND[group]} {name!r}"
+        near = near_names(name, known)
+        if near:
+            text += f"; did you mean {' or '.join(near)}?"
+        elif len(known) <= FEW:
+            text += f"; known: {', '.join(known)}"
+        raise UnknownNameError(text, remedy=Remedy.LIST)
     entry = entry_of(group, name)
     try:
         return entry.load()
@@ -159,4 +165,4 @@ def lookup(group: str, name: str) -> Any:
 
 def summary(registered: object) -> str:
     """Return the first line of the docstring of something registered, as shown in lists."""
-    return (registered.__doc__ or "").strip().partition("\n")[0]
+    return plain_text((registered.__doc__ or "").strip().partition("\n")[0])

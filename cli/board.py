@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.console import Console
 
 from ..leaderboard.backup.backup import Backup, back_up
 from ..leaderboard.backup.restoring import restore
@@ -16,7 +15,7 @@ from ..leaderboard.queue import Queue
 from ..leaderboard.records.season import SeasonInfo
 from .board_options import BOARD, ExistingBoard, SeasonName, opened_board
 from .options import AsJson, check_exclusive
-from .printing import print_json, show
+from .printing import print_json, show, stdout_console
 from .tables.board import board_table
 
 
@@ -66,7 +65,7 @@ def _report(backup: Backup, action: str) -> None:
 
 
 def _show(place: Board, season: str | None) -> None:
-    console, info = Console(), place.season_info(season)
+    console, info = stdout_console(), place.season_info(season)
     standings, human_human = place.standings(info.name), place.human_human(info.name)
     show(board_table(info, standings, human_human, console.width), console=console)
     for each in place.events(info.name):

@@ -23,7 +23,7 @@ from .options import (
     chosen_channel,
     chosen_suite,
 )
-from .policies import choose_policy
+from .policies import checked_policy
 from .printing import Cell, print_json, show, table
 from .progress import reported_interrupt, workers
 from .tables.comparison import policy_cell
@@ -62,9 +62,8 @@ def measure_channels(
     episodes = chosen_suite(suite, seeds, recordings, behaviour)
     chosen = {text: chosen_channel(text) for text in channels or CHANNELS}
     networks = {text: channel for text, channel in chosen.items() if channel is not None}
-    specs = {text: choose_policy(text) for text in policies or MEASURED}
+    specs = {text: checked_policy(text) for text in policies or MEASURED}
     for spec in specs.values():
-        spec.check()
         check_fits(spec, episodes.scenarios[0], episodes.seeds[0])
     total = len(specs) * (1 + len(networks)) * episodes.size
     with (

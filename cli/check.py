@@ -23,9 +23,9 @@ from ..benchmark.verification.audit import AUDIT
 from ..benchmark.verification.checking import INTERFACE, SUITE, Check, presubmission_checks
 from .completion import suites
 from .failures import printed_lines
-from .options import AsJson, Jobs
-from .policies import AUTO, NONE, auto_level, usable_level
-from .printing import argument, counted, print_json
+from .options import AUTO, NONE, AsJson, Jobs
+from .policies import auto_level, usable_level
+from .printing import argument, counted, print_json, stdout_console
 from .progress import workers
 from .remedies import explained
 
@@ -62,7 +62,7 @@ def check(
     code 1 if a check fails.
     """
     level = usable_level(isolation)
-    console, done = Console(), []
+    console, done = stdout_console(), []
     for each in all_checks(folder, level, isolation == NONE, jobs, make_suite(suite)):
         done.append(each)
         if not as_json:

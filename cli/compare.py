@@ -24,6 +24,7 @@ from ..benchmark.comparison.playing import Bound, episodes_to_play, play_policie
 from ..benchmark.comparison.stored import Stored, check_same_lifts, read_stored
 from ..benchmark.execution.fitting import check_fits
 from ..benchmark.suites.suite import Suite
+from .bundles import mention_others
 from .completion import policies as named
 from .completion import suites
 from .options import (
@@ -37,7 +38,7 @@ from .options import (
     chosen_suite,
     try_folder,
 )
-from .policies import choose_policy
+from .policies import checked_policy
 from .printing import print_json, show
 from .progress import reported_interrupt, workers
 from .tables.comparison import behaviours_table, differences_table, ranks_table
@@ -92,12 +93,13 @@ def compare_policies(
         episodes = chosen_suite(suite, seeds, recordings, behaviour)
     task = episodes.scenarios[0].task.name
     specs, stored = _policies(named, playing(task) if everything else (), bundles, task)
+    for each in stored:
+        mention_others(each.folder)
     network = chosen_channel(channel)
     if network is None and stored:
         network = stored[0].channel
     check_same_lifts(stored, episodes, network)
     for spec in specs.values():
-        spec.check()
         check_fits(spec, episodes.scenarios[0], episodes.seeds[0])
     if out is not None:
         # The files need matplotlib, which is slow to load.
@@ -152,7 +154,7 @@ def _policies(
         raise InputError(f"name at least two policies, or --all: {given} was named")
     for text in texts:
         check_plays(text, task)
-    specs = {text: choose_policy(text) for text in texts if text not in stored}
+    specs = {text: checked_policy(text) for text in texts if text not in stored}
     names = Counter(spec.name for spec in specs.values())
     names.update(each.policy.name for each in stored.values())
     # Policies of the same name are distinguished by their place.

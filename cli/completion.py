@@ -3,14 +3,12 @@
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..agents.humans import SUBJECTS
 from ..agents.registry import HUMANS, POLICIES, SUITES, entries
-from ..agents.submissions.manifest import MANIFEST
-from ..benchmark.channels.named import CHANNELS
+from ..benchmark.channels import CHANNELS
 
 
 def policies(incomplete: str) -> Iterator[str]:
-    """Yield the policies that begin with a text: registered ones, submissions and Python files."""
+    """Yield the policies that begin with a text: registered ones, submissions and files."""
     yield from (name for name in entries(POLICIES) if name.startswith(incomplete))
     above, slash, start = incomplete.rpartition("/")
     try:
@@ -20,7 +18,7 @@ def policies(incomplete: str) -> Iterator[str]:
     for path in found:
         place = f"{above}{slash}{path.name}"
         if path.name.startswith(start) and not (path.name.startswith(".") and not start):
-            if (path / MANIFEST).is_file():
+            if path.is_dir() and _is_submission(path):
                 yield place
             elif path.is_dir():
                 yield f"{place}/"
@@ -45,4 +43,12 @@ def channels(incomplete: str) -> Iterator[str]:
 
 def people(incomplete: str) -> Iterator[str]:
     """Yield the subjects that begin with a text."""
+    from ..agents.humans import SUBJECTS  # The people need NumPy, which other completions do not.
+
     yield from (name for name in SUBJECTS if name.startswith(incomplete))
+
+
+def _is_submission(folder: Path) -> bool:
+    from ..agents.submissions.manifest import MANIFEST
+
+    return (folder / MANIFEST).is_file()

@@ -20,6 +20,7 @@ from ..benchmark.export.proving import proved_lifts
 from ..benchmark.export.rules import CONVERTED, NAMES, RULES, digest, rule
 from ..benchmark.live.session import is_session
 from ..benchmark.suites.suite import Suite, recorded_suite
+from .bundles import mention_others
 from .options import Jobs
 from .printing import counted, show
 from .progress import reported_interrupt, workers
@@ -98,6 +99,7 @@ def _bundle(folder: Path, to: str, out: Path, view: str, force: bool, jobs: int)
     if is_session(folder):
         raise InputError(f"{folder} is a session: name the bundle of one of its lifts")
     bundle = read_bundle(folder)
+    mention_others(folder)
     if bundle.recipe.channel is not None:
         raise InputError(
             f"{folder} was played over a channel: its actions answer older observations than those "

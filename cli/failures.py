@@ -1,14 +1,53 @@
-"""The report of a policy's failures, with the end of its output."""
+"""The report of a policy's failures, with the end of its output; the early end of a dead one."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Final
 
 from ..benchmark.bundle import one_line
+from ..benchmark.episode.episode import Episode
+from ..benchmark.episode.turns import START, STEP
 from ..benchmark.execution.runner import Run
 from .printing import counted
 
 LINES: Final = 20
 """Lines of the output that are shown."""
+
+DEAD: Final = 10
+"""Number of lifts that must all fail at once before a run ends early."""
+
+
+class DeadPolicyError(Exception):
+    """All of the first :data:`DEAD` lifts failed at once; they are in :attr:`episodes`."""
+
+    def __init__(self, episodes: tuple[Episode, ...]) -> None:
+        super().__init__(episodes[0].failure)
+        self.episodes = episodes
+
+
+class LifeWatch:
+    """Keeps the episodes of a run, and ends it if the policy is dead.
+
+    Parameters
+    ----------
+    keep
+        Keeps an episode with its place in the suite.
+    """
+
+    def __init__(self, keep: Callable[[int, Episode], None]) -> None:
+        self._keep = keep
+        self._alive = False
+        self._dead: dict[int, Episode] = {}
+
+    def __call__(self, place: int, episode: Episode) -> None:
+        """Keep an episode; raise a DeadPolicyError if it is the last that had to be awaited."""
+        self._keep(place, episode)
+        failure = episode.failure or ""
+        self._alive = self._alive or not failure.startswith((START, f"{STEP}0:"))
+        if self._alive:
+            return
+        self._dead[place] = episode
+        if len(self._dead) >= DEAD:
+            raise DeadPolicyError(tuple(self._dead[each] for each in sorted(self._dead)))
 
 
 def printed_lines(printed: str) -> list[str]:

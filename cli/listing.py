@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, Final
 
 import typer
 from rich.console import RenderableType
@@ -15,11 +15,13 @@ from ..agents.errors import InputError
 from ..agents.humans import SUBJECTS, Subject
 from ..agents.loading.description import ParameterText, described
 from ..agents.loading.loading import PolicySpec
+from ..agents.plugins import class_fault
 from ..agents.registry import (
     HUMANS,
     POLICIES,
     SUITES,
     TASKS,
+    called,
     entries,
     lookup,
     policies_by_task,
@@ -29,19 +31,32 @@ from ..agents.sandbox.host.policy import SandboxedPolicy
 from ..agents.submissions.manifest import MANIFEST, Manifest
 from ..agents.submissions.submission import read_submission
 from ..benchmark.channels import CHANNELS
+from ..benchmark.suites.suite import make_suite
 from .completion import policies
 from .policies import choose_policy
 from .printing import show
 
+SECTIONS: Final = ("policies", "behaviours", "subjects", "suites", "tasks", "channels")
+"""What 'colift list' lists, each by the word that lists it alone."""
+
+Section = tuple[str, list[tuple[str, Text]]]
+"""A title, and the names below it with a line about each."""
+
+
+def listed(incomplete: str) -> Iterator[str]:
+    """Yield the sections and the policies that begin with a text."""
+    yield from (each for each in SECTIONS if each.startswith(incomplete))
+    yield from policies(incomplete)
+
 
 def list_all(
-    policy: Annotated[
+    named: Annotated[
         str | None,
         typer.Argument(
-            metavar="POLICY",
-            help="List the parameters of this policy: a name, module:Class, file.py:Class or a "
-            "submission's folder.",
-            autocompletion=policies,
+            metavar="SECTION|POLICY",
+            help=f"List one section alone: {', '.join(SECTIONS)}. Or list the parameters of this "
+            "policy: a name, module:Class, file.py:Class or a submission's folder.",
+            autocompletion=listed,
         ),
     ] = None,
 ) -> None:
@@ -49,43 +64,70 @@ def list_all(
 
     Exit code 1 if one of them cannot be loaded; its line gives the reason.
     """
-    if policy is not None:
-        show(*policy_parameters(policy))
+    if named is not None and named not in SECTIONS:
+        show(*policy_parameters(named))
         return
+    broken: list[str] = []
     table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
     table.add_column(style="bold", no_wrap=True)
     table.add_column()
-    apart = policies_by_task()
-    broken: list[str] = []
-
-    def section(title: str, group: str, names: Iterable[str]) -> None:
-        """Add the named entries of a group with their summaries, or the errors of loading them."""
-        table.add_row(f"[underline]{title}[/]")
-        for name in names:
-            try:
-                text = Text(summary(lookup(group, name)))
-            except InputError as error:
-                broken.append(name)
-                text = Text(str(error), "red")
-            table.add_row(f"  {name}", text)
-
-    own = {*chain.from_iterable(apart.values())}
-    section("Robot policies", POLICIES, [each for each in entries(POLICIES) if each not in own])
-    for task, names in apart.items():
-        section(f"Policies for the task {task}", POLICIES, names)
-    section("Human behaviours", HUMANS, entries(HUMANS))
-    table.add_row("[underline]Subjects[/]")
-    for name, subject in SUBJECTS.items():
-        table.add_row(f"  {name}", _about(subject))
-    table.add_row("  draw-N", "a new person of the same population, drawn with seed N")
-    section("Suites", SUITES, entries(SUITES))
-    section("Tasks", TASKS, entries(TASKS))
-    table.add_row("[underline]Channels[/]")
-    for name, channel in CHANNELS.items():
-        table.add_row(f"  {name}", str(channel))
+    for word in SECTIONS if named is None else (named,):
+        for title, lines in _sections(word, broken):
+            table.add_row(Text(title, "underline"))
+            for name, text in lines:
+                table.add_row(Text(f"  {name}"), text)
     show(table)
     if broken:
         raise typer.Exit(1)
+
+
+def _sections(word: str, broken: list[str]) -> Iterator[Section]:
+    """Yield the sections that one of :data:`SECTIONS` lists; add names that cannot be loaded."""
+    match word:
+        case "policies":
+            apart = policies_by_task()
+            own = {*chain.from_iterable(apart.values())}
+            common = [each for each in entries(POLICIES) if each not in own]
+            yield "Robot policies", _registered(POLICIES, common, broken)
+            for task, names in apart.items():
+                yield f"Policies for the task {task}", _registered(POLICIES, names, broken)
+        case "behaviours":
+            yield "Human behaviours", _registered(HUMANS, entries(HUMANS), broken)
+        case "subjects":
+            drawn = "a new person of the same population, drawn with seed N"
+            people = [(name, Text(_about(subject))) for name, subject in SUBJECTS.items()]
+            yield "Subjects", [*people, ("draw-N", Text(drawn))]
+        case "suites":
+            yield "Suites", _registered(SUITES, entries(SUITES), broken)
+        case "tasks":
+            yield "Tasks", _registered(TASKS, entries(TASKS), broken)
+        case "channels":
+            yield "Channels", [(name, Text(str(each))) for name, each in CHANNELS.items()]
+
+
+def _registered(group: str, names: Iterable[str], broken: list[str]) -> list[tuple[str, Text]]:
+    """Return the entries of a group with their summaries, or the errors of loading them."""
+    lines = []
+    for name in names:
+        try:
+            text = Text(summary(_valid(group, name)))
+        except InputError as error:
+            broken.append(name)
+            text = Text(str(error), "red")
+        lines.append((name, text))
+    return lines
+
+
+def _valid(group: str, name: str) -> Any:
+    """Return what is registered under a name; raise an InputError if it cannot be used."""
+    found = lookup(group, name)
+    if group == POLICIES:
+        PolicySpec(text=name).load()
+    elif group == SUITES:
+        make_suite(name)
+    elif fault := class_fault(found):
+        raise InputError(f"{called(group, name)} {fault}")
+    return found
 
 
 def _about(subject: Subject) -> str:

@@ -6,18 +6,25 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, suppress
 from pathlib import Path
-from typing import Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
 from ..agents.errors import InputError
 from ..benchmark.channels import CHANNELS, Channel, make_channel
-from ..benchmark.execution.connecting import dask_pool
 from ..benchmark.execution.pool import JOBS, local_pool
-from ..benchmark.live.scenarios import real_lifts
-from ..benchmark.suites.suite import Suite, make_suite
 from .completion import behaviours, channels, policies, suites
 from .remedies import naming, opened
+
+# The engine takes a second to import: not for a help text or a completion.
+if TYPE_CHECKING:
+    from ..benchmark.suites.suite import Suite
+
+AUTO: Final = "auto"
+"""Colift's own policies in this process, all others in the strongest sandbox."""
+
+NONE: Final = "none"
+"""Everything in this process."""
 
 STANDARD: Final = "standard-v1"
 """The default suite."""
@@ -90,7 +97,10 @@ PolicyIsolation = Annotated[
 ]
 Jobs = Annotated[
     int | None,
-    typer.Option(metavar="N", help=f"Worker processes; default: {JOBS} if set, else all cores."),
+    typer.Option(
+        metavar="N",
+        help=f"Worker processes; default: {JOBS} if set, else as many as processors may be used.",
+    ),
 ]
 Dask = Annotated[
     str | None,
@@ -122,7 +132,7 @@ def chosen_suite(
     seeds: str | None,
     recordings: Path | None,
     behaviours: Sequence[str] | None = None,
-) -> Suite:
+) -> "Suite":
     """Return a suite by name, with the given seeds or behaviours, or the suite of recordings.
 
     With neither a name nor recordings, it is :data:`STANDARD`.
@@ -132,6 +142,9 @@ def chosen_suite(
     InputError
         If there is no such suite or behaviour, or the file or the seeds cannot be used.
     """
+    from ..benchmark.live.scenarios import real_lifts
+    from ..benchmark.suites.suite import make_suite
+
     if recordings is None:
         suite = make_suite(name or STANDARD)
         if behaviours:
@@ -200,6 +213,8 @@ def executor(jobs: int | None, dask: str | None) -> AbstractContextManager[Execu
         return local_pool(jobs)
     if jobs is not None:
         raise InputError("--jobs and --dask exclude each other: a cluster has its own workers")
+    from ..benchmark.execution.connecting import dask_pool
+
     return opened(dask_pool(dask), "--dask")
 
 
@@ -219,7 +234,7 @@ def check_new_file(path: Path | None) -> None:
 def write_output(path: Path | None, content: str) -> None:
     """Write the result of a command into the requested file, if any, and report it."""
     if path is not None:
-        path.write_text(content)
+        path.write_text(content, encoding="utf-8")
         print(f"written: {path}")
 
 

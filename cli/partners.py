@@ -10,7 +10,8 @@ from ..agents.spec import AgentSpec
 from ..benchmark.episode.level import LEVEL
 from ..benchmark.execution.fitting import check_fits
 from ..benchmark.suites.catalogue import make_scenario
-from .policies import AUTO, choose_policy
+from .options import AUTO
+from .policies import checked_policy, choose_policy
 
 FIRST = "anticipate"
 """The default partner."""
@@ -27,7 +28,7 @@ def partners(first: str = FIRST, isolation: str = AUTO) -> Partners:
     Parameters
     ----------
     first
-        The policy as a user names it; see :func:`.choose_policy`.
+        The policy as a user names it; see :func:`.checked_policy`.
     isolation
         Its isolation.
 
@@ -42,8 +43,7 @@ def partners(first: str = FIRST, isolation: str = AUTO) -> Partners:
             f"policy {first!r} is for the task {own!r}: people lift with policies for the task "
             f"{LEVEL.name!r}"
         )
-    chosen = choose_policy(first, isolation)
-    chosen.check()
+    chosen = checked_policy(first, isolation)
     _check_lifts(chosen)
     found: dict[str, AgentSpec] = {chosen.name: chosen}
     for name in playing(LEVEL.name):

@@ -14,9 +14,8 @@ from ..agents.extras import how_to_install
 from ..leaderboard.logs import write_log
 from .completion import policies
 from .listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
-from .options import PolicyIsolation, check_folder
+from .options import AUTO, PolicyIsolation, check_folder
 from .partners import FIRST, partners
-from .policies import AUTO
 
 PORT: Final = 8100
 """The default port: not a board's, which may run beside it."""

@@ -3,7 +3,6 @@
 import functools
 import sys
 from pathlib import Path
-from typing import Final
 
 from ..agents.errors import InputError
 from ..agents.identity import source_hash
@@ -17,12 +16,8 @@ from ..agents.spec import AgentSpec
 from ..agents.submissions.modules import module_digest
 from ..agents.submissions.snapshot import snapshot_file
 from ..agents.submissions.submission import digest_with, open_submission
-
-AUTO: Final = "auto"
-"""Colift's own policies in this process, all others in the strongest sandbox."""
-
-NONE: Final = "none"
-"""Everything in this process."""
+from .options import AUTO, NONE
+from .policy_hints import import_hint, refuse_other_file
 
 
 def choose_policy(text: str, isolation: str = AUTO) -> AgentSpec:
@@ -59,12 +54,34 @@ def choose_policy(text: str, isolation: str = AUTO) -> AgentSpec:
         return spec if isolation == NONE else _foreign(spec, level)
     if Path(text).is_dir():
         place, parameters = text, ""
+    refuse_other_file(place)
     if not place or place.endswith(".py") or not ("/" in place or Path(place).is_dir()):
         spec.load()  # Raises: the class is missing, or there is no such name.
     submission = open_submission(Path(place))
     if isolation == NONE:
         return submission.trusted(parameters)
     return submission.sandboxed(level or auto_level(), parameters)
+
+
+def checked_policy(text: str, isolation: str = AUTO) -> AgentSpec:
+    """Return the policy of a command's argument, after it has been made once.
+
+    Arguments are as for :func:`choose_policy`.
+
+    Raises
+    ------
+    InputError
+        As :func:`choose_policy`, or if it cannot be made; an import that fails, with its remedy.
+    """
+    policy = choose_policy(text, isolation)
+    try:
+        policy.check()
+    except InputError as error:
+        hint = import_hint(text, str(error))
+        if not hint:
+            raise
+        raise InputError(f"{error}; {hint}") from error
+    return policy
 
 
 def usable_level(isolation: str) -> str | None:

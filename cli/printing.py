@@ -1,6 +1,7 @@
 """Tables, text and JSON on stdout, without trailing blanks."""
 
 import json
+import os
 import shlex
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
@@ -78,6 +79,17 @@ def optional_number(value: float | None, digits: str) -> str:
     return "none" if value is None else format(value, digits)
 
 
+def stdout_console() -> Console:
+    """Return the console of stdout, as wide as its terminal, or as the variable ``COLUMNS`` asks.
+
+    A file or a pipe has no width: lines are not wrapped there, so that a program finds them whole.
+    """
+    console = Console()
+    if not console.is_terminal and "COLUMNS" not in os.environ:
+        console.width = WIDEST
+    return console
+
+
 def show(*parts: RenderableType, console: Console | None = None) -> None:
     """Print tables and texts without trailing blanks; a caption is as wide as the terminal.
 
@@ -88,9 +100,9 @@ def show(*parts: RenderableType, console: Console | None = None) -> None:
     parts
         Each begins on a new line. A string is text without markup.
     console
-        Destination; None is stdout.
+        Destination; None is :func:`stdout_console`.
     """
-    shown = console or Console()
+    shown = console or stdout_console()
     for part in parts:
         for each in _separate(part):
             options = shown.options

@@ -19,6 +19,7 @@ from rich.progress import (
 from rich.text import Text
 
 from ..benchmark.execution.pool import local_pool
+from .start import INTERRUPTED
 
 
 @contextmanager
@@ -45,7 +46,7 @@ def reported_interrupt(message: str) -> Iterator[None]:
         yield
     except KeyboardInterrupt:
         print(f"interrupted: {message}", file=sys.stderr)
-        raise typer.Exit(1) from None
+        raise typer.Exit(INTERRUPTED) from None
 
 
 @contextmanager

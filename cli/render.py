@@ -18,7 +18,7 @@ from ..benchmark.suites.catalogue import make_scenario
 from .completion import behaviours, people
 from .failures import printed_lines
 from .options import LATENCY_OPTION, PERIOD_OPTION, PolicyName, check_output
-from .policies import choose_policy
+from .policies import checked_policy
 from .progress import progress_bar, reported_interrupt
 
 HTML: Final = ".html"
@@ -33,7 +33,7 @@ def render_episode(
             help="Film (.gif, .mp4), picture (.png) or page with a player (.html).",
         ),
     ],
-    scenario: Annotated[
+    behaviour: Annotated[
         str,
         typer.Option(
             metavar="NAME",
@@ -41,6 +41,9 @@ def render_episode(
             autocompletion=behaviours,
         ),
     ] = "smooth",
+    scenario: Annotated[
+        str | None, typer.Option(help="The old name of --behaviour.", hidden=True)
+    ] = None,
     subject: Annotated[
         str,
         typer.Option(
@@ -62,11 +65,10 @@ def render_episode(
     if seed < 0:
         raise InputError(f"--seed must not be negative, got {seed}")
     played = make_scenario(
-        scenario, subject, control_period=control_period, latency=latency, task=task
+        scenario or behaviour, subject, control_period=control_period, latency=latency, task=task
     )
     check_plays(policy, task)
-    spec = choose_policy(policy)
-    spec.check()
+    spec = checked_policy(policy)
     with reported_interrupt(f"{out} is not drawn"):
         episode = _drawn(spec, played, seed, out)
     print(f"{out}: {episode.behaviour}/{episode.subject} seed {seed}, ", end="")

@@ -11,6 +11,7 @@ from ..benchmark.channels import channel_name
 from ..benchmark.comparison.formatting import between, digits
 from ..benchmark.comparison.stored import Stored, read_stored
 from ..benchmark.results.summary import plain_estimate
+from .bundles import mention_others
 from .options import AsJson
 from .printing import Cell, left, print_json, show, table
 from .tables.comparison import policy_cell
@@ -32,6 +33,7 @@ def summarise_bundles(
     found: dict[tuple[str, str], Stored] = {}
     for folder in bundles:
         stored = read_stored(folder)
+        mention_others(folder)
         place = stored.policy.name, _column(stored)
         if place in found:
             raise InputError(

@@ -27,7 +27,7 @@ from ..benchmark.validity.sources import Source, sources_of
 from ..leaderboard.practice.shipped_scores import shipped_scores
 from .completion import suites as suite_names
 from .options import AsJson, Jobs, report_left_out
-from .policies import choose_policy
+from .policies import checked_policy
 from .printing import print_json, show
 from .progress import reported_interrupt, workers
 from .tables.recordings import recordings_json, show_recordings
@@ -122,10 +122,8 @@ def _chosen(text: str | None) -> dict[str, AgentSpec]:
     if twice:
         raise InputError(f"policy {twice[0]} is named twice; name each policy once")
     check_policies(texts)
-    specs = {each: choose_policy(each) for each in texts}
+    specs = {each: checked_policy(each) for each in texts}
     names = Counter(spec.name for spec in specs.values())
-    for spec in specs.values():
-        spec.check()
     return {spec.name if names[spec.name] == 1 else each: spec for each, spec in specs.items()}
 
 

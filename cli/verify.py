@@ -22,6 +22,7 @@ from ..benchmark.execution.runner import Run
 from ..benchmark.live.session import is_session, lift_folders, sessions_in
 from ..benchmark.results.headline import headline
 from ..benchmark.verification import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Verdict, verify
+from .bundles import mention_others
 from .options import AsJson, Jobs
 from .printing import argument, counted, print_json, show
 from .progress import progress_bar
@@ -76,6 +77,7 @@ def verify_bundle(
     _check_not_of_sessions(bundle)
     with _checking(bundle, count) as check:
         verdict = check(bundle)
+    mention_others(bundle)
     written = rescore is not None and (verdict.ok or verdict.rescorable)
     if rescore is not None and written:
         _write(rescore, verdict)
@@ -125,6 +127,8 @@ def _verify_session(session: Path, jobs: int, *, as_json: bool) -> None:
     """Verify each lift of a session of live lifts, and print a line for each."""
     with _checking(session, jobs) as check:
         verdicts = {folder: check(folder) for folder in lift_folders(session)}
+    for folder in verdicts:
+        mention_others(folder)
     refused = [folder for folder, verdict in verdicts.items() if not verdict.ok]
     if as_json:
         print_json({folder.name: verdict.plain() for folder, verdict in verdicts.items()})

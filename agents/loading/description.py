@@ -6,6 +6,7 @@ import itertools
 import textwrap
 from dataclasses import dataclass
 
+from ..docstrings import plain_text
 from .parameters import parameters_of
 from .values import kind, write_value
 
@@ -36,7 +37,7 @@ def described(policy: type) -> tuple[ParameterText, ...]:
             name=name,
             default=write_value(parameter.default),
             kind=kind(parameter.hint),
-            meaning=field_docstrings(parameter.owner).get(parameter.name, ""),
+            meaning=plain_text(field_docstrings(parameter.owner).get(parameter.name, "")),
         )
         for name, parameter in parameters_of(policy).items()
     )

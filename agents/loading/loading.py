@@ -19,6 +19,7 @@ from ..registry import POLICIES, lookup
 from ..spec import InProcess
 from ..threads import one_thread
 from .parameters import make_with, read_values
+from .policy_files import with_class
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +48,7 @@ class PolicySpec(InProcess):
         source, colon, name = place.rpartition(":")
         if not colon:
             if Path(place).suffix == ".py" or "/" in place:
-                raise InputError(f"{place} names no class; give {place}:Class")
+                raise InputError(f"{place} names no class; give {with_class(Path(place))}")
             return _checked(lookup(POLICIES, place), place)
         module = _from_file(Path(source)) if source.endswith(".py") else _from_module(source)
         if not hasattr(module, name):

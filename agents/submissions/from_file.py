@@ -7,6 +7,7 @@ from typing import Final
 from ..errors import InputError
 from ..loading.loading import PolicySpec
 from ..loading.parameters import merged, split
+from ..loading.policy_files import classes
 from ..near_names import did_you_mean
 from . import fields
 from .new import POLICY, write_files
@@ -14,20 +15,6 @@ from .packages import needed
 
 DESCRIPTION: Final = "A policy."
 """The description of a class without a docstring."""
-
-LARGEST: Final = 2**20
-"""Largest source file [bytes]."""
-
-
-def classes(path: Path) -> dict[str, ast.ClassDef]:
-    """Return the classes of a Python file by name, without running it.
-
-    Raises
-    ------
-    InputError
-        If there is no such file, or it is not Python.
-    """
-    return {node.name: node for node in _tree(path).body if isinstance(node, ast.ClassDef)}
 
 
 def write_from(folder: Path, text: str) -> tuple[str, ...]:
@@ -74,17 +61,6 @@ def write_from(folder: Path, text: str) -> tuple[str, ...]:
         "packages": list(needed(source)),
     }
     return write_files(folder, source, content)
-
-
-def _tree(path: Path) -> ast.Module:
-    try:
-        if path.stat().st_size > LARGEST:
-            raise InputError(f"{path} has more than {LARGEST} bytes")
-        return ast.parse(path.read_bytes())
-    except OSError as error:
-        raise InputError(f"cannot read {path}: {error.strerror}") from error
-    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        raise InputError(f"{path} is not Python: {error}") from error
 
 
 def _check_parameters(policy: ast.ClassDef, text: str) -> None:

@@ -8,12 +8,12 @@ from typing import Final
 
 from ..errors import InputError, Remedy
 from ..loading.parameters import merged
+from ..loading.policy_files import ONNX, policies_in
 from ..onnx.allowed import LARGEST
 from ..onnx.libraries import require_libraries
 from ..sandbox.host.levels import strongest
 from ..sandbox.host.policy import SandboxedPolicy
 from .folder import FolderContents, read_folder
-from .from_file import classes
 from .manifest import MANIFEST, Manifest, read_manifest
 from .near_manifest import NAME, files_of, no_manifest
 from .snapshot import snapshot
@@ -136,14 +136,12 @@ def _check_no_file(folder: Path) -> None:
 
 
 def _a_file(path: Path) -> InputError:
-    message = f"{path} is a file; a submission is a folder"
-    if path.suffix != ".py":
+    message, target = f"{path} is a file; a submission is a folder", str(path)
+    if path.suffix == ".py":
+        target += f":{[*policies_in(path), 'Class'][0]}"
+    elif path.suffix != ONNX:
         return InputError(message)
-    try:
-        name = next(reversed(classes(path)), "Class")
-    except InputError:
-        name = "Class"
-    return InputError(message, remedy=Remedy.SUBMISSION_FROM_FILE, target=f"{path}:{name}")
+    return InputError(message, remedy=Remedy.SUBMISSION_FROM_FILE, target=target)
 
 
 def _submission(folder: Path, contents: FolderContents, shown: str) -> Submission:

@@ -7,7 +7,8 @@ from importlib.metadata import version
 from typing import Any
 
 from ...agents.hardware.decisions import POLICY_SHARE
-from ..channels import Channel, recorded
+from ..channels import Channel
+from ..channels.recorded import recorded
 from ..episode.metric import SCORING
 from ..execution.runner import Run
 from ..results.baselines import HUMAN_HUMAN, Baseline

@@ -105,23 +105,39 @@ def replace_folder(folder: Path, files: Mapping[str, bytes]) -> None:
 def read_files(folder: Path) -> dict[str, bytes]:
     """Return the content of the files of a bundle by name, each read once.
 
+    Anything else in the folder is not looked at; see :func:`other_files`.
+
     Raises
     ------
     InputError
-        If there is no such folder, one of :data:`FILES` is missing, it holds anything other than
-        plain files of a bundle, or a file is too large.
+        If there is no such folder, one of :data:`FILES` is missing, one of :data:`LARGEST` is not a
+        plain file, or is too large.
     """
-    try:
-        names = sorted(path.name for path in folder.iterdir())
-    except OSError as error:
-        raise InputError(f"{folder}: not a bundle's folder: {error.strerror}") from None
+    names = _names(folder)
     for name in FILES:
         if name not in names:
             raise InputError(f"{name}: it is missing")
-    for name in names:
-        if name not in LARGEST:
-            raise InputError(f"{name!r:.80} is not a file of a bundle")
-    return {name: _read(folder / name) for name in names}
+    return {name: _read(folder / name) for name in names if name in LARGEST}
+
+
+def other_files(folder: Path) -> list[str]:
+    """Return the names in a bundle's folder that are none of a bundle, except hidden ones.
+
+    Somebody may have put notes or pictures there. They are not hashed, and change nothing.
+
+    Raises
+    ------
+    InputError
+        If there is no such folder.
+    """
+    return [name for name in _names(folder) if name not in LARGEST and not name.startswith(".")]
+
+
+def _names(folder: Path) -> list[str]:
+    try:
+        return sorted(path.name for path in folder.iterdir())
+    except OSError as error:
+        raise InputError(f"{folder}: not a bundle's folder: {error.strerror}") from None
 
 
 def _read(path: Path) -> bytes:

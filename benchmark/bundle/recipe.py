@@ -13,7 +13,8 @@ from ...agents.errors import InputError
 from ...agents.humans import Behaviour, Recorded, load_recordings
 from ...agents.humans.recordings import COLUMNS
 from ...agents.registry import UnknownNameError
-from ..channels import Channel, parse_recorded, recorded
+from ..channels import Channel
+from ..channels.recorded import parse_recorded, recorded
 from ..episode.level import LEVEL
 from ..episode.metric import Metrics
 from ..episode.scenario import Scenario

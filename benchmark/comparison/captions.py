@@ -53,13 +53,16 @@ def picture_axis(axes: Axes) -> str:
     return f"← {leading.words.praise[1]} · {leading.axis}"
 
 
-def picture_caption(axes: Axes) -> str:
-    """Return the sentences on how to read the picture."""
+def picture_caption(axes: Axes, front: Sequence[str]) -> str:
+    """Return the sentences on how to read the picture, in which a line joins a front of several."""
     leading, second = axes
+    both = f"both mean {leading.symbol} and mean {second.symbol}"
+    joined = f"The line joins the Pareto front: the policies that no other policy beats in {both}. "
+    if len(front) == 1:
+        joined = f"{front[0]} alone is the Pareto front: it is the best in {both}. "
     return (
-        "Higher and further left is better. Bars are 95 % intervals. The line joins the Pareto "
-        "front: the policies that no other policy beats in both mean "
-        f"{leading.symbol} and mean {second.symbol}. The diamond is the {HUMAN_HUMAN_LABEL}; "
+        "Higher and further left is better. Bars are 95 % intervals. "
+        f"{joined if front else ''}The diamond is the {HUMAN_HUMAN_LABEL}; "
         "squares are bounds, the limits of what a policy could reach."
     )
 

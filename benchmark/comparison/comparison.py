@@ -26,6 +26,12 @@ class Comparison:
         _, second = self.results.axes
         return tuple(point.name for point in pareto_front(self.points, second))
 
+    @property
+    def one_each(self) -> bool:
+        """Whether each behaviour has one subject of its own: lifts by both are the same groups."""
+        pairs = set(self.results.human_human.strata)
+        return len(pairs) == len(self.behaviours) == len(self.subjects)
+
 
 def compare(results: PairedResults) -> Comparison:
     """Return the comparison of the policies: overall, on each behaviour, with each subject."""

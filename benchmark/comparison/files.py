@@ -9,7 +9,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from ..channels import recorded
+from ..channels.recorded import recorded
 from ..results.baselines import HUMAN_HUMAN_LABEL
 from ..results.goals import goal_scores
 from ..suites.treatments import plain_treatments

@@ -19,8 +19,13 @@ AGAINST: Final = ("policy", "behind the best mm", "p", "lifts won", "P(better th
 
 
 def html_page(comparison: Comparison) -> str:
-    """Return the page: picture, ranks, differences, tables by behaviour and by subject."""
-    kinds = (("behaviour", comparison.behaviours), ("subject", comparison.subjects))
+    """Return the page: picture, ranks, differences, tables by behaviour and by subject.
+
+    If each behaviour has one subject of its own, both tables would have the same numbers.
+    """
+    kinds = [("behaviour", comparison.behaviours)]
+    if not comparison.one_each:
+        kinds.append(("subject", comparison.subjects))
     axes = comparison.results.axes
     axis = captions.picture_axis(axes)
     return render(
@@ -28,7 +33,7 @@ def html_page(comparison: Comparison) -> str:
         "compare.html",
         title=f"{captions.title(comparison)}, compared",
         captions=captions,
-        picture_caption=captions.picture_caption(axes),
+        picture_caption=captions.picture_caption(axes, comparison.front),
         how_to_read=captions.how_to_read(axes),
         verdict=captions.verdict(comparison),
         warnings=(

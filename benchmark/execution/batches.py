@@ -11,7 +11,8 @@ from typing import Final
 from ...agents.agent import Action, Agent, Observation
 from ...agents.errors import EvaluatorFault, InputError, error_text
 from ...agents.spec import AgentSpec, Paced
-from ..channels import Channel, teleoperated
+from ..channels import Channel
+from ..channels.teleoperated import teleoperated
 from ..episode.blame import blaming_plugins, check_episode, check_start
 from ..episode.episode import Episode, run_episode
 from ..episode.kept_world import drop_kept_world, lift_in_kept_world

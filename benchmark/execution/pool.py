@@ -13,6 +13,7 @@ from multiprocessing.connection import Connection
 from typing import Any, Final, ParamSpec, TypeVar
 
 from ...agents.errors import EvaluatorFault, InputError, error_text
+from .processors import usable_processors
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -26,7 +27,7 @@ MOST_JOBS: Final = 1024
 
 
 def default_jobs() -> int:
-    """Return :data:`JOBS`, or the number of processors this process may use.
+    """Return :data:`JOBS`, or :func:`.usable_processors`.
 
     Raises
     ------
@@ -35,8 +36,7 @@ def default_jobs() -> int:
     """
     asked = os.environ.get(JOBS, "")
     if not asked:
-        here = getattr(os, "sched_getaffinity", None)
-        return len(here(0)) if here else os.cpu_count() or 1
+        return usable_processors()
     if not (asked.isascii() and asked.isdecimal() and int(asked) > 0):
         raise InputError(f"{JOBS} must be a whole number above 0, got {asked!r}")
     return int(asked)

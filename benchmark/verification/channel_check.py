@@ -5,7 +5,9 @@ from itertools import islice
 
 import numpy as np
 
-from ..channels import ANSWERED, Channel, channel_seed, schedule
+from ..channels import Channel
+from ..channels.schedule import channel_seed, schedule
+from ..channels.teleoperated import ANSWERED
 from ..episode.scenario import Scenario
 from ..episode.trace import Trace
 from .deviation import Place

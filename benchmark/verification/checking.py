@@ -6,20 +6,19 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from ...agents.actions import action_limit
 from ...agents.errors import EvaluatorFault
 from ...agents.hardware.decisions import POLICY_SHARE
 from ...agents.spec import AgentSpec
 from ..bundle import Results, results
 from ..episode.episode import Episode
 from ..episode.level import LEVEL
-from ..episode.level_metrics import MOSTLY_CLIPPED
 from ..episode.scenario import CONTROL_PERIOD, Scenario
 from ..episode.turns import START
 from ..execution.batches import play
 from ..execution.runner import Run
 from ..results.baselines import HUMAN_HUMAN, Baseline, baseline_specs, shipped_baselines
 from ..results.headline import headline
+from ..results.remarks import clipped_text, unit_remark, worse_remark
 from ..results.summary import Summary
 from ..suites.catalogue import make_scenario
 from ..suites.suite import Suite, make_suite
@@ -33,9 +32,6 @@ FEW: Final = 20
 
 LIFTS: Final = (("smooth", "S1"), ("changing_goal", "S4"))
 """Behaviour and subject of the first lifts."""
-
-MEANINGS: Final = {"hold": "never moves", "copy": "goes where the human was"}
-"""Descriptions of the simple policies with which every score is compared."""
 
 SEED: Final = 7000
 """Seed of these lifts, which no suite has."""
@@ -200,30 +196,16 @@ def _score(run: Run, content: Results) -> Check:
     failed = [episode for episode in run.episodes if episode.failure is not None]
     if failed:
         message += f". {len(failed)} failed and count as worst; the first, {_why(failed[0])}"
-    worse = "" if failed else _worse(content)
+    worse = "" if failed else worse_remark(content.summary, content.baselines)
     printed = failed[0].log if failed else ""
     return Check(
         name="score",
         ok=not failed,
-        message=message + worse,
+        message=f"{message}. {worse}" if worse else message,
         printed=printed,
         results=content,
         warning=bool(worse),
     )
-
-
-def _worse(content: Results) -> str:
-    """Return a sentence on the simple policies that are better; empty if none is."""
-    error = content.summary.rmse_mm.mean
-    means = {
-        name: baseline.mean
-        for name, baseline in content.baselines.items()
-        if name != HUMAN_HUMAN and baseline.mean < error
-    }
-    if not means:
-        return ""
-    better = (f"{name} ({MEANINGS[name]}, {mean:.2f} mm)" for name, mean in means.items())
-    return f". Worse than {' and '.join(better)}"
 
 
 def _actions(summary: Summary) -> Check:
@@ -231,12 +213,10 @@ def _actions(summary: Summary) -> Check:
     share = summary.metrics["clipped"].mean
     if share is None:
         return Check(name="actions", ok=False, message="the policy never acted")
-    limit = action_limit(CONTROL_PERIOD)
-    message = f"{100 * share:.1f} % were clipped: the hands move at most {limit:g} m per step"
-    warning = share > MOSTLY_CLIPPED
-    if warning:
-        message += ". An action must be a change of the height, in metres"
-    return Check(name="actions", ok=True, message=message, warning=warning)
+    message, units = clipped_text(share), unit_remark(summary)
+    if units:
+        message += f". {units}"
+    return Check(name="actions", ok=True, message=message, warning=bool(units))
 
 
 def _time(summary: Summary, episodes: Sequence[Episode]) -> Check:

@@ -9,8 +9,8 @@ import typer
 from ...agents.hardware.rerun import logged_commands, rerun_trial
 from ...agents.hardware.trial_log import read_trial
 from ...benchmark.episode.turns import policy_seed
-from ..options import PolicyIsolation
-from ..policies import AUTO, choose_policy
+from ..options import AUTO, PolicyIsolation
+from ..policies import checked_policy
 from ..printing import counted
 
 
@@ -29,8 +29,7 @@ def replay_recording(
     not change the observations.
     """
     recorded = read_trial(recording)
-    spec = choose_policy(policy or recorded.policy, isolation)
-    spec.check()
+    spec = checked_policy(policy or recorded.policy, isolation)
     with spec.agent() as agent:
         agent.reset(policy_seed())
         played = rerun_trial(recorded, agent)

@@ -32,8 +32,8 @@ from ...benchmark.execution.runner import Run
 from ...benchmark.hardware.timing import timing_report
 from ...benchmark.hardware.trial import episode, hardware_run, hardware_suite
 from ...benchmark.suites.suite import Suite
-from ..options import PERIOD_OPTION, AsJson, PolicyIsolation, PolicyName, check_folder
-from ..policies import AUTO, choose_policy
+from ..options import AUTO, PERIOD_OPTION, AsJson, PolicyIsolation, PolicyName, check_folder
+from ..policies import checked_policy
 from ..printing import counted, print_json, show
 from ..remedies import naming
 from ..tables.results import results_table, results_text, timing_table
@@ -111,8 +111,7 @@ def run_on_robot(
     11 robot lost, 12 motion capture lost, 13 motion capture not plausible, 14 by the policy, 15 by
     the motors or another program that commands the robot, 16 by a pause of this computer.
     """
-    spec = choose_policy(policy, isolation)
-    spec.check()
+    spec = checked_policy(policy, isolation)
     settings = LoopSettings(period=control_period, latency=latency)
     layout = layout_of(human_markers, robot_markers, up)
     name = "NAO trials" + (" (simulated)" if robot.startswith(WORLD) else "")

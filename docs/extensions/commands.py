@@ -4,9 +4,7 @@ import re
 from collections.abc import Iterator
 from typing import Any, Final
 
-import typer
-from colift.cli.commands import PANELS
-from colift.cli.main import app as program
+from colift.cli.commands import PANELS, load
 from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
@@ -26,11 +24,10 @@ class Commands(SphinxDirective):
         panel = self.arguments[0]
         if panel not in PANELS:
             raise self.severe(f"no panel {panel!r}; there are {', '.join(PANELS)}")
-        every = typer.main.get_command(program).commands  # type: ignore[attr-defined]
         return [
             self._section(path, command)
             for name in PANELS[panel]
-            for path, command in _commands(f"colift {name}", every[name])
+            for path, command in _commands(f"colift {name}", load(name))
         ]
 
     def _section(self, path: str, command: Any) -> nodes.section:

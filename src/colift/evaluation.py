@@ -18,7 +18,8 @@ from .benchmark.execution.pool import local_pool
 from .benchmark.execution.runner import run_suite
 from .benchmark.results.baselines import BASELINES, play_baselines, shipped_baselines
 from .benchmark.suites.suite import Suite, make_suite
-from .cli.policies import AUTO, NONE, choose_policy
+from .cli.options import AUTO, NONE
+from .cli.policies import choose_policy
 from .cli.progress import progress_bar
 from .outcome import Evaluation
 

@@ -9,8 +9,8 @@ from colift.agents.errors import InputError, Remedy
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.policies.hold import Hold
 from colift.agents.registry import (
-    HUMANS,
     POLICIES,
+    TASKS,
     _contested,
     entries,
     lookup,
@@ -98,15 +98,13 @@ def test_the_same_entry_found_twice_is_one(install):
     assert tuple(entries(POLICIES)) == NAMES
 
 
-def test_an_unknown_name_is_told_the_nearest_name_or_all():
+def test_an_unknown_name_is_told_near_names_or_the_few_that_there_are():
     with pytest.raises(InputError) as error:
         lookup(POLICIES, "blnd")
     assert str(error.value) == "unknown policy 'blnd'; did you mean blend?"
     assert error.value.remedy == Remedy.LIST
-    with pytest.raises(
-        InputError, match=r"unknown human behaviour 'hold'; known: abreast, ahead, "
-    ):
-        lookup(HUMANS, "hold")
+    with pytest.raises(InputError, match="unknown task 'hold'; known: agree, ball, "):
+        lookup(TASKS, "hold")
 
 
 def test_a_package_that_cannot_be_loaded_is_named(install):

@@ -10,6 +10,8 @@ import pytest
 from colift.agents.submissions.new import write_template
 from colift.cli.commands import COMMANDS
 
+QUICK = ("--suite", "quick-v1")
+
 GOOD_CSV = "trial,t_s,z_m\n" + "".join(
     f"a,{k / 50:.2f},{0.3 * min(k, 60 - k) / 30:.3f}\n" for k in range(61)
 )
@@ -85,7 +87,8 @@ def test_list_names_everything(colift):
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["run", "nonesuch"], "blend, copy, "),
+        (["run", "nonesuch"], "unknown policy 'nonesuch' ('colift list' lists all names)"),
+        (["run", "pose"], "did you mean pose_admittance or pose_bayes or pose_learned?"),
         (["run", "copy", "--suite", "nonesuch"], "paper-v1, quick-v1, standard-v1"),
         (["run", "copy", "--seeds", "5:5"], "5:5"),
         (["run", "copy", "--seeds", "5"], "A:B"),
@@ -104,7 +107,7 @@ def test_list_names_everything(colift):
         (["run", "colift.agents.agent:RobotObservation"], "no method reset"),
         (["run", "colift.agents.humans:Subject"], "own, which a sandbox does not see"),
         (["render", "copy", "--out", "lift.bmp"], ".gif, .mp4, .png, .html"),
-        (["render", "copy", "--scenario", "nonesuch", "--out", "lift.png"], "smooth"),
+        (["render", "copy", "--behaviour", "smoth", "--out", "lift.png"], "smooth"),
         (["render", "copy", "--subject", "S9", "--out", "lift.png"], "S1, S2, S3, S4, S5"),
         (["bench", "--episodes", "1"], "at least 200"),
         (["learn", "everything"], "can learn: reactive"),
@@ -175,14 +178,29 @@ def test_bad_recordings_are_refused(colift, tmp_path, text, told):
     ],
 )
 def test_a_failing_policy_is_reported_and_the_run_goes_on(colift, policy, act, told):
-    done = colift("run", policy(act), "--suite", "quick-v1", "--json")
+    act += " if observation[4] > 0.5 else [0.0]"
+    act = act.replace("raise KeyError('oops')", "{}['oops']")
+    done = colift("run", policy(f"return {act.removeprefix('return ')}"), *QUICK, "--json")
     assert done.returncode == 1
     content = json.loads(done.stdout)
     assert content["summary"]["failed"] == content["summary"]["episodes"] == 12
-    assert content["summary"]["rmse_mm"]["mean"] == pytest.approx(250, rel=0.02)
+    assert content["complete"]
+    assert content["summary"]["rmse_mm"]["mean"] > 200
     assert "12 of 12 lifts failed" in done.stderr
     assert told in done.stderr
     assert set(re.findall(r'File "(.*?)"', done.stderr)) <= {"policy.py"}
+
+
+@pytest.mark.parametrize("act", ["raise KeyError('oops')", "return None"])
+def test_a_run_ends_early_if_every_lift_fails_at_once(colift, policy, act, tmp_path):
+    bundle = ("--out", tmp_path / "kept", "--jobs", "1")
+    done = colift("run", policy(act), *bundle)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert "stopped: the policy fails at once in each of the first 10 lifts\n" in done.stderr
+    assert "10 of 10 lifts failed" in done.stderr
+    assert [each.name for each in tmp_path.iterdir()] == ["policy.py"]
+    content = json.loads(colift("run", policy(act), "--json", "--jobs", "1").stdout)
+    assert (content["complete"], content["summary"]["failed"]) == (False, 10)
 
 
 def test_a_policy_without_act_is_refused(colift, tmp_path):
@@ -194,7 +212,7 @@ def test_a_policy_without_act_is_refused(colift, tmp_path):
 
 
 def test_render_draws_a_picture(colift, tmp_path):
-    done = colift("render", "copy", "--scenario", "pause", "--out", "lift.png", cwd=tmp_path)
+    done = colift("render", "copy", "--behaviour", "pause", "--out", "lift.png", cwd=tmp_path)
     assert done.returncode == 0
     assert (tmp_path / "lift.png").read_bytes().startswith(b"\x89PNG")
     assert "pause/S1 seed 0" in done.stdout
@@ -202,7 +220,7 @@ def test_render_draws_a_picture(colift, tmp_path):
 
 def test_render_draws_the_intended_pose_of_a_task_and_refuses_a_policy_of_another(colift, tmp_path):
     picture = tmp_path / "pose.png"
-    lift = ("--scenario", "pivot", "--out", picture)
+    lift = ("--behaviour", "pivot", "--out", picture)
     code, _, err = colift("render", "pose_wrist", *lift, "--task", "intent")
     assert (code, err) == (0, "")
     assert picture.stat().st_size > 10_000
@@ -212,7 +230,7 @@ def test_render_draws_the_intended_pose_of_a_task_and_refuses_a_policy_of_anothe
 
 
 def test_render_writes_a_page_that_plays_the_lift(colift, tmp_path):
-    lift = ("render", "copy", "--scenario", "pause", "--seed", "2", "--out", "lift.html")
+    lift = ("render", "copy", "--behaviour", "pause", "--seed", "2", "--out", "lift.html")
     done = colift(*lift, cwd=tmp_path)
     assert done.returncode == 0
     page = (tmp_path / "lift.html").read_text()
@@ -230,7 +248,8 @@ def test_a_command_that_is_spelt_wrong_is_guessed(colift):
 
 def test_a_command_waits_for_no_library_of_another():
     code = (
-        "import sys; from colift.cli.main import app; app(['new', '--help'], standalone_mode=False)"
+        "import sys; from colift.cli.program import app;"
+        "app(['new', '--help'], standalone_mode=False)"
         "; print(*{'matplotlib', 'pybullet', 'scipy', 'sqlalchemy'} & {*sys.modules}, 'none')"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300)
@@ -262,7 +281,7 @@ def test_alone_it_says_how_to_begin(colift):
         ("run blend --suite q", ["quick-v1"]),
         ("compare blend co", ["copy"]),
         ("list blen", ["blend"]),
-        ("render blend --scenario pau", ["pause"]),
+        ("render blend --behaviour pau", ["pause"]),
         ("run blend --behaviour pau", ["pause"]),
         ("render blend --subject S5", ["S5"]),
         ("verif", ["verify"]),

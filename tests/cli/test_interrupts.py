@@ -83,7 +83,7 @@ def test_ctrl_c_keeps_what_is_finished_and_says_so(tmp_path, jobs):
         time.sleep(0.05)
     os.killpg(process.pid, signal.SIGINT)
     stdout, stderr = process.communicate(timeout=120)
-    assert process.returncode == 1
+    assert process.returncode == 130
     assert "interrupted: partial results of" in stderr
     assert "Traceback" not in stderr
     content = json.loads((out / "results.json").read_text())
@@ -103,7 +103,7 @@ def test_an_interrupt_is_said_in_a_line(arguments, tmp_path):
         text=True,
     )
     _, stderr = process.communicate(timeout=120)
-    assert process.returncode == 1
+    assert process.returncode == 130
     assert re.fullmatch(rf"interrupted: {re.escape(str(out))} is not (drawn|written)\n", stderr)
     assert not out.exists()
 
@@ -116,6 +116,6 @@ def test_an_interrupted_comparison_leaves_no_folder(tmp_path):
         text=True,
         timeout=120,
     )
-    assert process.returncode == 1
+    assert process.returncode == 130
     assert process.stderr.startswith("interrupted: ")
     assert list(tmp_path.iterdir()) == []

@@ -140,9 +140,9 @@ def test_a_module_beside_the_user_is_refused_with_what_to_do(here, monkeypatch):
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("nonesuch", "unknown policy 'nonesuch'; known: "),
+        ("nonesuch", "unknown policy 'nonesuch'"),
         ("no/such", "no/such: no such folder"),
-        ("policy.py", "policy.py names no class; give policy.py:Class"),
+        ("policy.py", "policy.py names no class; give policy.py:Mine"),
         ("nowhere.py:Class", "no such file: nowhere.py"),
         ("no.such.module:Class", "cannot import module 'no.such.module'"),
         ("numpy.nonesuch:Class", "cannot import module 'numpy.nonesuch'"),

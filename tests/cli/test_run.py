@@ -201,7 +201,7 @@ def test_ctrl_c_in_the_baselines_keeps_the_run(tmp_path):
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
     _, told = process.communicate(timeout=300)
-    assert process.returncode == 1
+    assert process.returncode == 130
     assert told.startswith("interrupted before the baselines were played")
     assert "--resume" in told
     assert json.loads((bundle / "results.json").read_text())["complete"]

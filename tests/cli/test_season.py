@@ -2,7 +2,7 @@
 
 import hashlib
 
-from colift.cli.main import app
+from colift.cli.program import app
 from typer.testing import CliRunner
 
 

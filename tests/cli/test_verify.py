@@ -48,8 +48,19 @@ def edit(folder, name, change):
         manifest.write_bytes(dump_json(told))
 
 
-def test_a_true_bundle_is_verified_and_said_to_prove_what_it_does(colift, folder):
+def test_other_files_in_a_bundle_are_a_note(colift, folder):
+    (folder / "bundle" / ".DS_Store").touch()
+    assert colift("verify", "bundle").stderr == ""
+    for name in ("a.txt", "b.html", "c.png", "d"):
+        (folder / "bundle" / name).touch()
     code, told, errors = colift("verify", "bundle")
+    assert (code, "bundle is verified." in told) == (0, True)
+    note = "note: bundle also contains a.txt, b.html, c.png and 1 more: not part of the bundle"
+    assert errors == f"{note}, not checked\n"
+
+
+def test_a_true_bundle_is_verified_and_said_to_prove_what_it_does(colift, folder):
+    code, told, errors = colift("verify", "bundle", COLUMNS="80")
     assert (code, errors) == (0, "")
     first, score, verdict, *rest = told.splitlines()
     assert max(map(len, rest)) <= 80

@@ -68,7 +68,7 @@ def test_a_behaviour_without_plans_is_named(colift, behaviour, told):
 
 def test_a_lift_to_be_drawn_names_its_behaviour(colift):
     for out in ("a.png", "a.html"):
-        told = fault(colift("render", "copy", "--scenario", "gap", "--out", out))
+        told = fault(colift("render", "copy", "--behaviour", "gap", "--out", out))
         assert "behaviour 'gap' (faulty:Gap): plan() of S1, seed 0, returned a plan whose" in told
 
 

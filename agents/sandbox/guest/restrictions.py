@@ -125,13 +125,14 @@ def drop_privileges(restrictions: Restrictions) -> int | None:
     linux.hide(False)
     if restrictions.landlock:
         landlock.restrict(_rules(restrictions))
-    _set_limits(restrictions)
     try:
-        return filters.install(filters.LOADING, listen=True)
+        listener = filters.install(filters.LOADING, listen=True)
     except OSError as error:
         if restrictions.namespaces:
             raise OSError(f"system calls cannot be filtered: {error}") from error
-        return None
+        listener = None
+    _set_limits(restrictions)
+    return listener
 
 
 def _rules(restrictions: Restrictions) -> list[tuple[Path, int]]:

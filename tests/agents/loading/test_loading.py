@@ -79,7 +79,7 @@ def test_digest_is_of_what_the_source_does(written):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("nobody", r"unknown policy 'nobody'; known: .*blend.*hold"),
+        ("nobody", "^unknown policy 'nobody'$"),
         ("no_such_module:Mine", r"cannot import module 'no_such_module'"),
         ("colift.agents.policies.hold:Held", r"has no class 'Held'; it has Hold"),
         ("colift.agents.errors:nothing", r"has no class 'nothing'; it has .*InputError"),
@@ -199,7 +199,7 @@ def test_wrong_parameters_are_refused_before_a_run(written, parameters, message)
         ("blend,forgetting=2", r"policy blend: forgetting must be in \(0, 1\], got 2.0"),
         ("blend,forgeting=1", r"policy blend: no parameter 'forgeting'; .*forgetting=0.45"),
         ("hold,gain=1", r"policy hold: no parameter 'gain'; it has none"),
-        ("nobody,gain=1", r"unknown policy 'nobody'; known: "),
+        ("nobody,gain=1", "^unknown policy 'nobody'$"),
         ("mine.py,gain=1", r"mine\.py names no class; give mine\.py:Class"),
     ],
 )

@@ -7,8 +7,9 @@ import os
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
-from colift.benchmark.bundle import read_bundle, results, write_bundle
+from colift.benchmark.bundle import read_bundle, read_files, results, write_bundle
 from colift.benchmark.bundle.arrays import dump_arrays, parse_arrays
+from colift.benchmark.bundle.files import other_files
 from colift.benchmark.bundle.json_text import dump_json
 
 
@@ -82,9 +83,19 @@ def test_logs_that_are_gone_are_missed(hostile):
         read_bundle(hostile)
 
 
-def test_other_things_are_refused(hostile):
-    (hostile / "policy.py").write_text("print()")
-    with pytest.raises(InputError, match=r"'policy\.py' is not a file of a bundle"):
+def test_other_things_change_nothing_and_are_not_followed(hostile):
+    before = read_files(hostile)
+    (hostile / "notes").mkdir()
+    (hostile / "policy.py").symlink_to("/dev/zero")
+    os.mkfifo(hostile / ".DS_Store")
+    assert read_files(hostile) == before
+    assert read_bundle(hostile).results == json.loads(before["results.json"])
+    assert other_files(hostile) == ["notes", "policy.py"]
+
+
+def test_a_file_of_a_bundle_that_was_not_hashed_is_refused(hostile):
+    (hostile / "inputs.npz").write_bytes(b"")
+    with pytest.raises(InputError, match=r"inputs\.npz"):
         read_bundle(hostile)
 
 

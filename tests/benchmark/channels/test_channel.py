@@ -9,11 +9,10 @@ from colift.benchmark.channels import (
     Link,
     channel_name,
     make_channel,
-    parse_recorded,
-    recorded,
-    teleoperated,
 )
 from colift.benchmark.channels.reading import LONGEST, parse_channel
+from colift.benchmark.channels.recorded import parse_recorded, recorded
+from colift.benchmark.channels.teleoperated import teleoperated
 from scipy.stats import gamma
 
 WHOLE = {"delay": 0.1, "jitter": "gamma", "jitter_mean": 0.0, "jitter_deviation": 0.0}

@@ -7,7 +7,8 @@ from itertools import islice
 
 import numpy as np
 import pytest
-from colift.benchmark.channels import CHANNELS, Channel, Link, schedule
+from colift.benchmark.channels import CHANNELS, Channel, Link
+from colift.benchmark.channels.schedule import schedule
 from scipy.stats import gamma, lognorm
 
 FRAMES = 10
@@ -109,7 +110,8 @@ def test_seeds_differ_and_processes_do_not():
     assert turns(home, 300, seed=1) != turns(home, 300, seed=2)
     code = (
         "from itertools import islice\n"
-        "from colift.benchmark.channels import CHANNELS, schedule\n"
+        "from colift.benchmark.channels import CHANNELS\n"
+        "from colift.benchmark.channels.schedule import schedule\n"
         "print([turn.answered for turn in islice(schedule(CHANNELS['satellite'], 10, 1), 300)])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -10,7 +10,8 @@ from colift.agents.agent import RobotObservation
 from colift.agents.errors import InputError, PolicyError
 from colift.agents.loading.loading import InMemorySpec, PolicySpec
 from colift.agents.policies.copy import Copy
-from colift.benchmark.channels import ANSWERED, Channel, Link, Teleoperated
+from colift.benchmark.channels import Channel, Link
+from colift.benchmark.channels.teleoperated import ANSWERED, Teleoperated
 from colift.benchmark.episode.seat import limited_command
 from colift.benchmark.execution.pool import local_pool
 from colift.benchmark.execution.runner import run_suite

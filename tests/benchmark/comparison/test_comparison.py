@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from colift.benchmark.comparison.captions import parts_caption, unit_warnings
+from colift.benchmark.comparison.captions import parts_caption, picture_caption, unit_warnings
 from colift.benchmark.comparison.comparison import Comparison, compare
 from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.html import html_page
@@ -125,6 +125,29 @@ def test_with_three_lifts_a_behaviour_none_is_the_best_there() -> None:
     assert 'class="best"' not in by_behaviour
     told = comparison_json(made)
     assert [part["decisive"] for part in (told, *told["behaviours"])] == [True] + [False] * 4
+
+
+def test_a_front_of_one_has_no_line_and_equal_tables_are_shown_once(comparison: Comparison) -> None:
+    axes = comparison.results.axes
+    assert "The line joins the Pareto front: " in picture_caption(axes, ("leader", "follower"))
+    alone = picture_caption(axes, ("leader",))
+    assert "line joins" not in alone
+    assert "leader alone is the Pareto front" in alone
+    full = comparison.results
+    labels = {subject: f"{subject} of one" for _, subject in full.human_human.strata}
+    assert len(labels) > 1
+    # Each behaviour with one subject of its own.
+    strata = tuple((f"by {labels[subject]}", subject) for _, subject in full.human_human.strata)
+    single = dataclasses.replace(
+        full,
+        policies=tuple(dataclasses.replace(each, strata=strata) for each in full.policies),
+        human_human=dataclasses.replace(full.human_human, strata=strata),
+    )
+    assert not comparison.one_each
+    assert "By subject" in html_page(comparison)
+    page = html_page(compare(single))
+    assert "By behaviour" in page
+    assert "By subject" not in page
 
 
 def test_where_lifts_are_enough_the_best_are_marked(comparison: Comparison) -> None:

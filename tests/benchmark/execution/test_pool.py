@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from colift.agents.errors import EvaluatorFault, InputError, PolicyError
 from colift.benchmark.execution.pool import JOBS, default_jobs, local_pool, process_pool
+from colift.benchmark.execution.processors import usable_processors
 
 ORPHANS = """
 import os, signal, time
@@ -39,7 +40,7 @@ def pool():
 
 def test_by_default_there_is_a_worker_for_each_processor_or_what_the_environment_says(monkeypatch):
     monkeypatch.delenv(JOBS)
-    assert default_jobs() == len(os.sched_getaffinity(0))
+    assert default_jobs() == usable_processors() <= len(os.sched_getaffinity(0))
     monkeypatch.setenv(JOBS, "3")
     assert default_jobs() == 3
 

@@ -11,7 +11,8 @@ import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import read_bundle, results, write_bundle
 from colift.benchmark.bundle.schema import results_schema
-from colift.benchmark.channels import CHANNELS, Channel, Link, recorded
+from colift.benchmark.channels import CHANNELS, Channel, Link
+from colift.benchmark.channels.recorded import recorded
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.verification import verify
 

@@ -1,0 +1,57 @@
+"""Ctrl-C and SIGTERM: a command cleans up, and says by its exit code that it was ended."""
+
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+from typing import Any, Final
+
+from .start import INTERRUPTED
+
+Handler = Callable[[int, FrameType | None], Any] | int
+"""A handler of a signal."""
+
+TERMINATED: Final = 128 + signal.SIGTERM
+"""Exit code after SIGTERM."""
+
+
+class Ending:
+    """The exit code of a command that a signal ends."""
+
+    code: int = INTERRUPTED
+
+    def terminate(self, number: int, frame: FrameType | None) -> None:
+        """Raise KeyboardInterrupt for SIGTERM; a second one ends the process at once."""
+        signal.signal(number, signal.SIG_DFL)
+        self.code = TERMINATED
+        raise KeyboardInterrupt
+
+
+@contextmanager
+def interruptible() -> Iterator[Ending]:
+    """Let SIGTERM interrupt the body as Ctrl-C does, so that nothing half-written is left."""
+    ending = Ending()
+    with _handled(signal.SIGTERM, signal.SIG_DFL, ending.terminate):
+        yield ending
+
+
+@contextmanager
+def _handled(number: int, usual: Handler, handler: Handler) -> Iterator[None]:
+    """Handle a signal while the body runs, if its handler is the usual one.
+
+    A process in the background ignores Ctrl-C, and shall go on to; only the main thread can set
+    handlers.
+    """
+    if (
+        threading.current_thread() is not threading.main_thread()
+        or signal.getsignal(number) != usual
+    ):
+        yield
+        return
+    signal.signal(number, handler)
+    try:
+        yield
+    finally:
+        if signal.getsignal(number) == handler:
+            signal.signal(number, usual)
