@@ -50,12 +50,14 @@ def main(handle: int) -> None:
             # The fork server makes and removes it, since it outlives its owner, which may be
             # killed.
             scratch = tempfile.TemporaryDirectory(prefix="colift-", ignore_cleanup_errors=True)
-            restrictions = replace(restrictions, scratch=Path(stack.enter_context(scratch)))
+            kept = stack.enter_context(scratch)
         while True:
             order, handles, _, _ = socket.recv_fds(orders, ORDER, 3)
             if not order:
                 return
             policy = Assignment(*json.loads(order))
+            if not restrictions.namespaces:
+                restrictions = replace(restrictions, scratch=Path(tempfile.mkdtemp(dir=kept)))
             spawn(restrictions, Ends(*handles), partial(serve, policy=policy), pages)
 
 

@@ -33,12 +33,19 @@ _AT_FDCWD: Final = -100
 _AT_RECURSIVE: Final = 0x8000
 _RDONLY_NOSUID: Final = 3
 _MNT_DETACH: Final = 2
+_PROT_READ, _MAP_SHARED, _MAP_LOCKED, _MAP_POPULATE = 1, 1, 0x2000, 0x8000
+_MAP_FAILED: Final = ctypes.c_void_p(-1).value
 _CAPSET: Final = {"x86_64": 126, "aarch64": 91}
 _CAPABILITY_VERSION_3: Final = 0x20080522
 
 if sys.platform == "linux":  # Its code is read elsewhere too, for digests, but never run.
     libc = ctypes.CDLL(None, use_errno=True)
     libc.syscall.restype = ctypes.c_long
+    libc.mmap.restype = ctypes.c_void_p
+    libc.mmap.argtypes = [
+        *(ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int),
+        *(ctypes.c_int, ctypes.c_int, ctypes.c_long),
+    ]
 
 
 def checked(result: int, what: str) -> int:
@@ -96,6 +103,19 @@ def change_root(place: str) -> None:
     checked(libc.pivot_root(b".", b"."), f"pivot_root {place}")
     checked(libc.umount2(b".", _MNT_DETACH), "umount /")
     os.chdir("/")
+
+
+def keep_in_memory(file: int, place: int, size: int) -> None:
+    """Bring a part of a file into memory, and keep it there for as long as this process lives.
+
+    It is locked if that is allowed.
+    """
+    flags = _MAP_SHARED | _MAP_POPULATE
+    for more in (_MAP_LOCKED, 0):
+        found = libc.mmap(None, size, _PROT_READ, flags | more, file, place)
+        if found != _MAP_FAILED:
+            return
+    raise OSError(ctypes.get_errno(), "mmap")
 
 
 def hide(hidden: bool) -> None:

@@ -3,13 +3,12 @@
 A page of a file that is first read in a lift would stay in memory, and another process could tell.
 """
 
-import mmap
 import os
 from collections import defaultdict
 from collections.abc import Iterator
 from typing import Final, NamedTuple
 
-_POPULATE, _LOCKED = 0x8000, 0x2000
+from . import linux
 
 
 class Mapping(NamedTuple):
@@ -37,14 +36,13 @@ def mappings(maps: bytes) -> Iterator[Mapping]:
 
 
 class Pages:
-    """Pages that are in memory for as long as this object lives, locked where that is allowed.
+    """Pages that are in memory for as long as this process lives, locked where that is allowed.
 
     Where it is not, they leave memory only if the machine has too little.
     """
 
     def __init__(self) -> None:
         self._kept: Final[dict[str, list[tuple[int, int]]]] = defaultdict(list)
-        self._mapped: Final[list[mmap.mmap]] = []
 
     def keep(self, mapping: Mapping) -> None:
         """Keep the pages of a mapping; raise OSError if its file cannot be opened by its path."""
@@ -55,16 +53,7 @@ class Pages:
         try:
             size = min(mapping.end, os.fstat(file).st_size) - mapping.begin
             if size > 0:
-                self._mapped.append(_mapped(file, mapping.begin, size))
+                linux.keep_in_memory(file, mapping.begin, size)
         finally:
             os.close(file)
         spans.append((mapping.begin, mapping.end))
-
-
-def _mapped(file: int, place: int, size: int) -> mmap.mmap:
-    """Return a part of a file with all of its pages in memory."""
-    flags = mmap.MAP_SHARED | _POPULATE
-    try:
-        return mmap.mmap(file, size, flags | _LOCKED, mmap.PROT_READ, offset=place)
-    except OSError:
-        return mmap.mmap(file, size, flags, mmap.PROT_READ, offset=place)

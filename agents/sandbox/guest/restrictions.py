@@ -163,4 +163,6 @@ def _set_limits(restrictions: Restrictions) -> None:
     for kind, value in values.items():
         hard = resource.getrlimit(kind)[1]
         value = value if hard == resource.RLIM_INFINITY else min(value, hard)
-        resource.setrlimit(kind, (value, value))
+        # A second after its signal, what passes the limit of processor time is killed.
+        more = 1 if kind == resource.RLIMIT_CPU and value != hard else 0
+        resource.setrlimit(kind, (value, value + more))

@@ -138,11 +138,7 @@ def _supervise(
         else None,
     ).run()
     if restrictions.scratch:
-        for left in os.scandir(restrictions.scratch):
-            if left.is_dir(follow_symlinks=False):
-                shutil.rmtree(left, ignore_errors=True)
-            else:
-                os.unlink(left)  # noqa: PTH108 - a link, whatever it names
+        shutil.rmtree(restrictions.scratch, ignore_errors=True)
 
 
 def _tell(processes: Processes, process: int, name: str, words: str) -> None:

@@ -287,7 +287,7 @@ def test_the_folder_to_write_in_goes_with_its_owner_even_if_that_is_killed(tmp_p
     done = subprocess.run(
         [sys.executable, "-c", LEFT], cwd=tmp_path, capture_output=True, text=True, timeout=120
     )
-    place = Path(done.stdout.strip())
+    place = Path(done.stdout.strip()).parent
     assert place.name.startswith("colift-"), done.stderr
     end = time.monotonic() + 30
     while place.exists():

@@ -37,13 +37,4 @@ INSIDE = [
         "zero(min(ctypes.CDLL(None, use_errno=True).syscall(NUMBER, bytes(8), 1, 1, 0, 0, 0), 0))",
         top="NUMBER = {'x86_64': 202, 'aarch64': 98}[os.uname().machine]",
     ),
-    _inside(
-        "a mapped file is asked for",
-        """
-        mapped = self.mapped
-        mapped.flush()
-        mapped.resize(8192)
-        """,
-        init="self.mapped = mapped(__file__)",
-    ),
 ]

@@ -44,10 +44,6 @@ def zero(result):
     if result != 0:
         raise OSError(ctypes.get_errno(), "refused")
 
-def mapped(path):
-    with open(path, "rb") as file:
-        return mmap.mmap(file.fileno(), 0, mmap.MAP_PRIVATE, mmap.PROT_READ)
-
 def touch(path):
     with open(path, "w") as file:
         file.write("x")

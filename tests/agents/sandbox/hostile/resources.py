@@ -37,9 +37,12 @@ RESOURCES = [
     ),
     Hostile(
         name="processor time of many threads",
+        top="""
+        def spin():
+            while True: pass
+        """,
         reset="""
-        for _ in range(3):
-            threading.Thread(target=lambda: [None for _ in iter(int, 1)], daemon=True).start()
+        for _ in range(3): threading.Thread(target=spin, daemon=True).start()
         while True: time.sleep(1)
         """,
         reason=r"used more than 1 s of processor time",
