@@ -12,7 +12,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 from ..agents.errors import InputError
-from .start import Loading
+from .loading import Loading
 
 PANELS: Final[Mapping[str, Mapping[str, str]]] = {
     "Use": {

@@ -28,12 +28,12 @@ from ..benchmark.results.baselines import BASELINES, Baseline, play_baselines, s
 from ..benchmark.results.remarks import remarks
 from ..benchmark.suites.suite import Suite
 from .failures import DeadPolicyError, LifeWatch, reported_failures
+from .loading import INTERRUPTED
 from .policies import checked_policy
 from .policy_hints import board_remarks
 from .printing import argument, counted, print_json, show
 from .progress import progress_bar
 from .remedies import naming, opened
-from .start import INTERRUPTED
 from .tables.recordings import recordings_json, show_recordings
 from .tables.results import results_table, results_text
 

@@ -3,8 +3,8 @@
 import sys
 from typing import NoReturn
 
+from .loading import Loading
 from .signals import interruptible
-from .start import Loading
 from .streams import complete_streams
 
 

@@ -8,8 +8,8 @@ import typer
 
 from ..agents.errors import EvaluatorFault, InputError
 from .commands import Commands
+from .loading import INTERRUPTED
 from .remedies import explained
-from .start import INTERRUPTED
 from .streams import give_up_stdout
 
 app = typer.Typer(

@@ -19,7 +19,7 @@ from rich.progress import (
 from rich.text import Text
 
 from ..benchmark.execution.pool import local_pool
-from .start import INTERRUPTED
+from .loading import INTERRUPTED
 
 
 @contextmanager
