@@ -182,7 +182,7 @@ def _lifts(episodes: Sequence[Episode]) -> Check:
 
 def _determinism(fresh: AgentSpec, run: Run) -> Check:
     """Audit the lifts of the score."""
-    finding = audit(fresh, run, os.urandom(16))
+    finding = audit(fresh, run, os.urandom(32))
     if finding is not None:
         printed = run.episodes[finding.place].log
         return Check(name="determinism", ok=False, message=finding.describe(run), printed=printed)
