@@ -113,9 +113,18 @@ def show(*parts: RenderableType, console: Console | None = None) -> None:
             shown.print(Segments(segments), end="", soft_wrap=True)
 
 
+_PRINTED: Final[list[bool]] = []
+
+
 def print_json(content: Any) -> None:
     """Print JSON; all numbers must be finite, since JSON has no others."""
     print(json.dumps(content, indent=2, allow_nan=False))
+    _PRINTED.append(True)
+
+
+def json_printed() -> bool:
+    """Return whether this process has printed JSON: there must be one document."""
+    return bool(_PRINTED)
 
 
 def counted(number: int, noun: str) -> str:

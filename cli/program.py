@@ -109,7 +109,9 @@ def _failed(message: str, code: int) -> int:
     """
     line = " ".join(message.split())
     shown = line if len(line) <= LONGEST else f"{line[: LONGEST // 2]}...{line[-LONGEST // 2 :]}"
-    if "--json" in sys.argv:
+    from .printing import json_printed  # It imports Rich.
+
+    if "--json" in sys.argv and not json_printed():
         print(json.dumps({"error": shown}))
     print(f"error: {shown}", file=sys.stderr)
     return code

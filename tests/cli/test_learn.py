@@ -63,7 +63,7 @@ def test_a_model_is_learned_to_the_same_bytes_and_can_be_run(colift, demonstrate
         (["learn", "task_model", "--practice", "0"], "--practice must be at least 1, got 0"),
         (["learn", "task_model", "--out", "/nowhere/x.json"], "no folder /nowhere"),
         (["learn", "everything"], "cannot learn 'everything'; can learn: reactive, task_model"),
-        (["learn"], "task_model"),
+        (["learn"], "a command is missing; 'colift learn --help' lists them"),
     ],
 )
 def test_wrong_usage_is_one_clear_line_and_exit_code_2(colift, tmp_path, arguments, told):

@@ -159,7 +159,7 @@ def test_a_policy_that_keeps_state_across_episodes_is_refused(process, make):
     for _ in range(2):
         done = process("submit", "keeping", *TO_TINY)
         assert done.returncode == 1
-        assert "refused" in done.stderr
+        assert "its check fails" in done.stderr
         assert "its actions must follow from its seed" in done.stderr
         assert "colift check keeping" in done.stderr
     assert "Rank" not in done.stdout

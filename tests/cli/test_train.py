@@ -36,7 +36,7 @@ def test_a_folder_per_seed_a_table_and_policies_that_run(colift, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["train"], "cem"),
+        (["train"], "a command is missing; 'colift train --help' lists them"),
         (["train", "sac"], "no trainer 'sac'; trainers: cem"),
         (["train", "cem"], "--out"),
         (["train", "cem", "--out", "x", "--seeds", "0"], "--seeds must be 1 to 100, got 0"),

@@ -1,11 +1,12 @@
 """The probe: a policy that tries all that a sandbox must prevent, and prints what succeeded."""
 
+import fcntl
 import json
 import mmap
 import os
 import platform
+import resource
 import socket
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -17,10 +18,6 @@ from ...agent import Action, Observation
 from ..protocol import SECRETS
 from . import linux
 from .filters import NUMBERS
-
-if sys.platform != "win32":
-    import fcntl
-    import resource
 
 _RWF_NOWAIT: Final = 8
 _NUMBERS: Final = {

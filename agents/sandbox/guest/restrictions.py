@@ -2,7 +2,7 @@
 
 import contextlib
 import os
-import sys
+import resource
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -10,9 +10,6 @@ from typing import Final
 from ..protocol import AGENTS, Limits
 from . import filters, landlock, linux
 from .linux import MS_BIND, MS_NODEV, MS_NOEXEC, MS_NOSUID, MS_PRIVATE, MS_RDONLY, MS_REC
-
-if sys.platform != "win32":
-    import resource
 
 FRESH: Final = ("/tmp", "/dev/shm")
 """Private directories of an episode with namespaces, empty at first."""

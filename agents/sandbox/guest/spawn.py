@@ -7,10 +7,10 @@ restrictions remain: Landlock, the filter, the limits.
 
 import contextlib
 import os
+import resource
 import shutil
 import signal
 import socket
-import sys
 import tempfile
 import traceback
 from collections.abc import Callable
@@ -25,9 +25,6 @@ from .pages import Pages
 from .processes import Processes
 from .restrictions import NOBODY, Restrictions, drop_privileges, enter_root
 from .watch import Watch
-
-if sys.platform != "win32":
-    import resource
 
 
 class Ends(NamedTuple):

@@ -89,7 +89,7 @@ def test_a_policy_from_a_file_runs_in_workers_too(tmp_path):
 
 
 def test_an_unknown_policy_is_refused_before_anything_runs():
-    with pytest.raises(InputError, match=r"unknown policy 'nonesuch'; known: .*anticipate, "):
+    with pytest.raises(InputError, match=r"unknown policy 'nonesuch'"):
         run_suite(PolicySpec(text="nonesuch"), make_suite(QUICK))
 
 

@@ -72,7 +72,7 @@ def files(folder):
         path.relative_to(folder): path.read_bytes()
         for name in ours
         for path in (folder / name).rglob("*")
-        if path.is_file()
+        if path.is_file() and path.name != "ranking"  # held while ranks are computed
     }
 
 

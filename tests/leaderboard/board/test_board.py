@@ -293,6 +293,6 @@ def test_a_folder_that_is_swept_while_it_is_made_is_made_again(tmp_path):
 
 def test_what_is_no_submission_leaves_nothing_in_the_board(board, tmp_path):
     (tmp_path / "empty").mkdir()
-    with pytest.raises(InputError, match=r"policy\.toml"):
+    with pytest.raises(InputError, match="is empty: it holds no file of a submission"):
         board.keep(tmp_path / "empty")
     assert list((board.folder / "submissions").iterdir()) == []
