@@ -3,6 +3,7 @@
 import ctypes
 import os
 import struct
+import sys
 from typing import Final
 
 CLONE_NEWUSER: Final = 0x10000000
@@ -37,13 +38,14 @@ _MAP_FAILED: Final = ctypes.c_void_p(-1).value
 _CAPSET: Final = {"x86_64": 126, "aarch64": 91}
 _CAPABILITY_VERSION_3: Final = 0x20080522
 
-libc = ctypes.CDLL(None, use_errno=True)
-libc.syscall.restype = ctypes.c_long
-libc.mmap.restype = ctypes.c_void_p
-libc.mmap.argtypes = [
-    *(ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int),
-    *(ctypes.c_int, ctypes.c_int, ctypes.c_long),
-]
+if sys.platform == "linux":  # Its code is read elsewhere too, for digests, but never run.
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.syscall.restype = ctypes.c_long
+    libc.mmap.restype = ctypes.c_void_p
+    libc.mmap.argtypes = [
+        *(ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int),
+        *(ctypes.c_int, ctypes.c_int, ctypes.c_long),
+    ]
 
 
 def checked(result: int, what: str) -> int:
