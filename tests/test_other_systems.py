@@ -16,9 +16,7 @@ import ctypes, importlib, json, os, pkgutil, select, signal, socket, sys
 import colift
 names = [
     each.name for each in pkgutil.walk_packages(colift.__path__, "colift.")
-    # The inside of a sandbox is never loaded there.
     if not each.name.endswith("__main__") and ".migrations." not in each.name
-    and ".sandbox.guest" not in each.name
 ]
 for name in names:
     importlib.import_module(name)

@@ -7,7 +7,6 @@ it is, byte by byte, the one that is due, and if nothing else is left: one proce
 file but the connection and the output, no shared memory, no page that would have to be read.
 """
 
-import fcntl
 import os
 import signal
 import struct
@@ -34,6 +33,12 @@ _FORKS: Final = 2
 
 _SETTLE_SECONDS: Final = 5.0
 """Time for what must be gone to go [s]."""
+
+
+def _control(listener: int, request: int, content: bytes | bytearray) -> None:
+    import fcntl  # Windows, where this file is only read, has none.
+
+    fcntl.ioctl(listener, request, content)
 
 
 class RefusedError(Exception):
@@ -79,7 +84,7 @@ class Gate:
         """Answer a question, and return a report: ``closed``, ``refused REASON``, or nothing."""
         question = bytearray(_QUESTION.size)
         try:
-            fcntl.ioctl(self.listener, _RECEIVE, question)
+            _control(self.listener, _RECEIVE, question)
         except OSError:
             return ""  # Its process has ended, or was interrupted and will ask again.
         serial, process, _, call, _, _, *arguments = _QUESTION.unpack(question)
@@ -100,7 +105,7 @@ class Gate:
     def _reply(self, serial: int, error: int = 0) -> None:
         """Let a call happen, or fail; raise OSError if its process no longer waits."""
         flags = 0 if error else _CONTINUE
-        fcntl.ioctl(self.listener, _ANSWER, _REPLY.pack(serial, 0, -error, flags))
+        _control(self.listener, _ANSWER, _REPLY.pack(serial, 0, -error, flags))
 
     def _fork(self, serial: int) -> str:
         """Let a process be made for a lift that was ordered."""

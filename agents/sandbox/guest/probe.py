@@ -1,11 +1,9 @@
 """The probe: a policy that tries all that a sandbox must prevent, and prints what succeeded."""
 
-import fcntl
 import json
 import mmap
 import os
 import platform
-import resource
 import socket
 import threading
 import time
@@ -58,6 +56,8 @@ def _try(attempts: Iterator[tuple[str, Callable[[], object]]]) -> None:
 
 def _attempts_inside() -> Iterator[tuple[str, Callable[[], object]]]:
     """Yield what no policy may do in a lift."""
+    import resource  # Windows, where this file is only read, has none.
+
     yield "opens files in a lift", lambda: os.open("/dev/null", os.O_RDONLY)
     yield "asks for names in a lift", lambda: _called("access", b"/", 0)
     yield "reads /proc in a lift", Path("/proc/self/statm").read_bytes
@@ -80,6 +80,9 @@ def _attempts_inside() -> Iterator[tuple[str, Callable[[], object]]]:
 
 def _attempts(secrets: dict[str, Any]) -> Iterator[tuple[str, Callable[[], object]]]:
     """Yield what no policy may do, each with its name and a function that tries it."""
+    import fcntl  # Windows, where this file is only read, has neither.
+    import resource  # noqa: F401 - a lift can import nothing
+
     for path in secrets["files"]:
         yield f"reads {path}", Path(path).read_bytes
     yield f"writes {secrets['directory']}", Path(secrets["directory"], "written").touch

@@ -2,7 +2,6 @@
 
 import contextlib
 import os
-import resource
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -143,6 +142,8 @@ def _rules(restrictions: Restrictions) -> list[tuple[Path, int]]:
 
 
 def _set_limits(restrictions: Restrictions) -> None:
+    import resource  # Windows, where this file is only read, has none.
+
     limits = restrictions.limits
     values = {
         # One byte: the kernel starts no program for a core dump, as it would for none.

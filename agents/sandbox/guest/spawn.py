@@ -7,7 +7,6 @@ restrictions remain: Landlock, the filter, the limits.
 
 import contextlib
 import os
-import resource
 import shutil
 import signal
 import socket
@@ -170,7 +169,7 @@ def _serve(
     os.dup2(ends.output, 1)
     os.dup2(ends.output, 2)
     os.dup2(ends.data, CHANNEL)
-    os.closerange(CHANNEL + 1, resource.getrlimit(resource.RLIMIT_NOFILE)[1])
+    os.closerange(CHANNEL + 1, os.sysconf("SC_OPEN_MAX"))
     try:
         serve(listener is not None)
     except BaseException:
