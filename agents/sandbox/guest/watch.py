@@ -162,7 +162,7 @@ class Watch:
         return 1024 * (int(sizes.get(b"Pss:", 0)) - int(sizes.get(b"Pss_Shmem:", 0)))
 
 
-def _ready(waiting: select.poll, milliseconds: float) -> set[int]:
+def _ready(waiting: "select.poll", milliseconds: float) -> set[int]:
     """Return the handles that can be read within a time."""
     return {handle for handle, _ in waiting.poll(milliseconds)}
 

@@ -3,6 +3,7 @@
 import contextlib
 import os
 import socket
+import weakref
 from collections.abc import Callable
 from typing import Any, Final
 
@@ -24,6 +25,8 @@ class Cell:
 
     def __init__(self, connection: Connection) -> None:
         self._connection = connection
+        self.close = weakref.finalize(self, _close, os.getpid(), connection)
+        """End all of its processes."""
         self.seed: int | None = None
         """The seed of the reset; None before."""
         self.explains = False
@@ -117,11 +120,13 @@ class Cell:
                 own.failed("its lift does not end", 0.0, report)
                 return
 
-    def close(self) -> None:
-        """End all of its processes."""
-        status = self._connection.status
-        self._connection.close()
+
+def _close(owner: int, connection: Connection) -> None:
+    """End all processes of a cell; in a fork of its owner, only close the sockets."""
+    status = connection.status
+    connection.close()
+    if os.getpid() == owner:
         status.hang_up()
         while status.report(_END_SECONDS):
             pass
-        status.close()
+    status.close()
