@@ -1,4 +1,4 @@
-"""What remains of a lift for a policy: the time it took, as the process that is forked sees it."""
+"""The memory that a policy can have of a lift: the time that it took."""
 
 import contextlib
 import dataclasses
