@@ -16,6 +16,7 @@ from ...agents.submissions.new import write_template
 from ...agents.submissions.submission import read_submission
 from ..episode.episode import run_episode
 from ..episode.lift import Lift
+from ..episode.turns import policy_seed
 from ..suites.catalogue import make_scenario
 
 STEP_US: Final = 60.0
@@ -93,5 +94,5 @@ def _once(lift: Lift, policy: AgentSpec, seed: int) -> tuple[float, float]:
         times = run_episode(lift, agent, seed).step_times
     begin = time.perf_counter()
     with policy.agent() as agent:
-        agent.reset(seed)
+        agent.reset(policy_seed())
     return statistics.median(times), time.perf_counter() - begin
