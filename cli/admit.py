@@ -16,8 +16,9 @@ from ..benchmark.results.baselines import shipped_bounds
 from ..benchmark.training.apg_settings import pair_settings
 from ..benchmark.twin.libraries import require_jax
 from .completion import suites
+from .document import print_json
 from .options import AsJson, Jobs, chosen_suite
-from .printing import left, print_json, show, table
+from .printing import left, show, table
 from .progress import job_bar, reported_interrupt, workers
 
 MOST_PAIRS = 20

@@ -30,8 +30,9 @@ from ..benchmark.suites.suite import make_suite
 from ..benchmark.twin.libraries import require_jax
 from ..benchmark.world import Physics
 from .completion import suites
+from .document import print_json
 from .options import AsJson, check_exclusive
-from .printing import Cell, left, print_json, show, table
+from .printing import Cell, left, show, table
 from .progress import progress_bar
 
 MEANING: Final = {

@@ -14,8 +14,9 @@ from ..leaderboard.practice.season_import import open_to_read
 from ..leaderboard.queue import Queue
 from ..leaderboard.records.season import SeasonInfo
 from .board_options import BOARD, ExistingBoard, SeasonName, opened_board
+from .document import print_json
 from .options import AsJson, check_exclusive
-from .printing import print_json, show, stdout_console
+from .printing import show, stdout_console
 from .tables.board import board_table
 
 

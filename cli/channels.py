@@ -13,6 +13,7 @@ from ..benchmark.comparison.over_channels import OverChannel, over_channels
 from ..benchmark.execution.fitting import check_fits
 from .completion import channels as channel_names
 from .completion import policies as named
+from .document import print_json
 from .options import (
     AsJson,
     Behaviours,
@@ -24,7 +25,7 @@ from .options import (
     chosen_suite,
 )
 from .policies import checked_policy
-from .printing import Cell, print_json, show, table
+from .printing import Cell, show, table
 from .progress import reported_interrupt, workers
 from .tables.comparison import policy_cell
 from .tables.recordings import recordings_json, show_recordings

@@ -22,10 +22,11 @@ from ..benchmark.suites.suite import Suite, make_suite
 from ..benchmark.verification.audit import AUDIT
 from ..benchmark.verification.checking import INTERFACE, SUITE, Check, presubmission_checks
 from .completion import suites
+from .document import print_json
 from .failures import printed_lines
 from .options import AUTO, NONE, AsJson, Jobs
 from .policies import auto_level, usable_level
-from .printing import argument, counted, print_json, stdout_console
+from .printing import argument, counted, stdout_console
 from .progress import workers
 from .remedies import explained
 

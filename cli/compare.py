@@ -27,6 +27,7 @@ from ..benchmark.suites.suite import Suite
 from .bundles import mention_others
 from .completion import policies as named
 from .completion import suites
+from .document import print_json
 from .options import (
     AsJson,
     Behaviours,
@@ -39,7 +40,7 @@ from .options import (
     try_folder,
 )
 from .policies import checked_policy
-from .printing import print_json, show
+from .printing import show
 from .progress import reported_interrupt, workers
 from .tables.comparison import behaviours_table, differences_table, ranks_table
 from .tables.recordings import show_recordings

@@ -27,11 +27,12 @@ from ..benchmark.execution.runner import InterruptedRunError, Run, run_suite
 from ..benchmark.results.baselines import BASELINES, Baseline, play_baselines, shipped_baselines
 from ..benchmark.results.remarks import remarks
 from ..benchmark.suites.suite import Suite
+from .document import print_json
 from .failures import DeadPolicyError, LifeWatch, reported_failures
 from .loading import INTERRUPTED
 from .policies import checked_policy
 from .policy_hints import board_remarks
-from .printing import argument, counted, print_json, show
+from .printing import argument, counted, show
 from .progress import progress_bar
 from .remedies import naming, opened
 from .tables.recordings import recordings_json, show_recordings

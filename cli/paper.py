@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 from rich.console import RenderableType
 
+from .document import print_json
 from .options import AsJson, Jobs, seed_range, try_folder
-from .printing import left, print_json, show, table
+from .printing import left, show, table
 from .progress import reported_interrupt, workers
 
 if TYPE_CHECKING:

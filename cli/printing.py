@@ -1,11 +1,10 @@
-"""Tables, text and JSON on stdout, without trailing blanks."""
+"""Tables and text on stdout, without trailing blanks."""
 
-import json
 import os
 import shlex
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 from rich import box
 from rich.console import Console, RenderableType
@@ -111,20 +110,6 @@ def show(*parts: RenderableType, console: Console | None = None) -> None:
             lines = map(_stripped, shown.render_lines(each, options, pad=False))
             segments = [segment for line in lines for segment in (*line, Segment.line())]
             shown.print(Segments(segments), end="", soft_wrap=True)
-
-
-_PRINTED: Final[list[bool]] = []
-
-
-def print_json(content: Any) -> None:
-    """Print JSON; all numbers must be finite, since JSON has no others."""
-    print(json.dumps(content, indent=2, allow_nan=False))
-    _PRINTED.append(True)
-
-
-def json_printed() -> bool:
-    """Return whether this process has printed JSON: there must be one document."""
-    return bool(_PRINTED)
 
 
 def counted(number: int, noun: str) -> str:

@@ -1,6 +1,5 @@
 """The program: its options, its commands, and its errors."""
 
-import json
 import sys
 from typing import Annotated, Any, Final
 
@@ -8,6 +7,7 @@ import typer
 
 from ..agents.errors import EvaluatorFault, InputError
 from .commands import Commands
+from .document import begin, print_json_error
 from .loading import INTERRUPTED
 from .remedies import explained
 from .streams import give_up_stdout
@@ -73,6 +73,7 @@ def execute() -> int | None:
 
     An error is one line on stderr.
     """
+    begin()
     try:
         # Typer's own way to end would print usage errors in a box, and hide an interrupt.
         code: Any = app(prog_name="colift", standalone_mode=False)
@@ -109,10 +110,8 @@ def _failed(message: str, code: int) -> int:
     """
     line = " ".join(message.split())
     shown = line if len(line) <= LONGEST else f"{line[: LONGEST // 2]}...{line[-LONGEST // 2 :]}"
-    from .printing import json_printed  # It imports Rich.
-
-    if "--json" in sys.argv and not json_printed():
-        print(json.dumps({"error": shown}))
+    if "--json" in sys.argv:
+        print_json_error(shown)
     print(f"error: {shown}", file=sys.stderr)
     return code
 

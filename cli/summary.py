@@ -12,8 +12,9 @@ from ..benchmark.comparison.formatting import between, digits
 from ..benchmark.comparison.stored import Stored, read_stored
 from ..benchmark.results.summary import plain_estimate
 from .bundles import mention_others
+from .document import print_json
 from .options import AsJson
-from .printing import Cell, left, print_json, show, table
+from .printing import Cell, left, show, table
 from .tables.comparison import policy_cell
 
 NONE: Final = "none"

@@ -26,9 +26,10 @@ from ..benchmark.validity.scores import Scores
 from ..benchmark.validity.sources import Source, sources_of
 from ..leaderboard.practice.shipped_scores import shipped_scores
 from .completion import suites as suite_names
+from .document import print_json
 from .options import AsJson, Jobs, report_left_out
 from .policies import checked_policy
-from .printing import print_json, show
+from .printing import show
 from .progress import reported_interrupt, workers
 from .tables.recordings import recordings_json, show_recordings
 from .tables.validity import MEANINGS, heading, ratios_table, source_table

@@ -23,8 +23,9 @@ from ..benchmark.live.session import is_session, lift_folders, sessions_in
 from ..benchmark.results.headline import headline
 from ..benchmark.verification import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Verdict, verify
 from .bundles import mention_others
+from .document import print_json
 from .options import AsJson, Jobs
-from .printing import argument, counted, print_json, show
+from .printing import argument, counted, show
 from .progress import progress_bar
 from .remedies import naming
 

@@ -13,8 +13,9 @@ from ...benchmark.episode.lift import MOCAP_NOISE
 from ...benchmark.episode.scenario import LATENCY
 from ...benchmark.hardware.estimates import Estimates, estimate_setup
 from ...benchmark.world import SERVO
+from ..document import print_json
 from ..options import AsJson
-from ..printing import print_json, show, table
+from ..printing import show, table
 
 
 def calibrate_setup(

@@ -32,9 +32,10 @@ from ...benchmark.execution.runner import Run
 from ...benchmark.hardware.timing import timing_report
 from ...benchmark.hardware.trial import episode, hardware_run, hardware_suite
 from ...benchmark.suites.suite import Suite
+from ..document import print_json
 from ..options import AUTO, PERIOD_OPTION, AsJson, PolicyIsolation, PolicyName, check_folder
 from ..policies import checked_policy
-from ..printing import counted, print_json, show
+from ..printing import counted, show
 from ..remedies import naming
 from ..tables.results import results_table, results_text, timing_table
 from .connections import (

@@ -14,6 +14,7 @@
 Only ``public`` may be shown to everyone, and a log to those who know the id of its job.
 """
 
+import os
 import re
 import shutil
 import sys
@@ -134,7 +135,8 @@ class Store:
         A folder that cannot be written to has no lock.
         """
         try:
-            file = (self.folder / "private" / "ranking").open("a")
+            path = self.folder / "private" / "ranking"
+            file = os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT, PRIVATE_FILE), "wb")
         except OSError:
             yield
             return

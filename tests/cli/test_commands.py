@@ -54,6 +54,8 @@ def test_json_is_alone_on_stdout_and_the_bundle_holds_the_same(colift, tmp_path)
     done = colift("run", "copy", "--suite", "quick-v1", "--json", "--jobs", "2", "--out", str(out))
     content = json.loads(done.stdout)
     assert content == json.loads((out / "results.json").read_text())
+    failed = colift("run", "nonesuch", "--json")
+    assert failed.stderr == f"error: {json.loads(failed.stdout)['error']}\n"
     assert content["baselines"]["hold"]["rmse_mm"]["mean"] > 60
     assert done.returncode == 0
 
