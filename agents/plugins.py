@@ -7,9 +7,8 @@ from traceback import walk_tb
 from typing import Any
 
 import numpy as np
-
-from .errors import InputError
-from .registry import called, lookup
+from colift.agents.errors import InputError
+from colift.agents.registry import called, lookup
 
 
 def make_registered(group: str, name: str, protocol: type, **arguments: object) -> Any:

@@ -10,9 +10,9 @@ import functools
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Final
 
-from .docstrings import plain_text
-from .errors import InputError, Remedy
-from .near_names import near_names
+from colift.agents.docstrings import plain_text
+from colift.agents.errors import InputError, Remedy
+from colift.agents.near_names import near_names
 
 POLICIES: Final = "colift.policies"
 HUMANS: Final = "colift.humans"

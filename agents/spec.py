@@ -5,9 +5,9 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Protocol, Self, runtime_checkable
 
-from .agent import Agent
-from .threads import one_thread
-from .traced import traced
+from colift.agents.agent import Agent
+from colift.agents.threads import one_thread
+from colift.agents.traced import traced
 
 
 class AgentSpec(Protocol):

@@ -9,7 +9,7 @@ import tomllib
 from pathlib import Path
 from typing import Any, Final
 
-from .errors import InputError
+from colift.agents.errors import InputError
 
 MARKS: Final = (
     (codecs.BOM_UTF32_LE, "UTF-32"),

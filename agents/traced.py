@@ -3,7 +3,7 @@
 import traceback
 from pathlib import Path
 
-from .agent import Action, Agent, Explaining, Observation, Printing
+from colift.agents.agent import Action, Agent, Explaining, Observation, Printing
 
 
 def own_traceback(error: BaseException, above: str, folder: Path | None = None) -> str:

@@ -1,5 +1,5 @@
 """``python -m colift.cli``."""
 
-from .start import start
+from colift.cli.start import start
 
 start()

@@ -5,21 +5,20 @@ from typing import Annotated
 
 import numpy as np
 import typer
+from colift.agents.errors import InputError
+from colift.benchmark.admission.admission import Admission, admission_of, players
+from colift.benchmark.admission.criteria import Criterion
+from colift.benchmark.bounds.bounds import suite_bounds
+from colift.benchmark.results.baselines import shipped_bounds
+from colift.benchmark.training.apg_settings import pair_settings
+from colift.benchmark.twin.libraries import require_jax
+from colift.cli.completion import suites
+from colift.cli.document import print_json
+from colift.cli.options import AsJson, Jobs, chosen_suite
+from colift.cli.printing import left, show, table
+from colift.cli.progress import job_bar, reported_interrupt, workers
 from numpy.typing import NDArray
 from rich.table import Column, Table
-
-from ..agents.errors import InputError
-from ..benchmark.admission.admission import Admission, admission_of, players
-from ..benchmark.admission.criteria import Criterion
-from ..benchmark.bounds.bounds import suite_bounds
-from ..benchmark.results.baselines import shipped_bounds
-from ..benchmark.training.apg_settings import pair_settings
-from ..benchmark.twin.libraries import require_jax
-from .completion import suites
-from .document import print_json
-from .options import AsJson, Jobs, chosen_suite
-from .printing import left, show, table
-from .progress import job_bar, reported_interrupt, workers
 
 MOST_PAIRS = 20
 
@@ -81,7 +80,7 @@ def _cross_play(task: str, count: int) -> NDArray[np.float64]:
         raise InputError(f"--pairs must be 2 to {MOST_PAIRS}, or 0 for none; got {count}")
     settings = pair_settings(task)
     require_jax()
-    from ..benchmark.training.pairs import cross_play
+    from colift.benchmark.training.pairs import cross_play
 
     with job_bar("pairs", count * settings.updates) as bar:
         return cross_play(count, settings, bar.advance)

@@ -4,11 +4,10 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-
-from ..agents.registry import SUITES, own_entries
-from ..benchmark.bounds.bounds import suite_bounds
-from ..benchmark.comparison.playing import play_bounds
-from ..benchmark.results.baselines import (
+from colift.agents.registry import SUITES, own_entries
+from colift.benchmark.bounds.bounds import suite_bounds
+from colift.benchmark.comparison.playing import play_bounds
+from colift.benchmark.results.baselines import (
     BASELINES,
     Baseline,
     ToShip,
@@ -16,12 +15,12 @@ from ..benchmark.results.baselines import (
     play_baselines,
     shipped_content,
 )
-from ..benchmark.statistics import stratified_bootstrap
-from ..benchmark.suites.suite import make_suite
-from .completion import suites as named
-from .options import Jobs, check_output, write_output
-from .printing import left, show, table
-from .progress import workers
+from colift.benchmark.statistics import stratified_bootstrap
+from colift.benchmark.suites.suite import make_suite
+from colift.cli.completion import suites as named
+from colift.cli.options import Jobs, check_output, write_output
+from colift.cli.printing import left, show, table
+from colift.cli.progress import workers
 
 
 def baselines(

@@ -6,19 +6,17 @@ from functools import partial
 from typing import Annotated, Any, Final
 
 import typer
-from rich.table import Table
-
-from ..agents.errors import InputError
-from ..agents.loading.loading import PolicySpec
-from ..agents.registry import playing
-from ..benchmark.episode.level import LEVEL
-from ..benchmark.execution.pool import process_pool
-from ..benchmark.profiling.cluster import scale as measure_scale
-from ..benchmark.profiling.convergence import USUAL, solver_error, study
-from ..benchmark.profiling.engine import endurance, single_process, two_workers_ratio
-from ..benchmark.profiling.policies import LIMIT_MS, StepTime, default_scenarios, step_time
-from ..benchmark.profiling.remembering import bits_of_time
-from ..benchmark.profiling.sandbox import (
+from colift.agents.errors import InputError
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.registry import playing
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.execution.pool import process_pool
+from colift.benchmark.profiling.cluster import scale as measure_scale
+from colift.benchmark.profiling.convergence import USUAL, solver_error, study
+from colift.benchmark.profiling.engine import endurance, single_process, two_workers_ratio
+from colift.benchmark.profiling.policies import LIMIT_MS, StepTime, default_scenarios, step_time
+from colift.benchmark.profiling.remembering import bits_of_time
+from colift.benchmark.profiling.sandbox import (
     EPISODE_MS,
     ROUNDS,
     STEP_US,
@@ -26,14 +24,15 @@ from ..benchmark.profiling.sandbox import (
     isolated,
     isolation_cost,
 )
-from ..benchmark.suites.suite import make_suite
-from ..benchmark.twin.libraries import require_jax
-from ..benchmark.world import Physics
-from .completion import suites
-from .document import print_json
-from .options import AsJson, check_exclusive
-from .printing import Cell, left, show, table
-from .progress import progress_bar
+from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.twin.libraries import require_jax
+from colift.benchmark.world import Physics
+from colift.cli.completion import suites
+from colift.cli.document import print_json
+from colift.cli.options import AsJson, check_exclusive
+from colift.cli.printing import Cell, left, show, table
+from colift.cli.progress import progress_bar
+from rich.table import Table
 
 MEANING: Final = {
     "sim_speed": "simulated seconds per wall second, one process",
@@ -131,8 +130,8 @@ def _scale() -> Report:
 def _twin() -> Report:
     """Return the deviation of the twin from the engine, and its speed."""
     require_jax()
-    from ..benchmark.profiling.twin import twin_speed
-    from ..benchmark.twin.deviation import PAIR, POLICIES, deviations
+    from colift.benchmark.profiling.twin import twin_speed
+    from colift.benchmark.twin.deviation import PAIR, POLICIES, deviations
 
     found = []
     with progress_bar("bench", len(POLICIES) + 2) as progress:

@@ -5,19 +5,18 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-
-from ..leaderboard.backup.backup import Backup, back_up
-from ..leaderboard.backup.restoring import restore
-from ..leaderboard.board.board import Board
-from ..leaderboard.pages.site import write_site
-from ..leaderboard.practice.season_import import open_to_read
-from ..leaderboard.queue import Queue
-from ..leaderboard.records.season import SeasonInfo
-from .board_options import BOARD, ExistingBoard, SeasonName, opened_board
-from .document import print_json
-from .options import AsJson, check_exclusive
-from .printing import show, stdout_console
-from .tables.board import board_table
+from colift.cli.board_options import BOARD, ExistingBoard, SeasonName, opened_board
+from colift.cli.document import print_json
+from colift.cli.options import AsJson, check_exclusive
+from colift.cli.printing import show, stdout_console
+from colift.cli.tables.board import board_table
+from colift.leaderboard.backup.backup import Backup, back_up
+from colift.leaderboard.backup.restoring import restore
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.pages.site import write_site
+from colift.leaderboard.practice.season_import import open_to_read
+from colift.leaderboard.queue import Queue
+from colift.leaderboard.records.season import SeasonInfo
 
 
 def board(

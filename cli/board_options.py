@@ -10,15 +10,14 @@ from typing import Annotated, Final
 
 import sqlalchemy as sa
 import typer
-
-from ..agents.errors import EvaluatorFault, InputError
-from ..agents.sandbox.host.levels import VERIFIABLE
-from ..leaderboard.board.board import Board
-from ..leaderboard.database.database import DatabaseAwayError
-from ..leaderboard.database.room import NoRoomError, is_full
-from ..leaderboard.evaluation.entrant import NoSandboxError, board_level
-from ..leaderboard.practice.season_import import open_with_practice
-from ..leaderboard.storage.store import has_board
+from colift.agents.errors import EvaluatorFault, InputError
+from colift.agents.sandbox.host.levels import VERIFIABLE
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.database.database import DatabaseAwayError
+from colift.leaderboard.database.room import NoRoomError, is_full
+from colift.leaderboard.evaluation.entrant import NoSandboxError, board_level
+from colift.leaderboard.practice.season_import import open_with_practice
+from colift.leaderboard.storage.store import has_board
 
 BOARD: Final = Path("board")
 """The default folder."""

@@ -4,28 +4,27 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from colift.agents.errors import InputError
+from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.bounds import ablation, sweep
+from colift.benchmark.bounds.ablation import VARIANTS, Ablation, variants
+from colift.benchmark.bounds.bounds import BOUNDS
+from colift.benchmark.bounds.claims import POLICY, RIVALS, PolicyClaim, claims
+from colift.benchmark.bounds.held_out import FIRST_SEED, held_out_suite
+from colift.benchmark.bounds.sweep import NAMES, Swept, human_human_rmse, lifts_to_play, timings
+from colift.benchmark.comparison.comparison import compare
+from colift.benchmark.comparison.playing import episodes_to_play, play_policies
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+from colift.benchmark.statistics import Estimate
+from colift.benchmark.suites.suite import recorded_suite
+from colift.benchmark.training.anticipation import LIFTS, ROUNDS, learn_anticipation
+from colift.cli.options import Jobs, check_new_file, check_output
+from colift.cli.printing import show, table
+from colift.cli.progress import workers
+from colift.cli.remedies import naming
+from colift.cli.tables.comparison import behaviours_table, ranks_table
+from colift.cli.tables.recordings import show_recordings
 from rich.table import Table
-
-from ..agents.errors import InputError
-from ..agents.loading.loading import PolicySpec
-from ..benchmark.bounds import ablation, sweep
-from ..benchmark.bounds.ablation import VARIANTS, Ablation, variants
-from ..benchmark.bounds.bounds import BOUNDS
-from ..benchmark.bounds.claims import POLICY, RIVALS, PolicyClaim, claims
-from ..benchmark.bounds.held_out import FIRST_SEED, held_out_suite
-from ..benchmark.bounds.sweep import NAMES, Swept, human_human_rmse, lifts_to_play, timings
-from ..benchmark.comparison.comparison import compare
-from ..benchmark.comparison.playing import episodes_to_play, play_policies
-from ..benchmark.results.baselines import HUMAN_HUMAN_LABEL
-from ..benchmark.statistics import Estimate
-from ..benchmark.suites.suite import recorded_suite
-from ..benchmark.training.anticipation import LIFTS, ROUNDS, learn_anticipation
-from .options import Jobs, check_new_file, check_output
-from .printing import show, table
-from .progress import workers
-from .remedies import naming
-from .tables.comparison import behaviours_table, ranks_table
-from .tables.recordings import show_recordings
 
 People = Annotated[int, typer.Option(metavar="N", help="Number of drawn subjects.", min=1)]
 LiftsEach = Annotated[
@@ -168,7 +167,7 @@ def sweep_rates(
     show(_sweep_table(swept, human_human, suite.name))
     if out is not None:
         # matplotlib is slow to load.
-        from ..benchmark.bounds.sweep_picture import sweep_figure, sweep_json
+        from colift.benchmark.bounds.sweep_picture import sweep_figure, sweep_json
 
         sweep_figure(swept, human_human, "What a fresher or a faster robot gains").savefig(out)
         out.with_suffix(".json").write_text(sweep_json(swept, human_human))

@@ -4,8 +4,8 @@ import sys
 from pathlib import Path
 from typing import Final
 
-from ..benchmark.bundle import one_line
-from ..benchmark.bundle.files import other_files
+from colift.benchmark.bundle import one_line
+from colift.benchmark.bundle.files import other_files
 
 MOST: Final = 3
 """Number of other files that are named."""

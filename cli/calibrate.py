@@ -4,9 +4,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.table import Table
-
-from ..benchmark.paper.calibration import (
+from colift.benchmark.paper.calibration import (
     ROUNDS,
     TABLE_1,
     Fit,
@@ -14,9 +12,10 @@ from ..benchmark.paper.calibration import (
     episodes,
     fit_rounds,
 )
-from .options import Jobs, check_new_file, write_output
-from .printing import show, table
-from .progress import workers
+from colift.cli.options import Jobs, check_new_file, write_output
+from colift.cli.printing import show, table
+from colift.cli.progress import workers
+from rich.table import Table
 
 
 def calibrate(

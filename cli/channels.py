@@ -6,15 +6,13 @@ from collections.abc import Sequence
 from typing import Annotated, Final
 
 import typer
-from rich.table import Column, Table
-
-from ..benchmark.channels import CHANNELS
-from ..benchmark.comparison.over_channels import OverChannel, over_channels
-from ..benchmark.execution.fitting import check_fits
-from .completion import channels as channel_names
-from .completion import policies as named
-from .document import print_json
-from .options import (
+from colift.benchmark.channels import CHANNELS
+from colift.benchmark.comparison.over_channels import OverChannel, over_channels
+from colift.benchmark.execution.fitting import check_fits
+from colift.cli.completion import channels as channel_names
+from colift.cli.completion import policies as named
+from colift.cli.document import print_json
+from colift.cli.options import (
     AsJson,
     Behaviours,
     Jobs,
@@ -24,11 +22,12 @@ from .options import (
     chosen_channel,
     chosen_suite,
 )
-from .policies import checked_policy
-from .printing import Cell, show, table
-from .progress import reported_interrupt, workers
-from .tables.comparison import policy_cell
-from .tables.recordings import recordings_json, show_recordings
+from colift.cli.policies import checked_policy
+from colift.cli.printing import Cell, show, table
+from colift.cli.progress import reported_interrupt, workers
+from colift.cli.tables.comparison import policy_cell
+from colift.cli.tables.recordings import recordings_json, show_recordings
+from rich.table import Column, Table
 
 MEASURED: Final = ("copy", "extrapolate", "blend", "minimum_jerk", "anticipate", "learned")
 """The policies that are measured by default: from no prediction to the best."""

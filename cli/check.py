@@ -7,28 +7,27 @@ from pathlib import Path
 from typing import Annotated, Any, Final
 
 import typer
+from colift.agents.errors import InputError
+from colift.agents.spec import AgentSpec
+from colift.agents.submissions import from_file
+from colift.agents.submissions.manifest import Manifest
+from colift.agents.submissions.new import AUTHOR, DESCRIPTION, check_author, template
+from colift.agents.submissions.packages import undeclared
+from colift.agents.submissions.submission import Submission, open_submission
+from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.suites.suite import Suite, make_suite
+from colift.benchmark.verification.audit import AUDIT
+from colift.benchmark.verification.checking import INTERFACE, SUITE, Check, presubmission_checks
+from colift.cli.completion import suites
+from colift.cli.document import print_json
+from colift.cli.failures import printed_lines
+from colift.cli.options import AUTO, NONE, AsJson, Jobs
+from colift.cli.policies import auto_level, usable_level
+from colift.cli.printing import argument, counted, stdout_console
+from colift.cli.progress import workers
+from colift.cli.remedies import explained
 from rich.console import Console
 from rich.text import Text
-
-from ..agents.errors import InputError
-from ..agents.spec import AgentSpec
-from ..agents.submissions import from_file
-from ..agents.submissions.manifest import Manifest
-from ..agents.submissions.new import AUTHOR, DESCRIPTION, check_author, template
-from ..agents.submissions.packages import undeclared
-from ..agents.submissions.submission import Submission, open_submission
-from ..benchmark.execution.runner import Run, run_suite
-from ..benchmark.suites.suite import Suite, make_suite
-from ..benchmark.verification.audit import AUDIT
-from ..benchmark.verification.checking import INTERFACE, SUITE, Check, presubmission_checks
-from .completion import suites
-from .document import print_json
-from .failures import printed_lines
-from .options import AUTO, NONE, AsJson, Jobs
-from .policies import auto_level, usable_level
-from .printing import argument, counted, stdout_console
-from .progress import workers
-from .remedies import explained
 
 COLUMN: Final = 21
 """Column in which the message of a check begins."""
@@ -113,7 +112,7 @@ def all_checks(
 def _network(submission: Submission) -> Check:
     """Return what was bound to what in a network that has been made in its sandbox."""
     # Only this kind of submission needs the extra.
-    from ..agents.submissions.bound import bound_text
+    from colift.agents.submissions.bound import bound_text
 
     return Check(name="network", ok=True, message=bound_text(submission))
 

@@ -9,10 +9,9 @@ from itertools import dropwhile
 from typing import Any, Final
 
 import typer
+from colift.agents.errors import InputError
+from colift.cli.loading import Loading
 from typer.core import TyperCommand, TyperGroup
-
-from ..agents.errors import InputError
-from .loading import Loading
 
 PANELS: Final[Mapping[str, Mapping[str, str]]] = {
     "Use": {

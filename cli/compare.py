@@ -8,27 +8,26 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-
-from ..agents.errors import InputError
-from ..agents.registry import POLICIES, check_plays, entries, playing
-from ..agents.spec import AgentSpec
-from ..benchmark.bounds.bounds import suite_bounds
-from ..benchmark.bundle import is_bundle
-from ..benchmark.channels import Channel
-from ..benchmark.comparison.captions import failures, goals, unit_warnings, verdict
-from ..benchmark.comparison.comparison import Comparison
-from ..benchmark.comparison.comparison import compare as compared
-from ..benchmark.comparison.files import comparison_json
-from ..benchmark.comparison.paired_results import PolicyResults
-from ..benchmark.comparison.playing import Bound, episodes_to_play, play_policies
-from ..benchmark.comparison.stored import Stored, check_same_lifts, read_stored
-from ..benchmark.execution.fitting import check_fits
-from ..benchmark.suites.suite import Suite
-from .bundles import mention_others
-from .completion import policies as named
-from .completion import suites
-from .document import print_json
-from .options import (
+from colift.agents.errors import InputError
+from colift.agents.registry import POLICIES, check_plays, entries, playing
+from colift.agents.spec import AgentSpec
+from colift.benchmark.bounds.bounds import suite_bounds
+from colift.benchmark.bundle import is_bundle
+from colift.benchmark.channels import Channel
+from colift.benchmark.comparison.captions import failures, goals, unit_warnings, verdict
+from colift.benchmark.comparison.comparison import Comparison
+from colift.benchmark.comparison.comparison import compare as compared
+from colift.benchmark.comparison.files import comparison_json
+from colift.benchmark.comparison.paired_results import PolicyResults
+from colift.benchmark.comparison.playing import Bound, episodes_to_play, play_policies
+from colift.benchmark.comparison.stored import Stored, check_same_lifts, read_stored
+from colift.benchmark.execution.fitting import check_fits
+from colift.benchmark.suites.suite import Suite
+from colift.cli.bundles import mention_others
+from colift.cli.completion import policies as named
+from colift.cli.completion import suites
+from colift.cli.document import print_json
+from colift.cli.options import (
     AsJson,
     Behaviours,
     ChannelName,
@@ -39,11 +38,11 @@ from .options import (
     chosen_suite,
     try_folder,
 )
-from .policies import checked_policy
-from .printing import show
-from .progress import reported_interrupt, workers
-from .tables.comparison import behaviours_table, differences_table, ranks_table
-from .tables.recordings import show_recordings
+from colift.cli.policies import checked_policy
+from colift.cli.printing import show
+from colift.cli.progress import reported_interrupt, workers
+from colift.cli.tables.comparison import behaviours_table, differences_table, ranks_table
+from colift.cli.tables.recordings import show_recordings
 
 
 def compare_policies(
@@ -104,7 +103,7 @@ def compare_policies(
         check_fits(spec, episodes.scenarios[0], episodes.seeds[0])
     if out is not None:
         # The files need matplotlib, which is slow to load.
-        from ..benchmark.comparison.files import write_comparison
+        from colift.benchmark.comparison.files import write_comparison
 
         try_folder("--out", out)
     limits = suite_bounds(episodes) if bounds else {}

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..agents.registry import HUMANS, POLICIES, SUITES, entries
-from ..benchmark.channels import CHANNELS
+from colift.agents.registry import HUMANS, POLICIES, SUITES, entries
+from colift.benchmark.channels import CHANNELS
 
 
 def policies(incomplete: str) -> Iterator[str]:
@@ -43,12 +43,14 @@ def channels(incomplete: str) -> Iterator[str]:
 
 def people(incomplete: str) -> Iterator[str]:
     """Yield the subjects that begin with a text."""
-    from ..agents.humans import SUBJECTS  # The people need NumPy, which other completions do not.
+    from colift.agents.humans import (
+        SUBJECTS,  # The people need NumPy, which other completions do not.
+    )
 
     yield from (name for name in SUBJECTS if name.startswith(incomplete))
 
 
 def _is_submission(folder: Path) -> bool:
-    from ..agents.submissions.manifest import MANIFEST
+    from colift.agents.submissions.manifest import MANIFEST
 
     return (folder / MANIFEST).is_file()

@@ -5,17 +5,16 @@ from typing import Annotated
 
 import numpy as np
 import typer
-
-from ..benchmark.training.demonstrations import (
+from colift.benchmark.training.demonstrations import (
     FIRST_SEED,
     LIFTS,
     Demonstration,
     demonstrations,
     write_demonstrations,
 )
-from .options import Jobs, check_new_file
-from .printing import counted
-from .progress import reported_interrupt, workers
+from colift.cli.options import Jobs, check_new_file
+from colift.cli.printing import counted
+from colift.cli.progress import reported_interrupt, workers
 
 
 def demonstrate_lifts(

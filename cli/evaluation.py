@@ -11,32 +11,42 @@ from pathlib import Path
 from typing import Final
 
 import typer
-
-from ..agents.errors import EvaluatorFault, InputError
-from ..agents.registry import check_plays
-from ..agents.spec import AgentSpec
-from ..benchmark.bundle import Results, check_bundle_folder, check_unfinished, results, write_bundle
-from ..benchmark.bundle.recipe import FROM_NAMES, Recipe
-from ..benchmark.channels import Channel
-from ..benchmark.channels.recorded import recorded
-from ..benchmark.execution.cluster import Cluster
-from ..benchmark.execution.fitting import check_fits
-from ..benchmark.execution.journal import Journal, journal_path, open_journal
-from ..benchmark.execution.provenance import origin, platform_of
-from ..benchmark.execution.runner import InterruptedRunError, Run, run_suite
-from ..benchmark.results.baselines import BASELINES, Baseline, play_baselines, shipped_baselines
-from ..benchmark.results.remarks import remarks
-from ..benchmark.suites.suite import Suite
-from .document import print_json
-from .failures import DeadPolicyError, LifeWatch, reported_failures
-from .loading import INTERRUPTED
-from .policies import checked_policy
-from .policy_hints import board_remarks
-from .printing import argument, counted, show
-from .progress import progress_bar
-from .remedies import naming, opened
-from .tables.recordings import recordings_json, show_recordings
-from .tables.results import results_table, results_text
+from colift.agents.errors import EvaluatorFault, InputError
+from colift.agents.registry import check_plays
+from colift.agents.spec import AgentSpec
+from colift.benchmark.bundle import (
+    Results,
+    check_bundle_folder,
+    check_unfinished,
+    results,
+    write_bundle,
+)
+from colift.benchmark.bundle.recipe import FROM_NAMES, Recipe
+from colift.benchmark.channels import Channel
+from colift.benchmark.channels.recorded import recorded
+from colift.benchmark.execution.cluster import Cluster
+from colift.benchmark.execution.fitting import check_fits
+from colift.benchmark.execution.journal import Journal, journal_path, open_journal
+from colift.benchmark.execution.provenance import origin, platform_of
+from colift.benchmark.execution.runner import InterruptedRunError, Run, run_suite
+from colift.benchmark.results.baselines import (
+    BASELINES,
+    Baseline,
+    play_baselines,
+    shipped_baselines,
+)
+from colift.benchmark.results.remarks import remarks
+from colift.benchmark.suites.suite import Suite
+from colift.cli.document import print_json
+from colift.cli.failures import DeadPolicyError, LifeWatch, reported_failures
+from colift.cli.loading import INTERRUPTED
+from colift.cli.policies import checked_policy
+from colift.cli.policy_hints import board_remarks
+from colift.cli.printing import argument, counted, show
+from colift.cli.progress import progress_bar
+from colift.cli.remedies import naming, opened
+from colift.cli.tables.recordings import recordings_json, show_recordings
+from colift.cli.tables.results import results_table, results_text
 
 GO_ON: Final = "the finished lifts are kept: resume with the same command and --resume"
 

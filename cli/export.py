@@ -6,25 +6,24 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
-
-from ..agents.errors import InputError
-from ..benchmark.bundle import Bundle, one_line, read_bundle
-from ..benchmark.execution.pool import checked_jobs
-from ..benchmark.export.contents import Contents
-from ..benchmark.export.exporting import FORMATS, CardWords, check_format, export
-from ..benchmark.export.fixed_sets import SetLift, play_set, set_digest, set_plan
-from ..benchmark.export.folder import check_new
-from ..benchmark.export.observing import spaces
-from ..benchmark.export.provenance import VIEWS, Provenance, of_scenario
-from ..benchmark.export.proving import proved_lifts
-from ..benchmark.export.rules import CONVERTED, NAMES, RULES, digest, rule
-from ..benchmark.live.session import is_session
-from ..benchmark.suites.suite import Suite, recorded_suite
-from .bundles import mention_others
-from .options import Jobs
-from .printing import counted, show
-from .progress import reported_interrupt, workers
-from .tables.recordings import recordings_text
+from colift.agents.errors import InputError
+from colift.benchmark.bundle import Bundle, one_line, read_bundle
+from colift.benchmark.execution.pool import checked_jobs
+from colift.benchmark.export.contents import Contents
+from colift.benchmark.export.exporting import FORMATS, CardWords, check_format, export
+from colift.benchmark.export.fixed_sets import SetLift, play_set, set_digest, set_plan
+from colift.benchmark.export.folder import check_new
+from colift.benchmark.export.observing import spaces
+from colift.benchmark.export.provenance import VIEWS, Provenance, of_scenario
+from colift.benchmark.export.proving import proved_lifts
+from colift.benchmark.export.rules import CONVERTED, NAMES, RULES, digest, rule
+from colift.benchmark.live.session import is_session
+from colift.benchmark.suites.suite import Suite, recorded_suite
+from colift.cli.bundles import mention_others
+from colift.cli.options import Jobs
+from colift.cli.printing import counted, show
+from colift.cli.progress import reported_interrupt, workers
+from colift.cli.tables.recordings import recordings_text
 
 SIZE: Final = 300
 """Lifts of a fixed set."""

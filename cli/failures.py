@@ -3,11 +3,11 @@
 from collections.abc import Callable, Iterator
 from typing import Final
 
-from ..benchmark.bundle import one_line
-from ..benchmark.episode.episode import Episode
-from ..benchmark.episode.turns import START, STEP
-from ..benchmark.execution.runner import Run
-from .printing import counted
+from colift.benchmark.bundle import one_line
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.turns import START, STEP
+from colift.benchmark.execution.runner import Run
+from colift.cli.printing import counted
 
 LINES: Final = 20
 """Lines of the output that are shown."""

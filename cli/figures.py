@@ -7,12 +7,11 @@ from textwrap import shorten
 from typing import Annotated, Final
 
 import typer
-
-from ..agents.errors import EvaluatorFault, InputError
-from ..benchmark.figures.making import FigureStatus, remake, statuses
-from ..benchmark.figures.registry import clone_folder
-from .options import check_exclusive
-from .printing import left, show, table
+from colift.agents.errors import EvaluatorFault, InputError
+from colift.benchmark.figures.making import FigureStatus, remake, statuses
+from colift.benchmark.figures.registry import clone_folder
+from colift.cli.options import check_exclusive
+from colift.cli.printing import left, show, table
 
 SHOWN: Final = 48
 """Characters of a command in the list of figures; a single figure is listed with all of it."""

@@ -5,29 +5,28 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from typer.core import TyperGroup
-
-from ..agents.control.anticipation import Anticipation, anticipation_json
-from ..agents.control.learned_task import task_json
-from ..agents.errors import InputError
-from ..benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
-from ..benchmark.execution.pool import checked_jobs
-from ..benchmark.training import anticipation
-from ..benchmark.training.data import Timing
-from ..benchmark.training.demonstrations import FIRST_SEED, LIFTS, read_demonstrations
-from ..benchmark.training.q_learning import LearningTrial, learning_trials, table_json
-from ..benchmark.training.scikit import import_sklearn
-from ..benchmark.training.task_model import (
+from colift.agents.control.anticipation import Anticipation, anticipation_json
+from colift.agents.control.learned_task import task_json
+from colift.agents.errors import InputError
+from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
+from colift.benchmark.execution.pool import checked_jobs
+from colift.benchmark.training import anticipation
+from colift.benchmark.training.data import Timing
+from colift.benchmark.training.demonstrations import FIRST_SEED, LIFTS, read_demonstrations
+from colift.benchmark.training.q_learning import LearningTrial, learning_trials, table_json
+from colift.benchmark.training.scikit import import_sklearn
+from colift.benchmark.training.task_model import (
     COMPONENTS,
     TUNING_LIFTS,
     fine_tune,
     learn_task,
 )
-from .demonstrate import record
-from .options import LATENCY_OPTION, PERIOD_OPTION, Jobs, check_new_file, write_output
-from .printing import show
-from .progress import progress_bar, workers
-from .tables.learning import anticipation_table, convergence_text, q_table, task_table
+from colift.cli.demonstrate import record
+from colift.cli.options import LATENCY_OPTION, PERIOD_OPTION, Jobs, check_new_file, write_output
+from colift.cli.printing import show
+from colift.cli.progress import progress_bar, workers
+from colift.cli.tables.learning import anticipation_table, convergence_text, q_table, task_table
+from typer.core import TyperGroup
 
 Lifts = Annotated[int, typer.Option(metavar="N", help="Lifts per round.")]
 Rounds = Annotated[int, typer.Option(metavar="N", help="Rounds of lifting and fitting.")]

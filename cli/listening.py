@@ -7,8 +7,7 @@ from types import FrameType
 from typing import Annotated, Final
 
 import typer
-
-from ..agents.errors import InputError
+from colift.agents.errors import InputError
 
 Host = Annotated[
     str,
@@ -32,7 +31,7 @@ def listening_at(host: str, port: int) -> socket.socket:
     InputError
         If the address or the port cannot be used.
     """
-    from ..leaderboard.service.server import listening
+    from colift.leaderboard.service.server import listening
 
     try:
         return listening(host, port)

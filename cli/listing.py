@@ -6,17 +6,12 @@ from pathlib import Path
 from typing import Annotated, Any, Final
 
 import typer
-from rich.console import RenderableType
-from rich.padding import Padding
-from rich.table import Table
-from rich.text import Text
-
-from ..agents.errors import InputError
-from ..agents.humans import SUBJECTS, Subject
-from ..agents.loading.description import ParameterText, described
-from ..agents.loading.loading import PolicySpec
-from ..agents.plugins import class_fault
-from ..agents.registry import (
+from colift.agents.errors import InputError
+from colift.agents.humans import SUBJECTS, Subject
+from colift.agents.loading.description import ParameterText, described
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.plugins import class_fault
+from colift.agents.registry import (
     HUMANS,
     POLICIES,
     SUITES,
@@ -27,14 +22,18 @@ from ..agents.registry import (
     policies_by_task,
     summary,
 )
-from ..agents.sandbox.host.policy import SandboxedPolicy
-from ..agents.submissions.manifest import MANIFEST, Manifest
-from ..agents.submissions.submission import read_submission
-from ..benchmark.channels import CHANNELS
-from ..benchmark.suites.suite import make_suite
-from .completion import policies
-from .policies import choose_policy
-from .printing import show
+from colift.agents.sandbox.host.policy import SandboxedPolicy
+from colift.agents.submissions.manifest import MANIFEST, Manifest
+from colift.agents.submissions.submission import read_submission
+from colift.benchmark.channels import CHANNELS
+from colift.benchmark.suites.suite import make_suite
+from colift.cli.completion import policies
+from colift.cli.policies import choose_policy
+from colift.cli.printing import show
+from rich.console import RenderableType
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
 
 SECTIONS: Final = ("policies", "behaviours", "subjects", "suites", "tasks", "channels")
 """What 'colift list' lists, each by the word that lists it alone."""

@@ -3,9 +3,9 @@
 import sys
 from typing import NoReturn
 
-from .loading import Loading
-from .signals import interruptible
-from .streams import complete_streams
+from colift.cli.loading import Loading
+from colift.cli.signals import interruptible
+from colift.cli.streams import complete_streams
 
 
 def main() -> NoReturn:
@@ -18,7 +18,7 @@ def main() -> NoReturn:
     with interruptible() as ending:
         try:
             with Loading():
-                from .program import execute
+                from colift.cli.program import execute
             code = execute()
         except KeyboardInterrupt:
             code = None

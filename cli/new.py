@@ -4,11 +4,10 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-
-from ..agents.submissions.from_file import write_from
-from ..agents.submissions.new import write_template
-from ..agents.submissions.submission import read_submission
-from .printing import argument
+from colift.agents.submissions.from_file import write_from
+from colift.agents.submissions.new import write_template
+from colift.agents.submissions.submission import read_submission
+from colift.cli.printing import argument
 
 
 def new(
@@ -35,7 +34,7 @@ def new(
     submission = read_submission(folder)
     if submission.manifest.model:
         # Only this kind of submission needs the extra.
-        from ..agents.submissions.bound import bound_text
+        from colift.agents.submissions.bound import bound_text
 
         print(f"network: {bound_text(submission)}")
     step = "edit them" if source is None else "name the authors in policy.toml"

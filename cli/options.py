@@ -9,16 +9,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
-
-from ..agents.errors import InputError
-from ..benchmark.channels import CHANNELS, Channel, make_channel
-from ..benchmark.execution.pool import JOBS, local_pool
-from .completion import behaviours, channels, policies, suites
-from .remedies import naming, opened
+from colift.agents.errors import InputError
+from colift.benchmark.channels import CHANNELS, Channel, make_channel
+from colift.benchmark.execution.pool import JOBS, local_pool
+from colift.cli.completion import behaviours, channels, policies, suites
+from colift.cli.remedies import naming, opened
 
 # The engine takes a second to import: not for a help text or a completion.
 if TYPE_CHECKING:
-    from ..benchmark.suites.suite import Suite
+    from colift.benchmark.suites.suite import Suite
 
 AUTO: Final = "auto"
 """Colift's own policies in this process, all others in the strongest sandbox."""
@@ -142,8 +141,8 @@ def chosen_suite(
     InputError
         If there is no such suite or behaviour, or the file or the seeds cannot be used.
     """
-    from ..benchmark.live.scenarios import real_lifts
-    from ..benchmark.suites.suite import make_suite
+    from colift.benchmark.live.scenarios import real_lifts
+    from colift.benchmark.suites.suite import make_suite
 
     if recordings is None:
         suite = make_suite(name or STANDARD)
@@ -213,7 +212,7 @@ def executor(jobs: int | None, dask: str | None) -> AbstractContextManager[Execu
         return local_pool(jobs)
     if jobs is not None:
         raise InputError("--jobs and --dask exclude each other: a cluster has its own workers")
-    from ..benchmark.execution.connecting import dask_pool
+    from colift.benchmark.execution.connecting import dask_pool
 
     return opened(dask_pool(dask), "--dask")
 

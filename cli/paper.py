@@ -4,15 +4,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
+from colift.cli.document import print_json
+from colift.cli.options import AsJson, Jobs, seed_range, try_folder
+from colift.cli.printing import left, show, table
+from colift.cli.progress import reported_interrupt, workers
 from rich.console import RenderableType
 
-from .document import print_json
-from .options import AsJson, Jobs, seed_range, try_folder
-from .printing import left, show, table
-from .progress import reported_interrupt, workers
-
 if TYPE_CHECKING:
-    from ..benchmark.paper.report import Report
+    from colift.benchmark.paper.report import Report
 
 SHOWN: Final = (0, 1, 2, 4, 5, 8)
 """Columns of Table I that fit a terminal: not the ratios and the differences."""
@@ -32,9 +31,9 @@ def paper(
 ) -> None:
     """Reproduce the paper: Table I, figures 4 to 9 and its claims, beside the published values."""
     # The report needs matplotlib, which is slow to load.
-    from ..benchmark.paper.evidence import Effort, collect_evidence, lift_count
-    from ..benchmark.paper.report import claims_json, make_report, write_report
-    from ..benchmark.suites.suite import make_suite
+    from colift.benchmark.paper.evidence import Effort, collect_evidence, lift_count
+    from colift.benchmark.paper.report import claims_json, make_report, write_report
+    from colift.benchmark.suites.suite import make_suite
 
     suite = make_suite("paper-v1").with_seeds(*seed_range(seeds))
     effort = Effort(learning_trials=trials)
@@ -55,7 +54,7 @@ def paper(
 
 def _summary(report: "Report") -> list[RenderableType]:
     """Return Table I and the list of the claims."""
-    from ..benchmark.paper.pages import HEADER, claims_verdict, table_notes, table_rows
+    from colift.benchmark.paper.pages import HEADER, claims_verdict, table_notes, table_rows
 
     titles = [HEADER[column].replace(": ", ":\n") for column in SHOWN]
     rows = [

@@ -3,15 +3,15 @@
 import sys
 from collections.abc import Mapping
 
-from ..agents.errors import EvaluatorFault, InputError
-from ..agents.loading.loading import PolicySpec
-from ..agents.registry import other_task, playing, summary
-from ..agents.spec import AgentSpec
-from ..benchmark.episode.level import LEVEL
-from ..benchmark.execution.fitting import check_fits
-from ..benchmark.suites.catalogue import make_scenario
-from .options import AUTO
-from .policies import checked_policy, choose_policy
+from colift.agents.errors import EvaluatorFault, InputError
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.registry import other_task, playing, summary
+from colift.agents.spec import AgentSpec
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.execution.fitting import check_fits
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.cli.options import AUTO
+from colift.cli.policies import checked_policy, choose_policy
 
 FIRST = "anticipate"
 """The default partner."""

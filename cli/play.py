@@ -8,14 +8,13 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
-
-from ..agents.errors import InputError
-from ..agents.extras import how_to_install
-from ..leaderboard.logs import write_log
-from .completion import policies
-from .listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
-from .options import AUTO, PolicyIsolation, check_folder
-from .partners import FIRST, partners
+from colift.agents.errors import InputError
+from colift.agents.extras import how_to_install
+from colift.cli.completion import policies
+from colift.cli.listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
+from colift.cli.options import AUTO, PolicyIsolation, check_folder
+from colift.cli.partners import FIRST, partners
+from colift.leaderboard.logs import write_log
 
 PORT: Final = 8100
 """The default port: not a board's, which may run beside it."""
@@ -64,8 +63,8 @@ def play(
     'colift verify' verifies the saved lifts, 'colift run POLICY --recordings' plays them again.
     """
     try:
-        from ..leaderboard.live.keeper import PlayConfig
-        from ..leaderboard.live.processes import keep_serving
+        from colift.leaderboard.live.keeper import PlayConfig
+        from colift.leaderboard.live.processes import keep_serving
     except ModuleNotFoundError as error:
         raise InputError(
             f"{error.name} is not installed; lifting in a browser needs: {how_to_install('board')}"

@@ -4,20 +4,20 @@ import functools
 import sys
 from pathlib import Path
 
-from ..agents.errors import InputError
-from ..agents.identity import source_hash
-from ..agents.loading.loading import PolicySpec
-from ..agents.loading.parameters import merged, split
-from ..agents.near_names import did_you_mean
-from ..agents.registry import POLICIES, entries, entry_of, own_entries
-from ..agents.sandbox.host.levels import LEVELS, choose, fault
-from ..agents.sandbox.host.policy import SandboxedPolicy
-from ..agents.spec import AgentSpec
-from ..agents.submissions.modules import module_digest
-from ..agents.submissions.snapshot import snapshot_file
-from ..agents.submissions.submission import digest_with, open_submission
-from .options import AUTO, NONE
-from .policy_hints import import_hint, refuse_other_file
+from colift.agents.errors import InputError
+from colift.agents.identity import source_hash
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.parameters import merged, split
+from colift.agents.near_names import did_you_mean
+from colift.agents.registry import POLICIES, entries, entry_of, own_entries
+from colift.agents.sandbox.host.levels import LEVELS, choose, fault
+from colift.agents.sandbox.host.policy import SandboxedPolicy
+from colift.agents.spec import AgentSpec
+from colift.agents.submissions.modules import module_digest
+from colift.agents.submissions.snapshot import snapshot_file
+from colift.agents.submissions.submission import digest_with, open_submission
+from colift.cli.options import AUTO, NONE
+from colift.cli.policy_hints import import_hint, refuse_other_file
 
 
 def choose_policy(text: str, isolation: str = AUTO) -> AgentSpec:

@@ -8,18 +8,17 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from colift.agents.errors import EvaluatorFault, InputError
+from colift.agents.registry import own_policies
+from colift.cli.options import Dask, Jobs, executor
+from colift.cli.printing import show, table
+from colift.cli.progress import job_bar, reported_interrupt
+from colift.leaderboard.evaluation.evaluation import episode_count, play_human_human
+from colift.leaderboard.evaluation.progress import Callbacks
+from colift.leaderboard.practice.practice import SUITES, is_current, play_policy, practice_season
+from colift.leaderboard.practice.season_import import PlayedSeason
+from colift.leaderboard.records.season import Season
 from rich.table import Table
-
-from ..agents.errors import EvaluatorFault, InputError
-from ..agents.registry import own_policies
-from ..leaderboard.evaluation.evaluation import episode_count, play_human_human
-from ..leaderboard.evaluation.progress import Callbacks
-from ..leaderboard.practice.practice import SUITES, is_current, play_policy, practice_season
-from ..leaderboard.practice.season_import import PlayedSeason
-from ..leaderboard.records.season import Season
-from .options import Dask, Jobs, executor
-from .printing import show, table
-from .progress import job_bar, reported_interrupt
 
 
 def practice(

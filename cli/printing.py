@@ -6,14 +6,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Final
 
+from colift.agents.registry import POLICIES, entries
 from rich import box
 from rich.console import Console, RenderableType
 from rich.measure import Measurement
 from rich.segment import Segment, Segments
 from rich.table import Column, Table
 from rich.text import Text
-
-from ..agents.registry import POLICIES, entries
 
 Cell = str | Text
 

@@ -4,13 +4,12 @@ import sys
 from typing import Annotated, Any, Final
 
 import typer
-
-from ..agents.errors import EvaluatorFault, InputError
-from .commands import Commands
-from .document import begin, print_json_error
-from .loading import INTERRUPTED
-from .remedies import explained
-from .streams import give_up_stdout
+from colift.agents.errors import EvaluatorFault, InputError
+from colift.cli.commands import Commands
+from colift.cli.document import begin, print_json_error
+from colift.cli.loading import INTERRUPTED
+from colift.cli.remedies import explained
+from colift.cli.streams import give_up_stdout
 
 app = typer.Typer(
     name="colift",

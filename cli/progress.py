@@ -7,6 +7,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 import typer
+from colift.benchmark.execution.pool import local_pool
+from colift.cli.loading import INTERRUPTED
 from rich.console import Console
 from rich.progress import (
     BarColumn,
@@ -17,9 +19,6 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 from rich.text import Text
-
-from ..benchmark.execution.pool import local_pool
-from .loading import INTERRUPTED
 
 
 @contextmanager

@@ -6,15 +6,14 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
-
-from ..agents.errors import InputError
-from ..leaderboard.board.board import LOCAL, Board
-from ..leaderboard.practice.season_import import open_to_read, open_with_practice
-from ..leaderboard.queue import Queue
-from ..leaderboard.records.job import STATES, Job
-from ..leaderboard.records.times import utc_minute
-from .board_options import BOARD, ExistingBoard, Why, opened_board
-from .printing import left, show, table
+from colift.agents.errors import InputError
+from colift.cli.board_options import BOARD, ExistingBoard, Why, opened_board
+from colift.cli.printing import left, show, table
+from colift.leaderboard.board.board import LOCAL, Board
+from colift.leaderboard.practice.season_import import open_to_read, open_with_practice
+from colift.leaderboard.queue import Queue
+from colift.leaderboard.records.job import STATES, Job
+from colift.leaderboard.records.times import utc_minute
 
 app = typer.Typer(
     help="List, retry and cancel the jobs of a board.",

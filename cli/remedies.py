@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager, ExitStack, contextmanager
 from typing import Final, TypeVar
 
-from ..agents.errors import InputError, Remedy
+from colift.agents.errors import InputError, Remedy
 
 T = TypeVar("T")
 

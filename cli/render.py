@@ -5,21 +5,20 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
-
-from ..agents.errors import InputError
-from ..agents.registry import check_plays
-from ..agents.spec import AgentSpec
-from ..benchmark.episode.episode import Episode
-from ..benchmark.episode.level import LEVEL
-from ..benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
-from ..benchmark.episode.turns import is_policy_failure
-from ..benchmark.execution.batches import play
-from ..benchmark.suites.catalogue import make_scenario
-from .completion import behaviours, people
-from .failures import printed_lines
-from .options import LATENCY_OPTION, PERIOD_OPTION, PolicyName, check_output
-from .policies import checked_policy
-from .progress import progress_bar, reported_interrupt
+from colift.agents.errors import InputError
+from colift.agents.registry import check_plays
+from colift.agents.spec import AgentSpec
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
+from colift.benchmark.episode.turns import is_policy_failure
+from colift.benchmark.execution.batches import play
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.cli.completion import behaviours, people
+from colift.cli.failures import printed_lines
+from colift.cli.options import LATENCY_OPTION, PERIOD_OPTION, PolicyName, check_output
+from colift.cli.policies import checked_policy
+from colift.cli.progress import progress_bar, reported_interrupt
 
 HTML: Final = ".html"
 
@@ -93,7 +92,7 @@ def _drawn(spec: AgentSpec, played: Scenario, seed: int, out: Path) -> Episode:
 
 # Drawing needs matplotlib, which is slow to load: not for the other commands.
 def _check(out: Path) -> None:
-    from ..benchmark.rendering.writing import SUFFIXES, check_film
+    from colift.benchmark.rendering.writing import SUFFIXES, check_film
 
     if out.suffix not in (*SUFFIXES, HTML):
         known = ", ".join((*SUFFIXES, HTML))
@@ -105,7 +104,7 @@ def _check(out: Path) -> None:
 
 
 def _film(out: Path, episode: Episode, played: Scenario, name: str) -> None:
-    from ..benchmark.rendering.film import film_episode, shown_frames
+    from colift.benchmark.rendering.film import film_episode, shown_frames
 
     pictures = 1 if out.suffix == ".png" else len(shown_frames(episode))
     with progress_bar("drawing", pictures) as progress:
@@ -113,8 +112,8 @@ def _film(out: Path, episode: Episode, played: Scenario, name: str) -> None:
 
 
 def _write_page(out: Path, episode: Episode, played: Scenario, name: str) -> None:
-    from ..leaderboard.replays.html import replay_page
-    from ..leaderboard.replays.replay import play_ghost, replay_content
+    from colift.leaderboard.replays.html import replay_page
+    from colift.leaderboard.replays.replay import play_ghost, replay_content
 
     ghost = play_ghost(played, episode.seed)
     page = replay_page([replay_content(episode, played, ghost, policy=name)])

@@ -6,17 +6,16 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-
-from ..agents.errors import InputError
-from ..benchmark.execution.pool import local_pool
-from ..leaderboard.board.board import LOCAL, Board
-from ..leaderboard.board.standings import RankedRow
-from ..leaderboard.evaluation.progress import Callbacks
-from ..leaderboard.queue import WorkerQueue
-from ..leaderboard.queue.worker import Worker
-from .board_options import BOARD, ExistingBoard, SeasonName, Why, opened_board
-from .options import Jobs
-from .progress import job_bar
+from colift.agents.errors import InputError
+from colift.benchmark.execution.pool import local_pool
+from colift.cli.board_options import BOARD, ExistingBoard, SeasonName, Why, opened_board
+from colift.cli.options import Jobs
+from colift.cli.progress import job_bar
+from colift.leaderboard.board.board import LOCAL, Board
+from colift.leaderboard.board.standings import RankedRow
+from colift.leaderboard.evaluation.progress import Callbacks
+from colift.leaderboard.queue import WorkerQueue
+from colift.leaderboard.queue.worker import Worker
 
 app = typer.Typer(
     help="Change whether a row is ranked, or evaluate its submission again.",

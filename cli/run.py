@@ -4,8 +4,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-
-from .options import (
+from colift.cli.options import (
     AUTO,
     LATENCY_OPTION,
     PERIOD_OPTION,
@@ -54,7 +53,7 @@ def run(
     With --out, each lift is saved when it is finished, and an interrupted run can be resumed.
     """
     # The engine takes a second to import: not for a help text or a completion.
-    from .evaluation import Bundle, evaluate
+    from colift.cli.evaluation import Bundle, evaluate
 
     episodes = chosen_suite(suite, seeds, recordings, behaviour).with_timing(
         latency, control_period

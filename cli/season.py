@@ -3,12 +3,11 @@
 from typing import Annotated
 
 import typer
-
-from ..agents.registry import own_policies
-from ..leaderboard.board.board import LOCAL
-from ..leaderboard.evaluation.entrant import builtin_entrant
-from ..leaderboard.queue import Queue
-from .board_options import BOARD, BoardFolder, ExistingBoard, Why, opened_board
+from colift.agents.registry import own_policies
+from colift.cli.board_options import BOARD, BoardFolder, ExistingBoard, Why, opened_board
+from colift.leaderboard.board.board import LOCAL
+from colift.leaderboard.evaluation.entrant import builtin_entrant
+from colift.leaderboard.queue import Queue
 
 app = typer.Typer(help="Begin and end the seasons of a board.", no_args_is_help=True)
 

@@ -7,18 +7,23 @@ from typing import TYPE_CHECKING, Annotated, Final
 from urllib.parse import urlsplit
 
 import typer
-
-from ..agents.errors import InputError
-from ..agents.extras import how_to_install
-from ..agents.sandbox.host.levels import check_level
-from ..agents.submissions.folder import MIB
-from ..benchmark.execution.pool import default_jobs
-from ..leaderboard.evaluation.entrant import AUTO
-from ..leaderboard.logs import write_log
-from ..leaderboard.queue import Quota
-from .board_options import BOARD, BoardFolder, BoardIsolation, open_patiently, opened_board
-from .listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
-from .partners import partners
+from colift.agents.errors import InputError
+from colift.agents.extras import how_to_install
+from colift.agents.sandbox.host.levels import check_level
+from colift.agents.submissions.folder import MIB
+from colift.benchmark.execution.pool import default_jobs
+from colift.cli.board_options import (
+    BOARD,
+    BoardFolder,
+    BoardIsolation,
+    open_patiently,
+    opened_board,
+)
+from colift.cli.listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
+from colift.cli.partners import partners
+from colift.leaderboard.evaluation.entrant import AUTO
+from colift.leaderboard.logs import write_log
+from colift.leaderboard.queue import Quota
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
@@ -75,9 +80,9 @@ def serve_board(
 ) -> None:
     """Serve a board on the web: its pages, its JSON interface, and uploads."""
     try:
-        from ..leaderboard.service.app import create_app
-        from ..leaderboard.service.documentation import Documentation
-        from ..leaderboard.service.server import make_server, running
+        from colift.leaderboard.service.app import create_app
+        from colift.leaderboard.service.documentation import Documentation
+        from colift.leaderboard.service.server import make_server, running
 
         if rooms:
             import websockets  # noqa: F401
@@ -119,10 +124,10 @@ def serve_board(
 
 def _offer_rooms(app: "FastAPI", board: Path, rooms: int) -> "type[Protocol]":
     """Let visitors of a board lift with all policies; return the protocol of their sockets."""
-    from ..leaderboard.live.app import create_play, mount_play
-    from ..leaderboard.live.keeper import PlayConfig
-    from ..leaderboard.live.processes import SmallBuffers
-    from ..leaderboard.service.dependencies import PLAY
+    from colift.leaderboard.live.app import create_play, mount_play
+    from colift.leaderboard.live.keeper import PlayConfig
+    from colift.leaderboard.live.processes import SmallBuffers
+    from colift.leaderboard.service.dependencies import PLAY
 
     named, lines = partners()
     config = PlayConfig(

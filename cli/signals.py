@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any, Final
 
-from .loading import INTERRUPTED
+from colift.cli.loading import INTERRUPTED
 
 Handler = Callable[[int, FrameType | None], Any] | int
 """A handler of a signal."""

@@ -5,13 +5,13 @@ It imports next to nothing.
 
 import signal
 
-from .loading import Loading
+from colift.cli.loading import Loading
 
 
 def start() -> None:
     """Load and run the command line."""
     with Loading():
-        from .main import main
+        from colift.cli.main import main
     try:
         main()
     finally:

@@ -7,31 +7,30 @@ from pathlib import Path
 from typing import Annotated, Any, Final, NoReturn
 
 import typer
-
-from ..agents.errors import InputError
-from ..agents.submissions.manifest import MANIFEST
-from ..agents.submissions.new import check_author
-from ..agents.submissions.submission import Submission, open_submission
-from ..benchmark.execution.pool import checked_jobs, local_pool
-from ..benchmark.suites.suite import make_suite
-from ..benchmark.verification.checking import SUITE, checked_with
-from ..leaderboard.board.board import Board
-from ..leaderboard.client import API, RemoteBoard
-from ..leaderboard.evaluation.progress import Callbacks
-from ..leaderboard.pages.links import ServiceLinks
-from ..leaderboard.practice.season_import import open_with_practice
-from ..leaderboard.queue import NO_QUOTA, Queue, WorkerQueue
-from ..leaderboard.queue.worker import Worker
-from ..leaderboard.records.job import Job
-from ..leaderboard.records.row import BoardRow
-from ..leaderboard.records.season import check_season_suite
-from .board_options import opened_board, web_address
-from .check import all_checks
-from .completion import suites
-from .options import Jobs
-from .printing import argument, show
-from .progress import job_bar
-from .tables.row import SectionRow, row_table, row_text
+from colift.agents.errors import InputError
+from colift.agents.submissions.manifest import MANIFEST
+from colift.agents.submissions.new import check_author
+from colift.agents.submissions.submission import Submission, open_submission
+from colift.benchmark.execution.pool import checked_jobs, local_pool
+from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.verification.checking import SUITE, checked_with
+from colift.cli.board_options import opened_board, web_address
+from colift.cli.check import all_checks
+from colift.cli.completion import suites
+from colift.cli.options import Jobs
+from colift.cli.printing import argument, show
+from colift.cli.progress import job_bar
+from colift.cli.tables.row import SectionRow, row_table, row_text
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.client import API, RemoteBoard
+from colift.leaderboard.evaluation.progress import Callbacks
+from colift.leaderboard.pages.links import ServiceLinks
+from colift.leaderboard.practice.season_import import open_with_practice
+from colift.leaderboard.queue import NO_QUOTA, Queue, WorkerQueue
+from colift.leaderboard.queue.worker import Worker
+from colift.leaderboard.records.job import Job
+from colift.leaderboard.records.row import BoardRow
+from colift.leaderboard.records.season import check_season_suite
 
 POLL_S: Final = 0.5
 """Time between two queries of a job that another process evaluates [s]."""

@@ -5,17 +5,16 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
-
-from ..agents.errors import InputError
-from ..benchmark.channels import channel_name
-from ..benchmark.comparison.formatting import between, digits
-from ..benchmark.comparison.stored import Stored, read_stored
-from ..benchmark.results.summary import plain_estimate
-from .bundles import mention_others
-from .document import print_json
-from .options import AsJson
-from .printing import Cell, left, show, table
-from .tables.comparison import policy_cell
+from colift.agents.errors import InputError
+from colift.benchmark.channels import channel_name
+from colift.benchmark.comparison.formatting import between, digits
+from colift.benchmark.comparison.stored import Stored, read_stored
+from colift.benchmark.results.summary import plain_estimate
+from colift.cli.bundles import mention_others
+from colift.cli.document import print_json
+from colift.cli.options import AsJson
+from colift.cli.printing import Cell, left, show, table
+from colift.cli.tables.comparison import policy_cell
 
 NONE: Final = "none"
 

@@ -3,11 +3,10 @@
 from typing import Annotated
 
 import typer
-
-from ..leaderboard.board.tokens import Tokens
-from ..leaderboard.practice.season_import import open_to_read
-from .board_options import BOARD, BoardFolder, ExistingBoard, opened_board
-from .printing import show, table
+from colift.cli.board_options import BOARD, BoardFolder, ExistingBoard, opened_board
+from colift.cli.printing import show, table
+from colift.leaderboard.board.tokens import Tokens
+from colift.leaderboard.practice.season_import import open_to_read
 
 app = typer.Typer(
     help="Manage the tokens of the submitters of a board on the web.", no_args_is_help=True

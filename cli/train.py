@@ -7,31 +7,30 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from typer.core import TyperGroup
-
-from ..agents.errors import InputError
-from ..agents.registry import SUITES, own_entries
-from ..benchmark.episode.level import LEVEL
-from ..benchmark.execution.pool import local_pool
-from ..benchmark.suites.suite import make_suite
-from ..benchmark.training import cem as cross_entropy
-from ..benchmark.training.apg_settings import NAME as APG
-from ..benchmark.training.apg_settings import TASKS, ApgSettings
-from ..benchmark.training.cem import CemSettings
-from ..benchmark.training.course import Course, Point, open_course, write_summary
-from ..benchmark.training.ppo_settings import (
+from colift.agents.errors import InputError
+from colift.agents.registry import SUITES, own_entries
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.execution.pool import local_pool
+from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.training import cem as cross_entropy
+from colift.benchmark.training.apg_settings import NAME as APG
+from colift.benchmark.training.apg_settings import TASKS, ApgSettings
+from colift.benchmark.training.cem import CemSettings
+from colift.benchmark.training.course import Course, Point, open_course, write_summary
+from colift.benchmark.training.ppo_settings import (
     CO_PLAY,
     SELF_PLAY,
     CoPlaySettings,
     PpoSettings,
     SelfPlaySettings,
 )
-from ..benchmark.training.ppo_settings import NAME as PPO
-from ..benchmark.twin.libraries import require_jax
-from .options import Jobs
-from .printing import argument, show
-from .progress import job_bar, reported_interrupt
-from .tables.training import training_table
+from colift.benchmark.training.ppo_settings import NAME as PPO
+from colift.benchmark.twin.libraries import require_jax
+from colift.cli.options import Jobs
+from colift.cli.printing import argument, show
+from colift.cli.progress import job_bar, reported_interrupt
+from colift.cli.tables.training import training_table
+from typer.core import TyperGroup
 
 MOST_SEEDS = 100
 
@@ -152,7 +151,7 @@ def apg(
         gentleness=gentleness,
     )
     require_jax()
-    from ..benchmark.training.apg_course import train_apg
+    from colift.benchmark.training.apg_course import train_apg
 
     def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
         train_apg(settings, course, progress)
@@ -174,7 +173,7 @@ def ppo(
     """Train a network by proximal policy optimisation, on the twin (extra: train)."""
     settings = PpoSettings(updates=updates, pool=pool, lifts=lifts)
     require_jax()
-    from ..benchmark.training.ppo import train_ppo
+    from colift.benchmark.training.ppo import train_ppo
 
     def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
         train_ppo(settings, course, executor=executor, progress=progress)
@@ -194,7 +193,7 @@ def self_play(
     """Train by PPO with a person who also learns, without colift's behaviours (extra: train)."""
     settings = SelfPlaySettings(updates=updates, lifts=lifts, haste=haste)
     require_jax()
-    from ..benchmark.training.self_play import train_self_play
+    from colift.benchmark.training.self_play import train_self_play
 
     def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
         train_self_play(settings, course, executor=executor, progress=progress)
@@ -219,7 +218,7 @@ def co_play(
     """Train with a population of people who learned by self-play (extra: train)."""
     settings = CoPlaySettings(population=population, updates=updates, lifts=lifts, haste=haste)
     require_jax()
-    from ..benchmark.training.co_play import train_co_play
+    from colift.benchmark.training.co_play import train_co_play
 
     def train(course: Course, executor: Executor | None, progress: Callable[[int], None]) -> None:
         train_co_play(settings, course, executor=executor, progress=progress)

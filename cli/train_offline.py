@@ -8,14 +8,13 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-
-from ..agents.errors import InputError
-from ..agents.extras import how_to_install
-from ..benchmark.training.course import Course
-from ..benchmark.training.offline_data import read_data
-from ..benchmark.training.offline_settings import CLONE, IQL, CloneSettings, IqlSettings
-from .options import Jobs
-from .train import Out, Seeds, _train_all, app
+from colift.agents.errors import InputError
+from colift.agents.extras import how_to_install
+from colift.benchmark.training.course import Course
+from colift.benchmark.training.offline_data import read_data
+from colift.benchmark.training.offline_settings import CLONE, IQL, CloneSettings, IqlSettings
+from colift.cli.options import Jobs
+from colift.cli.train import Out, Seeds, _train_all, app
 
 Data = Annotated[
     Path, typer.Argument(metavar="DATA", help="Minari data set: a folder of 'colift export'.")

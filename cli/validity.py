@@ -7,32 +7,31 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
-
-from ..agents.errors import InputError
-from ..agents.loading.loading import PolicySpec
-from ..agents.registry import playing
-from ..agents.spec import AgentSpec
-from ..benchmark.episode.level import LEVEL
-from ..benchmark.suites.suite import Suite, make_suite
-from ..benchmark.validity.playing import (
+from colift.agents.errors import InputError
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.registry import playing
+from colift.agents.spec import AgentSpec
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.suites.suite import Suite, make_suite
+from colift.benchmark.validity.playing import (
     Known,
     check_same_task,
     play_source,
     play_suite,
     validity_lifts,
 )
-from ..benchmark.validity.report import Validity, check_policies, validity_json, validity_of
-from ..benchmark.validity.scores import Scores
-from ..benchmark.validity.sources import Source, sources_of
-from ..leaderboard.practice.shipped_scores import shipped_scores
-from .completion import suites as suite_names
-from .document import print_json
-from .options import AsJson, Jobs, report_left_out
-from .policies import checked_policy
-from .printing import show
-from .progress import reported_interrupt, workers
-from .tables.recordings import recordings_json, show_recordings
-from .tables.validity import MEANINGS, heading, ratios_table, source_table
+from colift.benchmark.validity.report import Validity, check_policies, validity_json, validity_of
+from colift.benchmark.validity.scores import Scores
+from colift.benchmark.validity.sources import Source, sources_of
+from colift.cli.completion import suites as suite_names
+from colift.cli.document import print_json
+from colift.cli.options import AsJson, Jobs, report_left_out
+from colift.cli.policies import checked_policy
+from colift.cli.printing import show
+from colift.cli.progress import reported_interrupt, workers
+from colift.cli.tables.recordings import recordings_json, show_recordings
+from colift.cli.tables.validity import MEANINGS, heading, ratios_table, source_table
+from colift.leaderboard.practice.shipped_scores import shipped_scores
 
 SUITES: Final = ("standard-v1", "paper-v1", "quick-v1")
 """The suites that are judged by default."""

@@ -8,26 +8,25 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
-
-from ..agents.errors import EvaluatorFault, InputError
-from ..benchmark.bundle import (
+from colift.agents.errors import EvaluatorFault, InputError
+from colift.benchmark.bundle import (
     check_bundle_folder,
     check_unfinished,
     is_bundle,
     one_line,
     write_bundle,
 )
-from ..benchmark.execution.pool import checked_jobs, process_pool
-from ..benchmark.execution.runner import Run
-from ..benchmark.live.session import is_session, lift_folders, sessions_in
-from ..benchmark.results.headline import headline
-from ..benchmark.verification import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Verdict, verify
-from .bundles import mention_others
-from .document import print_json
-from .options import AsJson, Jobs
-from .printing import argument, counted, show
-from .progress import progress_bar
-from .remedies import naming
+from colift.benchmark.execution.pool import checked_jobs, process_pool
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.live.session import is_session, lift_folders, sessions_in
+from colift.benchmark.results.headline import headline
+from colift.benchmark.verification import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Verdict, verify
+from colift.cli.bundles import mention_others
+from colift.cli.document import print_json
+from colift.cli.options import AsJson, Jobs
+from colift.cli.printing import argument, counted, show
+from colift.cli.progress import progress_bar
+from colift.cli.remedies import naming
 
 MOST_SESSIONS: Final = 5
 """Largest number of sessions that are named."""

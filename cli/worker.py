@@ -6,14 +6,7 @@ from types import FrameType
 from typing import Annotated
 
 import typer
-
-from ..leaderboard.evaluation.entrant import AUTO
-from ..leaderboard.logs import write_log
-from ..leaderboard.practice.season_import import open_with_practice
-from ..leaderboard.queue import WorkerQueue
-from ..leaderboard.queue.worker import Worker
-from ..leaderboard.records.job import Job
-from .board_options import (
+from colift.cli.board_options import (
     BOARD,
     BoardFolder,
     BoardIsolation,
@@ -21,7 +14,13 @@ from .board_options import (
     opened_board,
     report_isolation,
 )
-from .options import Dask, Jobs, executor
+from colift.cli.options import Dask, Jobs, executor
+from colift.leaderboard.evaluation.entrant import AUTO
+from colift.leaderboard.logs import write_log
+from colift.leaderboard.practice.season_import import open_with_practice
+from colift.leaderboard.queue import WorkerQueue
+from colift.leaderboard.queue.worker import Worker
+from colift.leaderboard.records.job import Job
 
 ENDING = (signal.SIGINT, signal.SIGTERM)
 """Signals that end a worker."""

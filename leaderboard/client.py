@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any, Final
 
-from ..agents.errors import InputError
-from .storage.archive import pack_archive
+from colift.agents.errors import InputError
+from colift.leaderboard.storage.archive import pack_archive
 
 API: Final = "/api/v1"
 

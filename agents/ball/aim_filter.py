@@ -3,9 +3,8 @@
 from typing import Final
 
 import numpy as np
+from colift.agents.ball.facts import PULL
 from numpy.typing import NDArray
-
-from .facts import PULL
 
 RATE: Final = 2.0
 """Assumed natural frequency with which people steer [rad/s]."""

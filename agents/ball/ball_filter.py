@@ -3,9 +3,8 @@
 from typing import Final
 
 import numpy as np
+from colift.agents.ball.facts import PULL
 from numpy.typing import NDArray
-
-from .facts import PULL
 
 PLACE_NOISE: Final = 0.00023
 """Standard deviation of a seen place [m]."""

@@ -4,11 +4,10 @@ import math
 from typing import Final
 
 import numpy as np
-
-from ..agent import FRAME, Observation
-from ..control.anticipation import ARM_LAG, FeatureHistory, load_anticipation
-from ..control.preview import preview_gains
-from ..observations import BallObservation
+from colift.agents.agent import FRAME, Observation
+from colift.agents.control.anticipation import ARM_LAG, FeatureHistory, load_anticipation
+from colift.agents.control.preview import preview_gains
+from colift.agents.observations import BallObservation
 
 HORIZON: Final = 0.4
 """Time ahead over which commands are planned [s]."""

@@ -2,11 +2,11 @@
 
 from typing import Final
 
-from ..agent import FRAME, Observation
-from ..observations import BallObservation
-from .ball_filter import BallFilter
-from .facts import meant_by_wrists
-from .inclining import Inclining
+from colift.agents.agent import FRAME, Observation
+from colift.agents.ball.ball_filter import BallFilter
+from colift.agents.ball.facts import meant_by_wrists
+from colift.agents.ball.inclining import Inclining
+from colift.agents.observations import BallObservation
 
 LATENCY: Final = 0.1
 """Assumed age of the seen places and heights [s]."""

@@ -9,9 +9,8 @@ from dataclasses import dataclass, replace
 from typing import Final, NamedTuple
 
 import numpy as np
+from colift.agents.errors import InputError
 from numpy.typing import NDArray
-
-from ..errors import InputError
 
 Array = NDArray[np.float64]
 

@@ -6,12 +6,11 @@ from importlib.resources import files
 from typing import Any, Final, NamedTuple
 
 import numpy as np
+from colift.agents.agent import Observation, RobotObservation
+from colift.agents.control.learned import learned_json, load_learned, read_learned
+from colift.agents.errors import InputError
+from colift.agents.estimators.perceptron import Perceptron
 from numpy.typing import NDArray
-
-from ..agent import Observation, RobotObservation
-from ..errors import InputError
-from ..estimators.perceptron import Perceptron
-from .learned import learned_json, load_learned, read_learned
 
 Array = NDArray[np.float64]
 

@@ -3,8 +3,8 @@
 import math
 from typing import Final
 
-from ..agent import FRAME, Observation
-from ..observations import AgreeObservation
+from colift.agents.agent import FRAME, Observation
+from colift.agents.observations import AgreeObservation
 
 THERE: Final = 0.015
 """Distance within which an end counts as being at the hurdle [m]."""

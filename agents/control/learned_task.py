@@ -7,12 +7,15 @@ from importlib.resources import files
 from typing import Any, NamedTuple
 
 import numpy as np
+from colift.agents.control.adaptive_impedance import LearnedImpedance
+from colift.agents.control.learned import learned_json, load_learned, read_learned
+from colift.agents.errors import InputError
+from colift.agents.estimators.gaussian_mixture import (
+    Conditional,
+    GaussianMixture,
+    GaussianMixtureRegression,
+)
 from numpy.typing import ArrayLike, NDArray
-
-from ..errors import InputError
-from ..estimators.gaussian_mixture import Conditional, GaussianMixture, GaussianMixtureRegression
-from .adaptive_impedance import LearnedImpedance
-from .learned import learned_json, load_learned, read_learned
 
 Array = NDArray[np.float64]
 

@@ -4,9 +4,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from colift.agents.agent import FRAME
 from numpy.typing import NDArray
-
-from ..agent import FRAME
 
 Array = NDArray[np.float64]
 

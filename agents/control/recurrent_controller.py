@@ -1,10 +1,9 @@
 """Control of the hand by a recurrent network."""
 
 import numpy as np
-
-from ..agent import Action, Observation, RobotObservation
-from .portable import PORTABLE
-from .recurrent import GatedNetwork, act, memory_at_rest
+from colift.agents.agent import Action, Observation, RobotObservation
+from colift.agents.control.portable import PORTABLE
+from colift.agents.control.recurrent import GatedNetwork, act, memory_at_rest
 
 
 class RecurrentController:

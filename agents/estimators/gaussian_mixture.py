@@ -5,9 +5,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from colift.agents.errors import InputError
 from numpy.typing import ArrayLike, NDArray
-
-from ..errors import InputError
 
 Array = NDArray[np.float64]
 

@@ -4,8 +4,7 @@ import math
 from typing import Final
 
 import numpy as np
-
-from .minimum_jerk import Array, MinimumJerkStroke, profile
+from colift.agents.estimators.minimum_jerk import Array, MinimumJerkStroke, profile
 
 STEPS: Final = 30
 """Largest number of steps of the search; ten are usual."""

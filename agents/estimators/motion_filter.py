@@ -5,10 +5,9 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
+from colift.agents.calibration import CALIBRATION
+from colift.agents.errors import InputError
 from numpy.typing import NDArray
-
-from ..calibration import CALIBRATION
-from ..errors import InputError
 
 Matrix = NDArray[np.float64]
 

@@ -4,9 +4,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..errors import InputError
-from .minimum_jerk import Array
+from colift.agents.errors import InputError
+from colift.agents.estimators.minimum_jerk import Array
 
 
 @dataclass(frozen=True, kw_only=True)

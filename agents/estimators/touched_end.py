@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Final
 
-from ..agent import Observation
-from ..observations import HapticObservation
+from colift.agents.agent import Observation
+from colift.agents.observations import HapticObservation
 
 TABLE_LENGTH: Final = 0.8
 """Distance between the grips [m]."""

@@ -3,7 +3,7 @@
 import time
 from typing import Final
 
-from .operator import StopButton
+from colift.agents.hardware.operator import StopButton
 
 _CLOCK: Final = getattr(time, "CLOCK_BOOTTIME", time.CLOCK_MONOTONIC)
 

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Final
 
-from .ports import Sample
-from .stops import Stop, StopTrialError
+from colift.agents.hardware.ports import Sample
+from colift.agents.hardware.stops import Stop, StopTrialError
 
 LARGEST_TILT: Final = 0.14
 """Largest difference in height of the table's ends [m]: 10 degrees for a table of 0.8 m. With a

@@ -5,10 +5,10 @@ import threading
 from dataclasses import dataclass
 from typing import Final, Protocol
 
-from ..actions import checked_action
-from ..agent import Agent, Observation
-from ..errors import error_text
-from .stops import HoldReason
+from colift.agents.actions import checked_action
+from colift.agents.agent import Agent, Observation
+from colift.agents.errors import error_text
+from colift.agents.hardware.stops import HoldReason
 
 POLICY_SHARE: Final = 0.6
 """Fraction of the control period that the policy may take; a later answer is discarded. The rest is

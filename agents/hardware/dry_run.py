@@ -3,9 +3,9 @@
 import dataclasses
 import math
 
-from .nao.naoqi import NaoqiArm
-from .ports import ArmState, HandLimits
-from .safety import next_command
+from colift.agents.hardware.nao.naoqi import NaoqiArm
+from colift.agents.hardware.ports import ArmState, HandLimits
+from colift.agents.hardware.safety import next_command
 
 
 class DryArm:

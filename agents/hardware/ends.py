@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from typing import Final, NamedTuple
 
-from .ports import Sample
+from colift.agents.hardware.ports import Sample
 
 FROZEN_FRAMES: Final = 10
 """Consecutive frames with bit-identical height after which a marker counts as frozen.

@@ -3,9 +3,9 @@
 import math
 from typing import Final, NamedTuple
 
-from .plausibility import stamped
-from .ports import MotionCapture, Sample
-from .stops import losses_stop
+from colift.agents.hardware.plausibility import stamped
+from colift.agents.hardware.ports import MotionCapture, Sample
+from colift.agents.hardware.stops import losses_stop
 
 UNDATED: Final = Sample(math.nan, math.nan, math.nan)
 """Entry of a log for a frame with an impossible time stamp."""

@@ -16,19 +16,18 @@ from math import nan
 from typing import Final
 
 import numpy as np
-
-from ..agent import Observation, RobotObservation
-from ..errors import InputError
-from .conduct import Conduct
-from .decisions import POLICY_SHARE, Decider, Decision
-from .frames import UNDATED, drained
-from .holds import LIMIT, WINDOW, Holds
-from .plausibility import CaptureMonitor, at
-from .ports import ArmState, Clock, MotionCapture, RobotArm
-from .safety import limited, motor_fault
-from .stops import HoldReason, Stop, StopTrialError, losses_stop
-from .trial_end import TrialEnd
-from .trial_log import Step, TrialLog
+from colift.agents.agent import Observation, RobotObservation
+from colift.agents.errors import InputError
+from colift.agents.hardware.conduct import Conduct
+from colift.agents.hardware.decisions import POLICY_SHARE, Decider, Decision
+from colift.agents.hardware.frames import UNDATED, drained
+from colift.agents.hardware.holds import LIMIT, WINDOW, Holds
+from colift.agents.hardware.plausibility import CaptureMonitor, at
+from colift.agents.hardware.ports import ArmState, Clock, MotionCapture, RobotArm
+from colift.agents.hardware.safety import limited, motor_fault
+from colift.agents.hardware.stops import HoldReason, Stop, StopTrialError, losses_stop
+from colift.agents.hardware.trial_end import TrialEnd
+from colift.agents.hardware.trial_log import Step, TrialLog
 
 DEAD_TIME: Final = 0.01
 """Mean time from a command until the hands begin to move [s]: half a cycle of ALMotion, which

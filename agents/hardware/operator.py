@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Final
 
-from ..errors import InputError
-from .stops import Stop, StopTrialError
+from colift.agents.errors import InputError
+from colift.agents.hardware.stops import Stop, StopTrialError
 
 STOPPING: Final = tuple(
     getattr(signal, name)

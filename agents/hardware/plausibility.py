@@ -5,8 +5,8 @@ from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
 
-from .ports import Sample
-from .stops import HoldReason
+from colift.agents.hardware.ports import Sample
+from colift.agents.hardware.stops import HoldReason
 
 STALE: Final = 0.2
 """Age of the newest frame [s] from which the hands are held."""

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Final
 
-from .nao.naoqi import NaoqiArm
-from .ports import Clock, RobotLostError, RobotTakenError
+from colift.agents.hardware.nao.naoqi import NaoqiArm
+from colift.agents.hardware.ports import Clock, RobotLostError, RobotTakenError
 
 BACK: Final = 3.0
 """Longest wait for a robot that does not answer [s]."""

@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 
-from ..agent import Agent, Observation
-from .decisions import Decision, Inline
-from .loop import LoopSettings, run_trial
-from .ports import ArmState, CaptureLostError, HandLimits, Sample
-from .safety import next_command
-from .stops import HoldReason, Stop, StopTrialError
-from .trial_log import LoggedTrial, Step, TrialLog
+from colift.agents.agent import Agent, Observation
+from colift.agents.hardware.decisions import Decision, Inline
+from colift.agents.hardware.loop import LoopSettings, run_trial
+from colift.agents.hardware.ports import ArmState, CaptureLostError, HandLimits, Sample
+from colift.agents.hardware.safety import next_command
+from colift.agents.hardware.stops import HoldReason, Stop, StopTrialError
+from colift.agents.hardware.trial_log import LoggedTrial, Step, TrialLog
 
 
 class LoggedPorts:

@@ -8,12 +8,11 @@ from collections.abc import Mapping, Sequence
 from typing import Final
 
 import numpy as np
-
-from ...robots.nao.kinematics import ARM_JOINTS, STROKE, arm_path
-from ..actions import HAND_SPEED
-from ..errors import InputError
-from .conduct import LARGEST_TILT
-from .ports import ArmState, HandLimits
+from colift.agents.actions import HAND_SPEED
+from colift.agents.errors import InputError
+from colift.agents.hardware.conduct import LARGEST_TILT
+from colift.agents.hardware.ports import ArmState, HandLimits
+from colift.robots.nao.kinematics import ARM_JOINTS, STROKE, arm_path
 
 JOINT_MARGIN: Final = 0.01
 """Distance that a joint keeps from the robot's own limit [rad]."""

@@ -9,23 +9,22 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-
-from ..agent import Agent, RobotObservation
-from ..errors import InputError, error_text
-from . import setup
-from .decisions import Decider, Timed
-from .dry_run import DryArm
-from .frames import drained
-from .loop import LoopSettings, run_trial
-from .nao.health import refuse_unless_well
-from .nao.naoqi import NaoqiArm
-from .operator import StopButton, key_stops
-from .plausibility import seen
-from .ports import Clock, HandLimits, RobotArm, RobotLostError, TableCapture
-from .release import release
-from .stops import Stop, StopTrialError, losses_stop
-from .trial_end import TrialEnd
-from .trial_log import TrialLog
+from colift.agents.agent import Agent, RobotObservation
+from colift.agents.errors import InputError, error_text
+from colift.agents.hardware import setup
+from colift.agents.hardware.decisions import Decider, Timed
+from colift.agents.hardware.dry_run import DryArm
+from colift.agents.hardware.frames import drained
+from colift.agents.hardware.loop import LoopSettings, run_trial
+from colift.agents.hardware.nao.health import refuse_unless_well
+from colift.agents.hardware.nao.naoqi import NaoqiArm
+from colift.agents.hardware.operator import StopButton, key_stops
+from colift.agents.hardware.plausibility import seen
+from colift.agents.hardware.ports import Clock, HandLimits, RobotArm, RobotLostError, TableCapture
+from colift.agents.hardware.release import release
+from colift.agents.hardware.stops import Stop, StopTrialError, losses_stop
+from colift.agents.hardware.trial_end import TrialEnd
+from colift.agents.hardware.trial_log import TrialLog
 
 READY: Final = 0.015
 """Largest height of an end at which a trial may begin [m]."""

@@ -10,14 +10,13 @@ from dataclasses import dataclass
 from typing import Final, NamedTuple
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.agents.hardware.frames import drained
+from colift.agents.hardware.plausibility import in_order, seen
+from colift.agents.hardware.ports import ArmState, Clock, MotionCapture, RobotArm
+from colift.agents.hardware.safety import ASTRAY, motor_fault
+from colift.agents.hardware.stops import Stop, StopTrialError, losses_stop
 from numpy.typing import NDArray
-
-from ..errors import InputError
-from .frames import drained
-from .plausibility import in_order, seen
-from .ports import ArmState, Clock, MotionCapture, RobotArm
-from .safety import ASTRAY, motor_fault
-from .stops import Stop, StopTrialError, losses_stop
 
 REST_TIME: Final = 1.0
 """Duration of a measurement of the rest heights [s]."""

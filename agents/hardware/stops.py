@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from enum import IntEnum, StrEnum
 
-from .ports import CaptureLostError, RobotLostError, RobotTakenError
+from colift.agents.hardware.ports import CaptureLostError, RobotLostError, RobotTakenError
 
 
 class HoldReason(StrEnum):

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import Final
 
-from .operator import StopButton
+from colift.agents.hardware.operator import StopButton
 
 GONE: Final = "the terminal is gone"
 """Reason of a stop after the terminal has vanished."""

@@ -4,9 +4,9 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import Final, Protocol
 
-from .plausibility import seen
-from .ports import Sample
-from .trial_log import Step, TrialLog
+from colift.agents.hardware.plausibility import seen
+from colift.agents.hardware.ports import Sample
+from colift.agents.hardware.trial_log import Step, TrialLog
 
 RISEN: Final = 0.05
 """Height of the human's end [m] above which a lift has begun."""

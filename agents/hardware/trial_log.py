@@ -14,11 +14,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from ..agent import FRAME
-from ..errors import InputError
-from ..text import decoded, read_bytes
-from .ports import HandLimits, Sample
-from .stops import Stop
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.agents.hardware.ports import HandLimits, Sample
+from colift.agents.hardware.stops import Stop
+from colift.agents.text import decoded, read_bytes
 
 
 class Step(NamedTuple):

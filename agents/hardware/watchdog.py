@@ -19,16 +19,16 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import Final
 
-from ..errors import InputError
-from .claim import BEAT, Holder, RobotClaim, claimed, holder
-from .clocks import MonotonicClock
-from .nao.naoqi import STALE, NaoqiArm
-from .nao.session import NaoqiSession, leave
-from .operator import HANDOVER
-from .ports import RobotLostError
-from .release import release
-from .stops import StopTrialError
-from .terminal import tell
+from colift.agents.errors import InputError
+from colift.agents.hardware.claim import BEAT, Holder, RobotClaim, claimed, holder
+from colift.agents.hardware.clocks import MonotonicClock
+from colift.agents.hardware.nao.naoqi import STALE, NaoqiArm
+from colift.agents.hardware.nao.session import NaoqiSession, leave
+from colift.agents.hardware.operator import HANDOVER
+from colift.agents.hardware.ports import RobotLostError
+from colift.agents.hardware.release import release
+from colift.agents.hardware.stops import StopTrialError
+from colift.agents.hardware.terminal import tell
 
 START_TIME: Final = 60.0
 """Longest time until a watchdog process is ready [s]."""

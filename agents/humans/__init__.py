@@ -3,22 +3,22 @@
 A subject and a behaviour make a plan from a seed; ``ScriptedHuman`` carries a plan out.
 """
 
-from .changing_goal import ChangingGoal
-from .cued import LIVE_SUBJECT, Cue, Cued
-from .goals import GoalError, goal_error_mm, goal_errors, missed_words
-from .hand_log import Hand, HandLog, LoggedHand, Resampler
-from .jerky import Jerky
-from .partner import PARTNER_SUBJECT, Partner
-from .pause import Pause
-from .person_as_robot import PersonAsRobot
-from .plan import Behaviour, Embodied, Plan
-from .played import Played, PlayedHand
-from .recorded import Recorded
-from .recording_file import load_recordings
-from .recordings import Recording
-from .scripted import ScriptedHuman
-from .smooth import Smooth
-from .subject import BOUNDS, GOAL_RANGE, SUBJECTS, Subject
+from colift.agents.humans.changing_goal import ChangingGoal
+from colift.agents.humans.cued import LIVE_SUBJECT, Cue, Cued
+from colift.agents.humans.goals import GoalError, goal_error_mm, goal_errors, missed_words
+from colift.agents.humans.hand_log import Hand, HandLog, LoggedHand, Resampler
+from colift.agents.humans.jerky import Jerky
+from colift.agents.humans.partner import PARTNER_SUBJECT, Partner
+from colift.agents.humans.pause import Pause
+from colift.agents.humans.person_as_robot import PersonAsRobot
+from colift.agents.humans.plan import Behaviour, Embodied, Plan
+from colift.agents.humans.played import Played, PlayedHand
+from colift.agents.humans.recorded import Recorded
+from colift.agents.humans.recording_file import load_recordings
+from colift.agents.humans.recordings import Recording
+from colift.agents.humans.scripted import ScriptedHuman
+from colift.agents.humans.smooth import Smooth
+from colift.agents.humans.subject import BOUNDS, GOAL_RANGE, SUBJECTS, Subject
 
 __all__ = [
     "BOUNDS",

@@ -21,10 +21,9 @@ from collections.abc import Callable
 from typing import Final, NamedTuple
 
 import numpy as np
+from colift.agents.humans.recordings import LEAST_MOVEMENT, LONGEST, Recording
+from colift.agents.humans.treatment import shape_of
 from numpy.typing import NDArray
-
-from .recordings import LEAST_MOVEMENT, LONGEST, Recording
-from .treatment import shape_of
 
 FASTEST: Final = 10.0
 """Highest speed of a hand between two samples [m/s]."""

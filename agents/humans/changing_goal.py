@@ -4,12 +4,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-
-from ..agent import FRAME
-from .movement import MovementDraw, interpolate, natural_stroke
-from .plan import Plan, assemble, move, still
-from .stroke import replan
-from .subject import GOAL_RANGE, Subject
+from colift.agents.agent import FRAME
+from colift.agents.humans.movement import MovementDraw, interpolate, natural_stroke
+from colift.agents.humans.plan import Plan, assemble, move, still
+from colift.agents.humans.stroke import replan
+from colift.agents.humans.subject import GOAL_RANGE, Subject
 
 Change = Literal["reverse", "undershoot", "overshoot"]
 

@@ -4,11 +4,10 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
+from colift.agents.humans.recorded import PEAK
+from colift.agents.humans.recordings import Recording
+from colift.agents.humans.treatment import shape_of
 from numpy.typing import NDArray
-
-from .recorded import PEAK
-from .recordings import Recording
-from .treatment import shape_of
 
 ALIKE: Final = 0.001
 """Root mean square difference [m] of two lifts, scaled to 0.20 m, below which they are one. Copies

@@ -4,13 +4,12 @@ from dataclasses import dataclass
 from typing import Final, Literal, NamedTuple, get_args
 
 import numpy as np
-
-from ..agent import FRAME
-from ..errors import InputError
-from .movement import MovementDraw, interpolate
-from .plan import Plan, Segment, assemble, still
-from .stroke import replan
-from .subject import GOAL_RANGE, Subject
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.agents.humans.movement import MovementDraw, interpolate
+from colift.agents.humans.plan import Plan, Segment, assemble, still
+from colift.agents.humans.stroke import replan
+from colift.agents.humans.subject import GOAL_RANGE, Subject
 
 CueKind = Literal["smooth", "pause", "changing_goal"]
 KINDS: Final[tuple[CueKind, ...]] = get_args(CueKind)

@@ -6,9 +6,8 @@ from statistics import fmean
 from typing import Final
 
 import numpy as np
-
-from ..agent import FRAME
-from .cued import SETTLING, Cued
+from colift.agents.agent import FRAME
+from colift.agents.humans.cued import SETTLING, Cued
 
 SETTLED: Final = SETTLING / 2
 """Time before the next goal, or before the end, in which the hand must be at a goal [s]: half of

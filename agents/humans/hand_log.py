@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from typing import Final, Protocol, Self
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
 from numpy.typing import NDArray
-
-from ..agent import FRAME
-from ..errors import InputError
 
 LONGEST_DELAY: Final = 0.25
 """Longest playout delay of samples [s]."""

@@ -3,11 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-
-from .movement import MovementDraw, interpolate
-from .plan import Plan, assemble, move, still
-from .stroke import Motion, Submovement, stroke
-from .subject import Subject
+from colift.agents.humans.movement import MovementDraw, interpolate
+from colift.agents.humans.plan import Plan, assemble, move, still
+from colift.agents.humans.stroke import Motion, Submovement, stroke
+from colift.agents.humans.subject import Subject
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,10 +4,9 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-
-from ..agent import FRAME
-from .stroke import Motion, Submovement, stroke
-from .subject import GOAL_RANGE, Subject
+from colift.agents.agent import FRAME
+from colift.agents.humans.stroke import Motion, Submovement, stroke
+from colift.agents.humans.subject import GOAL_RANGE, Subject
 
 REST_BEFORE = (0.6, 1.6)
 HOLD = (0.2, 0.8)

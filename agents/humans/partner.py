@@ -5,11 +5,10 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-
-from ..agent import FRAME, Action, HumanObservation, Observation
-from ..calibration import CALIBRATION
-from .scripted import ScriptedHuman
-from .subject import Subject
+from colift.agents.agent import FRAME, Action, HumanObservation, Observation
+from colift.agents.calibration import CALIBRATION
+from colift.agents.humans.scripted import ScriptedHuman
+from colift.agents.humans.subject import Subject
 
 PARTNER_SUBJECT: Final = Subject(
     name="partner",

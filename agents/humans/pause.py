@@ -3,11 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-
-from .movement import MovementDraw, interpolate, natural_stroke
-from .plan import Plan, Segment, assemble, move, still
-from .stroke import Motion, replan
-from .subject import Subject
+from colift.agents.humans.movement import MovementDraw, interpolate, natural_stroke
+from colift.agents.humans.plan import Plan, Segment, assemble, move, still
+from colift.agents.humans.stroke import Motion, replan
+from colift.agents.humans.subject import Subject
 
 
 @dataclass(frozen=True, kw_only=True)

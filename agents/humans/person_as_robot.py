@@ -1,10 +1,9 @@
 """A person in the place of a robot policy."""
 
 import numpy as np
-
-from ..actions import action_limit
-from ..agent import Action, Observation, RobotObservation
-from .hand_log import Hand
+from colift.agents.actions import action_limit
+from colift.agents.agent import Action, Observation, RobotObservation
+from colift.agents.humans.hand_log import Hand
 
 
 class PersonAsRobot:

@@ -4,10 +4,9 @@ from dataclasses import dataclass
 from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
+from colift.agents.agent import FRAME, Agent
+from colift.agents.humans.subject import Subject
 from numpy.typing import NDArray
-
-from ..agent import FRAME, Agent
-from .subject import Subject
 
 LENGTH_STEP = 10
 """A plan's length is a multiple of this many frames (0.1 s)."""

@@ -3,12 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..agent import Action, Agent, HumanObservation, Observation
-from .cued import Cued
-from .hand_log import HandLog, LoggedHand
-from .plan import Plan
-from .subject import Subject
+from colift.agents.agent import Action, Agent, HumanObservation, Observation
+from colift.agents.humans.cued import Cued
+from colift.agents.humans.hand_log import HandLog, LoggedHand
+from colift.agents.humans.plan import Plan
+from colift.agents.humans.subject import Subject
 
 
 @dataclass(frozen=True, kw_only=True)

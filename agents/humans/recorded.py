@@ -4,16 +4,15 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.agents.estimators.minimum_jerk import profile
+from colift.agents.humans.movement import REST_AFTER, REST_BEFORE, interpolate
+from colift.agents.humans.plan import Plan, Segment, assemble, move, still
+from colift.agents.humans.recordings import LEAST_MOVEMENT, Recording
+from colift.agents.humans.stroke import stroke
+from colift.agents.humans.subject import Subject
 from numpy.typing import NDArray
-
-from ..agent import FRAME
-from ..errors import InputError
-from ..estimators.minimum_jerk import profile
-from .movement import REST_AFTER, REST_BEFORE, interpolate
-from .plan import Plan, Segment, assemble, move, still
-from .recordings import LEAST_MOVEMENT, Recording
-from .stroke import stroke
-from .subject import Subject
 
 PEAK: Final = 0.20
 """Height [m] to which a recording is scaled."""

@@ -5,10 +5,9 @@ from collections import deque
 from typing import Final
 
 import numpy as np
-
-from ...robots.arithmetic import dot, each
-from ..agent import FRAME, HISTORY, Action, HumanObservation, Observation
-from .subject import Subject
+from colift.agents.agent import FRAME, HISTORY, Action, HumanObservation, Observation
+from colift.agents.humans.subject import Subject
+from colift.robots.arithmetic import dot, each
 
 NOISE_CORRELATION: Final = 0.1
 """Time [s] in which the autocorrelation of the motor noise falls to 1/e."""

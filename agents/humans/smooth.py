@@ -3,10 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-
-from .movement import MovementDraw, natural_stroke
-from .plan import Plan, assemble, move, still
-from .subject import Subject
+from colift.agents.humans.movement import MovementDraw, natural_stroke
+from colift.agents.humans.plan import Plan, assemble, move, still
+from colift.agents.humans.subject import Subject
 
 
 @dataclass(frozen=True, kw_only=True)

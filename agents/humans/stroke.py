@@ -9,9 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from colift.agents.agent import FRAME
 from numpy.typing import NDArray
-
-from ..agent import FRAME
 
 Motion = NDArray[np.float64]
 

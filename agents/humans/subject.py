@@ -6,10 +6,9 @@ from types import MappingProxyType
 from typing import Final, Self
 
 import numpy as np
-
-from ...robots.arithmetic import dot
-from ..calibration import CALIBRATION
-from ..errors import InputError
+from colift.agents.calibration import CALIBRATION
+from colift.agents.errors import InputError
+from colift.robots.arithmetic import dot
 
 GOAL_RANGE: Final = (0.08, 0.285)
 """Lowest and highest goal of a lift [m]: what fits the robot arm's stroke, overshoots included."""

@@ -8,11 +8,10 @@ import functools
 from dataclasses import asdict, dataclass
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.humans.recorded import FASTEST, KNOT, PEAK, ROOM_BELOW, _spline
+from colift.agents.humans.recordings import Recording
 from numpy.typing import NDArray
-
-from ..agent import FRAME
-from .recorded import FASTEST, KNOT, PEAK, ROOM_BELOW, _spline
-from .recordings import Recording
 
 DIGITS = 4
 """Significant digits of the numbers: more than a reader needs, fewer than rounding can change."""

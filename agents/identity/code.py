@@ -11,8 +11,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Final
 
-from .encoding import Piece, encoded
-from .modules import EFFECTS, Module, Reference, Target, read_module
+from colift.agents.identity.encoding import Piece, encoded
+from colift.agents.identity.modules import EFFECTS, Module, Reference, Target, read_module
 
 DIGITS: Final = 16
 """Hexadecimal digits of a hash."""

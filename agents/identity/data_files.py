@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Final
 
-from .modules import Reference
+from colift.agents.identity.modules import Reference
 
 FINDER: Final = "<importlib.resources.files>"
 """The function that finds data files: ``files(__package__).joinpath("data", "file.json")`` stands

@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Final
 
-from .data_files import DataFiles
-from .modules import (
+from colift.agents.identity.data_files import DataFiles
+from colift.agents.identity.modules import (
     NAMING,
     Comprehension,
     Definition,
@@ -18,7 +18,7 @@ from .modules import (
     bound_names,
     does_nothing,
 )
-from .scopes import Scope, body_scope, comprehension_scope, local_meaning
+from colift.agents.identity.scopes import Scope, body_scope, comprehension_scope, local_meaning
 
 Piece = str | Reference
 Resolve = Callable[[Target], Piece]

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
-from .modules import Import, Module, Target, binds, bound_names, scope_nodes
+from colift.agents.identity.modules import Import, Module, Target, binds, bound_names, scope_nodes
 
 Kind = Literal["function", "class", "comprehension"]
 

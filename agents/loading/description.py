@@ -6,9 +6,9 @@ import itertools
 import textwrap
 from dataclasses import dataclass
 
-from ..docstrings import plain_text
-from .parameters import parameters_of
-from .values import kind, write_value
+from colift.agents.docstrings import plain_text
+from colift.agents.loading.parameters import parameters_of
+from colift.agents.loading.values import kind, write_value
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,14 +12,14 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, cast
 
-from ..agent import Agent
-from ..errors import InputError
-from ..identity import code_hash, source_hash
-from ..registry import POLICIES, lookup
-from ..spec import InProcess
-from ..threads import one_thread
-from .parameters import make_with, read_values
-from .policy_files import with_class
+from colift.agents.agent import Agent
+from colift.agents.errors import InputError
+from colift.agents.identity import code_hash, source_hash
+from colift.agents.loading.parameters import make_with, read_values
+from colift.agents.loading.policy_files import with_class
+from colift.agents.registry import POLICIES, lookup
+from colift.agents.spec import InProcess
+from colift.agents.threads import one_thread
 
 
 @dataclass(frozen=True, kw_only=True)

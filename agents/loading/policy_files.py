@@ -4,7 +4,7 @@ import ast
 from pathlib import Path
 from typing import Final
 
-from ..errors import InputError
+from colift.agents.errors import InputError
 
 METHODS: Final = frozenset({"reset", "act"})
 """Methods of a policy."""

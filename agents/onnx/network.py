@@ -10,15 +10,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-
-from ..errors import InputError
-from .allowed import LARGEST, MOST_NODES, OPERATORS, OWN_DOMAINS
-from .batch import bind_batch, inputs_of
-from .libraries import import_library
-from .ports import TYPES, Shape, input_port, output_port, quoted
-from .signature import Signature, signature_of
-from .sizes import check_work, inferred_shapes
-from .versions import check_versions
+from colift.agents.errors import InputError
+from colift.agents.onnx.allowed import LARGEST, MOST_NODES, OPERATORS, OWN_DOMAINS
+from colift.agents.onnx.batch import bind_batch, inputs_of
+from colift.agents.onnx.libraries import import_library
+from colift.agents.onnx.ports import TYPES, Shape, input_port, output_port, quoted
+from colift.agents.onnx.signature import Signature, signature_of
+from colift.agents.onnx.sizes import check_work, inferred_shapes
+from colift.agents.onnx.versions import check_versions
 
 onnx = import_library("onnx")
 numpy_helper = import_library("onnx.numpy_helper")

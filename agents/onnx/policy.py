@@ -7,12 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.agents.onnx.libraries import import_library
+from colift.agents.onnx.network import Network, read_network
+from colift.agents.onnx.ports import one_line
 from numpy.typing import NDArray
-
-from ..errors import InputError
-from .libraries import import_library
-from .network import Network, read_network
-from .ports import one_line
 
 onnxruntime = import_library("onnxruntime")
 

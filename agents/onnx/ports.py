@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-
-from ..errors import InputError
-from .allowed import MOST_STATE
-from .libraries import import_library
+from colift.agents.errors import InputError
+from colift.agents.onnx.allowed import MOST_STATE
+from colift.agents.onnx.libraries import import_library
 
 onnx = import_library("onnx")
 

@@ -11,11 +11,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from ..agent import RobotObservation
-from ..errors import InputError
-from .allowed import MOST_OBSERVATION, MOST_STATE
-from .names import ACTION, OBSERVATION, candidates, paired
-from .ports import Port, listed, quoted
+from colift.agents.agent import RobotObservation
+from colift.agents.errors import InputError
+from colift.agents.onnx.allowed import MOST_OBSERVATION, MOST_STATE
+from colift.agents.onnx.names import ACTION, OBSERVATION, candidates, paired
+from colift.agents.onnx.ports import Port, listed, quoted
 
 ACTIONS: Final = ((), (1,), (1, 1))
 """Shapes of the action."""

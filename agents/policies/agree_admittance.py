@@ -4,12 +4,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..agent import Action, Observation
-from ..control.approach import HurdleWatch
-from ..control.predictor import DEFAULT_PERIOD
-from ..observations import AgreeObservation
-from .agree_leader import check_positive
+from colift.agents.agent import Action, Observation
+from colift.agents.control.approach import HurdleWatch
+from colift.agents.control.predictor import DEFAULT_PERIOD
+from colift.agents.observations import AgreeObservation
+from colift.agents.policies.agree_leader import check_positive
 
 
 @dataclass(frozen=True, kw_only=True)

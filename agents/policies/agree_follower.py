@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from .agree_leader import AgreeLeader, AgreeLeaderParameters
+from colift.agents.policies.agree_leader import AgreeLeader, AgreeLeaderParameters
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,14 +4,13 @@ from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
-
-from ..agent import Action, Observation
-from ..control.approach import Approach, HurdleWatch
-from ..estimators.belief import BeliefParameters, GoalBelief
-from ..estimators.touched_end import TouchedEnd
-from ..observations import AgreeObservation
-from .agree_leader import check_positive
-from .anticipate import Anticipate
+from colift.agents.agent import Action, Observation
+from colift.agents.control.approach import Approach, HurdleWatch
+from colift.agents.estimators.belief import BeliefParameters, GoalBelief
+from colift.agents.estimators.touched_end import TouchedEnd
+from colift.agents.observations import AgreeObservation
+from colift.agents.policies.agree_leader import check_positive
+from colift.agents.policies.anticipate import Anticipate
 
 SAME: Final = 0.015
 """Distance within which two goals count as the same [m]."""

@@ -4,12 +4,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..agent import Action, Observation
-from ..control.approach import Approach, HurdleWatch
-from ..errors import InputError
-from ..observations import AgreeObservation
-from .anticipate import Anticipate
+from colift.agents.agent import Action, Observation
+from colift.agents.control.approach import Approach, HurdleWatch
+from colift.agents.errors import InputError
+from colift.agents.observations import AgreeObservation
+from colift.agents.policies.anticipate import Anticipate
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,8 +3,8 @@
 from functools import cache
 from importlib.resources import files
 
-from ..touch.touch_controller import TouchController, read_touch
-from ..touch.touch_law import TouchNetwork
+from colift.agents.touch.touch_controller import TouchController, read_touch
+from colift.agents.touch.touch_law import TouchNetwork
 
 
 class AgreeLearned(TouchController):

@@ -5,18 +5,17 @@ from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..agent import FRAME, Action, Observation, RobotObservation
-from ..control.adaptive_impedance import certainty
-from ..control.anticipation import (
+from colift.agents.agent import FRAME, Action, Observation, RobotObservation
+from colift.agents.control.adaptive_impedance import certainty
+from colift.agents.control.anticipation import (
     ARM_LAG,
     MODES,
     Anticipation,
     FeatureHistory,
     load_anticipation,
 )
-from ..control.preview import preview_gains
-from ..errors import InputError
+from colift.agents.control.preview import preview_gains
+from colift.agents.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,10 +4,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..agent import Action, Observation
-from ..ball.tracking import Tracking
-from ..errors import InputError
+from colift.agents.agent import Action, Observation
+from colift.agents.ball.tracking import Tracking
+from colift.agents.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

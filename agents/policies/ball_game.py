@@ -4,12 +4,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..agent import Action, Observation
-from ..ball.aim_filter import DAMPING, FELT_NOISE, RATE, AimFilter, wanted_difference
-from ..ball.tracking import Tracking
-from ..errors import InputError
-from ..observations import BallObservation
+from colift.agents.agent import Action, Observation
+from colift.agents.ball.aim_filter import DAMPING, FELT_NOISE, RATE, AimFilter, wanted_difference
+from colift.agents.ball.tracking import Tracking
+from colift.agents.errors import InputError
+from colift.agents.observations import BallObservation
 
 
 @dataclass(frozen=True, kw_only=True)

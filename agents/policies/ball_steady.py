@@ -4,11 +4,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..agent import Action, Observation
-from ..ball.inclining import Inclining
-from ..errors import InputError
-from ..observations import BallObservation
+from colift.agents.agent import Action, Observation
+from colift.agents.ball.inclining import Inclining
+from colift.agents.errors import InputError
+from colift.agents.observations import BallObservation
 
 
 @dataclass(frozen=True, kw_only=True)

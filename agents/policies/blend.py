@@ -1,11 +1,10 @@
 """The paper's framework: a blend of leader and follower by confidence (section III.C)."""
 
 import numpy as np
-
-from ..agent import Action, Observation, RobotObservation
-from ..control.predictor import Predictor, PredictorParameters
-from ..estimators.gain_control import gain_control
-from .reactive import Reactive
+from colift.agents.agent import Action, Observation, RobotObservation
+from colift.agents.control.predictor import Predictor, PredictorParameters
+from colift.agents.estimators.gain_control import gain_control
+from colift.agents.policies.reactive import Reactive
 
 
 class Blend:

@@ -1,8 +1,7 @@
 """The policy that goes to the last seen height of the human."""
 
 import numpy as np
-
-from ..agent import Action, Observation, RobotObservation
+from colift.agents.agent import Action, Observation, RobotObservation
 
 
 class Copy:

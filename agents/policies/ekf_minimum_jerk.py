@@ -12,12 +12,14 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-
-from ..agent import Action, Observation, RobotObservation
-from ..control.predictor import DEFAULT_PERIOD
-from ..errors import InputError
-from ..estimators.minimum_jerk_filter import MinimumJerkFilter, MinimumJerkFilterParameters
-from ..estimators.stroke_window import StrokeWindow, StrokeWindowParameters
+from colift.agents.agent import Action, Observation, RobotObservation
+from colift.agents.control.predictor import DEFAULT_PERIOD
+from colift.agents.errors import InputError
+from colift.agents.estimators.minimum_jerk_filter import (
+    MinimumJerkFilter,
+    MinimumJerkFilterParameters,
+)
+from colift.agents.estimators.stroke_window import StrokeWindow, StrokeWindowParameters
 
 
 @dataclass(frozen=True, kw_only=True)

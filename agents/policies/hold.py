@@ -1,8 +1,7 @@
 """The policy that never moves."""
 
 import numpy as np
-
-from ..agent import Action, Observation
+from colift.agents.agent import Action, Observation
 
 
 class Hold:

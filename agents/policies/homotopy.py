@@ -5,11 +5,10 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-
-from ..agent import Action, Observation, RobotObservation
-from ..control.predictor import Predictor, PredictorParameters
-from ..errors import InputError
-from ..estimators.gain_control import gain_control
+from colift.agents.agent import Action, Observation, RobotObservation
+from colift.agents.control.predictor import Predictor, PredictorParameters
+from colift.agents.errors import InputError
+from colift.agents.estimators.gain_control import gain_control
 
 
 @dataclass(frozen=True, kw_only=True)

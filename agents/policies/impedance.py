@@ -17,10 +17,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..agent import Action, Observation, RobotObservation
-from ..control.predictor import DEFAULT_PERIOD
-from ..errors import InputError
+from colift.agents.agent import Action, Observation, RobotObservation
+from colift.agents.control.predictor import DEFAULT_PERIOD
+from colift.agents.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

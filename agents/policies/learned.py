@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..control.recurrent import read_gated, shipped_network
-from ..control.recurrent_controller import RecurrentController
+from colift.agents.control.recurrent import read_gated, shipped_network
+from colift.agents.control.recurrent_controller import RecurrentController
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,13 +11,19 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-
-from ..agent import Action, Observation, RobotObservation
-from ..control.predictor import DEFAULT_PERIOD
-from ..errors import InputError
-from ..estimators.innovation_variance import InnovationVariance, InnovationVarianceParameters
-from ..estimators.minimum_jerk_fit import FEWEST, MinimumJerkFit, MinimumJerkFitParameters
-from ..estimators.stroke_window import StrokeWindow, StrokeWindowParameters
+from colift.agents.agent import Action, Observation, RobotObservation
+from colift.agents.control.predictor import DEFAULT_PERIOD
+from colift.agents.errors import InputError
+from colift.agents.estimators.innovation_variance import (
+    InnovationVariance,
+    InnovationVarianceParameters,
+)
+from colift.agents.estimators.minimum_jerk_fit import (
+    FEWEST,
+    MinimumJerkFit,
+    MinimumJerkFitParameters,
+)
+from colift.agents.estimators.stroke_window import StrokeWindow, StrokeWindowParameters
 
 
 @dataclass(frozen=True, kw_only=True)

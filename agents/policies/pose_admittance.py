@@ -3,11 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..agent import Action, Observation
-from ..control.predictor import DEFAULT_PERIOD
-from ..errors import InputError
-from ..observations import HapticObservation
+from colift.agents.agent import Action, Observation
+from colift.agents.control.predictor import DEFAULT_PERIOD
+from colift.agents.errors import InputError
+from colift.agents.observations import HapticObservation
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,12 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..agent import Action, Observation
-from ..control.predictor import DEFAULT_PERIOD
-from ..observations import HapticObservation
-from ..touch.pose_filter import PoseFilter, PoseFilterParameters
-from ..touch.touch import touched
+from colift.agents.agent import Action, Observation
+from colift.agents.control.predictor import DEFAULT_PERIOD
+from colift.agents.observations import HapticObservation
+from colift.agents.touch.pose_filter import PoseFilter, PoseFilterParameters
+from colift.agents.touch.touch import touched
 
 
 @dataclass(frozen=True, kw_only=True)

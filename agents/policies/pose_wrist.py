@@ -3,11 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..agent import Action, Observation
-from ..errors import InputError
-from ..observations import HapticObservation
-from ..touch.touch import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS, touched
+from colift.agents.agent import Action, Observation
+from colift.agents.errors import InputError
+from colift.agents.observations import HapticObservation
+from colift.agents.touch.touch import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS, touched
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,9 +1,8 @@
 """The paper's proactive controller alone: leading by prediction (section III.B)."""
 
 import numpy as np
-
-from ..agent import Action, Observation, RobotObservation
-from ..control.predictor import Predictor, PredictorParameters
+from colift.agents.agent import Action, Observation, RobotObservation
+from colift.agents.control.predictor import Predictor, PredictorParameters
 
 
 class Proactive:

@@ -4,9 +4,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..agent import Action, Observation, RobotObservation
-from ..errors import InputError
+from colift.agents.agent import Action, Observation, RobotObservation
+from colift.agents.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

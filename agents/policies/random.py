@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..agent import Action, Observation
+from colift.agents.agent import Action, Observation
 
 
 @dataclass(frozen=True, kw_only=True)

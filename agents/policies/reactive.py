@@ -3,9 +3,14 @@
 from collections.abc import Sequence
 
 import numpy as np
-
-from ..agent import Action, Observation, RobotObservation
-from ..control.q_learning import ACTIONS, Q_PARAMETERS, QParameters, learned_table, state_of
+from colift.agents.agent import Action, Observation, RobotObservation
+from colift.agents.control.q_learning import (
+    ACTIONS,
+    Q_PARAMETERS,
+    QParameters,
+    learned_table,
+    state_of,
+)
 
 
 class Reactive:

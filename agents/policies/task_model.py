@@ -4,13 +4,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from colift.agents.agent import Action, Observation, RobotObservation
+from colift.agents.control.adaptive_impedance import Movement, Surprise, certainty, compliance
+from colift.agents.control.learned_task import LearnedTask, TaskForecast, load_task
+from colift.agents.control.predictor import DEFAULT_PERIOD
+from colift.agents.errors import InputError
 from numpy.typing import NDArray
-
-from ..agent import Action, Observation, RobotObservation
-from ..control.adaptive_impedance import Movement, Surprise, certainty, compliance
-from ..control.learned_task import LearnedTask, TaskForecast, load_task
-from ..control.predictor import DEFAULT_PERIOD
-from ..errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

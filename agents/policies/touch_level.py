@@ -1,10 +1,9 @@
 """A level table by touch, without regard to the human's intention."""
 
 import numpy as np
-
-from ..agent import Action, Observation
-from ..observations import HapticObservation
-from ..touch.touch import touched
+from colift.agents.agent import Action, Observation
+from colift.agents.observations import HapticObservation
+from colift.agents.touch.touch import touched
 
 
 class TouchLevel:

@@ -1,12 +1,12 @@
 """The roles of a network's inputs and outputs, as a line for its author."""
 
-from ..actions import action_limit
-from ..observations import AgreeObservation
-from ..onnx.network import read_network
-from ..onnx.ports import Port, quoted
-from ..onnx.signature import Signature
-from .submission import Submission
-from .training_view import PERIOD, VIEWS, TrainingView
+from colift.agents.actions import action_limit
+from colift.agents.observations import AgreeObservation
+from colift.agents.onnx.network import read_network
+from colift.agents.onnx.ports import Port, quoted
+from colift.agents.onnx.signature import Signature
+from colift.agents.submissions.submission import Submission
+from colift.agents.submissions.training_view import PERIOD, VIEWS, TrainingView
 
 
 def bound_text(submission: Submission) -> str:

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ..errors import InputError
-from .line_ends import is_text, with_unix_line_ends
+from colift.agents.errors import InputError
+from colift.agents.submissions.line_ends import is_text, with_unix_line_ends
 
 MIB: Final = 2**20
 CHUNK: Final = MIB

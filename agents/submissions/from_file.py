@@ -4,14 +4,14 @@ import ast
 from pathlib import Path
 from typing import Final
 
-from ..errors import InputError
-from ..loading.loading import PolicySpec
-from ..loading.parameters import merged, split
-from ..loading.policy_files import classes
-from ..near_names import did_you_mean
-from . import fields
-from .new import POLICY, write_files
-from .packages import needed
+from colift.agents.errors import InputError
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.parameters import merged, split
+from colift.agents.loading.policy_files import classes
+from colift.agents.near_names import did_you_mean
+from colift.agents.submissions import fields
+from colift.agents.submissions.new import POLICY, write_files
+from colift.agents.submissions.packages import needed
 
 DESCRIPTION: Final = "A policy."
 """The description of a class without a docstring."""
@@ -37,7 +37,7 @@ def write_from(folder: Path, text: str) -> tuple[str, ...]:
     """
     if text.endswith(".onnx") or ".onnx," in text:
         # Only this kind of submission needs the extra.
-        from .from_network import write_from_network
+        from colift.agents.submissions.from_network import write_from_network
 
         return write_from_network(folder, text)
     place, _, parameters = PolicySpec(text=text).parts

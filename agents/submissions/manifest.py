@@ -5,10 +5,10 @@ from dataclasses import MISSING, dataclass
 from dataclasses import fields as fields_of
 from typing import Any, Final
 
-from ..errors import InputError
-from ..near_names import did_you_mean
-from ..text import parse_toml
-from . import fields
+from colift.agents.errors import InputError
+from colift.agents.near_names import did_you_mean
+from colift.agents.submissions import fields
+from colift.agents.text import parse_toml
 
 MANIFEST: Final = "policy.toml"
 """The manifest's name in the folder."""

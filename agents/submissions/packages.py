@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Final
 
-from .folder import FolderContents
+from colift.agents.submissions.folder import FolderContents
 
 PACKAGES: Final[Mapping[str, str]] = {
     "filterpy": "filterpy",

@@ -12,9 +12,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
-from ..errors import InputError
-from .folder import LIMITS, FolderContents, copy_folder, read_folder, unwritable
-from .line_ends import is_text, with_unix_line_ends
+from colift.agents.errors import InputError
+from colift.agents.submissions.folder import (
+    LIMITS,
+    FolderContents,
+    copy_folder,
+    read_folder,
+    unwritable,
+)
+from colift.agents.submissions.line_ends import is_text, with_unix_line_ends
 
 KEPT_DAYS: Final = 7
 """Days that a copy is kept after its last use."""

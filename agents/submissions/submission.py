@@ -6,18 +6,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ..errors import InputError, Remedy
-from ..loading.parameters import merged
-from ..loading.policy_files import ONNX, policies_in
-from ..onnx.allowed import LARGEST
-from ..onnx.libraries import require_libraries
-from ..sandbox.host.levels import strongest
-from ..sandbox.host.policy import SandboxedPolicy
-from .folder import FolderContents, read_folder
-from .manifest import MANIFEST, Manifest, read_manifest
-from .near_manifest import NAME, files_of, no_manifest
-from .snapshot import snapshot
-from .trusted import TrustedSubmission
+from colift.agents.errors import InputError, Remedy
+from colift.agents.loading.parameters import merged
+from colift.agents.loading.policy_files import ONNX, policies_in
+from colift.agents.onnx.allowed import LARGEST
+from colift.agents.onnx.libraries import require_libraries
+from colift.agents.sandbox.host.levels import strongest
+from colift.agents.sandbox.host.policy import SandboxedPolicy
+from colift.agents.submissions.folder import FolderContents, read_folder
+from colift.agents.submissions.manifest import MANIFEST, Manifest, read_manifest
+from colift.agents.submissions.near_manifest import NAME, files_of, no_manifest
+from colift.agents.submissions.snapshot import snapshot
+from colift.agents.submissions.trusted import TrustedSubmission
 
 DIGEST: Final = 16
 """Hexadecimal digits of the digests in tables."""

@@ -7,12 +7,11 @@ with ``view`` in its manifest to its network: the same numbers, bit for bit.
 from typing import Any, Final
 
 import numpy as np
+from colift.agents.actions import action_limit
+from colift.agents.agent import Observation
+from colift.agents.errors import InputError
+from colift.agents.submissions.network.policy import CORRECTION, FIXED, Senses, line, scales
 from numpy.typing import NDArray
-
-from ..actions import action_limit
-from ..agent import Observation
-from ..errors import InputError
-from .network.policy import CORRECTION, FIXED, Senses, line, scales
 
 Single = NDArray[np.float32]
 

@@ -10,10 +10,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
-from ..agent import Agent
-from ..loading.loading import PolicySpec
-from ..sandbox.protocol import OURS
-from ..spec import InProcess
+from colift.agents.agent import Agent
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.sandbox.protocol import OURS
+from colift.agents.spec import InProcess
 
 _importing: Final = threading.Lock()
 """The import path and the working directory are shared by all threads."""

@@ -1,10 +1,10 @@
 """A network that was trained in the training view, as a policy."""
 
-from ..agent import Observation
-from ..errors import InputError
-from ..near_names import did_you_mean
-from ..onnx.policy import OnnxPolicy
-from .training_view import VIEWS, TrainingView
+from colift.agents.agent import Observation
+from colift.agents.errors import InputError
+from colift.agents.near_names import did_you_mean
+from colift.agents.onnx.policy import OnnxPolicy
+from colift.agents.submissions.training_view import VIEWS, TrainingView
 
 
 class ViewedNetwork:

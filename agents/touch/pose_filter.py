@@ -5,9 +5,8 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from colift.agents.touch.touch import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS
 from numpy.typing import NDArray
-
-from .touch import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS
 
 SHARES: Final = (1.0, 0.0, -1.0)
 """Movement of the far end as a share of the near end's: together, pivot, counter."""

@@ -3,8 +3,8 @@
 import math
 from typing import Final, NamedTuple
 
-from ..agent import Observation
-from ..observations import HapticObservation
+from colift.agents.agent import Observation
+from colift.agents.observations import HapticObservation
 
 TABLE_LENGTH: Final = 0.8
 """Distance between the two grips [m], as measured on colift's table."""

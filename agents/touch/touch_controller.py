@@ -7,12 +7,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-
-from ..agent import Action, Observation
-from ..control.portable import PORTABLE
-from ..control.recurrent import network_of
-from ..errors import InputError
-from .touch_law import TASK_SENSES, TouchNetwork, felt_action, inputs_of, touch_at_rest
+from colift.agents.agent import Action, Observation
+from colift.agents.control.portable import PORTABLE
+from colift.agents.control.recurrent import network_of
+from colift.agents.errors import InputError
+from colift.agents.touch.touch_law import (
+    TASK_SENSES,
+    TouchNetwork,
+    felt_action,
+    inputs_of,
+    touch_at_rest,
+)
 
 
 class TouchController:

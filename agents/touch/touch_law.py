@@ -5,11 +5,10 @@ from enum import IntEnum
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-
-from ..control.portable import ArrayFunctions
-from ..control.recurrent import GatedNetwork, gated
-from ..observations import AgreeObservation, BallObservation, HapticObservation
-from .touch import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS
+from colift.agents.control.portable import ArrayFunctions
+from colift.agents.control.recurrent import GatedNetwork, gated
+from colift.agents.observations import AgreeObservation, BallObservation, HapticObservation
+from colift.agents.touch.touch import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS
 
 AHEAD: Final = 1.2
 """Control periods by which the straight line leads, for the lag of the arm."""

@@ -6,19 +6,11 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
-
-from ...agents.errors import InputError
-from ...agents.loading.loading import PolicySpec
-from ...agents.registry import own_policies, policies_by_task
-from ...agents.touch.touch_controller import TouchController
-from ..bounds.bounds import suite_bounds
-from ..bounds.oracle import ORACLE
-from ..comparison.playing import known_bounds
-from ..execution.runner import Run, run_suite
-from ..results.baselines import HUMAN_HUMAN_LABEL, Baseline, human_human_run
-from ..suites.suite import Suite
-from .criteria import (
+from colift.agents.errors import InputError
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.registry import own_policies, policies_by_task
+from colift.agents.touch.touch_controller import TouchController
+from colift.benchmark.admission.criteria import (
     Criterion,
     conventions,
     interaction,
@@ -28,7 +20,14 @@ from .criteria import (
     rank_changes,
     room,
 )
-from .published import PUBLISHED
+from colift.benchmark.admission.published import PUBLISHED
+from colift.benchmark.bounds.bounds import suite_bounds
+from colift.benchmark.bounds.oracle import ORACLE
+from colift.benchmark.comparison.playing import known_bounds
+from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, Baseline, human_human_run
+from colift.benchmark.suites.suite import Suite
+from numpy.typing import NDArray
 
 KEEPERS: Final = ("copy", "extrapolate", "anticipate")
 """Policies that keep the table level, from the simplest to the best."""

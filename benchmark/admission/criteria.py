@@ -6,15 +6,14 @@ from itertools import combinations
 from typing import Final
 
 import numpy as np
+from colift.benchmark.admission.published import Published
+from colift.benchmark.admission.variance import variance_shares
+from colift.benchmark.episode.metrics import FAILED_FRAME_MM
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.summary import stratum
+from colift.benchmark.statistics.estimate import paired_difference
 from numpy.typing import NDArray
-
-from ..episode.metrics import FAILED_FRAME_MM
-from ..execution.runner import Run
-from ..results.baselines import Baseline
-from ..results.summary import stratum
-from ..statistics.estimate import paired_difference
-from .published import Published
-from .variance import variance_shares
 
 ROOM: Final = 3.0
 """Least error of the best level-keeper, as a multiple of the oracle's."""

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.results.baselines import human_human_run
+from colift.benchmark.statistics.estimate import paired_difference
+from colift.benchmark.tasks.agree.task import Agree
+from colift.benchmark.tasks.intent.task import Intent
 from numpy.typing import NDArray
-
-from ..execution.runner import Run
-from ..results.baselines import human_human_run
-from ..statistics.estimate import paired_difference
-from ..tasks.agree.task import Agree
-from ..tasks.intent.task import Intent
 
 
 @dataclass(frozen=True, kw_only=True)

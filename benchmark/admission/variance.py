@@ -3,9 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
+from colift.agents.errors import InputError
 from numpy.typing import ArrayLike
-
-from ...agents.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,17 +7,16 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 import numpy as np
-
-from ...agents.control.anticipation import FeatureWindow
-from ...agents.policies.anticipate import AnticipateParameters
-from ..episode.scenario import CONTROL_PERIOD
-from ..execution.runner import Run, run_suite
-from ..results.summary import stratum
-from ..statistics import Estimate, paired_difference
-from ..suites.suite import BEHAVIOURS, Suite
-from ..training.anticipation import CURRICULUM, HIDDEN, Lesson, learned
-from ..training.data import Timing, TrainingData
-from .anticipation_spec import AnticipationSpec
+from colift.agents.control.anticipation import FeatureWindow
+from colift.agents.policies.anticipate import AnticipateParameters
+from colift.benchmark.bounds.anticipation_spec import AnticipationSpec
+from colift.benchmark.episode.scenario import CONTROL_PERIOD
+from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.results.summary import stratum
+from colift.benchmark.statistics import Estimate, paired_difference
+from colift.benchmark.suites.suite import BEHAVIOURS, Suite
+from colift.benchmark.training.anticipation import CURRICULUM, HIDDEN, Lesson, learned
+from colift.benchmark.training.data import Timing, TrainingData
 
 WHOLE: Final = "nothing: the complete policy"
 

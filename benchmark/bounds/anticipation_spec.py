@@ -3,10 +3,10 @@
 import hashlib
 from dataclasses import dataclass, field
 
-from ...agents.agent import Agent
-from ...agents.control.anticipation import Anticipation, anticipation_json
-from ...agents.policies.anticipate import AnticipateParameters, AnticipationController
-from ...agents.spec import InProcess
+from colift.agents.agent import Agent
+from colift.agents.control.anticipation import Anticipation, anticipation_json
+from colift.agents.policies.anticipate import AnticipateParameters, AnticipationController
+from colift.agents.spec import InProcess
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

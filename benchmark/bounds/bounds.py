@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 from typing import Final
 
-from ..comparison.playing import Bound
-from ..suites.catalogue import PLAYED, RECORDED
-from ..suites.suite import Suite
-from .causal import CAUSAL_BOUND, causal_run, has_causal_bound
-from .oracle import ORACLE, ORACLES, oracle_run
+from colift.benchmark.bounds.causal import CAUSAL_BOUND, causal_run, has_causal_bound
+from colift.benchmark.bounds.oracle import ORACLE, ORACLES, oracle_run
+from colift.benchmark.comparison.playing import Bound
+from colift.benchmark.suites.catalogue import PLAYED, RECORDED
+from colift.benchmark.suites.suite import Suite
 
 BOUNDS: Final[Mapping[str, Bound]] = {CAUSAL_BOUND: causal_run, ORACLE: oracle_run}
 """The bounds by name. They are in no registry, so that no board can accept them."""

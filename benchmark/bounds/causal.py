@@ -9,18 +9,18 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 from typing import Final
 
-from ...agents.agent import Agent
-from ...agents.control.recurrent import GatedNetwork, read_gated
-from ...agents.control.recurrent_controller import RecurrentController
-from ...agents.errors import InputError
-from ...agents.identity import code_hash
-from ...agents.spec import InProcess
-from ...agents.touch.touch_controller import TouchController, read_touch
-from ...agents.touch.touch_law import TASK_SENSES, TouchNetwork
-from ..episode.level import LEVEL
-from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
-from ..execution.runner import Run, run_suite
-from ..suites.suite import Suite
+from colift.agents.agent import Agent
+from colift.agents.control.recurrent import GatedNetwork, read_gated
+from colift.agents.control.recurrent_controller import RecurrentController
+from colift.agents.errors import InputError
+from colift.agents.identity import code_hash
+from colift.agents.spec import InProcess
+from colift.agents.touch.touch_controller import TouchController, read_touch
+from colift.agents.touch.touch_law import TASK_SENSES, TouchNetwork
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
+from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.suites.suite import Suite
 
 CAUSAL_BOUND: Final = "causal_bound"
 

@@ -5,11 +5,16 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-
-from ..comparison.paired_results import PairedResults, PolicyResults
-from ..statistics import FloatArray, Interval, paired_difference, ratio_of_means, share_better
-from ..suites.catalogue import RECORDED
-from .causal import CAUSAL_BOUND
+from colift.benchmark.bounds.causal import CAUSAL_BOUND
+from colift.benchmark.comparison.paired_results import PairedResults, PolicyResults
+from colift.benchmark.statistics import (
+    FloatArray,
+    Interval,
+    paired_difference,
+    ratio_of_means,
+    share_better,
+)
+from colift.benchmark.suites.catalogue import RECORDED
 
 POLICY: Final = "learned"
 RIVALS: Final = ("anticipate", "blend", "reactive")

@@ -2,10 +2,10 @@
 
 from typing import Final
 
-from ...agents.errors import InputError
-from ..suites.catalogue import make_scenario
-from ..suites.suite import BEHAVIOURS, Suite
-from ..training.anticipation import LAST_SEED
+from colift.agents.errors import InputError
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import BEHAVIOURS, Suite
+from colift.benchmark.training.anticipation import LAST_SEED
 
 FIRST_SEED: Final = LAST_SEED + 1
 """Seed of the first person and of the first lift: no learning takes seeds from here on."""

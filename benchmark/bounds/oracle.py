@@ -5,23 +5,23 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Final
 
-from ...agents.errors import InputError
-from ...agents.identity import code_hash
-from ..episode.episode import Episode, run_episode
-from ..episode.kept_world import drop_kept_world, lift_in_kept_world
-from ..episode.level import Level
-from ..episode.lift import Lift
-from ..episode.scenario import Scenario
-from ..execution.runner import Run
-from ..suites.suite import Suite
-from ..tasks.agree.oracle import foreknow_agreement
-from ..tasks.agree.task import Agree
-from ..tasks.ball.oracle import foresee
-from ..tasks.ball.task import BallSteering
-from ..tasks.intent.oracle import foreknow_pose
-from ..tasks.intent.task import Intent
-from ..tasks.rehearsal import refine, rehearse_lift
-from .causal import CausalBound
+from colift.agents.errors import InputError
+from colift.agents.identity import code_hash
+from colift.benchmark.bounds.causal import CausalBound
+from colift.benchmark.episode.episode import Episode, run_episode
+from colift.benchmark.episode.kept_world import drop_kept_world, lift_in_kept_world
+from colift.benchmark.episode.level import Level
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.agree.oracle import foreknow_agreement
+from colift.benchmark.tasks.agree.task import Agree
+from colift.benchmark.tasks.ball.oracle import foresee
+from colift.benchmark.tasks.ball.task import BallSteering
+from colift.benchmark.tasks.intent.oracle import foreknow_pose
+from colift.benchmark.tasks.intent.task import Intent
+from colift.benchmark.tasks.rehearsal import refine, rehearse_lift
 
 ORACLE: Final = "oracle"
 

@@ -6,16 +6,15 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-
-from ...agents.loading.loading import PolicySpec
-from ...agents.spec import AgentSpec
-from ..execution.runner import Run, run_suite
-from ..results.baselines import human_human_run
-from ..suites.suite import Suite
-from ..training.anticipation import ROUNDS, learn_anticipation
-from ..training.data import Timing
-from .anticipation_spec import AnticipationSpec
-from .oracle import ORACLE, oracle_run
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.spec import AgentSpec
+from colift.benchmark.bounds.anticipation_spec import AnticipationSpec
+from colift.benchmark.bounds.oracle import ORACLE, oracle_run
+from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.results.baselines import human_human_run
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.training.anticipation import ROUNDS, learn_anticipation
+from colift.benchmark.training.data import Timing
 
 LATENCIES: Final = (0.0, 0.05, 0.1, 0.15, 0.2)
 """Latencies at the paper's control period [s]."""

@@ -5,14 +5,13 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Final
 
+from colift.benchmark.bounds.oracle import ORACLE
+from colift.benchmark.bounds.sweep import Swept
+from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
+from colift.benchmark.rendering.style import FAINT, HUMAN, INK, PAPER, ROBOT, style_axes
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-
-from ..episode.scenario import CONTROL_PERIOD, LATENCY
-from ..rendering.style import FAINT, HUMAN, INK, PAPER, ROBOT, style_axes
-from .oracle import ORACLE
-from .sweep import Swept
 
 LOOKS: Final = {
     "reactive": (FAINT, "-", "o"),

@@ -12,14 +12,20 @@ file               content
 ================== ===============================================================================
 """
 
-from ..execution.provenance import fingerprint
-from .content import Results, results
-from .differences import Difference, differences
-from .files import FILES, check_bundle_folder, check_unfinished, is_bundle, read_files
-from .reading import Bundle, parse, read_bundle
-from .recipe import Recipe
-from .table import one_line
-from .writing import write_bundle
+from colift.benchmark.bundle.content import Results, results
+from colift.benchmark.bundle.differences import Difference, differences
+from colift.benchmark.bundle.files import (
+    FILES,
+    check_bundle_folder,
+    check_unfinished,
+    is_bundle,
+    read_files,
+)
+from colift.benchmark.bundle.reading import Bundle, parse, read_bundle
+from colift.benchmark.bundle.recipe import Recipe
+from colift.benchmark.bundle.table import one_line
+from colift.benchmark.bundle.writing import write_bundle
+from colift.benchmark.execution.provenance import fingerprint
 
 __all__ = [
     "FILES",

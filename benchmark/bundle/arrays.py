@@ -8,9 +8,8 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
+from colift.agents.errors import InputError, error_text
 from numpy.typing import NDArray
-
-from ...agents.errors import InputError, error_text
 
 MOST_BYTES: Final = 2**30
 """Largest size of all arrays of a file together, unpacked [bytes]."""

@@ -6,14 +6,15 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any
 
-from ...agents.hardware.decisions import POLICY_SHARE
-from ..channels import Channel
-from ..channels.recorded import recorded
-from ..episode.metric import SCORING
-from ..execution.runner import Run
-from ..results.baselines import HUMAN_HUMAN, Baseline
-from ..results.goals import GoalScores, goal_scores
-from ..results.summary import (
+from colift.agents.hardware.decisions import POLICY_SHARE
+from colift.benchmark.bundle.table import one_line
+from colift.benchmark.channels import Channel
+from colift.benchmark.channels.recorded import recorded
+from colift.benchmark.episode.metric import SCORING
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.results.baselines import HUMAN_HUMAN, Baseline
+from colift.benchmark.results.goals import GoalScores, goal_scores
+from colift.benchmark.results.summary import (
     StepTimes,
     StratumScores,
     Summary,
@@ -21,8 +22,7 @@ from ..results.summary import (
     plain_estimate,
     summarise,
 )
-from ..suites.suite import Suite
-from .table import one_line
+from colift.benchmark.suites.suite import Suite
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Final
 
-from ...agents.errors import InputError
+from colift.agents.errors import InputError
 
 RESULTS: Final = "results.json"
 EPISODES: Final = "episodes.csv"

@@ -4,14 +4,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.agents.humans import Cued, HandLog, Played
+from colift.agents.humans.cued import KINDS
+from colift.benchmark.bundle.arrays import Arrays, dump_arrays, parse_arrays, take_array
+from colift.benchmark.bundle.files import INPUTS
+from colift.benchmark.episode.scenario import Scenario
 from numpy.typing import NDArray
-
-from ...agents.errors import InputError
-from ...agents.humans import Cued, HandLog, Played
-from ...agents.humans.cued import KINDS
-from ..episode.scenario import Scenario
-from .arrays import Arrays, dump_arrays, parse_arrays, take_array
-from .files import INPUTS
 
 HANDS: Final = ("human", "far")
 """The two ends; there are arrays of the far one only if a person held it in every lift."""

@@ -5,7 +5,7 @@ import math
 from collections.abc import Sequence
 from typing import Any, NoReturn, TypeVar
 
-from ...agents.errors import InputError
+from colift.agents.errors import InputError
 
 T = TypeVar("T")
 

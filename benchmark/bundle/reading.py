@@ -7,12 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from ...agents.errors import InputError
-from ..episode.episode import Episode
-from ..episode.metric import SCORING
-from ..execution.runner import Run
-from .arrays import parse_arrays
-from .files import (
+from colift.agents.errors import InputError
+from colift.benchmark.bundle.arrays import parse_arrays
+from colift.benchmark.bundle.files import (
     EPISODES,
     HARDWARE,
     INPUTS,
@@ -23,11 +20,14 @@ from .files import (
     TRACES,
     read_files,
 )
-from .json_text import dump_json, of_type, parse_json, pick
-from .recipe import FROM_NAMES, Recipe
-from .table import parse_table, treated
-from .traces import LARGEST_LIFT, parse_traces
-from .writing import FORMAT, kept_logs
+from colift.benchmark.bundle.json_text import dump_json, of_type, parse_json, pick
+from colift.benchmark.bundle.recipe import FROM_NAMES, Recipe
+from colift.benchmark.bundle.table import parse_table, treated
+from colift.benchmark.bundle.traces import LARGEST_LIFT, parse_traces
+from colift.benchmark.bundle.writing import FORMAT, kept_logs
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.metric import SCORING
+from colift.benchmark.execution.runner import Run
 
 LONGEST_LINE: Final = 1000
 """Longest name of a policy, version or isolation level [characters]."""

@@ -9,20 +9,26 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Self
 
-from ...agents.errors import InputError
-from ...agents.humans import Behaviour, Recorded, load_recordings
-from ...agents.humans.recordings import COLUMNS
-from ...agents.registry import UnknownNameError
-from ..channels import Channel
-from ..channels.recorded import parse_recorded, recorded
-from ..episode.level import LEVEL
-from ..episode.metric import Metrics
-from ..episode.scenario import Scenario
-from ..suites.catalogue import PLAYED, RECORDED, make_scenario, make_subject, make_task
-from ..suites.suite import LONGEST_SUITE_NAME, Suite, plain_name
-from .files import INPUTS, MANIFEST, RECORDINGS
-from .inputs import dump_inputs, parse_inputs
-from .json_text import of_type, pick
+from colift.agents.errors import InputError
+from colift.agents.humans import Behaviour, Recorded, load_recordings
+from colift.agents.humans.recordings import COLUMNS
+from colift.agents.registry import UnknownNameError
+from colift.benchmark.bundle.files import INPUTS, MANIFEST, RECORDINGS
+from colift.benchmark.bundle.inputs import dump_inputs, parse_inputs
+from colift.benchmark.bundle.json_text import of_type, pick
+from colift.benchmark.channels import Channel
+from colift.benchmark.channels.recorded import parse_recorded, recorded
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.episode.metric import Metrics
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.suites.catalogue import (
+    PLAYED,
+    RECORDED,
+    make_scenario,
+    make_subject,
+    make_task,
+)
+from colift.benchmark.suites.suite import LONGEST_SUITE_NAME, Suite, plain_name
 
 MOST_EPISODES: Final = 100_000
 """Largest number of episodes in a bundle."""

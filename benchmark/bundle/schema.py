@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any, Final
 
-from ..channels import Link
-from ..episode.level import LEVEL
-from ..episode.metric import LEADING, Metric, Metrics, on_boards
+from colift.benchmark.channels import Link
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.episode.metric import LEADING, Metric, Metrics, on_boards
 
 DIALECT: Final = "https://json-schema.org/draft/2020-12/schema"
 

@@ -6,14 +6,14 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Final
 
-from ...agents.errors import InputError
-from ..episode.episode import Episode
-from ..episode.metric import LEADING, Metrics, Scores, reached
-from ..episode.trace import Trace
-from ..suites.catalogue import RECORDED
-from ..suites.suite import Suite
-from ..suites.treatments import TREATED, Treatments, treatments
-from .files import EPISODES, TRACES
+from colift.agents.errors import InputError
+from colift.benchmark.bundle.files import EPISODES, TRACES
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.metric import LEADING, Metrics, Scores, reached
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.suites.catalogue import RECORDED
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.suites.treatments import TREATED, Treatments, treatments
 
 NEEDED: Final = ("behaviour", "subject", "trial", "seed", LEADING, "failure")
 """Columns of every table, whatever the version of its scores."""

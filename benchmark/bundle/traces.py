@@ -7,13 +7,12 @@ from collections.abc import Sequence
 from typing import Any, Final
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.benchmark.bundle.arrays import Arrays, take_array
+from colift.benchmark.bundle.files import TRACES
+from colift.benchmark.episode.recorder import HASH_BYTES
+from colift.benchmark.episode.trace import ADDED, BY_STEP, Trace
 from numpy.typing import NDArray
-
-from ...agents.errors import InputError
-from ..episode.recorder import HASH_BYTES
-from ..episode.trace import ADDED, BY_STEP, Trace
-from .arrays import Arrays, take_array
-from .files import TRACES
 
 INTERNALS: Final = "internals/"
 

@@ -5,15 +5,24 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from ..episode.episode import Episode
-from ..execution.provenance import fingerprint
-from ..execution.runner import Run
-from .arrays import dump_arrays
-from .files import EPISODES, INPUTS, LOGS, MANIFEST, RECORDINGS, RESULTS, TRACES, replace_folder
-from .json_text import dump_json
-from .recipe import Recipe
-from .table import dump_table, treated
-from .traces import dump_traces
+from colift.benchmark.bundle.arrays import dump_arrays
+from colift.benchmark.bundle.files import (
+    EPISODES,
+    INPUTS,
+    LOGS,
+    MANIFEST,
+    RECORDINGS,
+    RESULTS,
+    TRACES,
+    replace_folder,
+)
+from colift.benchmark.bundle.json_text import dump_json
+from colift.benchmark.bundle.recipe import Recipe
+from colift.benchmark.bundle.table import dump_table, treated
+from colift.benchmark.bundle.traces import dump_traces
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.execution.provenance import fingerprint
+from colift.benchmark.execution.runner import Run
 
 FORMAT: Final = 1
 """Number of the bundle's format."""

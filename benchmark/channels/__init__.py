@@ -3,9 +3,9 @@
 The names here need no engine: a help text lists the channels.
 """
 
-from .channel import Channel, Link
-from .named import CHANNELS, channel_name, make_channel
-from .reading import read_channel
+from colift.benchmark.channels.channel import Channel, Link
+from colift.benchmark.channels.named import CHANNELS, channel_name, make_channel
+from colift.benchmark.channels.reading import read_channel
 
 __all__ = [
     "CHANNELS",

@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Final
 
-from ...agents.errors import InputError
-from ...agents.near_names import did_you_mean
-from .channel import Channel, Link
-from .reading import read_channel
+from colift.agents.errors import InputError
+from colift.agents.near_names import did_you_mean
+from colift.benchmark.channels.channel import Channel, Link
+from colift.benchmark.channels.reading import read_channel
 
 
 def _both(link: Link) -> Channel:

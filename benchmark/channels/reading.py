@@ -5,10 +5,10 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any, Final
 
-from ...agents.errors import InputError
-from ...agents.near_names import did_you_mean
-from ...agents.text import parse_toml, read_bytes
-from .channel import Channel, Link
+from colift.agents.errors import InputError
+from colift.agents.near_names import did_you_mean
+from colift.agents.text import parse_toml, read_bytes
+from colift.benchmark.channels.channel import Channel, Link
 
 LONGEST: Final = 16 * 1024
 """Largest file [bytes]: the time to read TOML can grow with the square of its length."""

@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 from typing import Any, Final
 
-from ...agents.errors import InputError
-from ...agents.identity import code_hash
-from .channel import Channel, Link
-from .reading import parse_channel
-from .teleoperated import teleoperated
+from colift.agents.errors import InputError
+from colift.agents.identity import code_hash
+from colift.benchmark.channels.channel import Channel, Link
+from colift.benchmark.channels.reading import parse_channel
+from colift.benchmark.channels.teleoperated import teleoperated
 
 CODE: Final = "code"
 """The key of the hash."""

@@ -10,11 +10,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-
-from ...agents.agent import FRAME
-from ..episode.scenario import Scenario
-from ..episode.seeding import derive_seed
-from .channel import Channel, Link
+from colift.agents.agent import FRAME
+from colift.benchmark.channels.channel import Channel, Link
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.seeding import derive_seed
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,13 +4,12 @@ import math
 from typing import Final
 
 import numpy as np
-
-from ...agents.actions import checked_action
-from ...agents.agent import Action, Agent, Observation, Printing, RobotObservation
-from ...agents.errors import InputError
-from ..episode.scenario import Scenario
-from .channel import Channel
-from .schedule import channel_seed, schedule
+from colift.agents.actions import checked_action
+from colift.agents.agent import Action, Agent, Observation, Printing, RobotObservation
+from colift.agents.errors import InputError
+from colift.benchmark.channels.channel import Channel
+from colift.benchmark.channels.schedule import channel_seed, schedule
+from colift.benchmark.episode.scenario import Scenario
 
 ANSWERED: Final = "answered"
 """The internal with the step of the observation that a command answers; NaN if there is none."""

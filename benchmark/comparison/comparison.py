@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from ..results.baselines import HUMAN_HUMAN_LABEL
-from .front import FrontPoint, exact, pareto_front
-from .paired_results import PairedResults
-from .ranking import Ranking, SubsetKind, rank_policies
+from colift.benchmark.comparison.front import FrontPoint, exact, pareto_front
+from colift.benchmark.comparison.paired_results import PairedResults
+from colift.benchmark.comparison.ranking import Ranking, SubsetKind, rank_policies
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

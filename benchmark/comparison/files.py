@@ -9,16 +9,16 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from ..channels.recorded import recorded
-from ..results.baselines import HUMAN_HUMAN_LABEL
-from ..results.goals import goal_scores
-from ..suites.treatments import plain_treatments
-from .captions import picture_axis, picture_title
-from .comparison import Comparison
-from .html import html_page
-from .ranking import RankedPolicy, Ranking
-from .scatter.png import png
-from .scatter.scene import make_scene
+from colift.benchmark.channels.recorded import recorded
+from colift.benchmark.comparison.captions import picture_axis, picture_title
+from colift.benchmark.comparison.comparison import Comparison
+from colift.benchmark.comparison.html import html_page
+from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
+from colift.benchmark.comparison.scatter.png import png
+from colift.benchmark.comparison.scatter.scene import make_scene
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+from colift.benchmark.results.goals import goal_scores
+from colift.benchmark.suites.treatments import plain_treatments
 
 
 def comparison_json(comparison: Comparison) -> dict[str, Any]:

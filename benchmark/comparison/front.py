@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from ..episode.metric import Metric
-from ..statistics import Estimate
+from colift.benchmark.episode.metric import Metric
+from colift.benchmark.statistics import Estimate
 
 
 @dataclass(frozen=True, kw_only=True)

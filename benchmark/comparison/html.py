@@ -4,16 +4,16 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from typing import Final
 
-from ..episode.metric import Metric
-from ..rendering.page import Cell, Row, render
-from ..statistics import Estimate
-from . import captions
-from .comparison import Comparison
-from .formatting import between, digits, p_value, probability
-from .paired_results import PolicyResults
-from .ranking import MetricMean, RankedPolicy, Ranking
-from .scatter.scene import NARROW, WIDE, make_scene
-from .scatter.svg import svg
+from colift.benchmark.comparison import captions
+from colift.benchmark.comparison.comparison import Comparison
+from colift.benchmark.comparison.formatting import between, digits, p_value, probability
+from colift.benchmark.comparison.paired_results import PolicyResults
+from colift.benchmark.comparison.ranking import MetricMean, RankedPolicy, Ranking
+from colift.benchmark.comparison.scatter.scene import NARROW, WIDE, make_scene
+from colift.benchmark.comparison.scatter.svg import svg
+from colift.benchmark.episode.metric import Metric
+from colift.benchmark.rendering.page import Cell, Row, render
+from colift.benchmark.statistics import Estimate
 
 AGAINST: Final = ("policy", "behind the best mm", "p", "lifts won", "P(better than humans)")
 

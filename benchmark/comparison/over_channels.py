@@ -4,12 +4,12 @@ from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
 
-from ...agents.spec import AgentSpec
-from ..channels import Channel
-from ..execution.runner import run_suite
-from ..results.summary import stratum
-from ..statistics import Estimate, mean_of, paired_difference
-from ..suites.suite import Suite
+from colift.agents.spec import AgentSpec
+from colift.benchmark.channels import Channel
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.results.summary import stratum
+from colift.benchmark.statistics import Estimate, mean_of, paired_difference
+from colift.benchmark.suites.suite import Suite
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,13 +4,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-
-from ..channels import Channel
-from ..episode.metric import LEADING, Metric, Scores, on_boards, second_axis
-from ..execution.runner import Run
-from ..results.baselines import HUMAN_HUMAN_LABEL, Baseline
-from ..results.summary import Stratum, stratum
-from ..suites.suite import Suite
+from colift.benchmark.channels import Channel
+from colift.benchmark.episode.metric import LEADING, Metric, Scores, on_boards, second_axis
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, Baseline
+from colift.benchmark.results.summary import Stratum, stratum
+from colift.benchmark.suites.suite import Suite
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -5,18 +5,18 @@ from concurrent.futures import Executor
 from functools import partial
 from typing import Protocol
 
-from ...agents.spec import AgentSpec
-from ..channels import Channel
-from ..execution.runner import Run, run_suite
-from ..results.baselines import (
+from colift.agents.spec import AgentSpec
+from colift.benchmark.channels import Channel
+from colift.benchmark.comparison.paired_results import PairedResults, PolicyResults
+from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.results.baselines import (
     HUMAN_HUMAN,
     Baseline,
     human_human_run,
     shipped_baselines,
     shipped_bounds,
 )
-from ..suites.suite import Suite
-from .paired_results import PairedResults, PolicyResults
+from colift.benchmark.suites.suite import Suite
 
 
 class Bound(Protocol):

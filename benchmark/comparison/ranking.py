@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-
-from ..episode.metric import Metric
-from ..results.baselines import HUMAN_HUMAN_LABEL
-from ..results.summary import Stratum
-from ..statistics import (
+from colift.benchmark.comparison.paired_results import PairedResults, PolicyResults
+from colift.benchmark.episode.metric import Metric
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+from colift.benchmark.results.summary import Stratum
+from colift.benchmark.statistics import (
     Estimate,
     FloatArray,
     PairedDifference,
@@ -22,7 +22,6 @@ from ..statistics import (
     rank_groups,
     ratio_of_means,
 )
-from .paired_results import PairedResults, PolicyResults
 
 SubsetKind = Literal["all", "behaviour", "subject"]
 

@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...agents.errors import InputError, Remedy
-from ..bundle import read_bundle
-from ..bundle.files import RESULTS
-from ..bundle.json_text import pick
-from ..channels import Channel, channel_name
-from ..episode.metric import SCORING
-from ..statistics import Estimate
-from ..suites.suite import Suite
-from .paired_results import PolicyResults
+from colift.agents.errors import InputError, Remedy
+from colift.benchmark.bundle import read_bundle
+from colift.benchmark.bundle.files import RESULTS
+from colift.benchmark.bundle.json_text import pick
+from colift.benchmark.channels import Channel, channel_name
+from colift.benchmark.comparison.paired_results import PolicyResults
+from colift.benchmark.episode.metric import SCORING
+from colift.benchmark.statistics import Estimate
+from colift.benchmark.suites.suite import Suite
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -4,12 +4,11 @@ import inspect
 from collections.abc import Callable
 from typing import Any, ParamSpec, TypeAlias
 
+from colift.agents.actions import checked_action
+from colift.agents.agent import Agent
+from colift.benchmark.environment.parallel import parallel_env
 from pettingzoo import AECEnv
 from pettingzoo.utils import BaseWrapper, OrderEnforcingWrapper, parallel_to_aec
-
-from ...agents.actions import checked_action
-from ...agents.agent import Agent
-from .parallel import parallel_env
 
 P = ParamSpec("P")
 AEC: TypeAlias = AECEnv[str, Any, Any]

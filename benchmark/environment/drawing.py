@@ -3,13 +3,13 @@
 from dataclasses import dataclass, replace
 from typing import Final
 
-from ...agents.errors import InputError
-from ...agents.humans import Subject
-from ..episode.level import LEVEL
-from ..episode.scenario import Scenario
-from ..episode.seeding import derive_seed
-from ..suites.catalogue import make_scenario
-from ..suites.suite import BEHAVIOURS
+from colift.agents.errors import InputError
+from colift.agents.humans import Subject
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import BEHAVIOURS
 
 TRAINING_SEEDS: Final = range(100_000, 200_000)
 """Seeds of people and lifts to learn from: no suite, calibration or test uses them."""

@@ -5,20 +5,10 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from gymnasium.spaces import Box
-from numpy.typing import NDArray
-from pettingzoo import ParallelEnv
-
-from ...agents.agent import Action, Agent, Observation
-from ..episode.level import LEVEL as LEVEL_TASK
-from ..episode.lift import Lift, make_lift
-from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
-from ..rendering.scene import Scene, check_render_mode
-from ..suites.catalogue import make_scenario
-from ..world.shared_world import SharedWorld
-from .drawing import Drawing, make_drawing
-from .rewards import LEVEL, SCORE, check_reward, score_rewards
-from .settings import (
+from colift.agents.agent import Action, Agent, Observation
+from colift.benchmark.environment.drawing import Drawing, make_drawing
+from colift.benchmark.environment.rewards import LEVEL, SCORE, check_reward, score_rewards
+from colift.benchmark.environment.settings import (
     HUMAN,
     ROBOT,
     action_space,
@@ -27,7 +17,16 @@ from .settings import (
     check_times,
     observation_space,
 )
-from .state import state_space, true_state
+from colift.benchmark.environment.state import state_space, true_state
+from colift.benchmark.episode.level import LEVEL as LEVEL_TASK
+from colift.benchmark.episode.lift import Lift, make_lift
+from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
+from colift.benchmark.rendering.scene import Scene, check_render_mode
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.world.shared_world import SharedWorld
+from gymnasium.spaces import Box
+from numpy.typing import NDArray
+from pettingzoo import ParallelEnv
 
 
 class ParallelLift(ParallelEnv[str, Observation, Action]):

@@ -3,13 +3,12 @@
 from typing import Final, Protocol, runtime_checkable
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.benchmark.episode.level import Level
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.metrics import FAILED_FRAME_MM
+from colift.benchmark.episode.task import Task
 from numpy.typing import NDArray
-
-from ...agents.errors import InputError
-from ..episode.level import Level
-from ..episode.lift import Lift
-from ..episode.metrics import FAILED_FRAME_MM
-from ..episode.task import Task
 
 LEVEL: Final = "level"
 """Reward by the height difference at the end of a step [m]; see :meth:`.Task.rewards`."""

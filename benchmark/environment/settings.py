@@ -4,11 +4,10 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.seat import REFERENCE_RANGE
 from gymnasium.spaces import Box
-
-from ...agents.errors import InputError
-from ..episode.lift import Lift
-from ..episode.seat import REFERENCE_RANGE
 
 HUMAN, ROBOT = "human", "robot"
 """The two agents."""

@@ -4,13 +4,12 @@ from typing import Any, Final
 
 import gymnasium
 import numpy as np
+from colift.agents.agent import Action, Agent, Observation
+from colift.agents.errors import InputError
+from colift.benchmark.environment.parallel import parallel_env
+from colift.benchmark.environment.settings import HUMAN, ROBOT, SETTINGS, check_options
 from gymnasium.spaces import Space
 from numpy.typing import NDArray
-
-from ...agents.agent import Action, Agent, Observation
-from ...agents.errors import InputError
-from .parallel import parallel_env
-from .settings import HUMAN, ROBOT, SETTINGS, check_options
 
 _KNOWN: Final = ", ".join(name for name in SETTINGS if name != "partner")
 

@@ -3,11 +3,10 @@
 from enum import IntEnum
 
 import numpy as np
+from colift.benchmark.episode.level import FORCE_BOUND, HEIGHT_BOUND, VELOCITY_BOUND
+from colift.benchmark.episode.lift import Lift
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
-
-from ..episode.level import FORCE_BOUND, HEIGHT_BOUND, VELOCITY_BOUND
-from ..episode.lift import Lift
 
 
 class TrueState(IntEnum):

@@ -5,22 +5,21 @@ from typing import Any, Final
 import jax
 import jax.numpy as jnp
 import numpy as np
+from colift.agents.actions import action_limit
+from colift.agents.agent import RobotObservation
+from colift.agents.errors import InputError
+from colift.benchmark.environment.drawing import ANY, DRAW, make_drawing
+from colift.benchmark.environment.rewards import REWARDS, SCORE, UNIT
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.episode.metrics import FAILED_FRAME_MM
+from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
+from colift.benchmark.twin import playing as lifting
+from colift.benchmark.twin.lifts import Lifts, draw_lifts, some
+from colift.benchmark.twin.playing import Due, LiftState
 from gymnasium.spaces import Box
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
-
-from ...agents.actions import action_limit
-from ...agents.agent import RobotObservation
-from ...agents.errors import InputError
-from ..episode.level import LEVEL
-from ..episode.metrics import FAILED_FRAME_MM
-from ..episode.scenario import CONTROL_PERIOD, LATENCY
-from ..twin import playing as lifting
-from ..twin.lifts import Lifts, draw_lifts, some
-from ..twin.playing import Due, LiftState
-from .drawing import ANY, DRAW, make_drawing
-from .rewards import REWARDS, SCORE, UNIT
 
 Array = NDArray[Any]
 

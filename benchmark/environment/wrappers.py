@@ -5,17 +5,16 @@ from typing import Any, Final
 
 import gymnasium
 import numpy as np
+from colift.agents.agent import Action, Observation, RobotObservation
+from colift.agents.errors import InputError
+from colift.agents.submissions.network.policy import CORRECTION, FIXED, Senses, line, scales
+from colift.agents.submissions.training_view import Single, scaled, unscaled
+from colift.benchmark.environment.drawing import ANY, DRAW
+from colift.benchmark.environment.rewards import SCORE
+from colift.benchmark.environment.single import RobotEnv
+from colift.benchmark.episode.level import HEIGHT_BOUND
 from gymnasium.spaces import Box
 from gymnasium.utils import RecordConstructorArgs
-
-from ...agents.agent import Action, Observation, RobotObservation
-from ...agents.errors import InputError
-from ...agents.submissions.network.policy import CORRECTION, FIXED, Senses, line, scales
-from ...agents.submissions.training_view import Single, scaled, unscaled
-from ..episode.level import HEIGHT_BOUND
-from .drawing import ANY, DRAW
-from .rewards import SCORE
-from .single import RobotEnv
 
 STEPS: Final = 20
 """Steps of the human's motion that a learner sees: 2 s, a stroke."""

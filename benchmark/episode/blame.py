@@ -3,13 +3,13 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ...agents.errors import EvaluatorFault, InputError
-from ...agents.plugins import error_at, is_ours, place_of, plugin_frames
-from .conformance import episode_fault, observation_fault, plan_fault
-from .episode import Episode
-from .lift import Lift
-from .scenario import Scenario
-from .seeding import derive_seed
+from colift.agents.errors import EvaluatorFault, InputError
+from colift.agents.plugins import error_at, is_ours, place_of, plugin_frames
+from colift.benchmark.episode.conformance import episode_fault, observation_fault, plan_fault
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.seeding import derive_seed
 
 
 def behaviour_title(scenario: Scenario) -> str:

@@ -5,14 +5,13 @@ from collections.abc import Mapping
 from typing import Any, cast
 
 import numpy as np
-
-from ...agents.agent import Observation
-from ...agents.humans import Behaviour, Plan, Subject
-from ...agents.plugins import article, error_at, object_fault
-from .episode import Episode
-from .lift import Lift
-from .metric import LEADING, Metric, Metrics, Scores
-from .task import Bounds, Task
+from colift.agents.agent import Observation
+from colift.agents.humans import Behaviour, Plan, Subject
+from colift.agents.plugins import article, error_at, object_fault
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.metric import LEADING, Metric, Metrics, Scores
+from colift.benchmark.episode.task import Bounds, Task
 
 
 def behaviour_fault(behaviour: object) -> str | None:

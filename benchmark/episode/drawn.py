@@ -5,9 +5,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from colift.benchmark.episode.trace import Trace
 from numpy.typing import NDArray
-
-from .trace import Trace
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,13 +2,13 @@
 
 from dataclasses import dataclass
 
-from ...agents.actions import checked_action
-from ...agents.agent import Agent
-from .lift import Lift
-from .metric import Scores
-from .recorder import Recorder
-from .trace import Trace
-from .turns import Turns
+from colift.agents.actions import checked_action
+from colift.agents.agent import Agent
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.metric import Scores
+from colift.benchmark.episode.recorder import Recorder
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.episode.turns import Turns
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -9,12 +9,11 @@ from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
-
-from ...agents import calibration
-from ...agents.actions import HAND_SPEED
-from ...agents.agent import FRAME, HISTORY, RobotObservation
-from ...agents.calibration import CALIBRATION
-from ...agents.humans import (
+from colift.agents import calibration
+from colift.agents.actions import HAND_SPEED
+from colift.agents.agent import FRAME, HISTORY, RobotObservation
+from colift.agents.calibration import CALIBRATION
+from colift.agents.humans import (
     PARTNER_SUBJECT,
     ChangingGoal,
     Jerky,
@@ -23,16 +22,16 @@ from ...agents.humans import (
     Recorded,
     Smooth,
 )
-from ...agents.identity import Root, code_hash
-from ...agents.registry import HUMANS, TASKS, lookup, own_entries
-from ...robots.nao.kinematics import STROKE
-from ..world import HISTORY_FRAMES, PHYSICS, SERVO, human_body, table
-from . import level, level_metrics, lift, metrics, seat, smoothness
-from .episode import run_episode
-from .kept_world import lift_in_kept_world
-from .lift import Lift
-from .metric import Metrics
-from .recorder import Recorder
+from colift.agents.identity import Root, code_hash
+from colift.agents.registry import HUMANS, TASKS, lookup, own_entries
+from colift.benchmark.episode import level, level_metrics, lift, metrics, seat, smoothness
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.kept_world import lift_in_kept_world
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.metric import Metrics
+from colift.benchmark.episode.recorder import Recorder
+from colift.benchmark.world import HISTORY_FRAMES, PHYSICS, SERVO, human_body, table
+from colift.robots.nao.kinematics import STROKE
 
 SIMULATES: Final[tuple[Root, ...]] = (Lift, Recorder, Partner, lift_in_kept_world)
 """The code from a plan and actions to a trace; the last entry includes the world of a level

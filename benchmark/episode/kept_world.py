@@ -8,11 +8,11 @@ import contextlib
 from collections.abc import Iterator
 from typing import Final
 
-from ..world import BodyParameters, FarEnd
-from ..world.shared_world import SharedWorld
-from .level import Level
-from .lift import Lift, Staging, make_lift
-from .scenario import Scenario
+from colift.benchmark.episode.level import Level
+from colift.benchmark.episode.lift import Lift, Staging, make_lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.world import BodyParameters, FarEnd
+from colift.benchmark.world.shared_world import SharedWorld
 
 _kept: Final[list[tuple[FarEnd, SharedWorld]]] = []
 """The world left by the last lift, with the holder of its far end."""

@@ -7,17 +7,16 @@ from dataclasses import dataclass
 from typing import ClassVar, Final
 
 import numpy as np
+from colift.agents.agent import FRAME, HumanObservation, Observation, RobotObservation
+from colift.benchmark.episode import metrics
+from colift.benchmark.episode.level_metrics import LEVEL_METRICS
+from colift.benchmark.episode.metric import Metrics, Scores
+from colift.benchmark.episode.smoothness import ldlj, sparc
+from colift.benchmark.episode.task import Bounds, Playing
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.world import BodyParameters, BulletWorld, FarEnd, World
+from colift.benchmark.world.table import TABLE_LENGTH, WEIGHT_SHARE
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME, HumanObservation, Observation, RobotObservation
-from ..world import BodyParameters, BulletWorld, FarEnd, World
-from ..world.table import TABLE_LENGTH, WEIGHT_SHARE
-from . import metrics
-from .level_metrics import LEVEL_METRICS
-from .metric import Metrics, Scores
-from .smoothness import ldlj, sparc
-from .task import Bounds, Playing
-from .trace import Trace
 
 DROP_TILT: Final = math.radians(40)
 """A table inclined by more than this [rad] slides out of the hands."""

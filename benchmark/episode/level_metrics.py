@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from .metric import Metric, MetricWords, metric_table
+from colift.benchmark.episode.metric import Metric, MetricWords, metric_table
 
 REACHED: Final = 0.02
 """Distance from the intended height within which the human has reached it [m]."""

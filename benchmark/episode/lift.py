@@ -4,15 +4,14 @@ from collections.abc import Callable, Sequence
 from typing import Final, Protocol, runtime_checkable
 
 import numpy as np
+from colift.agents.actions import action_limit, checked_action
+from colift.agents.agent import FRAME, HISTORY, Agent, HumanObservation, Observation
+from colift.agents.humans import Embodied, Plan, ScriptedHuman, Subject
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.seat import body_parameters, within_range
+from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.world import HISTORY_FRAMES, BodyParameters, FarEnd, World
 from numpy.typing import ArrayLike, NDArray
-
-from ...agents.actions import action_limit, checked_action
-from ...agents.agent import FRAME, HISTORY, Agent, HumanObservation, Observation
-from ...agents.humans import Embodied, Plan, ScriptedHuman, Subject
-from ..world import HISTORY_FRAMES, BodyParameters, FarEnd, World
-from .scenario import Scenario
-from .seat import body_parameters, within_range
-from .seeding import derive_seed
 
 MOCAP_NOISE: Final = 0.00023
 """Standard deviation of a motion-capture height [m]; the system of the paper is precise within

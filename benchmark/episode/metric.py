@@ -4,8 +4,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final, Literal
 
-from ...agents.errors import InputError
-from .drawn import DrawnSeries
+from colift.agents.errors import InputError
+from colift.benchmark.episode.drawn import DrawnSeries
 
 LEADING: Final = "rmse_mm"
 """The metric that ranks policies, first in the table of every task: the root mean square of the

@@ -9,11 +9,10 @@ from collections.abc import Callable, Sequence
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.robots.arithmetic import dot
 from numpy.typing import ArrayLike, NDArray
-
-from ...agents.agent import FRAME
-from ...agents.errors import InputError
-from ...robots.arithmetic import dot
 
 FAILED_FRAME_MM: Final = 250.0
 """Height difference that counts for each frame after a failure [mm]: holding still in a 0.20 m lift

@@ -6,10 +6,9 @@ import struct
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-
-from ..world import since_reset
-from .lift import Lift
-from .trace import Trace
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.world import since_reset
 
 HASH_BYTES = 16
 """Length of a step's hash: 128 bits."""

@@ -3,15 +3,14 @@
 from dataclasses import dataclass
 
 import numpy as np
+from colift.agents.actions import ActionError
+from colift.agents.errors import InputError
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.metric import Scores
+from colift.benchmark.episode.recorder import Recorder
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.episode.turns import START
 from numpy.typing import NDArray
-
-from ...agents.actions import ActionError
-from ...agents.errors import InputError
-from .lift import Lift
-from .metric import Scores
-from .recorder import Recorder
-from .trace import Trace
-from .turns import START
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

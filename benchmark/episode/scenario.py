@@ -3,12 +3,12 @@
 from dataclasses import dataclass
 from typing import Final
 
-from ...agents.agent import FRAME
-from ...agents.errors import InputError
-from ...agents.humans import Behaviour, Subject
-from .level import LEVEL
-from .seat import SEATS, Seat
-from .task import Task
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.agents.humans import Behaviour, Subject
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.episode.seat import SEATS, Seat
+from colift.benchmark.episode.task import Task
 
 CONTROL_PERIOD: Final = 0.1
 """Default control period [s]: the time of one arm movement in the paper (section II.A)."""

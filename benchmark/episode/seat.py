@@ -6,14 +6,13 @@ from dataclasses import dataclass
 from typing import ClassVar, Final, Protocol
 
 import numpy as np
+from colift.agents.actions import action_limit
+from colift.agents.agent import Observation
+from colift.agents.humans import LIVE_SUBJECT, PARTNER_SUBJECT, Subject
+from colift.benchmark.episode.task import Playing, Task
+from colift.benchmark.world import BodyParameters, FarEnd, HumanFarEnd, NaoFarEnd
+from colift.robots.nao.kinematics import STROKE
 from numpy.typing import ArrayLike, NDArray
-
-from ...agents.actions import action_limit
-from ...agents.agent import Observation
-from ...agents.humans import LIVE_SUBJECT, PARTNER_SUBJECT, Subject
-from ...robots.nao.kinematics import STROKE
-from ..world import BodyParameters, FarEnd, HumanFarEnd, NaoFarEnd
-from .task import Playing, Task
 
 REFERENCE_RANGE: Final = (-0.2, 0.5)
 """Range of heights to which a human's hand reference is clipped [m]."""

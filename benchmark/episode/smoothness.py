@@ -20,10 +20,9 @@ import math
 from typing import Final
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.robots.arithmetic import dot
 from numpy.typing import ArrayLike, NDArray
-
-from ...agents.errors import InputError
-from ...robots.arithmetic import dot
 
 MIN_PEAK_SPEED: Final = 1e-3
 """Peak speed [m/s] below which a profile counts as not moving."""

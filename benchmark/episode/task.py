@@ -4,13 +4,12 @@ from collections.abc import Mapping
 from typing import Protocol
 
 import numpy as np
+from colift.agents.agent import Observation
+from colift.agents.humans import Plan
+from colift.benchmark.episode.metric import Metrics, Scores
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.world import BodyParameters, FarEnd, World
 from numpy.typing import NDArray
-
-from ...agents.agent import Observation
-from ...agents.humans import Plan
-from ..world import BodyParameters, FarEnd, World
-from .metric import Metrics, Scores
-from .trace import Trace
 
 Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
 """Lowest and highest value of each number of an observation."""

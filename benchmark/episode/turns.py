@@ -3,10 +3,10 @@
 import time
 from typing import Final
 
-from ...agents.actions import ActionError, checked_action
-from ...agents.agent import Agent, Explaining, Observation, Printing
-from ...agents.errors import EvaluatorFault, error_text
-from .seeding import derive_seed
+from colift.agents.actions import ActionError, checked_action
+from colift.agents.agent import Agent, Explaining, Observation, Printing
+from colift.agents.errors import EvaluatorFault, error_text
+from colift.benchmark.episode.seeding import derive_seed
 
 START: Final = "start: "
 """Prefix of a failure's reason if the policy could not be made or reset."""

@@ -8,17 +8,17 @@ from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import dataclass
 from typing import Final
 
-from ...agents.agent import Action, Agent, Observation
-from ...agents.errors import EvaluatorFault, InputError, error_text
-from ...agents.spec import AgentSpec, Paced
-from ..channels import Channel
-from ..channels.teleoperated import teleoperated
-from ..episode.blame import blaming_plugins, check_episode, check_start
-from ..episode.episode import Episode, run_episode
-from ..episode.kept_world import drop_kept_world, lift_in_kept_world
-from ..episode.scenario import Scenario
-from ..suites.hidden import keyed
-from ..suites.suite import Suite
+from colift.agents.agent import Action, Agent, Observation
+from colift.agents.errors import EvaluatorFault, InputError, error_text
+from colift.agents.spec import AgentSpec, Paced
+from colift.benchmark.channels import Channel
+from colift.benchmark.channels.teleoperated import teleoperated
+from colift.benchmark.episode.blame import blaming_plugins, check_episode, check_start
+from colift.benchmark.episode.episode import Episode, run_episode
+from colift.benchmark.episode.kept_world import drop_kept_world, lift_in_kept_world
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.suites.hidden import keyed
+from colift.benchmark.suites.suite import Suite
 
 SEEDS_PER_BATCH: Final = 5
 """Seeds of one scenario that a worker plays at a time: few enough for visible progress."""

@@ -11,8 +11,8 @@ from concurrent.futures import CancelledError, Executor, Future
 from contextlib import suppress
 from typing import Any, Final, ParamSpec, TypeVar
 
-from ...agents.errors import EvaluatorFault
-from .provenance import check_same_origin, origin
+from colift.agents.errors import EvaluatorFault
+from colift.benchmark.execution.provenance import check_same_origin, origin
 
 LARGE: Final = 2**16
 """Size from which a value is sent once, separately from the calls that contain it [bytes]."""

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Final
 
-from ...agents.errors import InputError, error_text
-from ...agents.extras import how_to_install
-from .cluster import Cluster
-from .provenance import COLIFT, check_same_origin, origin
+from colift.agents.errors import InputError, error_text
+from colift.agents.extras import how_to_install
+from colift.benchmark.execution.cluster import Cluster
+from colift.benchmark.execution.provenance import COLIFT, check_same_origin, origin
 
 CONNECT_SECONDS: Final = 10.0
 """Time limit for the scheduler to answer, and for a first worker [s]."""

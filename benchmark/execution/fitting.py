@@ -4,15 +4,15 @@ from collections.abc import Iterator
 from contextlib import ExitStack, closing
 from typing import Final
 
-from ...agents.errors import InputError
-from ...agents.registry import TASKS, entries
-from ...agents.spec import AgentSpec, Paced
-from ..episode.blame import blaming_plugins, check_start
-from ..episode.lift import make_lift
-from ..episode.scenario import Scenario
-from ..episode.turns import Turns
-from ..suites.catalogue import make_scenario
-from .batches import entered
+from colift.agents.errors import InputError
+from colift.agents.registry import TASKS, entries
+from colift.agents.spec import AgentSpec, Paced
+from colift.benchmark.episode.blame import blaming_plugins, check_start
+from colift.benchmark.episode.lift import make_lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.turns import Turns
+from colift.benchmark.execution.batches import entered
+from colift.benchmark.suites.catalogue import make_scenario
 
 SEED: Final = 0
 """Seed of the lift of which the first step is tried, if no other is given."""

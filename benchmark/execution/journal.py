@@ -17,11 +17,10 @@ from typing import Any, Final
 
 import msgpack
 import numpy as np
+from colift.agents.errors import InputError, Remedy
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.trace import Trace
 from numpy.typing import NDArray
-
-from ...agents.errors import InputError, Remedy
-from ..episode.episode import Episode
-from ..episode.trace import Trace
 
 if sys.platform != "win32":
     import fcntl

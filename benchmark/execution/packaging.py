@@ -10,13 +10,12 @@ from pathlib import Path
 from typing import Final
 
 import msgpack
-
-from ...agents.agent import Agent
-from ...agents.errors import EvaluatorFault, InputError
-from ...agents.spec import AgentSpec, Paced, Portable
-from ...agents.submissions.folder import read_folder
-from ...agents.submissions.modules import module_digest
-from ...agents.submissions.snapshot import snapshot, snapshot_file
+from colift.agents.agent import Agent
+from colift.agents.errors import EvaluatorFault, InputError
+from colift.agents.spec import AgentSpec, Paced, Portable
+from colift.agents.submissions.folder import read_folder
+from colift.agents.submissions.modules import module_digest
+from colift.agents.submissions.snapshot import snapshot, snapshot_file
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,8 +12,8 @@ from contextlib import contextmanager
 from multiprocessing.connection import Connection
 from typing import Any, Final, ParamSpec, TypeVar
 
-from ...agents.errors import EvaluatorFault, InputError, error_text
-from .processors import usable_processors
+from colift.agents.errors import EvaluatorFault, InputError, error_text
+from colift.benchmark.execution.processors import usable_processors
 
 P = ParamSpec("P")
 T = TypeVar("T")

@@ -12,15 +12,14 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.agents.identity import Root, code_hash
+from colift.agents.sandbox.guest import forkserver
+from colift.benchmark.episode.identity import STATED, simulation_hash
+from colift.benchmark.execution.batches import Batch
+from colift.benchmark.execution.distributions import binaries, engine, library_versions
+from colift.benchmark.execution.packaging import PackagedPolicy
 from threadpoolctl import threadpool_info
-
-from ...agents.errors import InputError
-from ...agents.identity import Root, code_hash
-from ...agents.sandbox.guest import forkserver
-from ..episode.identity import STATED, simulation_hash
-from .batches import Batch
-from .distributions import binaries, engine, library_versions
-from .packaging import PackagedPolicy
 
 POLICIES_ONLY: Final = ("vector_extensions", "linear_algebra")
 """Entries on which only policies depend, but no bit of a simulation or score."""

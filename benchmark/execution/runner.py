@@ -4,12 +4,12 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
 
-from ...agents.spec import AgentSpec
-from ..channels import Channel
-from ..episode.episode import Episode
-from ..suites.suite import Suite
-from .batches import Faults, batches, run_batches, shuffled_batches
-from .packaging import packaged
+from colift.agents.spec import AgentSpec
+from colift.benchmark.channels import Channel
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.execution.batches import Faults, batches, run_batches, shuffled_batches
+from colift.benchmark.execution.packaging import packaged
+from colift.benchmark.suites.suite import Suite
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

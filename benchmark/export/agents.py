@@ -3,12 +3,11 @@
 from typing import Final
 
 import numpy as np
-
-from ...agents.actions import action_limit
-from ...agents.agent import Action, Agent, Observation, RobotObservation
-from ...agents.humans import Partner
-from ..episode.scenario import CONTROL_PERIOD
-from ..episode.seeding import derive_seed
+from colift.agents.actions import action_limit
+from colift.agents.agent import Action, Agent, Observation, RobotObservation
+from colift.agents.humans import Partner
+from colift.benchmark.episode.scenario import CONTROL_PERIOD
+from colift.benchmark.episode.seeding import derive_seed
 
 FASTER: Final = 0.8
 """Excess of the gain of ``proportional`` over 1: its default is 1.8."""

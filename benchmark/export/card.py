@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import Final
 
-from .contents import Contents
-from .provenance import STAMP, Provenance
+from colift.benchmark.export.contents import Contents
+from colift.benchmark.export.provenance import STAMP, Provenance
 
 CARD: Final = "README.md"
 

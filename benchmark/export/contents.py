@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from .lifts import ExportedLift
+from colift.benchmark.export.lifts import ExportedLift
 
 
 @dataclass(kw_only=True)

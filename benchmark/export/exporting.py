@@ -5,15 +5,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ...agents.errors import InputError
-from .card import CARD, card
-from .contents import Contents
-from .folder import new_folder
-from .lerobot_writer import frame_rate, write_lerobot
-from .library import import_minari, import_pyarrow
-from .lifts import ExportedLift, Spaces
-from .minari_writer import write_minari
-from .provenance import STAMP, VIEWS, Provenance
+from colift.agents.errors import InputError
+from colift.benchmark.export.card import CARD, card
+from colift.benchmark.export.contents import Contents
+from colift.benchmark.export.folder import new_folder
+from colift.benchmark.export.lerobot_writer import frame_rate, write_lerobot
+from colift.benchmark.export.library import import_minari, import_pyarrow
+from colift.benchmark.export.lifts import ExportedLift, Spaces
+from colift.benchmark.export.minari_writer import write_minari
+from colift.benchmark.export.provenance import STAMP, VIEWS, Provenance
 
 FORMATS: Final = ("minari", "lerobot")
 

@@ -9,17 +9,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ...agents.errors import InputError
-from ...agents.humans import Recorded, Recording, load_recordings
-from ...agents.threads import one_thread
-from ..episode.episode import run_episode
-from ..episode.identity import numbers, plain, scores_hash
-from ..episode.scenario import Scenario
-from ..suites.catalogue import RECORDED, make_scenario, make_subject
-from ..suites.suite import BEHAVIOURS
-from .lifts import ExportedLift
-from .observing import ObservedLift
-from .rules import NAMES, agent, rule
+from colift.agents.errors import InputError
+from colift.agents.humans import Recorded, Recording, load_recordings
+from colift.agents.threads import one_thread
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.identity import numbers, plain, scores_hash
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.export.lifts import ExportedLift
+from colift.benchmark.export.observing import ObservedLift
+from colift.benchmark.export.rules import NAMES, agent, rule
+from colift.benchmark.suites.catalogue import RECORDED, make_scenario, make_subject
+from colift.benchmark.suites.suite import BEHAVIOURS
 
 FIRST_SEED: Final = 120_000
 """Seed of the first lift and of its person: one of the training seeds, which no suite contains.

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ...agents.errors import InputError
-from .provenance import STAMP
+from colift.agents.errors import InputError
+from colift.benchmark.export.provenance import STAMP
 
 
 def check_new(folder: Path, *, replace: bool) -> None:

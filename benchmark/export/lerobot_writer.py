@@ -11,13 +11,12 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+from colift.agents.agent import RobotObservation
+from colift.agents.errors import InputError
+from colift.benchmark.export.library import import_pyarrow
+from colift.benchmark.export.lifts import ExportedLift
+from colift.benchmark.export.provenance import Provenance
 from numpy.typing import NDArray
-
-from ...agents.agent import RobotObservation
-from ...agents.errors import InputError
-from .library import import_pyarrow
-from .lifts import ExportedLift
-from .provenance import Provenance
 
 VERSION: Final = "v3.0"
 CHUNK_SIZE: Final = 1000

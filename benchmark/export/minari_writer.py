@@ -12,12 +12,11 @@ from typing import Any, Final
 
 import gymnasium
 import numpy as np
+from colift.benchmark.environment.settings import HUMAN, ROBOT
+from colift.benchmark.export.library import import_minari
+from colift.benchmark.export.lifts import AgentView, ExportedLift, Spaces
+from colift.benchmark.export.provenance import Provenance
 from gymnasium.spaces import Dict
-
-from ..environment.settings import HUMAN, ROBOT
-from .library import import_minari
-from .lifts import AgentView, ExportedLift, Spaces
-from .provenance import Provenance
 
 DATA: Final = "data"
 """The folder of Minari's files in that of a set."""

@@ -3,14 +3,13 @@
 from contextlib import closing
 
 import numpy as np
+from colift.agents.actions import action_limit
+from colift.agents.agent import Observation
+from colift.benchmark.environment.settings import HUMAN, ROBOT, action_space, observation_space
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.export.lifts import AgentView, ExportedLift, Spaces
 from gymnasium.spaces import Box
-
-from ...agents.actions import action_limit
-from ...agents.agent import Observation
-from ..environment.settings import HUMAN, ROBOT, action_space, observation_space
-from ..episode.lift import Lift
-from ..episode.scenario import Scenario
-from .lifts import AgentView, ExportedLift, Spaces
 
 
 class ObservedLift(Lift):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any, Final
 
-from ..episode.scenario import Scenario
+from colift.benchmark.episode.scenario import Scenario
 
 STAMP: Final = "colift.json"
 """File of the origin in the folder of a data set."""

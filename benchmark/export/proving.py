@@ -5,17 +5,17 @@ from concurrent.futures import Executor
 from contextlib import closing
 from dataclasses import dataclass
 
-from ...agents.errors import InputError
-from ..bundle import Bundle, one_line
-from ..episode.episode import Episode
-from ..episode.replay import ReplayError, replay
-from ..episode.scenario import Scenario
-from ..execution.provenance import POLICIES_ONLY, fingerprint
-from ..suites.suite import Suite
-from ..verification.deviation import first_difference
-from ..verification.episode_check import episode_checks
-from .lifts import ExportedLift
-from .observing import ObservedLift
+from colift.agents.errors import InputError
+from colift.benchmark.bundle import Bundle, one_line
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.replay import ReplayError, replay
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.execution.provenance import POLICIES_ONLY, fingerprint
+from colift.benchmark.export.lifts import ExportedLift
+from colift.benchmark.export.observing import ObservedLift
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.verification.deviation import first_difference
+from colift.benchmark.verification.episode_check import episode_checks
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
-from ...agents.agent import Agent
-from ...agents.errors import InputError
-from ...agents.loading.loading import PolicySpec, source_digest
-from ...agents.policies.anticipate import Anticipate
-from .agents import Clipped, Follower, SeededPartner
+from colift.agents.agent import Agent
+from colift.agents.errors import InputError
+from colift.agents.loading.loading import PolicySpec, source_digest
+from colift.agents.policies.anticipate import Anticipate
+from colift.benchmark.export.agents import Clipped, Follower, SeededPartner
 
 EXPERT: Final = "anticipate"
 

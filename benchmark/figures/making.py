@@ -11,11 +11,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ...agents.errors import EvaluatorFault, InputError
-from .changes import file_change
-from .origins import origin_of
-from .records import FigureRecord, file_hashes, read_records, reasons_due, write_records
-from .registry import FOLDER, RecordedFigure, read_figures
+from colift.agents.errors import EvaluatorFault, InputError
+from colift.benchmark.figures.changes import file_change
+from colift.benchmark.figures.origins import origin_of
+from colift.benchmark.figures.records import (
+    FigureRecord,
+    file_hashes,
+    read_records,
+    reasons_due,
+    write_records,
+)
+from colift.benchmark.figures.registry import FOLDER, RecordedFigure, read_figures
 
 COLUMNS: Final = 120
 """Width of the recorded tables [characters]."""

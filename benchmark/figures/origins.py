@@ -8,13 +8,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final
 
-from ...agents.errors import InputError
-from ...agents.identity import code_hash
-from ...agents.loading.loading import PolicySpec
-from ...agents.registry import own_policies
-from ..episode.level import LEVEL
-from ..suites.suite import make_suite
-from .registry import ALL, RecordedFigure
+from colift.agents.errors import InputError
+from colift.agents.identity import code_hash
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.registry import own_policies
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.figures.registry import ALL, RecordedFigure
+from colift.benchmark.suites.suite import make_suite
 
 COLIFT: Final = __name__.partition(".")[0]
 

@@ -7,8 +7,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Final
 
-from .origins import Origin
-from .registry import RecordedFigure
+from colift.benchmark.figures.origins import Origin
+from colift.benchmark.figures.registry import RecordedFigure
 
 RECORDS: Final = "records.json"
 

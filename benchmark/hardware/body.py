@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Final
 
-from .joint_motion import BODY, MotionError
+from colift.benchmark.hardware.joint_motion import BODY, MotionError
 
 IDLE_CHAINS: Final = ("Body", "Legs", "Arms", "LArm", "RArm", "Head")
 """Chains that may have a movement of their own."""

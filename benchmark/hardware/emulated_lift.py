@@ -4,12 +4,11 @@ import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
-
-from ...agents.agent import FRAME
-from ..episode.lift import Lift
-from ..episode.scenario import Scenario
-from ..world import SERVO, BodyParameters, FarEnd, Servo
-from .joint_arms import JointArms, JointWorld
+from colift.agents.agent import FRAME
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.hardware.joint_arms import JointArms, JointWorld
+from colift.benchmark.world import SERVO, BodyParameters, FarEnd, Servo
 
 
 class EmulatedLift(Lift):

@@ -11,14 +11,14 @@ import time
 from collections.abc import Callable
 from typing import Any, Final
 
-from ...agents.agent import FRAME
-from ...agents.errors import InputError
-from ...agents.hardware.missing import import_optional
-from ...agents.hardware.nao.session import first_line, quiet
-from ...agents.hardware.operator import StopButton
-from .laboratory import FAULTS, Conditions, Laboratory
-from .markers import MARKERS, Row
-from .services import Log
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.agents.hardware.missing import import_optional
+from colift.agents.hardware.nao.session import first_line, quiet
+from colift.agents.hardware.operator import StopButton
+from colift.benchmark.hardware.laboratory import FAULTS, Conditions, Laboratory
+from colift.benchmark.hardware.markers import MARKERS, Row
+from colift.benchmark.hardware.services import Log
 
 BEHIND: Final = 0.1
 """Longest lag of the emulator behind the clock [s]; beyond it, the lost time is skipped."""

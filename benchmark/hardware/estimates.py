@@ -6,14 +6,13 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.agents.hardware.loop import DEAD_TIME
+from colift.agents.hardware.plausibility import in_order, seen
+from colift.agents.hardware.trial_log import LoggedTrial
+from colift.benchmark.world.table import WEIGHT_SHARE
+from colift.robots.nao.kinematics import arm_path
 from numpy.typing import NDArray
-
-from ...agents.errors import InputError
-from ...agents.hardware.loop import DEAD_TIME
-from ...agents.hardware.plausibility import in_order, seen
-from ...agents.hardware.trial_log import LoggedTrial
-from ...robots.nao.kinematics import arm_path
-from ..world.table import WEIGHT_SHARE
 
 FEWEST: Final = 20
 """Fewest steps and frames from which an estimate is made."""

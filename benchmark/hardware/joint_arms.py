@@ -5,14 +5,19 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from colift.benchmark.world import BodyParameters, BulletWorld, NaoFarEnd
+from colift.benchmark.world.nao_arms import NaoArms
+from colift.benchmark.world.physics import Physics
+from colift.benchmark.world.servo import Servo
+from colift.benchmark.world.table import WEIGHT_SHARE
+from colift.robots.nao.kinematics import (
+    ARM_JOINTS,
+    MIRROR,
+    arm_path,
+    gravity_torque,
+    vertical_lever,
+)
 from numpy.typing import NDArray
-
-from ...robots.nao.kinematics import ARM_JOINTS, MIRROR, arm_path, gravity_torque, vertical_lever
-from ..world import BodyParameters, BulletWorld, NaoFarEnd
-from ..world.nao_arms import NaoArms
-from ..world.physics import Physics
-from ..world.servo import Servo
-from ..world.table import WEIGHT_SHARE
 
 _MIRROR: Final = np.array(MIRROR)
 

@@ -9,7 +9,7 @@ import threading
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
-from ...robots.nao.facts import JOINTS
+from colift.robots.nao.facts import JOINTS
 
 TICK: Final = 0.02
 """Cycle of ALMotion [s]: it accepts commands and moves set-points at 50 Hz."""

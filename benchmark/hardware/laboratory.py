@@ -10,16 +10,14 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-
-from ...agents.agent import FRAME
-from ...robots.nao.kinematics import ARM_JOINTS, arm_path
-from ..episode.scenario import Scenario
-from .body import CHARGE, WARM, Body
-from .emulated_lift import EmulatedLift
-from .faults import Fault, Schedule
-from .joint_motion import TICK, JointMotion
-from .markers import Markers, Row
-from .services import (
+from colift.agents.agent import FRAME
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.hardware.body import CHARGE, WARM, Body
+from colift.benchmark.hardware.emulated_lift import EmulatedLift
+from colift.benchmark.hardware.faults import Fault, Schedule
+from colift.benchmark.hardware.joint_motion import TICK, JointMotion
+from colift.benchmark.hardware.markers import Markers, Row
+from colift.benchmark.hardware.services import (
     BatteryService,
     FaultService,
     LifeService,
@@ -31,6 +29,7 @@ from .services import (
     SpeechService,
     SystemService,
 )
+from colift.robots.nao.kinematics import ARM_JOINTS, arm_path
 
 NAMES: Final = list(ARM_JOINTS)
 

@@ -5,13 +5,12 @@ from collections.abc import Iterator, Sequence
 from typing import Final
 
 import numpy as np
-
-from ...robots.nao.facts import TORSO_HEIGHT
-from ...robots.nao.kinematics import GRIP_X, REST_Z
-from ..episode.lift import MOCAP_NOISE
-from ..episode.seeding import derive_seed
-from ..world.table import TABLE_LENGTH
-from .faults import Fault
+from colift.benchmark.episode.lift import MOCAP_NOISE
+from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.hardware.faults import Fault
+from colift.benchmark.world.table import TABLE_LENGTH
+from colift.robots.nao.facts import TORSO_HEIGHT
+from colift.robots.nao.kinematics import GRIP_X, REST_Z
 
 MARKERS: Final = {
     "H1": (GRIP_X + TABLE_LENGTH, 0.2),

@@ -9,9 +9,16 @@ import threading
 from collections.abc import Callable
 from typing import Any, Final
 
-from ...robots.nao.facts import JOINTS
-from .body import Body, idle_chain
-from .joint_motion import BODY, TICK, JointMotion, MotionError, joint_names, per_joint
+from colift.benchmark.hardware.body import Body, idle_chain
+from colift.benchmark.hardware.joint_motion import (
+    BODY,
+    TICK,
+    JointMotion,
+    MotionError,
+    joint_names,
+    per_joint,
+)
+from colift.robots.nao.facts import JOINTS
 
 VERSION: Final = "2.8.7-emulated"
 """NAOqi of the NAO 6, marked as emulated."""

@@ -7,14 +7,14 @@ only while a caller waits, so that a trial is the same bit for bit, whatever els
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from ...agents.agent import FRAME
-from ...agents.hardware.ends import Height, MarkerEnds
-from ...agents.hardware.nao.session import ANSWER_TIME
-from ...agents.hardware.operator import StopButton
-from ...agents.hardware.ports import CaptureLostError, RobotLostError, Sample
-from .joint_motion import MotionError
-from .laboratory import Conditions, Laboratory
-from .markers import MARKERS, REST_HEIGHT
+from colift.agents.agent import FRAME
+from colift.agents.hardware.ends import Height, MarkerEnds
+from colift.agents.hardware.nao.session import ANSWER_TIME
+from colift.agents.hardware.operator import StopButton
+from colift.agents.hardware.ports import CaptureLostError, RobotLostError, Sample
+from colift.benchmark.hardware.joint_motion import MotionError
+from colift.benchmark.hardware.laboratory import Conditions, Laboratory
+from colift.benchmark.hardware.markers import MARKERS, REST_HEIGHT
 
 
 class SimulatedLaboratory:

@@ -3,10 +3,9 @@
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.benchmark.episode.metrics import Stroke
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME
-from ..episode.metrics import Stroke
 
 SMOOTHING: Final = 0.02
 """Standard deviation [s] of the Gaussian kernel that removes the noise of the motion capture before

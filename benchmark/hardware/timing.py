@@ -5,10 +5,9 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-
-from ...agents.hardware.plausibility import disordered
-from ...agents.hardware.stops import HoldReason
-from ...agents.hardware.trial_log import TrialLog
+from colift.agents.hardware.plausibility import disordered
+from colift.agents.hardware.stops import HoldReason
+from colift.agents.hardware.trial_log import TrialLog
 
 
 def timing_report(logs: Sequence[TrialLog]) -> dict[str, Any]:

@@ -13,26 +13,25 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.agents.hardware.plausibility import in_order, seen
+from colift.agents.hardware.ports import Sample
+from colift.agents.hardware.trial_log import TrialLog
+from colift.agents.humans import SUBJECTS, Plan, Subject
+from colift.benchmark.episode import metrics
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.episode.metric import Scores
+from colift.benchmark.episode.recorder import HASH_BYTES
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.smoothness import ldlj, sparc
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.hardware.strokes import find_strokes, smoothed
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.world.table import TABLE_LENGTH
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME
-from ...agents.errors import InputError
-from ...agents.hardware.plausibility import in_order, seen
-from ...agents.hardware.ports import Sample
-from ...agents.hardware.trial_log import TrialLog
-from ...agents.humans import SUBJECTS, Plan, Subject
-from ..episode import metrics
-from ..episode.episode import Episode
-from ..episode.level import LEVEL
-from ..episode.metric import Scores
-from ..episode.recorder import HASH_BYTES
-from ..episode.scenario import Scenario
-from ..episode.smoothness import ldlj, sparc
-from ..episode.trace import Trace
-from ..execution.runner import Run
-from ..suites.suite import Suite
-from ..world.table import TABLE_LENGTH
-from .strokes import find_strokes, smoothed
 
 HARDWARE: Final = "hardware"
 """Name of the behaviour of a person who lifts in a laboratory."""

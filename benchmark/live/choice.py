@@ -4,12 +4,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
-from ...agents.agent import FRAME
-from ...agents.errors import InputError
-from ...agents.spec import AgentSpec
-from ..episode.scenario import LATENCY, LONGEST_LATENCY
-from ..results.baselines import PARTNER_SPEC
-from .scenarios import MIXTURES
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.agents.spec import AgentSpec
+from colift.benchmark.episode.scenario import LATENCY, LONGEST_LATENCY
+from colift.benchmark.live.scenarios import MIXTURES
+from colift.benchmark.results.baselines import PARTNER_SPEC
 
 SIMULATED: Final = "simulated person"
 """The simulated second person of the human-human baseline."""

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-from ...agents.errors import InputError
+from colift.agents.errors import InputError
 
 PRESETS: Final = ("mouse", "touch", "pen", "keyboard", "gamepad")
 

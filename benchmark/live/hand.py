@@ -3,9 +3,8 @@
 import math
 
 import numpy as np
-
-from ...agents.humans import HandLog, Resampler
-from ...agents.humans.hand_log import FARTHEST, MOST_SAMPLES
+from colift.agents.humans import HandLog, Resampler
+from colift.agents.humans.hand_log import FARTHEST, MOST_SAMPLES
 
 
 class LiveHand:

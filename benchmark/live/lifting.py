@@ -6,23 +6,23 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from ...agents.agent import FRAME, Agent
-from ...agents.errors import EvaluatorFault
-from ...agents.humans import Cued, Hand, PersonAsRobot, Played
-from ...agents.spec import Paced
-from ..episode.episode import Episode
-from ..episode.lift import Lift
-from ..episode.scenario import Scenario
-from ..execution.batches import entered
-from ..execution.runner import Run
-from ..suites.suite import Suite
-from .choice import LIVE_DIGEST, LivePartner
-from .grip import Grip
-from .hand import LiveHand
-from .live_lift import LiveLift
-from .messages import LATE, STARVED, dump_frame
-from .punctuality import Punctuality
-from .scenarios import SEED
+from colift.agents.agent import FRAME, Agent
+from colift.agents.errors import EvaluatorFault
+from colift.agents.humans import Cued, Hand, PersonAsRobot, Played
+from colift.agents.spec import Paced
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.execution.batches import entered
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.live.choice import LIVE_DIGEST, LivePartner
+from colift.benchmark.live.grip import Grip
+from colift.benchmark.live.hand import LiveHand
+from colift.benchmark.live.live_lift import LiveLift
+from colift.benchmark.live.messages import LATE, STARVED, dump_frame
+from colift.benchmark.live.punctuality import Punctuality
+from colift.benchmark.live.scenarios import SEED
+from colift.benchmark.suites.suite import Suite
 
 
 class Lifting:

@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ...agents.agent import Action, Agent, Observation
-from ...agents.humans import Hand
-from ..episode.episode import Episode, outcome
-from ..episode.lift import Lift
-from ..episode.recorder import Recorder
-from ..episode.turns import Turns
+from colift.agents.agent import Action, Agent, Observation
+from colift.agents.humans import Hand
+from colift.benchmark.episode.episode import Episode, outcome
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.recorder import Recorder
+from colift.benchmark.episode.turns import Turns
 
 
 class Shown(NamedTuple):

@@ -4,8 +4,8 @@ import struct
 from dataclasses import dataclass
 from typing import Final
 
-from ...agents.errors import InputError
-from .live_lift import Shown
+from colift.agents.errors import InputError
+from colift.benchmark.live.live_lift import Shown
 
 SAMPLES: Final = 1
 """Kind of a message with samples, page to room."""

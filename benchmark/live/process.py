@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from multiprocessing.process import BaseProcess
 from typing import Final
 
-from .priority import ORDINARY, TABLE, take_turn
-from .room import Room, RoomConfig
-from .seats import Message
+from colift.benchmark.live.priority import ORDINARY, TABLE, take_turn
+from colift.benchmark.live.room import Room, RoomConfig
+from colift.benchmark.live.seats import Message
 
 JSON, BINARY, JOIN, LEAVE = b"J", b"B", b"+", b"-"
 """Kinds of a packet: JSON, a binary message, a seat that is taken, a seat that is left."""

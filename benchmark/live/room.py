@@ -11,22 +11,22 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from ...agents.errors import EvaluatorFault, InputError, error_text
-from ...agents.humans import GoalError, Played, goal_error_mm, missed_words
-from ...agents.spec import AgentSpec
-from ..episode.lift import Lift
-from ..episode.scenario import Scenario
-from ..episode.turns import is_policy_failure
-from ..execution.runner import Run
-from ..results.goals import lift_goal_errors
-from .choice import PERSON, PERSON_AS_ROBOT, SIMULATED, HostChoice
-from .grip import Grip
-from .lifting import Lifting
-from .messages import parse_samples
-from .scenarios import cue_of, live_scenario
-from .seats import ALL, Message, SeatedPerson, Seats
-from .session import SessionFolder
-from .standing import Standing, ghost_rmse, rehearse
+from colift.agents.errors import EvaluatorFault, InputError, error_text
+from colift.agents.humans import GoalError, Played, goal_error_mm, missed_words
+from colift.agents.spec import AgentSpec
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.turns import is_policy_failure
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.live.choice import PERSON, PERSON_AS_ROBOT, SIMULATED, HostChoice
+from colift.benchmark.live.grip import Grip
+from colift.benchmark.live.lifting import Lifting
+from colift.benchmark.live.messages import parse_samples
+from colift.benchmark.live.scenarios import cue_of, live_scenario
+from colift.benchmark.live.seats import ALL, Message, SeatedPerson, Seats
+from colift.benchmark.live.session import SessionFolder
+from colift.benchmark.live.standing import Standing, ghost_rmse, rehearse
+from colift.benchmark.results.goals import lift_goal_errors
 
 AHEAD_S: Final = 0.5
 """Time from the last closed hand to the first frame [s]: pages need it to prepare."""

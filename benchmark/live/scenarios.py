@@ -5,16 +5,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from ...agents.errors import InputError
-from ...agents.humans import LIVE_SUBJECT, SUBJECTS, Cued, HandLog, Played, missed_words
-from ...agents.humans.cued import KINDS
-from ..bundle import one_line, read_bundle
-from ..episode.scenario import LATENCY, Scenario
-from ..episode.seeding import derive_seed
-from ..results.goals import lift_goal_errors
-from ..suites.catalogue import PLAYED
-from ..suites.suite import Suite, plain_name, recorded_suite
-from .session import lift_folders
+from colift.agents.errors import InputError
+from colift.agents.humans import LIVE_SUBJECT, SUBJECTS, Cued, HandLog, Played, missed_words
+from colift.agents.humans.cued import KINDS
+from colift.benchmark.bundle import one_line, read_bundle
+from colift.benchmark.episode.scenario import LATENCY, Scenario
+from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.live.session import lift_folders
+from colift.benchmark.results.goals import lift_goal_errors
+from colift.benchmark.suites.catalogue import PLAYED
+from colift.benchmark.suites.suite import Suite, plain_name, recorded_suite
 
 SEED: Final = 0
 """The episode's seed: lifts, with their plans and their noise, differ by their trial."""

@@ -5,11 +5,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-from ...agents.errors import InputError
-from .choice import PERSON, PERSON_AS_ROBOT, SIMULATED, LivePartner
-from .grip import FIRST_DELAY_S, LONGEST_DELAY_S, Grip
-from .hand import LiveHand
-from .messages import HandSamples
+from colift.agents.errors import InputError
+from colift.benchmark.live.choice import PERSON, PERSON_AS_ROBOT, SIMULATED, LivePartner
+from colift.benchmark.live.grip import FIRST_DELAY_S, LONGEST_DELAY_S, Grip
+from colift.benchmark.live.hand import LiveHand
+from colift.benchmark.live.messages import HandSamples
 
 ALL: Final = 255
 """Stand-in for every seat in a message to the pages."""

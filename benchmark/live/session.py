@@ -14,13 +14,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from ...agents.agent import FRAME
-from ...agents.errors import InputError
-from ...agents.humans.recordings import COLUMNS
-from ..bundle import results, write_bundle
-from ..bundle.files import RECORDINGS, RESULTS
-from ..episode.episode import Episode
-from ..execution.runner import Run
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.agents.humans.recordings import COLUMNS
+from colift.benchmark.bundle import results, write_bundle
+from colift.benchmark.bundle.files import RECORDINGS, RESULTS
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.execution.runner import Run
 
 LIFTS: Final = "lifts"
 """Folder of the lifts in that of a session."""

@@ -4,14 +4,14 @@ import dataclasses
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ...agents.errors import EvaluatorFault
-from ...agents.humans import Cued
-from ...agents.spec import AgentSpec
-from ..episode.scenario import LATENCY, Scenario
-from ..execution.batches import play
-from ..results.baselines import PARTNER_SPEC
-from .choice import LivePartner, in_frames
-from .scenarios import SEED, ghost_scenario
+from colift.agents.errors import EvaluatorFault
+from colift.agents.humans import Cued
+from colift.agents.spec import AgentSpec
+from colift.benchmark.episode.scenario import LATENCY, Scenario
+from colift.benchmark.execution.batches import play
+from colift.benchmark.live.choice import LivePartner, in_frames
+from colift.benchmark.live.scenarios import SEED, ghost_scenario
+from colift.benchmark.results.baselines import PARTNER_SPEC
 
 
 def ghost_rmse(cue: Cued, number: int) -> float:

@@ -18,18 +18,17 @@ from functools import partial
 from typing import Any, Final
 
 import numpy as np
-
-from ...agents.calibration import CALIBRATION, Calibration
-from ...agents.control.predictor import PredictorParameters
-from ...agents.estimators.motion_filter import MotionFilterParameters
-from ...agents.humans import GOAL_RANGE, Partner
-from ...agents.humans.partner import PartnerParameters
-from ...agents.loading.loading import InMemorySpec, PolicySpec
-from ...agents.policies.blend import Blend
-from ...agents.spec import AgentSpec
-from ..execution.runner import run_suite
-from ..suites.suite import Suite, make_suite
-from .table_one import HUMAN_HUMAN_RMSE, WITH_PREDICTION, WITHOUT_PREDICTION
+from colift.agents.calibration import CALIBRATION, Calibration
+from colift.agents.control.predictor import PredictorParameters
+from colift.agents.estimators.motion_filter import MotionFilterParameters
+from colift.agents.humans import GOAL_RANGE, Partner
+from colift.agents.humans.partner import PartnerParameters
+from colift.agents.loading.loading import InMemorySpec, PolicySpec
+from colift.agents.policies.blend import Blend
+from colift.agents.spec import AgentSpec
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.paper.table_one import HUMAN_HUMAN_RMSE, WITH_PREDICTION, WITHOUT_PREDICTION
+from colift.benchmark.suites.suite import Suite, make_suite
 
 TABLE_1: Final = {
     name: (WITHOUT_PREDICTION[name], WITH_PREDICTION[name]) for name in WITHOUT_PREDICTION

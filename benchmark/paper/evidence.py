@@ -7,16 +7,16 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Final
 
-from ...agents.humans import Behaviour, Jerky, Pause
-from ...agents.loading.loading import PolicySpec
-from ...agents.spec import AgentSpec
-from ..episode.scenario import Scenario
-from ..execution.runner import Run, run_suite
-from ..results.baselines import human_human_run
-from ..suites.suite import Suite
-from ..training.q_learning import LearningTrial, learning_trials
-from .table_one import FORGETTING_FACTORS
-from .watched import SampledLift, sampled_lifts, watched_blend
+from colift.agents.humans import Behaviour, Jerky, Pause
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.spec import AgentSpec
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.paper.table_one import FORGETTING_FACTORS
+from colift.benchmark.paper.watched import SampledLift, sampled_lifts, watched_blend
+from colift.benchmark.results.baselines import human_human_run
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.training.q_learning import LearningTrial, learning_trials
 
 PAUSE: Final = Pause(length=(2.0, 2.0), lowering_probability=0.0)
 """Figure 6: a pause of 2 s on the way up."""

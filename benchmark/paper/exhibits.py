@@ -4,11 +4,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
+from colift.benchmark.rendering.style import HUMAN, INK, LINE, PAPER, ROBOT, style_axes
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-
-from ..rendering.style import HUMAN, INK, LINE, PAPER, ROBOT, style_axes
 
 OUTSIDE = "The measured value lies outside the criterion."
 

@@ -4,9 +4,9 @@ from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from typing import Final
 
-from ..rendering.page import Cell, Row, render
-from .exhibits import Claim, Exhibit
-from .table_one import Reproduction, SubjectRow, TableOne
+from colift.benchmark.paper.exhibits import Claim, Exhibit
+from colift.benchmark.paper.table_one import Reproduction, SubjectRow, TableOne
+from colift.benchmark.rendering.page import Cell, Row, render
 
 TITLE: Final = "Using Human Motion Estimation for Human-Robot Cooperative Manipulation, reproduced"
 

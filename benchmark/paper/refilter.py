@@ -3,11 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
+from colift.agents.control.predictor import PredictorParameters
+from colift.agents.estimators.confidence import Confidence, likelihood
+from colift.agents.estimators.motion_filter import MotionFilter
 from numpy.typing import ArrayLike, NDArray
-
-from ...agents.control.predictor import PredictorParameters
-from ...agents.estimators.confidence import Confidence, likelihood
-from ...agents.estimators.motion_filter import MotionFilter
 
 Series = NDArray[np.float64]
 

@@ -11,25 +11,28 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-
-from ..episode.episode import Episode
-from .evidence import Evidence
-from .exhibits import Claim, Exhibit
-from .pages import report_pages
-from .table_one import TableOne, table_one
-from .topics.confidence import confidence_claims, confidence_exhibit, pause_exhibit
-from .topics.forgetting import forgetting_claims, forgetting_exhibit
-from .topics.learning import learning_claims, learning_exhibit
-from .topics.performance import (
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.paper.evidence import Evidence
+from colift.benchmark.paper.exhibits import Claim, Exhibit
+from colift.benchmark.paper.pages import report_pages
+from colift.benchmark.paper.table_one import TableOne, table_one
+from colift.benchmark.paper.topics.confidence import (
+    confidence_claims,
+    confidence_exhibit,
+    pause_exhibit,
+)
+from colift.benchmark.paper.topics.forgetting import forgetting_claims, forgetting_exhibit
+from colift.benchmark.paper.topics.learning import learning_claims, learning_exhibit
+from colift.benchmark.paper.topics.performance import (
     comparison_exhibit,
     error_limit,
     human_human_exhibit,
     performance_claims,
 )
-from .topics.prediction import prediction_claims, prediction_exhibit
-from .topics.table import table_claims, table_exhibit
-from .topics.timing import timing_claims, timing_exhibit, timing_results
-from .watched import SampledLift
+from colift.benchmark.paper.topics.prediction import prediction_claims, prediction_exhibit
+from colift.benchmark.paper.topics.table import table_claims, table_exhibit
+from colift.benchmark.paper.topics.timing import timing_claims, timing_exhibit, timing_results
+from colift.benchmark.paper.watched import SampledLift
 
 PAGES: Final = ("report.html", "report.md", "claims.json")
 """The files of a report beside the figures, each a PNG and a CSV."""

@@ -5,11 +5,9 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
-
-from ..episode.episode import Episode
-from ..execution.runner import Run
-from ..statistics import (
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.statistics import (
     Estimate,
     Interval,
     paired_difference,
@@ -17,6 +15,7 @@ from ..statistics import (
     ratio_of_means,
     stratified_bootstrap,
 )
+from numpy.typing import NDArray
 
 WITHOUT_PREDICTION: Final = {"S1": 19.139, "S2": 23.567, "S3": 24.872, "S4": 20.085, "S5": 22.432}
 """Table I: average RMSE of each subject with the reactive controller alone [mm]."""

@@ -6,17 +6,16 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+from colift.agents.agent import Action, Observation, RobotObservation
+from colift.agents.control.predictor import PredictorParameters
+from colift.agents.humans import Plan
+from colift.agents.loading.loading import InMemorySpec
+from colift.agents.policies.blend import Blend
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.execution.runner import Run
 from numpy.typing import ArrayLike, NDArray
-
-from ...agents.agent import Action, Observation, RobotObservation
-from ...agents.control.predictor import PredictorParameters
-from ...agents.humans import Plan
-from ...agents.loading.loading import InMemorySpec
-from ...agents.policies.blend import Blend
-from ..episode.episode import Episode
-from ..episode.lift import Lift
-from ..episode.scenario import Scenario
-from ..execution.runner import Run
 
 
 class Watched:

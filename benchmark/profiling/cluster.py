@@ -7,15 +7,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Final, ParamSpec, TypeVar
 
-from ...agents.loading.loading import PolicySpec
-from ..bundle import results, write_bundle
-from ..execution.connecting import dask_pool
-from ..execution.pool import process_pool
-from ..execution.runner import run_suite
-from ..results.baselines import shipped_baselines
-from ..suites.suite import make_suite
-from ..verification import verify
-from .loopback import loopback_cluster
+from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.bundle import results, write_bundle
+from colift.benchmark.execution.connecting import dask_pool
+from colift.benchmark.execution.pool import process_pool
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.profiling.loopback import loopback_cluster
+from colift.benchmark.results.baselines import shipped_baselines
+from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.verification import verify
 
 P = ParamSpec("P")
 T = TypeVar("T")

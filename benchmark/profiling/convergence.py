@@ -8,21 +8,20 @@ from functools import partial
 from typing import Final
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import Lift, MakeWorld, make_lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.task import Task
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.execution.pool import default_jobs, process_pool
+from colift.benchmark.results.baselines import partner_spec
+from colift.benchmark.suites.suite import Suite, make_suite
+from colift.benchmark.tasks.ball.task import BallSteering
+from colift.benchmark.tasks.haptic import FINER, Haptic
+from colift.benchmark.world import PHYSICS, BulletWorld, HapticWorld, Physics
 from numpy.typing import NDArray
-
-from ...agents.errors import InputError
-from ...agents.loading.loading import PolicySpec
-from ..episode.episode import run_episode
-from ..episode.lift import Lift, MakeWorld, make_lift
-from ..episode.scenario import Scenario
-from ..episode.task import Task
-from ..episode.trace import Trace
-from ..execution.pool import default_jobs, process_pool
-from ..results.baselines import partner_spec
-from ..suites.suite import Suite, make_suite
-from ..tasks.ball.task import BallSteering
-from ..tasks.haptic import FINER, Haptic
-from ..world import PHYSICS, BulletWorld, HapticWorld, Physics
 
 FINE: Final = Physics(step=0.0005)
 """The reference for the step."""

@@ -8,16 +8,16 @@ from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from typing import Final
 
-from ...agents.loading.loading import PolicySpec
-from ...agents.policies.copy import Copy
-from ...robots.nao.urdf import nao_urdf_path
-from ..episode.episode import run_episode
-from ..episode.lift import Lift
-from ..execution.runner import run_suite
-from ..suites.catalogue import make_scenario
-from ..suites.suite import make_suite
-from ..world.bullet import pybullet
-from ..world.table import GRAVITY
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.policies.copy import Copy
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.world.bullet import pybullet
+from colift.benchmark.world.table import GRAVITY
+from colift.robots.nao.urdf import nao_urdf_path
 
 if sys.platform != "win32":
     import resource

@@ -5,12 +5,11 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-
-from ...agents.spec import AgentSpec
-from ..episode.scenario import Scenario
-from ..execution.batches import play
-from ..suites.catalogue import make_scenario
-from ..suites.suite import BEHAVIOURS
+from colift.agents.spec import AgentSpec
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.execution.batches import play
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import BEHAVIOURS
 
 LIMIT_MS: Final = 10.0
 """Longest 99th percentile of a step [ms]: one motion-capture frame, a tenth of a control period.

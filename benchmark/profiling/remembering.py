@@ -8,10 +8,10 @@ import tempfile
 from pathlib import Path
 from typing import Final
 
-from ...agents.sandbox.host.policy import SandboxedPolicy
-from ..episode.episode import run_episode
-from ..episode.lift import Lift
-from ..suites.catalogue import make_scenario
+from colift.agents.sandbox.host.policy import SandboxedPolicy
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.suites.catalogue import make_scenario
 
 LIFTS: Final = 20
 """Equal lifts whose times are compared."""

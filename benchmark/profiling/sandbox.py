@@ -9,15 +9,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ...agents.sandbox.host.levels import working_levels
-from ...agents.sandbox.host.policy import SandboxedPolicy
-from ...agents.spec import AgentSpec
-from ...agents.submissions.new import write_template
-from ...agents.submissions.submission import read_submission
-from ..episode.episode import run_episode
-from ..episode.lift import Lift
-from ..episode.turns import policy_seed
-from ..suites.catalogue import make_scenario
+from colift.agents.sandbox.host.levels import working_levels
+from colift.agents.sandbox.host.policy import SandboxedPolicy
+from colift.agents.spec import AgentSpec
+from colift.agents.submissions.new import write_template
+from colift.agents.submissions.submission import read_submission
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.turns import policy_seed
+from colift.benchmark.suites.catalogue import make_scenario
 
 STEP_US: Final = 60.0
 """Largest aimed cost of a step [us]."""

@@ -9,14 +9,13 @@ from typing import Any, Final
 import jax
 import jax.numpy as jnp
 import numpy as np
-
-from ...agents.policies.copy import Copy
-from ..episode.episode import run_episode
-from ..episode.lift import Lift
-from ..suites.catalogue import make_scenario
-from ..suites.suite import BEHAVIOURS
-from ..twin.lifts import Lifts, draw_lifts, some
-from ..twin.rollout import rollout
+from colift.agents.policies.copy import Copy
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.twin.lifts import Lifts, draw_lifts, some
+from colift.benchmark.twin.rollout import rollout
 
 UNITS: Final = 64
 """Units of each of the two hidden layers of the network in the loop."""

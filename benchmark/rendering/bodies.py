@@ -2,8 +2,8 @@
 
 from typing import Final, Literal
 
-from ..episode.seat import SEATS
-from ..world import NaoFarEnd
+from colift.benchmark.episode.seat import SEATS
+from colift.benchmark.world import NaoFarEnd
 
 Body = Literal["nao", "person", "unknown"]
 """A NAO, a person, or a robot of which there is no picture."""

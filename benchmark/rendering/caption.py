@@ -6,15 +6,19 @@ from pathlib import Path
 from typing import Final
 
 import matplotlib
+from colift.agents.agent import FRAME
+from colift.benchmark.episode.drawn import (
+    DrawnSeries,
+    ball_and_target,
+    intended_far_end,
+    shown_error,
+)
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.seat import SEATS
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.rendering.bodies import PERSON, shown_body
+from colift.benchmark.rendering.style import FAINT, HUMAN, INK, PAPER, ROBOT
 from PIL import Image, ImageDraw, ImageFont
-
-from ...agents.agent import FRAME
-from ..episode.drawn import DrawnSeries, ball_and_target, intended_far_end, shown_error
-from ..episode.episode import Episode
-from ..episode.seat import SEATS
-from ..episode.trace import Trace
-from .bodies import PERSON, shown_body
-from .style import FAINT, HUMAN, INK, PAPER, ROBOT
 
 VALUE: Final = 84
 """Room for a value beside its label [pixels]."""

@@ -4,6 +4,10 @@ from collections.abc import Mapping, Sequence
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.benchmark.episode.drawn import DrawnSeries, intended_far_end
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.rendering.style import AIM, FAINT, HUMAN, INK, LINE, PAPER, ROBOT
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -11,11 +15,6 @@ from matplotlib.patches import Patch
 from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
-
-from ...agents.agent import FRAME
-from ..episode.drawn import DrawnSeries, intended_far_end
-from ..episode.trace import Trace
-from .style import AIM, FAINT, HUMAN, INK, LINE, PAPER, ROBOT
 
 DPI: Final = 100
 LETTERS: Final = 8.5

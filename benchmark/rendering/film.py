@@ -6,20 +6,24 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.benchmark.episode.drawn import (
+    DrawnSeries,
+    ball_and_target,
+    intended_far_end,
+    shown_error,
+)
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.metric import drawn_series
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.seat import SEATS
+from colift.benchmark.rendering.caption import readout, title_strip
+from colift.benchmark.rendering.curves import Curves
+from colift.benchmark.rendering.scene import Picture, Scene
+from colift.benchmark.rendering.style import PAPER
+from colift.benchmark.rendering.writing import check_film, write
 from PIL import Image
-
-from ...agents.agent import FRAME
-from ...agents.errors import InputError
-from ..episode.drawn import DrawnSeries, ball_and_target, intended_far_end, shown_error
-from ..episode.episode import Episode
-from ..episode.metric import drawn_series
-from ..episode.scenario import Scenario
-from ..episode.seat import SEATS
-from .caption import readout, title_strip
-from .curves import Curves
-from .scene import Picture, Scene
-from .style import PAPER
-from .writing import check_film, write
 
 FPS: Final = 12.5
 """Pictures per second: 80 ms each, which a GIF can represent exactly."""

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-
-from .solids import Colour, Point, lay, limb
+from colift.benchmark.rendering.solids import Colour, Point, lay, limb
 
 Place = tuple[float, float, float]
 

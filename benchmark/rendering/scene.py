@@ -7,20 +7,19 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.benchmark.rendering.bodies import NAO, PERSON, UNKNOWN, no_picture, shown_body
+from colift.benchmark.rendering.caption import letters
+from colift.benchmark.rendering.mannequin import Mannequin
+from colift.benchmark.rendering.solids import box, disc, limb
+from colift.benchmark.rendering.style import AIM, HUMAN, INK, ROBOT, SKY, rgba
+from colift.benchmark.world.bullet import pybullet
+from colift.benchmark.world.table import TABLE_LENGTH
+from colift.robots.nao.facts import TORSO_HEIGHT
+from colift.robots.nao.kinematics import ARM_JOINTS, GRIP_X, REST_Z, STROKE, arm_path
+from colift.robots.nao.urdf import nao_urdf_path
 from numpy.typing import NDArray
 from PIL import Image, ImageColor, ImageDraw
-
-from ...agents.errors import InputError
-from ...robots.nao.facts import TORSO_HEIGHT
-from ...robots.nao.kinematics import ARM_JOINTS, GRIP_X, REST_Z, STROKE, arm_path
-from ...robots.nao.urdf import nao_urdf_path
-from ..world.bullet import pybullet
-from ..world.table import TABLE_LENGTH
-from .bodies import NAO, PERSON, UNKNOWN, no_picture, shown_body
-from .caption import letters
-from .mannequin import Mannequin
-from .solids import box, disc, limb
-from .style import AIM, HUMAN, INK, ROBOT, SKY, rgba
 
 Picture = NDArray[np.uint8]
 

@@ -8,9 +8,8 @@ import math
 from typing import Final
 
 import numpy as np
+from colift.benchmark.world.bullet import pybullet
 from numpy.typing import NDArray
-
-from ..world.bullet import pybullet
 
 Point = NDArray[np.float64]
 Colour = tuple[float, float, float, float]

@@ -7,11 +7,10 @@ from types import ModuleType
 from typing import Final
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.agents.extras import how_to_install
+from colift.benchmark.rendering.scene import Picture
 from PIL import Image
-
-from ...agents.errors import InputError
-from ...agents.extras import how_to_install
-from .scene import Picture
 
 COLOURS: Final = 256
 """Colours of a GIF, shared by its pictures, so that none flickers."""

@@ -13,17 +13,16 @@ from importlib.resources import files
 from typing import Any, Final, Protocol, Self, runtime_checkable
 
 import numpy as np
-
-from ...agents.agent import Agent
-from ...agents.humans import Partner
-from ...agents.loading.loading import InMemorySpec, PolicySpec
-from ...agents.spec import AgentSpec
-from ..episode.metric import on_boards
-from ..episode.task import Task
-from ..execution.runner import Run, run_suite
-from ..statistics import Estimate, mean_of, mean_with_missing
-from ..suites.suite import Suite
-from .summary import Stratum, stratum
+from colift.agents.agent import Agent
+from colift.agents.humans import Partner
+from colift.agents.loading.loading import InMemorySpec, PolicySpec
+from colift.agents.spec import AgentSpec
+from colift.benchmark.episode.metric import on_boards
+from colift.benchmark.episode.task import Task
+from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.results.summary import Stratum, stratum
+from colift.benchmark.statistics import Estimate, mean_of, mean_with_missing
+from colift.benchmark.suites.suite import Suite
 
 HUMAN_HUMAN: Final = "human_human"
 """Key of the human-human baseline."""

@@ -5,7 +5,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from ...agents.humans import (
+from colift.agents.humans import (
     LIVE_SUBJECT,
     GoalError,
     LoggedHand,
@@ -13,8 +13,8 @@ from ...agents.humans import (
     goal_error_mm,
     goal_errors,
 )
-from ..statistics import MeanWithMissing, mean_with_missing
-from ..suites.suite import Suite
+from colift.benchmark.statistics import MeanWithMissing, mean_with_missing
+from colift.benchmark.suites.suite import Suite
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,7 +1,7 @@
 """The headline numbers of a policy, in words: the same wherever they are printed."""
 
-from ..statistics import Interval
-from .summary import Summary
+from colift.benchmark.results.summary import Summary
+from colift.benchmark.statistics import Interval
 
 
 def headline(summary: Summary) -> str:

@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 from typing import Final
 
-from ...agents.actions import action_limit
-from ..episode.level_metrics import MOSTLY_CLIPPED
-from ..episode.scenario import CONTROL_PERIOD
-from .baselines import HUMAN_HUMAN, Baseline
-from .summary import Summary
+from colift.agents.actions import action_limit
+from colift.benchmark.episode.level_metrics import MOSTLY_CLIPPED
+from colift.benchmark.episode.scenario import CONTROL_PERIOD
+from colift.benchmark.results.baselines import HUMAN_HUMAN, Baseline
+from colift.benchmark.results.summary import Summary
 
 MEANINGS: Final = {"hold": "never moves", "copy": "goes where the human was"}
 """Descriptions of the simple policies with which every score is compared."""

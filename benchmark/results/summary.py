@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-
-from ..episode.episode import Episode
-from ..episode.metric import LEADING, Metrics, reached
-from ..statistics import (
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.metric import LEADING, Metrics, reached
+from colift.benchmark.statistics import (
     Estimate,
     MeanWithMissing,
     interquartile_mean,

@@ -18,9 +18,13 @@ R. Agarwal et al. (2021). Deep reinforcement learning at the edge of the statist
 NeurIPS 34 (interquartile mean, bootstrap stratified over tasks, probability of improvement).
 """
 
-from .averages import MeanWithMissing, interquartile_mean, mean_with_missing
-from .bootstrap import stratified_bootstrap
-from .estimate import (
+from colift.benchmark.statistics.averages import (
+    MeanWithMissing,
+    interquartile_mean,
+    mean_with_missing,
+)
+from colift.benchmark.statistics.bootstrap import stratified_bootstrap
+from colift.benchmark.statistics.estimate import (
     Estimate,
     PairedDifference,
     difference_of_means,
@@ -28,10 +32,14 @@ from .estimate import (
     paired_difference,
     ratio_of_means,
 )
-from .permutation import holm_correction, paired_permutation_p, permutation_ps_against
-from .ranking import decisive, rank_groups
-from .samples import FloatArray, Interval
-from .superiority import probability_better, share_better
+from colift.benchmark.statistics.permutation import (
+    holm_correction,
+    paired_permutation_p,
+    permutation_ps_against,
+)
+from colift.benchmark.statistics.ranking import decisive, rank_groups
+from colift.benchmark.statistics.samples import FloatArray, Interval
+from colift.benchmark.statistics.superiority import probability_better, share_better
 
 __all__ = [
     "Estimate",

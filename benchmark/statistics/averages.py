@@ -4,10 +4,9 @@ from dataclasses import dataclass
 from typing import overload
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.benchmark.statistics.samples import FloatArray
 from numpy.typing import ArrayLike
-
-from ...agents.errors import InputError
-from .samples import FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,10 +5,17 @@ from statistics import NormalDist
 from typing import Any
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.benchmark.statistics.samples import (
+    FloatArray,
+    Interval,
+    Members,
+    expanded,
+    members_of,
+    resample,
+    sample,
+)
 from numpy.typing import ArrayLike
-
-from ...agents.errors import InputError
-from .samples import FloatArray, Interval, Members, expanded, members_of, resample, sample
 
 
 def stratified_bootstrap(

@@ -5,12 +5,11 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.benchmark.statistics.bootstrap import expanded_percentile, stratified_bootstrap
+from colift.benchmark.statistics.samples import Interval, members_of, paired, resample, sample
+from colift.benchmark.statistics.superiority import share_better
 from numpy.typing import ArrayLike
-
-from ...agents.errors import InputError
-from .bootstrap import expanded_percentile, stratified_bootstrap
-from .samples import Interval, members_of, paired, resample, sample
-from .superiority import share_better
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,10 +22,9 @@ from statistics import NormalDist
 from typing import Final
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.benchmark.statistics.samples import FloatArray, paired, sample
 from numpy.typing import ArrayLike, NDArray
-
-from ...agents.errors import InputError
-from .samples import FloatArray, paired, sample
 
 BLOCK: Final = 256
 """Number of tests made by one product of matrices."""

@@ -4,10 +4,13 @@ from collections.abc import Mapping
 from typing import Final
 
 import numpy as np
+from colift.benchmark.statistics.permutation import (
+    far_apart,
+    holm_correction,
+    sequential_permutation_ps,
+)
+from colift.benchmark.statistics.samples import FloatArray, paired
 from numpy.typing import ArrayLike, NDArray
-
-from .permutation import far_apart, holm_correction, sequential_permutation_ps
-from .samples import FloatArray, paired
 
 RankGroups = tuple[tuple[str, ...], ...]
 

@@ -6,9 +6,8 @@ from collections.abc import Hashable, Iterable
 from typing import TypeVar
 
 import numpy as np
+from colift.agents.errors import InputError
 from numpy.typing import ArrayLike, NDArray
-
-from ...agents.errors import InputError
 
 FloatArray = NDArray[np.float64]
 Interval = tuple[float, float]

@@ -16,9 +16,8 @@ from statistics import NormalDist
 from typing import Final
 
 import numpy as np
+from colift.benchmark.statistics.samples import Members, expanded, members_of, paired, resample
 from numpy.typing import ArrayLike
-
-from .samples import Members, expanded, members_of, paired, resample
 
 DEVIATES: Final = np.linspace(-8.0, 8.0, 3201)
 """Normal deviates between which :func:`.expanded` is inverted; 8 lies beyond any resampling."""

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from ...agents.errors import InputError
-from ...agents.humans import (
+from colift.agents.errors import InputError
+from colift.agents.humans import (
     LIVE_SUBJECT,
     SUBJECTS,
     Behaviour,
@@ -11,13 +11,13 @@ from ...agents.humans import (
     Subject,
     load_recordings,
 )
-from ...agents.near_names import did_you_mean
-from ...agents.plugins import make_registered
-from ...agents.registry import HUMANS, TASKS, called, entries
-from ..episode.conformance import task_fault
-from ..episode.level import LEVEL
-from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
-from ..episode.task import Task
+from colift.agents.near_names import did_you_mean
+from colift.agents.plugins import make_registered
+from colift.agents.registry import HUMANS, TASKS, called, entries
+from colift.benchmark.episode.conformance import task_fault
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
+from colift.benchmark.episode.task import Task
 
 RECORDED = "recorded"
 

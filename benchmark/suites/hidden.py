@@ -11,9 +11,9 @@ import hmac
 import secrets
 from typing import Final
 
-from ...agents.errors import InputError
-from ...agents.humans import Subject
-from .suite import Suite
+from colift.agents.errors import InputError
+from colift.agents.humans import Subject
+from colift.benchmark.suites.suite import Suite
 
 SECRET_BYTES: Final = 32
 """Length of a new secret [bytes]: as many bits as a hash of SHA-256."""

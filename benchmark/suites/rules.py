@@ -4,9 +4,9 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from ...agents.plugins import article, place_of
-from ..episode.conformance import behaviour_fault, task_fault
-from ..episode.scenario import Scenario
+from colift.agents.plugins import article, place_of
+from colift.benchmark.episode.conformance import behaviour_fault, task_fault
+from colift.benchmark.episode.scenario import Scenario
 
 
 def scenarios_fault(scenarios: Sequence[object]) -> str | None:

@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
-from ...agents.humans import SUBJECTS
-from .catalogue import make_scenario
-from .suite import BEHAVIOURS, Suite
+from colift.agents.humans import SUBJECTS
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import BEHAVIOURS, Suite
 
 
 def standard_suite() -> Suite:

@@ -9,15 +9,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from ...agents.errors import InputError
-from ...agents.humans import SUBJECTS, Recorded, load_recordings
-from ...agents.plugins import article, blaming
-from ...agents.registry import SUITES, called, lookup
-from ..episode.identity import numbers, plain, scores_hash
-from ..episode.metric import Metrics
-from ..episode.scenario import Scenario
-from .catalogue import RECORDED, make_scenario
-from .rules import scenarios_fault, seeds_fault
+from colift.agents.errors import InputError
+from colift.agents.humans import SUBJECTS, Recorded, load_recordings
+from colift.agents.plugins import article, blaming
+from colift.agents.registry import SUITES, called, lookup
+from colift.benchmark.episode.identity import numbers, plain, scores_hash
+from colift.benchmark.episode.metric import Metrics
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.suites.catalogue import RECORDED, make_scenario
+from colift.benchmark.suites.rules import scenarios_fault, seeds_fault
 
 LONGEST_SUITE_NAME: Final = 200
 """Longest name of a suite [characters]."""

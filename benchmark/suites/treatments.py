@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any, Final
 
-from ...agents.humans import Recorded
-from ...agents.humans.treatment import Treatment, treatment_of
-from .suite import Suite
+from colift.agents.humans import Recorded
+from colift.agents.humans.treatment import Treatment, treatment_of
+from colift.benchmark.suites.suite import Suite
 
 TREATED: Final = tuple(field.name for field in fields(Treatment))
 """Names of the numbers of a treatment."""

@@ -3,15 +3,14 @@
 from typing import Final
 
 import numpy as np
-
-from ...agents.agent import Observation
-from ...agents.observations import HapticObservation
-from ..episode.level import FORCE_BOUND, Level
-from ..episode.lift import Lift
-from ..episode.scenario import Scenario
-from ..episode.task import Bounds, Playing
-from ..world import BodyParameters, FarEnd, HapticWorld, Physics
-from ..world.table import WEIGHT_SHARE
+from colift.agents.agent import Observation
+from colift.agents.observations import HapticObservation
+from colift.benchmark.episode.level import FORCE_BOUND, Level
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.task import Bounds, Playing
+from colift.benchmark.world import BodyParameters, FarEnd, HapticWorld, Physics
+from colift.benchmark.world.table import WEIGHT_SHARE
 
 SENSED_FRAMES: Final = 5
 """Frames over which the force and torque sensors average."""

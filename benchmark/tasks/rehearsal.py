@@ -4,15 +4,14 @@ from collections.abc import Callable
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME, Action, Observation, RobotObservation
+from colift.agents.control.anticipation import ARM_LAG
+from colift.agents.control.preview import preview_gains
+from colift.benchmark.episode.episode import Episode, run_episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.seat import hand_commands
+from colift.benchmark.episode.trace import Trace
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME, Action, Observation, RobotObservation
-from ...agents.control.anticipation import ARM_LAG
-from ...agents.control.preview import preview_gains
-from ..episode.episode import Episode, run_episode
-from ..episode.lift import Lift
-from ..episode.seat import hand_commands
-from ..episode.trace import Trace
 
 REHEARSALS: Final = 5
 """Number of rehearsals of an episode; the best one counts. It changes little after the third."""

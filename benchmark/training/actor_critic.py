@@ -12,9 +12,8 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import optax
-
-from .ppo_settings import PpoSettings
-from .result import Weights
+from colift.benchmark.training.ppo_settings import PpoSettings
+from colift.benchmark.training.result import Weights
 
 Tree = Any
 """Arrays in named tuples and dictionaries."""

@@ -14,15 +14,14 @@ from importlib.metadata import version
 from typing import Any, Final, NamedTuple
 
 import numpy as np
+from colift.agents.control.anticipation import Anticipation, FeatureWindow
+from colift.agents.errors import InputError
+from colift.agents.estimators.perceptron import Perceptron
+from colift.benchmark.environment.drawing import TRAINING_SEEDS
+from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.training.data import LEADS, ROAMING, Timing, TrainingData, training_data
+from colift.benchmark.training.scikit import import_sklearn, reproducible_fit
 from numpy.typing import NDArray
-
-from ...agents.control.anticipation import Anticipation, FeatureWindow
-from ...agents.errors import InputError
-from ...agents.estimators.perceptron import Perceptron
-from ..environment.drawing import TRAINING_SEEDS
-from ..suites.suite import BEHAVIOURS
-from .data import LEADS, ROAMING, Timing, TrainingData, training_data
-from .scikit import import_sklearn, reproducible_fit
 
 CURRICULUM: Final = (*BEHAVIOURS, ROAMING)
 """Behaviours of the people in the training data, in turn."""

@@ -15,10 +15,9 @@ from typing import Any, Final, NamedTuple
 import jax
 import jax.numpy as jnp
 import optax
-
-from .apg_settings import PARTS, ApgSettings
-from .lesson import BatchDraw, GradientLesson
-from .lessons import lesson_of
+from colift.benchmark.training.apg_settings import PARTS, ApgSettings
+from colift.benchmark.training.lesson import BatchDraw, GradientLesson
+from colift.benchmark.training.lessons import lesson_of
 
 LARGEST_GRADIENT: Final = 5.0
 """Norm to which gradients are clipped."""

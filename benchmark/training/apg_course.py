@@ -7,13 +7,12 @@ from typing import Any, Final
 import jax
 import jax.numpy as jnp
 import numpy as np
+from colift.benchmark.training.apg import Learner, first_learner, updates
+from colift.benchmark.training.apg_settings import ApgSettings
+from colift.benchmark.training.course import Course, Point, check_finite
+from colift.benchmark.training.lessons import lesson_of
+from colift.benchmark.training.result import write_policy
 from numpy.typing import NDArray
-
-from .apg import Learner, first_learner, updates
-from .apg_settings import ApgSettings
-from .course import Course, Point, check_finite
-from .lessons import lesson_of
-from .result import write_policy
 
 EVERY: Final = 100
 """Fewest updates between two points of the curve."""

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Final
 
-from ...agents.errors import InputError
+from colift.agents.errors import InputError
 
 NAME: Final = "apg"
 

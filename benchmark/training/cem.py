@@ -13,13 +13,17 @@ from functools import partial
 from typing import Final
 
 import numpy as np
+from colift.agents.errors import InputError
+from colift.agents.submissions.network.policy import FIXED, Policy
+from colift.benchmark.training.course import Course, Point
+from colift.benchmark.training.result import Weights, checked_network, write_policy
+from colift.benchmark.training.validation import (
+    LEARNING_SEEDS,
+    MakeAgent,
+    lift_errors,
+    validation_error,
+)
 from numpy.typing import NDArray
-
-from ...agents.errors import InputError
-from ...agents.submissions.network.policy import FIXED, Policy
-from .course import Course, Point
-from .result import Weights, checked_network, write_policy
-from .validation import LEARNING_SEEDS, MakeAgent, lift_errors, validation_error
 
 NAME: Final = "cem"
 

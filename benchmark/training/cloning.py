@@ -11,11 +11,10 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import optax
-
-from .offline_data import OfflineData
-from .offline_run import Learning
-from .offline_settings import CloneSettings
-from .perceptron import Layers, forward, new_layers
+from colift.benchmark.training.offline_data import OfflineData
+from colift.benchmark.training.offline_run import Learning
+from colift.benchmark.training.offline_settings import CloneSettings
+from colift.benchmark.training.perceptron import Layers, forward, new_layers
 
 
 def learning(settings: CloneSettings, data: OfflineData, seed: int) -> Learning:

@@ -14,15 +14,21 @@ from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ..twin.body import Body
-from . import person_seat
-from .actor_critic import Learner, Tree, decide, learn, weights
-from .course import Course
-from .ppo_settings import KEPT, MOST_POPULATION, CoPlaySettings
-from .proximal_run import run_updates
-from .result import write_policy
-from .self_play import Pair, collect, compiled_update, drawn_goals, drawn_people, new_pair
+from colift.benchmark.training import person_seat
+from colift.benchmark.training.actor_critic import Learner, Tree, decide, learn, weights
+from colift.benchmark.training.course import Course
+from colift.benchmark.training.ppo_settings import KEPT, MOST_POPULATION, CoPlaySettings
+from colift.benchmark.training.proximal_run import run_updates
+from colift.benchmark.training.result import write_policy
+from colift.benchmark.training.self_play import (
+    Pair,
+    collect,
+    compiled_update,
+    drawn_goals,
+    drawn_people,
+    new_pair,
+)
+from colift.benchmark.twin.body import Body
 
 
 class Stage(NamedTuple):

@@ -22,9 +22,8 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 import numpy as np
+from colift.agents.errors import InputError
 from numpy.typing import NDArray
-
-from ...agents.errors import InputError
 
 OBSERVATION: Final = 1
 """Version of the robot's observation; see :class:`.RobotObservation`."""

@@ -5,20 +5,19 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME, Agent, RobotObservation
+from colift.agents.control.anticipation import Anticipation, FeatureWindow
+from colift.agents.policies.anticipate import AnticipateParameters, AnticipationController
+from colift.agents.policies.extrapolate import Extrapolate
+from colift.benchmark.episode.lift import MOCAP_NOISE, Lift
+from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
+from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.suites.catalogue import make_scenario, make_subject
+from colift.benchmark.training.labels import modes, stroke_ends
+from colift.benchmark.training.roaming import Roaming
+from colift.benchmark.world import since_reset
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME, Agent, RobotObservation
-from ...agents.control.anticipation import Anticipation, FeatureWindow
-from ...agents.policies.anticipate import AnticipateParameters, AnticipationController
-from ...agents.policies.extrapolate import Extrapolate
-from ..episode.lift import MOCAP_NOISE, Lift
-from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
-from ..episode.seeding import derive_seed
-from ..suites.catalogue import make_scenario, make_subject
-from ..world import since_reset
-from .labels import modes, stroke_ends
-from .roaming import Roaming
 
 Array = NDArray[np.float64]
 

@@ -33,18 +33,17 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.agents.humans import Partner
+from colift.agents.registry import SUITES, own_entries
+from colift.agents.text import decoded, read_bytes
+from colift.benchmark.episode.lift import MOCAP_NOISE, Lift
+from colift.benchmark.episode.scenario import CONTROL_PERIOD
+from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME
-from ...agents.errors import InputError
-from ...agents.humans import Partner
-from ...agents.registry import SUITES, own_entries
-from ...agents.text import decoded, read_bytes
-from ..episode.lift import MOCAP_NOISE, Lift
-from ..episode.scenario import CONTROL_PERIOD
-from ..episode.seeding import derive_seed
-from ..suites.catalogue import make_scenario
-from ..suites.suite import BEHAVIOURS, make_suite
 
 FIRST_SEED: Final = 60_000
 """Seed of the first demonstration, far from those of the suites and of the calibration."""

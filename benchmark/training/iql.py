@@ -20,11 +20,10 @@ from typing import Any, Final, NamedTuple
 import jax
 import jax.numpy as jnp
 import optax
-
-from .offline_data import OfflineData
-from .offline_run import Learning
-from .offline_settings import IqlSettings
-from .perceptron import Layers, forward, new_layers
+from colift.benchmark.training.offline_data import OfflineData
+from colift.benchmark.training.offline_run import Learning
+from colift.benchmark.training.offline_settings import IqlSettings
+from colift.benchmark.training.perceptron import Layers, forward, new_layers
 
 CENTIMETRES: Final = 100.0
 """Scale of the rewards [1/m], which are then of the order of one."""

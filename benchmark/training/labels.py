@@ -3,9 +3,8 @@
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME
 
 Array = NDArray[np.float64]
 

@@ -6,10 +6,9 @@ from typing import Any, NamedTuple, Protocol
 
 import jax
 import numpy as np
+from colift.agents.control.recurrent import GatedNetwork
+from colift.benchmark.training.apg_settings import ApgSettings
 from numpy.typing import NDArray
-
-from ...agents.control.recurrent import GatedNetwork
-from .apg_settings import ApgSettings
 
 Weights = Mapping[str, NDArray[Any]]
 

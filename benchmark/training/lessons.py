@@ -2,10 +2,10 @@
 
 from functools import cache
 
-from .apg_settings import TASKS
-from .lesson import PolicyLesson
-from .level_lesson import LevelLesson
-from .touch_lesson import TouchLesson
+from colift.benchmark.training.apg_settings import TASKS
+from colift.benchmark.training.lesson import PolicyLesson
+from colift.benchmark.training.level_lesson import LevelLesson
+from colift.benchmark.training.touch_lesson import TouchLesson
 
 
 @cache

@@ -15,16 +15,15 @@ from types import ModuleType
 
 import jax
 import numpy as np
-
-from ...agents.control.recurrent import INPUTS, GatedNetwork, network_of
-from ...agents.control.recurrent_controller import RecurrentController
-from ...agents.submissions import recurrent as submission
-from ..twin.rollout import recurrent, rollout
-from .anticipation import FIRST_SEED
-from .apg_settings import ApgSettings
-from .lesson import BatchDraw, Weights, first_network
-from .pool import LearningBatch, Pool, draw_batch, draw_pool
-from .validation import validation_error
+from colift.agents.control.recurrent import INPUTS, GatedNetwork, network_of
+from colift.agents.control.recurrent_controller import RecurrentController
+from colift.agents.submissions import recurrent as submission
+from colift.benchmark.training.anticipation import FIRST_SEED
+from colift.benchmark.training.apg_settings import ApgSettings
+from colift.benchmark.training.lesson import BatchDraw, Weights, first_network
+from colift.benchmark.training.pool import LearningBatch, Pool, draw_batch, draw_pool
+from colift.benchmark.training.validation import validation_error
+from colift.benchmark.twin.rollout import recurrent, rollout
 
 
 class LevelLesson:

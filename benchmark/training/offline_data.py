@@ -8,15 +8,14 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+from colift.agents.actions import action_limit
+from colift.agents.agent import RobotObservation
+from colift.agents.errors import InputError, error_text
+from colift.agents.extras import how_to_install
+from colift.agents.submissions.offline.policy import Window
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.episode.scenario import CONTROL_PERIOD
 from numpy.typing import NDArray
-
-from ...agents.actions import action_limit
-from ...agents.agent import RobotObservation
-from ...agents.errors import InputError, error_text
-from ...agents.extras import how_to_install
-from ...agents.submissions.offline.policy import Window
-from ..episode.level import LEVEL
-from ..episode.scenario import CONTROL_PERIOD
 
 FILES: Final = "data"
 """Folder of Minari's files in that of a data set."""

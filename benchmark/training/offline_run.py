@@ -14,15 +14,14 @@ from typing import Any, Final
 import jax
 import jax.numpy as jnp
 import numpy as np
-
-from ...agents.submissions import offline
-from ...agents.submissions.offline.policy import Network, Policy
-from .course import Course, Point
-from .offline_data import OfflineData
-from .offline_settings import BLOCK
-from .perceptron import Layers, numpy_layers
-from .result import Weights, usable, write_policy
-from .validation import validation_error
+from colift.agents.submissions import offline
+from colift.agents.submissions.offline.policy import Network, Policy
+from colift.benchmark.training.course import Course, Point
+from colift.benchmark.training.offline_data import OfflineData
+from colift.benchmark.training.offline_settings import BLOCK
+from colift.benchmark.training.perceptron import Layers, numpy_layers
+from colift.benchmark.training.result import Weights, usable, write_policy
+from colift.benchmark.training.validation import validation_error
 
 POINTS: Final = 4
 """Points of a curve; each is a checkpoint."""

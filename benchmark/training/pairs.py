@@ -12,18 +12,17 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
+from colift.agents.control.recurrent import GatedNetwork, gated
+from colift.agents.touch.touch_law import TouchNetwork
+from colift.benchmark.training.apg import updates
+from colift.benchmark.training.apg_settings import ApgSettings
+from colift.benchmark.training.lesson import BatchDraw, first_network
+from colift.benchmark.training.touch_lesson import TouchLesson, touch_policy
+from colift.benchmark.training.validation import VALIDATION_SEEDS
+from colift.benchmark.twin.learning_person import SENSES, LearningPerson
+from colift.benchmark.twin.rollout import JAX
+from colift.benchmark.twin.touch_rollout import touch_rmse_mm
 from numpy.typing import NDArray
-
-from ...agents.control.recurrent import GatedNetwork, gated
-from ...agents.touch.touch_law import TouchNetwork
-from ..twin.learning_person import SENSES, LearningPerson
-from ..twin.rollout import JAX
-from ..twin.touch_rollout import touch_rmse_mm
-from .apg import updates
-from .apg_settings import ApgSettings
-from .lesson import BatchDraw, first_network
-from .touch_lesson import TouchLesson, touch_policy
-from .validation import VALIDATION_SEEDS
 
 
 class TrainedPair(NamedTuple):

@@ -10,15 +10,14 @@ from typing import Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.agent import FRAME
-from ...agents.humans import GOAL_RANGE
-from ..episode.lift import MOCAP_NOISE
-from ..episode.scenario import CONTROL_PERIOD
-from ..episode.seat import REFERENCE_RANGE, body_parameters
-from ..suites.catalogue import make_subject
-from ..twin.body import Body, bodies, delayed
-from ..twin.playing import Frames, LiftState, ramp
+from colift.agents.agent import FRAME
+from colift.agents.humans import GOAL_RANGE
+from colift.benchmark.episode.lift import MOCAP_NOISE
+from colift.benchmark.episode.scenario import CONTROL_PERIOD
+from colift.benchmark.episode.seat import REFERENCE_RANGE, body_parameters
+from colift.benchmark.suites.catalogue import make_subject
+from colift.benchmark.twin.body import Body, bodies, delayed
+from colift.benchmark.twin.playing import Frames, LiftState, ramp
 
 STEPS: Final = 80
 """Length of a lift: 8 s."""

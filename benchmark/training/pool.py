@@ -7,24 +7,23 @@ from typing import Final, NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
-
-from ...agents.agent import FRAME, RobotObservation
-from ...agents.control.recurrent import STEPS_AHEAD
-from ...agents.humans import Subject
-from ...agents.humans.subject import BOUNDS
-from ..episode.lift import MOCAP_NOISE
-from ..episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
-from ..episode.seeding import derive_seed
-from ..suites.suite import BEHAVIOURS
-from ..twin.arm import ArmVariation
-from ..twin.lifts import DrawnLift, Lifts, carried_out, some, stack
-from ..twin.rollout import Sensing, rollout
-from .anticipation import CURRICULUM, FIRST_SEED
-from .apg_settings import ApgSettings
-from .data import Timing, scenario
-from .lesson import BatchDraw
-from .validation import learning_seeds
-from .wandering import Wandering
+from colift.agents.agent import FRAME, RobotObservation
+from colift.agents.control.recurrent import STEPS_AHEAD
+from colift.agents.humans import Subject
+from colift.agents.humans.subject import BOUNDS
+from colift.benchmark.episode.lift import MOCAP_NOISE
+from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
+from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.training.anticipation import CURRICULUM, FIRST_SEED
+from colift.benchmark.training.apg_settings import ApgSettings
+from colift.benchmark.training.data import Timing, scenario
+from colift.benchmark.training.lesson import BatchDraw
+from colift.benchmark.training.validation import learning_seeds
+from colift.benchmark.training.wandering import Wandering
+from colift.benchmark.twin.arm import ArmVariation
+from colift.benchmark.twin.lifts import DrawnLift, Lifts, carried_out, some, stack
+from colift.benchmark.twin.rollout import Sensing, rollout
 
 LONGEST: Final = 11.0
 """Time after which a lift is cut off [s]: nine of ten end earlier."""

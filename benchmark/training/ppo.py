@@ -12,24 +12,31 @@ from functools import partial
 import jax
 import jax.numpy as jnp
 import numpy as np
-
-from ...agents.submissions.network.policy import FIXED
-from ..episode.scenario import CONTROL_PERIOD
-from ..suites.suite import BEHAVIOURS
-from ..twin import lifts as twin_lifts
-from ..twin import playing as twin
-from ..twin.lifts import DrawnLift, Lifts
-from ..twin.playing import LiftState
-from . import robot_seat
-from .actor_critic import Experience, Learner, Tree, decide, learn, new_learner, weights
-from .course import Course
-from .data import Timing, scenario
-from .pool import cut
-from .ppo_settings import PpoSettings
-from .proximal_run import run_updates
-from .result import write_policy
-from .robot_seat import PastSenses
-from .validation import LEARNING_SEEDS
+from colift.agents.submissions.network.policy import FIXED
+from colift.benchmark.episode.scenario import CONTROL_PERIOD
+from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.training import robot_seat
+from colift.benchmark.training.actor_critic import (
+    Experience,
+    Learner,
+    Tree,
+    decide,
+    learn,
+    new_learner,
+    weights,
+)
+from colift.benchmark.training.course import Course
+from colift.benchmark.training.data import Timing, scenario
+from colift.benchmark.training.pool import cut
+from colift.benchmark.training.ppo_settings import PpoSettings
+from colift.benchmark.training.proximal_run import run_updates
+from colift.benchmark.training.result import write_policy
+from colift.benchmark.training.robot_seat import PastSenses
+from colift.benchmark.training.validation import LEARNING_SEEDS
+from colift.benchmark.twin import lifts as twin_lifts
+from colift.benchmark.twin import playing as twin
+from colift.benchmark.twin.lifts import DrawnLift, Lifts
+from colift.benchmark.twin.playing import LiftState
 
 
 def train_ppo(

@@ -4,8 +4,8 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
-from ...agents.errors import InputError
-from .validation import LEARNING_SEEDS
+from colift.agents.errors import InputError
+from colift.benchmark.training.validation import LEARNING_SEEDS
 
 NAME: Final = "ppo"
 SELF_PLAY: Final = "self-play"

@@ -9,11 +9,10 @@ from typing import Final, TypeVar
 import jax
 import jax.numpy as jnp
 import numpy as np
-
-from ...agents.submissions.network.policy import Policy
-from .course import Course, Point
-from .result import Weights, checked_network
-from .validation import validation_error
+from colift.agents.submissions.network.policy import Policy
+from colift.benchmark.training.course import Course, Point
+from colift.benchmark.training.result import Weights, checked_network
+from colift.benchmark.training.validation import validation_error
 
 POINTS: Final = 20
 """Points of a curve; each is a checkpoint."""

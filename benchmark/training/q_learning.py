@@ -12,15 +12,14 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME, Observation, RobotObservation
+from colift.agents.control.q_learning import ACTIONS, Q_PARAMETERS, QLearner, state_of
+from colift.agents.estimators.minimum_jerk import profile
+from colift.agents.humans import SUBJECTS, Plan, Subject
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.seeding import derive_seed
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME, Observation, RobotObservation
-from ...agents.control.q_learning import ACTIONS, Q_PARAMETERS, QLearner, state_of
-from ...agents.estimators.minimum_jerk import profile
-from ...agents.humans import SUBJECTS, Plan, Subject
-from ..episode.lift import Lift
-from ..episode.scenario import Scenario
-from ..episode.seeding import derive_seed
 
 HEIGHT: Final = 0.13
 """Height at which the human stands still [m]: the middle of the robot's stroke."""

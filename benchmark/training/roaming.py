@@ -4,13 +4,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.humans import GOAL_RANGE, Plan, Subject
+from colift.agents.humans.movement import REST_AFTER, REST_BEFORE, interpolate
+from colift.agents.humans.plan import Segment, assemble, move, still
+from colift.agents.humans.stroke import Motion, replan, stroke
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME
-from ...agents.humans import GOAL_RANGE, Plan, Subject
-from ...agents.humans.movement import REST_AFTER, REST_BEFORE, interpolate
-from ...agents.humans.plan import Segment, assemble, move, still
-from ...agents.humans.stroke import Motion, replan, stroke
 
 LOWEST = -0.02
 """Lowest height of the motion [m]: inside the robot's stroke."""

@@ -8,11 +8,10 @@ from typing import Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.submissions.network.policy import CORRECTION, FIXED, LEAD, scales
-from ..environment.rewards import UNIT
-from ..episode.metrics import FAILED_FRAME_MM
-from ..twin.playing import Frames
+from colift.agents.submissions.network.policy import CORRECTION, FIXED, LEAD, scales
+from colift.benchmark.environment.rewards import UNIT
+from colift.benchmark.episode.metrics import FAILED_FRAME_MM
+from colift.benchmark.twin.playing import Frames
 
 WORST: Final = (FAILED_FRAME_MM / 1000) ** 2
 """Largest square height difference that is counted [m2]: the twin's table is never dropped."""

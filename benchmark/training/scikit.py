@@ -6,8 +6,8 @@ import warnings
 from collections.abc import Iterator
 from typing import Any
 
-from ...agents.errors import InputError
-from ...agents.extras import how_to_install
+from colift.agents.errors import InputError
+from colift.agents.extras import how_to_install
 
 
 def import_sklearn(module: str) -> Any:

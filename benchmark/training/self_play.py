@@ -16,21 +16,28 @@ from typing import NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
-
-from ...agents.agent import FRAME
-from ..episode.scenario import CONTROL_PERIOD, LATENCY
-from ..twin import playing as twin
-from ..twin.body import Body
-from ..twin.playing import LiftState
-from . import person_seat, robot_seat
-from .actor_critic import Decision, Experience, Learner, decide, learn, new_learner, weights
-from .course import Course
-from .person_seat import Goals
-from .ppo import start as robot_start
-from .ppo_settings import SelfPlaySettings
-from .proximal_run import run_updates
-from .result import write_policy
-from .validation import LEARNING_SEEDS
+from colift.agents.agent import FRAME
+from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
+from colift.benchmark.training import person_seat, robot_seat
+from colift.benchmark.training.actor_critic import (
+    Decision,
+    Experience,
+    Learner,
+    decide,
+    learn,
+    new_learner,
+    weights,
+)
+from colift.benchmark.training.course import Course
+from colift.benchmark.training.person_seat import Goals
+from colift.benchmark.training.ppo import start as robot_start
+from colift.benchmark.training.ppo_settings import SelfPlaySettings
+from colift.benchmark.training.proximal_run import run_updates
+from colift.benchmark.training.result import write_policy
+from colift.benchmark.training.validation import LEARNING_SEEDS
+from colift.benchmark.twin import playing as twin
+from colift.benchmark.twin.body import Body
+from colift.benchmark.twin.playing import LiftState
 
 State = tuple[LiftState, robot_seat.PastSenses, person_seat.Past]
 

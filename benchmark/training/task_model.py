@@ -7,21 +7,20 @@ from importlib.metadata import version
 from typing import Any, Final
 
 import numpy as np
+from colift.agents.agent import RobotObservation
+from colift.agents.control.adaptive_impedance import Gains, LearnedImpedance, Movement, adapt
+from colift.agents.control.learned_task import LearnedTask, velocity_inputs
+from colift.agents.errors import InputError
+from colift.agents.estimators.gaussian_mixture import GaussianMixture
+from colift.agents.policies.task_model import TaskModelController, TaskModelParameters
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.training.demonstrations import Demonstration
+from colift.benchmark.training.scikit import import_sklearn, reproducible_fit
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
-
-from ...agents.agent import RobotObservation
-from ...agents.control.adaptive_impedance import Gains, LearnedImpedance, Movement, adapt
-from ...agents.control.learned_task import LearnedTask, velocity_inputs
-from ...agents.errors import InputError
-from ...agents.estimators.gaussian_mixture import GaussianMixture
-from ...agents.policies.task_model import TaskModelController, TaskModelParameters
-from ..episode.lift import Lift
-from ..episode.scenario import CONTROL_PERIOD, LATENCY
-from ..suites.catalogue import make_scenario
-from ..suites.suite import BEHAVIOURS
-from .demonstrations import Demonstration
-from .scikit import import_sklearn, reproducible_fit
 
 Array = NDArray[np.float64]
 

@@ -7,22 +7,21 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
-
-from ...agents.control.recurrent import GatedNetwork
-from ...agents.submissions import touch as submission
-from ...agents.touch.touch_controller import TouchController, touch_network
-from ...agents.touch.touch_law import TouchMemory, TouchNetwork, felt_action, inputs_of
-from ..episode.scenario import Scenario
-from ..suites.catalogue import make_scenario
-from ..twin.arm import ArmVariation
-from ..twin.lifts import some
-from ..twin.rollout import JAX
-from ..twin.touch_rollout import touch_rmse_mm
-from .apg_settings import ApgSettings
-from .lesson import BatchDraw, Weights, first_network
-from .pool import draw_arms
-from .touch_twins import TWINS
-from .validation import LEARNING_SEEDS, learning_seeds, task_error
+from colift.agents.control.recurrent import GatedNetwork
+from colift.agents.submissions import touch as submission
+from colift.agents.touch.touch_controller import TouchController, touch_network
+from colift.agents.touch.touch_law import TouchMemory, TouchNetwork, felt_action, inputs_of
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.training.apg_settings import ApgSettings
+from colift.benchmark.training.lesson import BatchDraw, Weights, first_network
+from colift.benchmark.training.pool import draw_arms
+from colift.benchmark.training.touch_twins import TWINS
+from colift.benchmark.training.validation import LEARNING_SEEDS, learning_seeds, task_error
+from colift.benchmark.twin.arm import ArmVariation
+from colift.benchmark.twin.lifts import some
+from colift.benchmark.twin.rollout import JAX
+from colift.benchmark.twin.touch_rollout import touch_rmse_mm
 
 
 class TouchLesson:

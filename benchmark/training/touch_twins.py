@@ -5,23 +5,22 @@ from typing import Any, Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.agent import FRAME
-from ...agents.humans.agree.manner import INSISTENCES, STIFFNESSES, TRUSTS
-from ...agents.humans.agree.manner import PATIENCES as PATIENCES_TO_AGREE
-from ...agents.humans.ball.manner import RANGES
-from ...agents.humans.intent.manner import LEADS, PATIENCES, SHARES
-from ..episode.scenario import Scenario
-from ..tasks.agree.task import BEHAVIOURS as HURDLES
-from ..tasks.ball.task import BEHAVIOURS as ROLLINGS
-from ..tasks.intent.task import BEHAVIOURS as INTENTS
-from ..twin.agree_lifts import AgreeLifts, draw_agree, stack_agree
-from ..twin.agree_playing import AGREE_STEPS
-from ..twin.ball_lifts import BallLifts, Manner, draw_ball, stack_ball
-from ..twin.ball_playing import BALL_STEPS
-from ..twin.intent_lifts import IntentLifts, draw_intent, stack_intent
-from ..twin.intent_playing import INTENT_STEPS
-from ..twin.touch_rollout import TouchSteps
+from colift.agents.agent import FRAME
+from colift.agents.humans.agree.manner import INSISTENCES, STIFFNESSES, TRUSTS
+from colift.agents.humans.agree.manner import PATIENCES as PATIENCES_TO_AGREE
+from colift.agents.humans.ball.manner import RANGES
+from colift.agents.humans.intent.manner import LEADS, PATIENCES, SHARES
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.tasks.agree.task import BEHAVIOURS as HURDLES
+from colift.benchmark.tasks.ball.task import BEHAVIOURS as ROLLINGS
+from colift.benchmark.tasks.intent.task import BEHAVIOURS as INTENTS
+from colift.benchmark.twin.agree_lifts import AgreeLifts, draw_agree, stack_agree
+from colift.benchmark.twin.agree_playing import AGREE_STEPS
+from colift.benchmark.twin.ball_lifts import BallLifts, Manner, draw_ball, stack_ball
+from colift.benchmark.twin.ball_playing import BALL_STEPS
+from colift.benchmark.twin.intent_lifts import IntentLifts, draw_intent, stack_intent
+from colift.benchmark.twin.intent_playing import INTENT_STEPS
+from colift.benchmark.twin.touch_rollout import TouchSteps
 
 
 class TouchTwin(NamedTuple):

@@ -7,18 +7,17 @@ from functools import partial
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import Agent
+from colift.agents.errors import InputError
+from colift.benchmark.environment.drawing import TRAINING_SEEDS
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import Lift, make_lift
+from colift.benchmark.episode.metrics import rmse_mm
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.training.data import Timing, scenario
+from colift.benchmark.world import since_reset
 from numpy.typing import NDArray
-
-from ...agents.agent import Agent
-from ...agents.errors import InputError
-from ..environment.drawing import TRAINING_SEEDS
-from ..episode.episode import run_episode
-from ..episode.lift import Lift, make_lift
-from ..episode.metrics import rmse_mm
-from ..episode.scenario import Scenario
-from ..suites.suite import BEHAVIOURS
-from ..world import since_reset
-from .data import Timing, scenario
 
 Array = NDArray[np.float64]
 

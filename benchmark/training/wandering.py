@@ -5,13 +5,12 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.humans import GOAL_RANGE, Plan, Subject
+from colift.agents.humans.movement import REST_AFTER, REST_BEFORE, interpolate
+from colift.agents.humans.plan import Segment, assemble, move, still
+from colift.agents.humans.stroke import replan
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME
-from ...agents.humans import GOAL_RANGE, Plan, Subject
-from ...agents.humans.movement import REST_AFTER, REST_BEFORE, interpolate
-from ...agents.humans.plan import Segment, assemble, move, still
-from ...agents.humans.stroke import replan
 
 LONGEST: Final = 10.0
 """Time after which no further movement begins [s]."""

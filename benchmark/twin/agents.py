@@ -6,18 +6,17 @@ from functools import partial
 import jax
 import jax.numpy as jnp
 import numpy as np
+from colift.agents.agent import FRAME, HISTORY, Agent, HumanObservation
+from colift.agents.humans import Partner
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.seat import SEATS, within_range
+from colift.benchmark.episode.turns import policy_seed
+from colift.benchmark.twin import pair as pair_plant
+from colift.benchmark.twin import playing as lifting
+from colift.benchmark.twin.lifts import Lifts, draw_lifts, partner_body
+from colift.benchmark.twin.playing import Due, Frames, LiftState, in_chunks, ramp
+from colift.benchmark.world.table import WEIGHT_SHARE
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME, HISTORY, Agent, HumanObservation
-from ...agents.humans import Partner
-from ..episode.scenario import Scenario
-from ..episode.seat import SEATS, within_range
-from ..episode.turns import policy_seed
-from ..world.table import WEIGHT_SHARE
-from . import pair as pair_plant
-from . import playing as lifting
-from .lifts import Lifts, draw_lifts, partner_body
-from .playing import Due, Frames, LiftState, in_chunks, ramp
 
 Array = NDArray[np.float64]
 

@@ -6,18 +6,24 @@ from typing import NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.agents.humans.agree import Hurdle, HurdlePlan, agreeing_manner
+from colift.agents.humans.agree.negotiator import LIFTED, RESTING
+from colift.agents.humans.agree.precedence import EARLY, NEEDED
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.tasks.agree.task import Agree
+from colift.benchmark.twin.body import Body
+from colift.benchmark.twin.haptic_lifts import (
+    Sensed,
+    bodies_in_touch,
+    common_size,
+    draw_sensed,
+    joined,
+    lengthened,
+)
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME
-from ...agents.errors import InputError
-from ...agents.humans.agree import Hurdle, HurdlePlan, agreeing_manner
-from ...agents.humans.agree.negotiator import LIFTED, RESTING
-from ...agents.humans.agree.precedence import EARLY, NEEDED
-from ..episode.scenario import Scenario
-from ..episode.seeding import derive_seed
-from ..tasks.agree.task import Agree
-from .body import Body
-from .haptic_lifts import Sensed, bodies_in_touch, common_size, draw_sensed, joined, lengthened
 
 Array = NDArray[np.float64]
 

@@ -5,14 +5,13 @@ from typing import Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.agent import FRAME
-from ...agents.estimators.belief import GOALS, BeliefParameters
-from ...agents.humans.agree.negotiator import APART, PACE
-from ...agents.humans.agree.precedence import AWAY, FAR_NEAR, LEVEL, NEAR, SERVED, SLOW
-from .agree_lifts import AgreeLifts
-from .body import delayed
-from .plant import Plant
+from colift.agents.agent import FRAME
+from colift.agents.estimators.belief import GOALS, BeliefParameters
+from colift.agents.humans.agree.negotiator import APART, PACE
+from colift.agents.humans.agree.precedence import AWAY, FAR_NEAR, LEVEL, NEAR, SERVED, SLOW
+from colift.benchmark.twin.agree_lifts import AgreeLifts
+from colift.benchmark.twin.body import delayed
+from colift.benchmark.twin.plant import Plant
 
 _BELIEF: Final = BeliefParameters()
 _FARTHEST: Final = 200.0

@@ -4,18 +4,22 @@ from typing import Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.agent import FRAME
-from ..episode.seat import REFERENCE_RANGE
-from .agree_lifts import AgreeLifts, Obstacle
-from .agree_people import AgreeMind, AgreeSight, agree_minds, negotiated
-from .arm import ArmVariation
-from .body import DEPTH, pushed
-from .haptic_plant import HapticPlant, Meant, advance_haptic_step, haptic_plant_at_rest
-from .haptic_playing import commanded, moved_hand, sensed_by_hands
-from .learning_person import Added
-from .playing import Frames
-from .touch_rollout import TouchSteps
+from colift.agents.agent import FRAME
+from colift.benchmark.episode.seat import REFERENCE_RANGE
+from colift.benchmark.twin.agree_lifts import AgreeLifts, Obstacle
+from colift.benchmark.twin.agree_people import AgreeMind, AgreeSight, agree_minds, negotiated
+from colift.benchmark.twin.arm import ArmVariation
+from colift.benchmark.twin.body import DEPTH, pushed
+from colift.benchmark.twin.haptic_plant import (
+    HapticPlant,
+    Meant,
+    advance_haptic_step,
+    haptic_plant_at_rest,
+)
+from colift.benchmark.twin.haptic_playing import commanded, moved_hand, sensed_by_hands
+from colift.benchmark.twin.learning_person import Added
+from colift.benchmark.twin.playing import Frames
+from colift.benchmark.twin.touch_rollout import TouchSteps
 
 
 class AgreeState(NamedTuple):

@@ -16,11 +16,10 @@ from typing import Final, NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
-
-from ...agents.agent import FRAME
-from ...robots.nao.kinematics import STROKE, arm_path
-from ..world.servo import SERVO
-from ..world.table import WEIGHT_SHARE
+from colift.agents.agent import FRAME
+from colift.benchmark.world.servo import SERVO
+from colift.benchmark.world.table import WEIGHT_SHARE
+from colift.robots.nao.kinematics import STROKE, arm_path
 
 _DEGREE: Final = 7
 """Degree of the polynomials along the stroke: within 0.001 mm of the rows of the path."""

@@ -6,18 +6,15 @@ from typing import NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
-from numpy.typing import NDArray
-
-from ...agents.agent import HISTORY
-from ...agents.errors import InputError
-from ...agents.humans.ball import BallPlan, steering_manner
-from ..episode.lift import MOCAP_NOISE
-from ..episode.scenario import Scenario
-from ..episode.seeding import derive_seed
-from ..tasks.ball.task import BALL, BallSteering
-from ..world.world import HISTORY_FRAMES
-from .body import Body
-from .haptic_lifts import (
+from colift.agents.agent import HISTORY
+from colift.agents.errors import InputError
+from colift.agents.humans.ball import BallPlan, steering_manner
+from colift.benchmark.episode.lift import MOCAP_NOISE
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.tasks.ball.task import BALL, BallSteering
+from colift.benchmark.twin.body import Body
+from colift.benchmark.twin.haptic_lifts import (
     Sensed,
     bodies_in_touch,
     common_size,
@@ -26,6 +23,8 @@ from .haptic_lifts import (
     lengthened,
     sampled_frames,
 )
+from colift.benchmark.world.world import HISTORY_FRAMES
+from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 

@@ -5,10 +5,9 @@ from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.agent import FRAME, HISTORY
-from ...agents.ball.facts import PULL
-from ...agents.humans.ball.steerer import (
+from colift.agents.agent import FRAME, HISTORY
+from colift.agents.ball.facts import PULL
+from colift.agents.humans.ball.steerer import (
     DAMPING_RATIO,
     FARTHEST,
     FASTEST,
@@ -16,9 +15,9 @@ from ...agents.humans.ball.steerer import (
     MEMORY,
     STEEPEST,
 )
-from .ball_lifts import BallLifts
-from .ball_plant import BallPlant
-from .body import DEPTH, delayed
+from colift.benchmark.twin.ball_lifts import BallLifts
+from colift.benchmark.twin.ball_plant import BallPlant
+from colift.benchmark.twin.body import DEPTH, delayed
 
 
 class SteeringMind(NamedTuple):

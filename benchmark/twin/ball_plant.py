@@ -4,12 +4,16 @@ from typing import Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.agent import HISTORY
-from .arm import ArmVariation
-from .body import DEPTH, Body
-from .haptic_plant import HapticPlant, Meant, advance_haptic_plant, haptic_plant_at_rest
-from .rolling import WEIGHT, Rolling
+from colift.agents.agent import HISTORY
+from colift.benchmark.twin.arm import ArmVariation
+from colift.benchmark.twin.body import DEPTH, Body
+from colift.benchmark.twin.haptic_plant import (
+    HapticPlant,
+    Meant,
+    advance_haptic_plant,
+    haptic_plant_at_rest,
+)
+from colift.benchmark.twin.rolling import WEIGHT, Rolling
 
 PLACES: Final = DEPTH + HISTORY - 1
 """Number of past places of the ball that are kept: a person sees ten at a time."""

@@ -4,22 +4,21 @@ from typing import Any, Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.agent import FRAME
-from ..episode.metrics import FAILED_FRAME_MM
-from ..episode.seat import REFERENCE_RANGE
-from ..tasks.ball.lift import STEEPEST_MEANT
-from ..world.table import TABLE_LENGTH
-from .arm import ArmVariation
-from .ball_lifts import BallLifts
-from .ball_people import SteeringMind, steered, steering_minds
-from .ball_plant import BallPlant, advance_ball_plant, ball_plant_at_rest
-from .body import DEPTH, delayed, pushed
-from .haptic_plant import HapticPlant, Meant
-from .haptic_playing import commanded, moved_hand, sensed_by_hands
-from .learning_person import Added
-from .lifts import chunk
-from .touch_rollout import TouchSteps, mean_error_mm
+from colift.agents.agent import FRAME
+from colift.benchmark.episode.metrics import FAILED_FRAME_MM
+from colift.benchmark.episode.seat import REFERENCE_RANGE
+from colift.benchmark.tasks.ball.lift import STEEPEST_MEANT
+from colift.benchmark.twin.arm import ArmVariation
+from colift.benchmark.twin.ball_lifts import BallLifts
+from colift.benchmark.twin.ball_people import SteeringMind, steered, steering_minds
+from colift.benchmark.twin.ball_plant import BallPlant, advance_ball_plant, ball_plant_at_rest
+from colift.benchmark.twin.body import DEPTH, delayed, pushed
+from colift.benchmark.twin.haptic_plant import HapticPlant, Meant
+from colift.benchmark.twin.haptic_playing import commanded, moved_hand, sensed_by_hands
+from colift.benchmark.twin.learning_person import Added
+from colift.benchmark.twin.lifts import chunk
+from colift.benchmark.twin.touch_rollout import TouchSteps, mean_error_mm
+from colift.benchmark.world.table import TABLE_LENGTH
 
 
 class BallState(NamedTuple):

@@ -6,11 +6,10 @@ from typing import Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.agent import FRAME
-from ...agents.errors import InputError
-from ..world.human_body import MUSCLE_TIME, REFLEX_LIMIT, BodyParameters
-from ..world.table import GRIP_STIFFNESS, TABLE_LENGTH
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.benchmark.world.human_body import MUSCLE_TIME, REFLEX_LIMIT, BodyParameters
+from colift.benchmark.world.table import GRIP_STIFFNESS, TABLE_LENGTH
 
 DEPTH: Final = 26
 """Frames of the past that are kept: delays of up to 250 ms."""

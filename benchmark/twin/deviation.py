@@ -5,17 +5,16 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import Agent
+from colift.agents.humans import Partner
+from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.twin.agents import play_agents, play_pairs
 from numpy.typing import NDArray
-
-from ...agents.agent import Agent
-from ...agents.humans import Partner
-from ...agents.loading.loading import PolicySpec
-from ..episode.episode import run_episode
-from ..episode.lift import Lift
-from ..episode.scenario import Scenario
-from ..suites.catalogue import make_scenario
-from ..suites.suite import BEHAVIOURS
-from .agents import play_agents, play_pairs
 
 POLICIES: Final = ("copy", "proportional", "extrapolate", "anticipate", "learned")
 """One that follows, one that regulates, one that predicts a line, and two that were learned."""

@@ -7,20 +7,19 @@ from typing import Final, NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.agents.humans import ScriptedHuman, Subject
+from colift.agents.humans.scripted import LEAK
+from colift.benchmark.episode.lift import MOCAP_NOISE
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.seat import body_parameters
+from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.tasks.haptic import FINER, FORCE_NOISE, TORQUE_NOISE
+from colift.benchmark.twin.body import Body, bodies
+from colift.benchmark.twin.lifts import hand_references
+from colift.benchmark.world.world import HISTORY_FRAMES
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME
-from ...agents.errors import InputError
-from ...agents.humans import ScriptedHuman, Subject
-from ...agents.humans.scripted import LEAK
-from ..episode.lift import MOCAP_NOISE
-from ..episode.scenario import Scenario
-from ..episode.seat import body_parameters
-from ..episode.seeding import derive_seed
-from ..tasks.haptic import FINER, FORCE_NOISE, TORQUE_NOISE
-from ..world.world import HISTORY_FRAMES
-from .body import Body, bodies
-from .lifts import hand_references
 
 Array = NDArray[np.float64]
 

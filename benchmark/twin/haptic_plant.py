@@ -4,16 +4,15 @@ from typing import Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.agent import FRAME
-from ..tasks.haptic import FINER, SENSED_FRAMES
-from ..world.haptic_world import FAR_GRIP_DAMPING, FAR_GRIP_STIFFNESS
-from ..world.table import GRIP_DAMPING, GRIP_STIFFNESS, TABLE_INERTIA, WEIGHT_SHARE
-from .arm import ArmVariation, followed, prepared
-from .body import DEPTH, Body, activated, delayed, pushed, wanted_shift
-from .lifts import chunk
-from .plant import Moving, Plant, after_physics_step, plant_at_rest
-from .rolling import Rolling, pressed_by, rolled, shared_load
+from colift.agents.agent import FRAME
+from colift.benchmark.tasks.haptic import FINER, SENSED_FRAMES
+from colift.benchmark.twin.arm import ArmVariation, followed, prepared
+from colift.benchmark.twin.body import DEPTH, Body, activated, delayed, pushed, wanted_shift
+from colift.benchmark.twin.lifts import chunk
+from colift.benchmark.twin.plant import Moving, Plant, after_physics_step, plant_at_rest
+from colift.benchmark.twin.rolling import Rolling, pressed_by, rolled, shared_load
+from colift.benchmark.world.haptic_world import FAR_GRIP_DAMPING, FAR_GRIP_STIFFNESS
+from colift.benchmark.world.table import GRIP_DAMPING, GRIP_STIFFNESS, TABLE_INERTIA, WEIGHT_SHARE
 
 _STEPS: Final = FINER.steps_per_frame
 _STEP: Final = FINER.step

@@ -4,15 +4,14 @@ from typing import Any, NamedTuple, Protocol
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.actions import action_limit
-from ...agents.agent import FRAME
-from ...agents.humans.scripted import CORRECTION_GAIN, CORRECTION_LIMIT
-from ...robots.nao.kinematics import STROKE
-from .body import Body, delayed
-from .haptic_lifts import KEPT
-from .haptic_plant import HapticPlant
-from .playing import ramp
+from colift.agents.actions import action_limit
+from colift.agents.agent import FRAME
+from colift.agents.humans.scripted import CORRECTION_GAIN, CORRECTION_LIMIT
+from colift.benchmark.twin.body import Body, delayed
+from colift.benchmark.twin.haptic_lifts import KEPT
+from colift.benchmark.twin.haptic_plant import HapticPlant
+from colift.benchmark.twin.playing import ramp
+from colift.robots.nao.kinematics import STROKE
 
 
 class HandState(Protocol):

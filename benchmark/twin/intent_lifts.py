@@ -6,16 +6,22 @@ from typing import NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.errors import InputError
+from colift.agents.humans.intent import PosePlan, leading_manner
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.tasks.intent.task import Intent
+from colift.benchmark.twin.body import Body
+from colift.benchmark.twin.haptic_lifts import (
+    Sensed,
+    bodies_in_touch,
+    common_size,
+    draw_sensed,
+    joined,
+    lengthened,
+)
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME
-from ...agents.errors import InputError
-from ...agents.humans.intent import PosePlan, leading_manner
-from ..episode.scenario import Scenario
-from ..episode.seeding import derive_seed
-from ..tasks.intent.task import Intent
-from .body import Body
-from .haptic_lifts import Sensed, bodies_in_touch, common_size, draw_sensed, joined, lengthened
 
 Array = NDArray[np.float64]
 

@@ -4,19 +4,23 @@ from typing import Any, Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.agent import FRAME
-from ...agents.humans.intent.pace import CATCHING_UP
-from ..episode.seat import REFERENCE_RANGE
-from ..world.table import TABLE_LENGTH
-from .arm import ArmVariation
-from .body import DEPTH, delayed, pushed
-from .haptic_plant import HapticPlant, Meant, advance_haptic_step, haptic_plant_at_rest
-from .haptic_playing import commanded, moved_hand, sensed_by_hands
-from .intent_lifts import IntentLifts
-from .learning_person import Added
-from .playing import Frames
-from .touch_rollout import TouchSteps, mean_error_mm
+from colift.agents.agent import FRAME
+from colift.agents.humans.intent.pace import CATCHING_UP
+from colift.benchmark.episode.seat import REFERENCE_RANGE
+from colift.benchmark.twin.arm import ArmVariation
+from colift.benchmark.twin.body import DEPTH, delayed, pushed
+from colift.benchmark.twin.haptic_plant import (
+    HapticPlant,
+    Meant,
+    advance_haptic_step,
+    haptic_plant_at_rest,
+)
+from colift.benchmark.twin.haptic_playing import commanded, moved_hand, sensed_by_hands
+from colift.benchmark.twin.intent_lifts import IntentLifts
+from colift.benchmark.twin.learning_person import Added
+from colift.benchmark.twin.playing import Frames
+from colift.benchmark.twin.touch_rollout import TouchSteps, mean_error_mm
+from colift.benchmark.world.table import TABLE_LENGTH
 
 LOOKS_AHEAD: Final = (10.0, 30.0, 60.0)
 """Frames ahead at which learning people know their intention."""

@@ -4,11 +4,10 @@ from typing import Any, Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from .body import Body, delayed
-from .plant import Plant
-from .playing import ramp
-from .rollout import Policy
+from colift.benchmark.twin.body import Body, delayed
+from colift.benchmark.twin.plant import Plant
+from colift.benchmark.twin.playing import ramp
+from colift.benchmark.twin.rollout import Policy
 
 ADDED_HEIGHT: Final = 0.02
 """Largest addition of a learning person to the height of the hands [m]."""

@@ -3,8 +3,8 @@
 import importlib
 import os
 
-from ...agents.errors import InputError
-from ...agents.extras import how_to_install
+from colift.agents.errors import InputError
+from colift.agents.extras import how_to_install
 
 _ONE_THREAD = "--xla_cpu_multi_thread_eigen=false"
 

@@ -6,18 +6,17 @@ from typing import Any, Final, NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
+from colift.agents.agent import FRAME, HISTORY, HumanObservation
+from colift.agents.errors import InputError
+from colift.agents.humans import Embodied, ScriptedHuman
+from colift.benchmark.episode.level import Level
+from colift.benchmark.episode.lift import MOCAP_NOISE
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.seat import SEATS, body_parameters
+from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.twin.body import CHUNK, DEPTH, Body, bodies
+from colift.benchmark.world.world import HISTORY_FRAMES
 from numpy.typing import NDArray
-
-from ...agents.agent import FRAME, HISTORY, HumanObservation
-from ...agents.errors import InputError
-from ...agents.humans import Embodied, ScriptedHuman
-from ..episode.level import Level
-from ..episode.lift import MOCAP_NOISE
-from ..episode.scenario import Scenario
-from ..episode.seat import SEATS, body_parameters
-from ..episode.seeding import derive_seed
-from ..world.world import HISTORY_FRAMES
-from .body import CHUNK, DEPTH, Body, bodies
 
 Array = NDArray[np.float64]
 

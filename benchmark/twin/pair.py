@@ -16,9 +16,9 @@ from typing import Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.agent import FRAME
-from ..world.table import (
+from colift.agents.agent import FRAME
+from colift.benchmark.twin.body import DEPTH, Body, activated, delayed, pushed, wanted_shift
+from colift.benchmark.world.table import (
     GRAVITY,
     GRIP_DAMPING,
     GRIP_STIFFNESS,
@@ -27,7 +27,6 @@ from ..world.table import (
     TABLE_MASS,
     WEIGHT_SHARE,
 )
-from .body import DEPTH, Body, activated, delayed, pushed, wanted_shift
 
 _HALF_MOMENT: Final = TABLE_MASS * TABLE_LENGTH / 2
 

@@ -14,9 +14,10 @@ from typing import Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.agent import FRAME
-from ..world.table import (
+from colift.agents.agent import FRAME
+from colift.benchmark.twin.arm import Arm, ArmVariation, arms_at_rest, drive
+from colift.benchmark.twin.body import DEPTH, Body, activated, delayed, pushed, wanted_shift
+from colift.benchmark.world.table import (
     GRAVITY,
     GRIP_DAMPING,
     GRIP_STIFFNESS,
@@ -25,8 +26,6 @@ from ..world.table import (
     TABLE_MASS,
     WEIGHT_SHARE,
 )
-from .arm import Arm, ArmVariation, arms_at_rest, drive
-from .body import DEPTH, Body, activated, delayed, pushed, wanted_shift
 
 _IMPLICIT: Final = 1 + FRAME * GRIP_DAMPING / TABLE_INERTIA / 2
 _PITCH_GAIN: Final = GRIP_STIFFNESS / _IMPLICIT

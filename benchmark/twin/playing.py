@@ -6,19 +6,18 @@ from typing import NamedTuple, TypeVar
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.actions import action_limit
-from ...agents.agent import FRAME
-from ...agents.humans.scripted import CORRECTION_GAIN, CORRECTION_LIMIT
-from ...robots.nao.kinematics import STROKE
-from ..episode.level import DROP_TILT, GRIP_FORCE
-from ..episode.seat import REFERENCE_RANGE
-from ..world.table import TABLE_LENGTH
-from .arm import ArmVariation
-from .body import Body, delayed
-from .lifts import Lifts, chunk
-from .pair import PairPlant
-from .plant import Plant, advance_plant, plant_at_rest
+from colift.agents.actions import action_limit
+from colift.agents.agent import FRAME
+from colift.agents.humans.scripted import CORRECTION_GAIN, CORRECTION_LIMIT
+from colift.benchmark.episode.level import DROP_TILT, GRIP_FORCE
+from colift.benchmark.episode.seat import REFERENCE_RANGE
+from colift.benchmark.twin.arm import ArmVariation
+from colift.benchmark.twin.body import Body, delayed
+from colift.benchmark.twin.lifts import Lifts, chunk
+from colift.benchmark.twin.pair import PairPlant
+from colift.benchmark.twin.plant import Plant, advance_plant, plant_at_rest
+from colift.benchmark.world.table import TABLE_LENGTH
+from colift.robots.nao.kinematics import STROKE
 
 
 class LiftState(NamedTuple):

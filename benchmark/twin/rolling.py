@@ -4,12 +4,11 @@ from typing import Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ..tasks.ball.task import BALL
-from ..tasks.haptic import FINER
-from ..world.ball import ROLLING
-from ..world.table import GRAVITY, TABLE_LENGTH
-from .plant import Moving
+from colift.benchmark.tasks.ball.task import BALL
+from colift.benchmark.tasks.haptic import FINER
+from colift.benchmark.twin.plant import Moving
+from colift.benchmark.world.ball import ROLLING
+from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH
 
 WEIGHT: Final = BALL.mass * GRAVITY
 """Weight of a ball [N]; the two holders carry half of it each."""

@@ -5,13 +5,12 @@ from typing import Any, Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from ...agents.agent import FRAME, RobotObservation
-from ...agents.control.recurrent import GatedNetwork, Memory, act
-from . import playing as lifting
-from .arm import ArmVariation
-from .lifts import Lifts
-from .playing import LiftState
+from colift.agents.agent import FRAME, RobotObservation
+from colift.agents.control.recurrent import GatedNetwork, Memory, act
+from colift.benchmark.twin import playing as lifting
+from colift.benchmark.twin.arm import ArmVariation
+from colift.benchmark.twin.lifts import Lifts
+from colift.benchmark.twin.playing import LiftState
 
 
 class JaxFunctions:

@@ -5,10 +5,9 @@ from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
-
-from .arm import ArmVariation
-from .learning_person import LearningPerson, added_in_step, person_senses
-from .rollout import Policy
+from colift.benchmark.twin.arm import ArmVariation
+from colift.benchmark.twin.learning_person import LearningPerson, added_in_step, person_senses
+from colift.benchmark.twin.rollout import Policy
 
 
 class TouchSteps(NamedTuple):

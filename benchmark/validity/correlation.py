@@ -12,8 +12,7 @@ M. G. Kendall (1945). The treatment of ties in ranking problems. Biometrika 33(3
 """
 
 import numpy as np
-
-from ..statistics import FloatArray
+from colift.benchmark.statistics import FloatArray
 
 
 def average_ranks(values: FloatArray) -> FloatArray:

@@ -4,18 +4,22 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 
 import numpy as np
-
-from ...agents.errors import InputError
-from ...agents.spec import AgentSpec
-from ..episode.level import LEVEL
-from ..episode.metric import LEADING
-from ..episode.seeding import derive_seed
-from ..execution.runner import Run, run_suite
-from ..results.baselines import HUMAN_HUMAN, Baseline, human_human_run, shipped_baselines
-from ..statistics import FloatArray
-from ..suites.suite import Suite
-from .scores import Scores
-from .sources import Source
+from colift.agents.errors import InputError
+from colift.agents.spec import AgentSpec
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.episode.metric import LEADING
+from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.results.baselines import (
+    HUMAN_HUMAN,
+    Baseline,
+    human_human_run,
+    shipped_baselines,
+)
+from colift.benchmark.statistics import FloatArray
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.validity.scores import Scores
+from colift.benchmark.validity.sources import Source
 
 Known = Mapping[str, FloatArray]
 """Known RMSE of policies in each lift of a suite [mm], shape (n,)."""

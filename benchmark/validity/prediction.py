@@ -3,10 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..statistics import FloatArray
-from .correlation import kendall, spearman
-from .scores import Quantity, Scores
+from colift.benchmark.statistics import FloatArray
+from colift.benchmark.validity.correlation import kendall, spearman
+from colift.benchmark.validity.scores import Quantity, Scores
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,11 +5,11 @@ from dataclasses import asdict, dataclass
 from importlib.metadata import version
 from typing import Any, Final
 
-from ...agents.errors import InputError
-from .prediction import SuitePrediction, predict
-from .scores import Scores
-from .verdict import SuiteVerdict, judge, order_text, people_text
-from .winner import best_shares
+from colift.agents.errors import InputError
+from colift.benchmark.validity.prediction import SuitePrediction, predict
+from colift.benchmark.validity.scores import Scores
+from colift.benchmark.validity.verdict import SuiteVerdict, judge, order_text, people_text
+from colift.benchmark.validity.winner import best_shares
 
 FEWEST_POLICIES: Final = 4
 """Fewest policies for an order: of three policies, one order in six agrees by chance, of four, one

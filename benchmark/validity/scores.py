@@ -6,11 +6,10 @@ from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
+from colift.benchmark.statistics import FloatArray
+from colift.benchmark.statistics.bootstrap import expanded_percentile
+from colift.benchmark.statistics.samples import Members, expanded, members_of, resample
 from numpy.typing import NDArray
-
-from ..statistics import FloatArray
-from ..statistics.bootstrap import expanded_percentile
-from ..statistics.samples import Members, expanded, members_of, resample
 
 RESAMPLES: Final = 2000
 

@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from ...agents.errors import InputError
-from ...agents.humans import Recorded
-from ...agents.humans.copies import first_copy
-from ..live.scenarios import real_lifts
-from ..suites.suite import Suite, plain_name
+from colift.agents.errors import InputError
+from colift.agents.humans import Recorded
+from colift.agents.humans.copies import first_copy
+from colift.benchmark.live.scenarios import real_lifts
+from colift.benchmark.suites.suite import Suite, plain_name
 
 FEWEST_LIFTS: Final = 2
 """Fewest lifts of a source: a single lift has no spread, and therefore no interval."""

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from ..comparison.formatting import p_value
-from .prediction import SuitePrediction
-from .scores import Quantity, Scores
-from .winner import Rival, rivals
+from colift.benchmark.comparison.formatting import p_value
+from colift.benchmark.validity.prediction import SuitePrediction
+from colift.benchmark.validity.scores import Quantity, Scores
+from colift.benchmark.validity.winner import Rival, rivals
 
 Judgement = Literal["right", "open", "doubtful", "misleading"]
 """``right``: the suite's best policy is significantly the best on the source, too. ``open``: it

@@ -5,9 +5,8 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-
-from ..statistics import holm_correction, paired_difference, permutation_ps_against
-from .scores import Quantity, Scores
+from colift.benchmark.statistics import holm_correction, paired_difference, permutation_ps_against
+from colift.benchmark.validity.scores import Quantity, Scores
 
 LEVEL: Final = 0.05
 """Largest corrected p value of a significant difference, as for ranks."""

@@ -5,7 +5,13 @@ must act as logged. That proves that the scores follow from the actions of the r
 not prove who produced the actions: only a board's own run does.
 """
 
-from .verdict import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Finding, Verdict
-from .verify import verify
+from colift.benchmark.verification.verdict import (
+    ACTIONS_FROM_LOG,
+    PROVES,
+    UNPROVEN,
+    Finding,
+    Verdict,
+)
+from colift.benchmark.verification.verify import verify
 
 __all__ = ["ACTIONS_FROM_LOG", "PROVES", "UNPROVEN", "Finding", "Verdict", "verify"]

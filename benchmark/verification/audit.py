@@ -6,12 +6,11 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-
-from ...agents.spec import AgentSpec
-from ..episode.episode import Episode
-from ..execution.batches import Batch, Faults, run_batches
-from ..execution.runner import Run, placed
-from ..suites.hidden import keyed
+from colift.agents.spec import AgentSpec
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.execution.batches import Batch, Faults, run_batches
+from colift.benchmark.execution.runner import Run, placed
+from colift.benchmark.suites.hidden import keyed
 
 AUDIT: Final = "audit"
 """Name of the instance of a sandboxed policy that is played again."""

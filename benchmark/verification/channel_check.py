@@ -4,13 +4,12 @@ import math
 from itertools import islice
 
 import numpy as np
-
-from ..channels import Channel
-from ..channels.schedule import channel_seed, schedule
-from ..channels.teleoperated import ANSWERED
-from ..episode.scenario import Scenario
-from ..episode.trace import Trace
-from .deviation import Place
+from colift.benchmark.channels import Channel
+from colift.benchmark.channels.schedule import channel_seed, schedule
+from colift.benchmark.channels.teleoperated import ANSWERED
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.verification.deviation import Place
 
 
 def channel_fault(

@@ -6,23 +6,28 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from ...agents.errors import EvaluatorFault
-from ...agents.hardware.decisions import POLICY_SHARE
-from ...agents.spec import AgentSpec
-from ..bundle import Results, results
-from ..episode.episode import Episode
-from ..episode.level import LEVEL
-from ..episode.scenario import CONTROL_PERIOD, Scenario
-from ..episode.turns import START
-from ..execution.batches import play
-from ..execution.runner import Run
-from ..results.baselines import HUMAN_HUMAN, Baseline, baseline_specs, shipped_baselines
-from ..results.headline import headline
-from ..results.remarks import clipped_text, unit_remark, worse_remark
-from ..results.summary import Summary
-from ..suites.catalogue import make_scenario
-from ..suites.suite import Suite, make_suite
-from .audit import audit, audited
+from colift.agents.errors import EvaluatorFault
+from colift.agents.hardware.decisions import POLICY_SHARE
+from colift.agents.spec import AgentSpec
+from colift.benchmark.bundle import Results, results
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.episode.scenario import CONTROL_PERIOD, Scenario
+from colift.benchmark.episode.turns import START
+from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.results.baselines import (
+    HUMAN_HUMAN,
+    Baseline,
+    baseline_specs,
+    shipped_baselines,
+)
+from colift.benchmark.results.headline import headline
+from colift.benchmark.results.remarks import clipped_text, unit_remark, worse_remark
+from colift.benchmark.results.summary import Summary
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import Suite, make_suite
+from colift.benchmark.verification.audit import audit, audited
 
 SUITE: Final = "quick-v1"
 """The suite of the score by default."""

@@ -5,20 +5,25 @@ from collections.abc import Iterator
 from concurrent.futures import Executor
 from typing import Final
 
-from ...agents.errors import InputError
-from ...agents.registry import SUITES, entries
-from ..bundle import Bundle, Difference, Results, differences, one_line, results
-from ..bundle.content import with_circumstances
-from ..bundle.files import EPISODES, MANIFEST, RESULTS, TRACES
-from ..channels import Channel, channel_name
-from ..episode.episode import Episode
-from ..episode.metric import SCORING
-from ..episode.scenario import CONTROL_PERIOD
-from ..execution.runner import Run
-from ..results.baselines import BASELINES, Baseline, play_baselines, shipped_baselines
-from ..suites.suite import Suite, make_suite
-from .deviation import REFERENCES, SCORES
-from .verdict import Finding
+from colift.agents.errors import InputError
+from colift.agents.registry import SUITES, entries
+from colift.benchmark.bundle import Bundle, Difference, Results, differences, one_line, results
+from colift.benchmark.bundle.content import with_circumstances
+from colift.benchmark.bundle.files import EPISODES, MANIFEST, RESULTS, TRACES
+from colift.benchmark.channels import Channel, channel_name
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.metric import SCORING
+from colift.benchmark.episode.scenario import CONTROL_PERIOD
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.results.baselines import (
+    BASELINES,
+    Baseline,
+    play_baselines,
+    shipped_baselines,
+)
+from colift.benchmark.suites.suite import Suite, make_suite
+from colift.benchmark.verification.deviation import REFERENCES, SCORES
+from colift.benchmark.verification.verdict import Finding
 
 _FROM_BASELINES: Final = ("baselines", "summary.vs_human", "human_human_rmse_mm")
 

@@ -4,10 +4,9 @@ from collections.abc import Mapping
 from typing import Final
 
 import numpy as np
+from colift.benchmark.episode.replay import Simulated
+from colift.benchmark.episode.trace import Trace
 from numpy.typing import NDArray
-
-from ..episode.replay import Simulated
-from ..episode.trace import Trace
 
 Place = tuple[int, str]
 """A step, and a message about the difference there."""

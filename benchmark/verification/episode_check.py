@@ -5,25 +5,24 @@ from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass
 
 import numpy as np
-
-from ...agents.errors import EvaluatorFault, InputError, error_text
-from ..bundle import Bundle, one_line
-from ..bundle.files import EPISODES, MANIFEST, TRACES
-from ..channels import Channel
-from ..episode.blame import blaming_plugins
-from ..episode.episode import Episode
-from ..episode.kept_world import drop_kept_world, lift_in_kept_world
-from ..episode.lift import Lift
-from ..episode.metric import Scores
-from ..episode.replay import ReplayError, replay
-from ..episode.scenario import Scenario
-from ..episode.trace import Trace
-from ..execution.batches import SEEDS_PER_BATCH
-from ..suites.suite import Suite
-from .channel_check import channel_fault
-from .deviation import Place, beyond_tolerance, first_difference
-from .far_hand import far_actions
-from .verdict import Finding
+from colift.agents.errors import EvaluatorFault, InputError, error_text
+from colift.benchmark.bundle import Bundle, one_line
+from colift.benchmark.bundle.files import EPISODES, MANIFEST, TRACES
+from colift.benchmark.channels import Channel
+from colift.benchmark.episode.blame import blaming_plugins
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.kept_world import drop_kept_world, lift_in_kept_world
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.metric import Scores
+from colift.benchmark.episode.replay import ReplayError, replay
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.execution.batches import SEEDS_PER_BATCH
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.verification.channel_check import channel_fault
+from colift.benchmark.verification.deviation import Place, beyond_tolerance, first_difference
+from colift.benchmark.verification.far_hand import far_actions
+from colift.benchmark.verification.verdict import Finding
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -1,14 +1,13 @@
 """The actions of a second person in a live lift, derived from the samples of the hand."""
 
 import numpy as np
+from colift.agents.actions import action_limit
+from colift.agents.agent import Agent, HumanObservation, RobotObservation
+from colift.agents.humans import PersonAsRobot, Played, PlayedHand
+from colift.agents.humans.hand_log import HandLog, LoggedHand
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.seat import limited_command
 from numpy.typing import NDArray
-
-from ...agents.actions import action_limit
-from ...agents.agent import Agent, HumanObservation, RobotObservation
-from ...agents.humans import PersonAsRobot, Played, PlayedHand
-from ...agents.humans.hand_log import HandLog, LoggedHand
-from ..episode.scenario import Scenario
-from ..episode.seat import limited_command
 
 
 def far_person(scenario: Scenario, log: HandLog) -> Agent:

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-from ..bundle import Results, one_line
-from ..execution.provenance import POLICIES_ONLY
-from ..execution.runner import Run
+from colift.benchmark.bundle import Results, one_line
+from colift.benchmark.execution.provenance import POLICIES_ONLY
+from colift.benchmark.execution.runner import Run
 
 PROVES: Final = (
     "This proves that the scores follow from the logged actions, not who produced them: only a "

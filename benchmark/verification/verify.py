@@ -7,23 +7,23 @@ from concurrent.futures import Executor
 from pathlib import Path
 from typing import Final
 
-from ...agents.errors import InputError
-from ..bundle import Bundle, Results, one_line, parse, read_files
-from ..bundle.files import LARGEST
-from ..bundle.reading import wrong_hashes
-from ..episode.metric import SCORING
-from ..execution.provenance import POLICIES_ONLY, fingerprint
-from ..execution.runner import Run
-from .content_check import (
+from colift.agents.errors import InputError
+from colift.benchmark.bundle import Bundle, Results, one_line, parse, read_files
+from colift.benchmark.bundle.files import LARGEST
+from colift.benchmark.bundle.reading import wrong_hashes
+from colift.benchmark.episode.metric import SCORING
+from colift.benchmark.execution.provenance import POLICIES_ONLY, fingerprint
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.verification.content_check import (
     episode_findings,
     played_label,
     rebuilt,
     score_findings,
     suite_findings,
 )
-from .deviation import HEIGHT
-from .episode_check import Checked, simulate
-from .verdict import Finding, Verdict
+from colift.benchmark.verification.deviation import HEIGHT
+from colift.benchmark.verification.episode_check import Checked, simulate
+from colift.benchmark.verification.verdict import Finding, Verdict
 
 MOST_FINDINGS: Final = 20
 """Largest number of findings in a verdict."""

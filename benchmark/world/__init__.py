@@ -1,14 +1,14 @@
 """The physical world: a human and a far end, coupled by a table, in PyBullet."""
 
-from .ball import Ball
-from .bullet_world import BulletWorld
-from .haptic_world import HapticWorld
-from .human_body import BodyParameters
-from .nao_arms import NaoFarEnd
-from .physics import PHYSICS, Physics
-from .second_human import HumanFarEnd
-from .servo import SERVO, Servo
-from .world import HISTORY_FRAMES, FarEnd, Hands, World, since_reset
+from colift.benchmark.world.ball import Ball
+from colift.benchmark.world.bullet_world import BulletWorld
+from colift.benchmark.world.haptic_world import HapticWorld
+from colift.benchmark.world.human_body import BodyParameters
+from colift.benchmark.world.nao_arms import NaoFarEnd
+from colift.benchmark.world.physics import PHYSICS, Physics
+from colift.benchmark.world.second_human import HumanFarEnd
+from colift.benchmark.world.servo import SERVO, Servo
+from colift.benchmark.world.world import HISTORY_FRAMES, FarEnd, Hands, World, since_reset
 
 __all__ = [
     "HISTORY_FRAMES",

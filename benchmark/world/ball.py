@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Final, NamedTuple
 
-from .table import GRAVITY, TABLE_LENGTH
+from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH
 
 ROLLING: Final = 5 / 7
 """Share of the downhill pull that accelerates a solid sphere rolling without slipping; the rest

@@ -5,13 +5,13 @@ import weakref
 from collections.abc import Sequence
 from typing import Final
 
-from ...agents.agent import FRAME
-from .bullet import pybullet
-from .engine import disconnect, load_urdf_text, new_client
-from .human_body import BodyParameters, HumanBody
-from .nao_arms import NaoArms
-from .physics import PHYSICS, Physics
-from .table import (
+from colift.agents.agent import FRAME
+from colift.benchmark.world.bullet import pybullet
+from colift.benchmark.world.engine import disconnect, load_urdf_text, new_client
+from colift.benchmark.world.human_body import BodyParameters, HumanBody
+from colift.benchmark.world.nao_arms import NaoArms
+from colift.benchmark.world.physics import PHYSICS, Physics
+from colift.benchmark.world.table import (
     GRAVITY,
     GRIP_DAMPING,
     GRIP_STIFFNESS,
@@ -24,7 +24,7 @@ from .table import (
     WEIGHT_SHARE,
     table_urdf,
 )
-from .world import HISTORY_FRAMES, FarEnd
+from colift.benchmark.world.world import HISTORY_FRAMES, FarEnd
 
 _JOINTS: Final = [HANDS, PITCH]
 _TORQUE: Final = pybullet.TORQUE_CONTROL

@@ -3,9 +3,9 @@
 import tempfile
 from typing import Final
 
-from .bullet import pybullet, silent
-from .physics import Physics
-from .table import GRAVITY
+from colift.benchmark.world.bullet import pybullet, silent
+from colift.benchmark.world.physics import Physics
+from colift.benchmark.world.table import GRAVITY
 
 Vector = tuple[float, float, float]
 

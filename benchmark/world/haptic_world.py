@@ -4,14 +4,14 @@ import math
 from collections.abc import Sequence
 from typing import Final
 
-from ...agents.agent import FRAME
-from .ball import Ball, TableMotion
-from .bullet import pybullet
-from .bullet_world import BulletWorld
-from .human_body import BodyParameters
-from .physics import PHYSICS, Physics
-from .second_human import HumanFarEnd
-from .table import (
+from colift.agents.agent import FRAME
+from colift.benchmark.world.ball import Ball, TableMotion
+from colift.benchmark.world.bullet import pybullet
+from colift.benchmark.world.bullet_world import BulletWorld
+from colift.benchmark.world.human_body import BodyParameters
+from colift.benchmark.world.physics import PHYSICS, Physics
+from colift.benchmark.world.second_human import HumanFarEnd
+from colift.benchmark.world.table import (
     GRAVITY,
     GRIP_DAMPING,
     GRIP_STIFFNESS,
@@ -23,7 +23,7 @@ from .table import (
     TABLE_MASS,
     WEIGHT_SHARE,
 )
-from .world import HISTORY_FRAMES, FarEnd
+from colift.benchmark.world.world import HISTORY_FRAMES, FarEnd
 
 FAR_GRIP_STIFFNESS: Final = 1.0
 """Pitch stiffness of the grip at the far end [Nm/rad], a tenth of the human's: an assumption for

@@ -2,10 +2,10 @@
 
 from typing import Final
 
-from ...robots.nao.facts import ARM, HAND_OFFSET_X, HAND_OFFSET_Z, JOINTS
-from ...robots.nao.urdf import arm_urdf
-from .bullet import pybullet
-from .engine import Vector, load_urdf_text
+from colift.benchmark.world.bullet import pybullet
+from colift.benchmark.world.engine import Vector, load_urdf_text
+from colift.robots.nao.facts import ARM, HAND_OFFSET_X, HAND_OFFSET_Z, JOINTS
+from colift.robots.nao.urdf import arm_urdf
 
 _HAND: Final = (HAND_OFFSET_X, 0.0, -HAND_OFFSET_Z)
 """The hand point in the frame of the last arm joint [m]; it has no sideways offset."""

@@ -4,14 +4,14 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar, Final
 
-from ...agents.agent import FRAME
-from ...robots.nao.facts import ARM
-from ...robots.nao.kinematics import GRIP_X, GRIP_Y, REST_Z, arm_path
-from .engine import Vector
-from .nao_arm import NaoArm
-from .physics import Physics
-from .servo import SERVO, Servo
-from .table import PITCH, WEIGHT_SHARE
+from colift.agents.agent import FRAME
+from colift.benchmark.world.engine import Vector
+from colift.benchmark.world.nao_arm import NaoArm
+from colift.benchmark.world.physics import Physics
+from colift.benchmark.world.servo import SERVO, Servo
+from colift.benchmark.world.table import PITCH, WEIGHT_SHARE
+from colift.robots.nao.facts import ARM
+from colift.robots.nao.kinematics import GRIP_X, GRIP_Y, REST_Z, arm_path
 
 _HALF: Final = len(ARM)
 """Number of joints of one arm; in lists of both arms, the left arm's angles come first."""

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Final
 
-from ...agents.agent import FRAME
+from colift.agents.agent import FRAME
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from ...agents.agent import FRAME
-from .human_body import BodyParameters, HumanBody
-from .physics import Physics
-from .table import GRAVITY
+from colift.agents.agent import FRAME
+from colift.benchmark.world.human_body import BodyParameters, HumanBody
+from colift.benchmark.world.physics import Physics
+from colift.benchmark.world.table import GRAVITY
 
 
 @dataclass(frozen=True)

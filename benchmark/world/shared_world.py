@@ -1,10 +1,10 @@
 """A world in which one person replaces another."""
 
-from .bullet import pybullet
-from .bullet_world import BulletWorld
-from .human_body import BodyParameters, HumanBody
-from .table import HANDS, SLIDE
-from .world import FarEnd
+from colift.benchmark.world.bullet import pybullet
+from colift.benchmark.world.bullet_world import BulletWorld
+from colift.benchmark.world.human_body import BodyParameters, HumanBody
+from colift.benchmark.world.table import HANDS, SLIDE
+from colift.benchmark.world.world import FarEnd
 
 
 class SharedWorld(BulletWorld):

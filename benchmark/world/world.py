@@ -4,9 +4,8 @@ from collections.abc import Sequence
 from typing import Final, Protocol
 
 import numpy as np
+from colift.benchmark.world.physics import Physics
 from numpy.typing import NDArray
-
-from .physics import Physics
 
 HISTORY_FRAMES: Final = 50
 """Frames of rest before an episode, long enough for every delay up to 0.5 s."""

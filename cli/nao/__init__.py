@@ -1,8 +1,7 @@
 """``colift nao``: a policy on a real NAO, or on an emulated one."""
 
 import typer
-
-from . import calibrate, check, emulate, replay, run, watchdog
+from colift.cli.nao import calibrate, check, emulate, replay, run, watchdog
 
 app = typer.Typer(
     help="Use a policy with a real NAO and a motion-capture system, or with emulated ones.",

@@ -6,16 +6,15 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from colift.agents.hardware.trial_log import read_trial
+from colift.benchmark.episode.lift import MOCAP_NOISE
+from colift.benchmark.episode.scenario import LATENCY
+from colift.benchmark.hardware.estimates import Estimates, estimate_setup
+from colift.benchmark.world import SERVO
+from colift.cli.document import print_json
+from colift.cli.options import AsJson
+from colift.cli.printing import show, table
 from rich.table import Table
-
-from ...agents.hardware.trial_log import read_trial
-from ...benchmark.episode.lift import MOCAP_NOISE
-from ...benchmark.episode.scenario import LATENCY
-from ...benchmark.hardware.estimates import Estimates, estimate_setup
-from ...benchmark.world import SERVO
-from ..document import print_json
-from ..options import AsJson
-from ..printing import show, table
 
 
 def calibrate_setup(

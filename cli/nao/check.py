@@ -7,19 +7,17 @@ from typing import Annotated, Any, Final
 
 import numpy as np
 import typer
-from rich.console import Console
-
-from ...agents.errors import InputError
-from ...agents.extras import how_to_install
-from ...agents.hardware.claim import BEAT, holder
-from ...agents.hardware.clocks import MonotonicClock, awake_or_asleep
-from ...agents.hardware.lsl import LslCapture
-from ...agents.hardware.nao.health import findings
-from ...agents.hardware.nao.naoqi import NaoqiArm
-from ...agents.hardware.ports import Naoqi, RobotLostError
-from ...agents.hardware.safety import LOWEST_STIFFNESS
-from ...agents.hardware.setup import measure_rest
-from .connections import (
+from colift.agents.errors import InputError
+from colift.agents.extras import how_to_install
+from colift.agents.hardware.claim import BEAT, holder
+from colift.agents.hardware.clocks import MonotonicClock, awake_or_asleep
+from colift.agents.hardware.lsl import LslCapture
+from colift.agents.hardware.nao.health import findings
+from colift.agents.hardware.nao.naoqi import NaoqiArm
+from colift.agents.hardware.ports import Naoqi, RobotLostError
+from colift.agents.hardware.safety import LOWEST_STIFFNESS
+from colift.agents.hardware.setup import measure_rest
+from colift.cli.nao.connections import (
     URL,
     HumanMarkers,
     MotionCapture,
@@ -31,6 +29,7 @@ from .connections import (
     open_capture,
     open_robot,
 )
+from rich.console import Console
 
 READINGS: Final = 50
 """Number of readings by which reading the robot is timed."""

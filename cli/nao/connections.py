@@ -5,19 +5,18 @@ from dataclasses import dataclass
 from typing import Annotated, Final
 
 import typer
-
-from ...agents.agent import Agent
-from ...agents.errors import InputError
-from ...agents.hardware.clocks import MonotonicClock
-from ...agents.hardware.decisions import Decider, Inline, Timed
-from ...agents.hardware.lsl import Layout, LslCapture
-from ...agents.hardware.nao.naoqi import NaoqiArm
-from ...agents.hardware.nao.session import NaoqiSession
-from ...agents.hardware.operator import StopButton
-from ...agents.hardware.ports import Clock, Naoqi, RobotLostError, TableCapture
-from ...benchmark.hardware.laboratory import Conditions
-from ...benchmark.hardware.simulated import SimulatedLaboratory
-from ...benchmark.suites.catalogue import make_scenario
+from colift.agents.agent import Agent
+from colift.agents.errors import InputError
+from colift.agents.hardware.clocks import MonotonicClock
+from colift.agents.hardware.decisions import Decider, Inline, Timed
+from colift.agents.hardware.lsl import Layout, LslCapture
+from colift.agents.hardware.nao.naoqi import NaoqiArm
+from colift.agents.hardware.nao.session import NaoqiSession
+from colift.agents.hardware.operator import StopButton
+from colift.agents.hardware.ports import Clock, Naoqi, RobotLostError, TableCapture
+from colift.benchmark.hardware.laboratory import Conditions
+from colift.benchmark.hardware.simulated import SimulatedLaboratory
+from colift.benchmark.suites.catalogue import make_scenario
 
 WORLD: Final = "world"
 """Name of the simulated laboratory, instead of a robot's address."""

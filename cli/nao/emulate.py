@@ -6,15 +6,14 @@ import time
 from typing import Annotated
 
 import typer
-
-from ...agents.hardware.nao.session import leave
-from ...agents.hardware.operator import StopButton, armed
-from ...benchmark.hardware.emulator import Emulator
-from ...benchmark.hardware.faults import KINDS, parse_fault
-from ...benchmark.hardware.laboratory import CAPTURE_LATENCY, Conditions
-from ...benchmark.suites.catalogue import make_scenario
-from ..completion import behaviours, people
-from .connections import URL
+from colift.agents.hardware.nao.session import leave
+from colift.agents.hardware.operator import StopButton, armed
+from colift.benchmark.hardware.emulator import Emulator
+from colift.benchmark.hardware.faults import KINDS, parse_fault
+from colift.benchmark.hardware.laboratory import CAPTURE_LATENCY, Conditions
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.cli.completion import behaviours, people
+from colift.cli.nao.connections import URL
 
 
 def emulate(

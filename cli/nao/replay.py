@@ -5,13 +5,12 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-
-from ...agents.hardware.rerun import logged_commands, rerun_trial
-from ...agents.hardware.trial_log import read_trial
-from ...benchmark.episode.turns import policy_seed
-from ..options import AUTO, PolicyIsolation
-from ..policies import checked_policy
-from ..printing import counted
+from colift.agents.hardware.rerun import logged_commands, rerun_trial
+from colift.agents.hardware.trial_log import read_trial
+from colift.benchmark.episode.turns import policy_seed
+from colift.cli.options import AUTO, PolicyIsolation
+from colift.cli.policies import checked_policy
+from colift.cli.printing import counted
 
 
 def replay_recording(

@@ -7,38 +7,32 @@ from pathlib import Path
 from typing import Annotated, Any, Final
 
 import typer
-
-from ...agents.errors import InputError
-from ...agents.hardware.claim import claimed
-from ...agents.hardware.loop import LoopSettings
-from ...agents.hardware.operator import (
+from colift.agents.errors import InputError
+from colift.agents.hardware.claim import claimed
+from colift.agents.hardware.loop import LoopSettings
+from colift.agents.hardware.operator import (
     HANDOVER,
     StopButton,
     armed,
     await_enter,
     await_table_out,
 )
-from ...agents.hardware.session import Session
-from ...agents.hardware.stops import StopTrialError
-from ...agents.hardware.terminal import tell, watched
-from ...agents.hardware.trial_end import AfterDuration, AfterLift
-from ...agents.hardware.trial_log import LoggedTrial, TrialLog, write_trial
-from ...agents.hardware.watchdog import guarded
-from ...agents.spec import AgentSpec
-from ...benchmark.bundle import check_bundle_folder, is_bundle, results, write_bundle
-from ...benchmark.bundle.files import HARDWARE
-from ...benchmark.episode.turns import policy_seed
-from ...benchmark.execution.runner import Run
-from ...benchmark.hardware.timing import timing_report
-from ...benchmark.hardware.trial import episode, hardware_run, hardware_suite
-from ...benchmark.suites.suite import Suite
-from ..document import print_json
-from ..options import AUTO, PERIOD_OPTION, AsJson, PolicyIsolation, PolicyName, check_folder
-from ..policies import checked_policy
-from ..printing import counted, show
-from ..remedies import naming
-from ..tables.results import results_table, results_text, timing_table
-from .connections import (
+from colift.agents.hardware.session import Session
+from colift.agents.hardware.stops import StopTrialError
+from colift.agents.hardware.terminal import tell, watched
+from colift.agents.hardware.trial_end import AfterDuration, AfterLift
+from colift.agents.hardware.trial_log import LoggedTrial, TrialLog, write_trial
+from colift.agents.hardware.watchdog import guarded
+from colift.agents.spec import AgentSpec
+from colift.benchmark.bundle import check_bundle_folder, is_bundle, results, write_bundle
+from colift.benchmark.bundle.files import HARDWARE
+from colift.benchmark.episode.turns import policy_seed
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.hardware.timing import timing_report
+from colift.benchmark.hardware.trial import episode, hardware_run, hardware_suite
+from colift.benchmark.suites.suite import Suite
+from colift.cli.document import print_json
+from colift.cli.nao.connections import (
     URL,
     WORLD,
     HumanMarkers,
@@ -51,6 +45,18 @@ from .connections import (
     layout_of,
     open_place,
 )
+from colift.cli.options import (
+    AUTO,
+    PERIOD_OPTION,
+    AsJson,
+    PolicyIsolation,
+    PolicyName,
+    check_folder,
+)
+from colift.cli.policies import checked_policy
+from colift.cli.printing import counted, show
+from colift.cli.remedies import naming
+from colift.cli.tables.results import results_table, results_text, timing_table
 
 NUMBERED: Final = re.compile(r"lift-(\d+)\.csv")
 """Names of recorded trials."""

@@ -3,14 +3,13 @@
 from typing import Annotated
 
 import typer
-
-from ...agents.hardware.nao.session import leave
-from ...agents.hardware.operator import StopButton, armed
-from ...agents.hardware.ports import RobotLostError
-from ...agents.hardware.stops import Stop
-from ...agents.hardware.terminal import tell
-from ...agents.hardware.watchdog import watch
-from .connections import URL, describe_robot, open_robot
+from colift.agents.hardware.nao.session import leave
+from colift.agents.hardware.operator import StopButton, armed
+from colift.agents.hardware.ports import RobotLostError
+from colift.agents.hardware.stops import Stop
+from colift.agents.hardware.terminal import tell
+from colift.agents.hardware.watchdog import watch
+from colift.cli.nao.connections import URL, describe_robot, open_robot
 
 
 def watch_robot(

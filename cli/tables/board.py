@@ -2,15 +2,14 @@
 
 from collections.abc import Iterator, Sequence
 
+from colift.benchmark.episode.metric import Metric
+from colift.benchmark.statistics import Estimate
+from colift.cli.printing import Cell, optional_number, styled, table
+from colift.leaderboard.board.standings import HumanHumanScores, RankedRow
+from colift.leaderboard.records.metrics import board_metrics
+from colift.leaderboard.records.row import BoardRow
+from colift.leaderboard.records.season import SeasonInfo
 from rich.table import Column, Table
-
-from ...benchmark.episode.metric import Metric
-from ...benchmark.statistics import Estimate
-from ...leaderboard.board.standings import HumanHumanScores, RankedRow
-from ...leaderboard.records.metrics import board_metrics
-from ...leaderboard.records.row import BoardRow
-from ...leaderboard.records.season import SeasonInfo
-from ..printing import Cell, optional_number, styled, table
 
 NAME = 12
 """Width reserved for the policies' names, if they are that long: other columns make room."""

@@ -2,17 +2,16 @@
 
 from typing import Final
 
+from colift.benchmark.comparison.captions import marks_caption, title, undecided
+from colift.benchmark.comparison.comparison import Comparison
+from colift.benchmark.comparison.formatting import between, digits, p_value, probability
+from colift.benchmark.comparison.ranking import MetricMean, RankedPolicy, Ranking
+from colift.benchmark.episode.metric import Metric
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+from colift.benchmark.statistics import Estimate
+from colift.cli.printing import Cell, counted, styled, table
 from rich.table import Column, Table
 from rich.text import Text
-
-from ...benchmark.comparison.captions import marks_caption, title, undecided
-from ...benchmark.comparison.comparison import Comparison
-from ...benchmark.comparison.formatting import between, digits, p_value, probability
-from ...benchmark.comparison.ranking import MetricMean, RankedPolicy, Ranking
-from ...benchmark.episode.metric import Metric
-from ...benchmark.results.baselines import HUMAN_HUMAN_LABEL
-from ...benchmark.statistics import Estimate
-from ..printing import Cell, counted, styled, table
 
 NAME: Final = 18
 """Longest name that stays on one line."""

@@ -3,14 +3,13 @@
 from typing import Final
 
 import numpy as np
+from colift.agents.control.anticipation import Anticipation
+from colift.agents.control.learned_task import LearnedTask
+from colift.agents.control.q_learning import ACTIONS, Q_PARAMETERS
+from colift.benchmark.training.q_learning import LearningTrial
+from colift.cli.printing import Cell, counted, table
 from rich.table import Table
 from rich.text import Text
-
-from ...agents.control.anticipation import Anticipation
-from ...agents.control.learned_task import LearnedTask
-from ...agents.control.q_learning import ACTIONS, Q_PARAMETERS
-from ...benchmark.training.q_learning import LearningTrial
-from ..printing import Cell, counted, table
 
 SHOWN: Final = 2
 """Step between the leads that are shown, so that the table fits a terminal."""

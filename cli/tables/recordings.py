@@ -3,10 +3,10 @@
 from collections.abc import Iterable
 from typing import Any, Final
 
-from ...benchmark.suites.catalogue import PLAYED, RECORDED
-from ...benchmark.suites.suite import Suite
-from ...benchmark.suites.treatments import plain_treatments, treatments
-from ..printing import counted, show
+from colift.benchmark.suites.catalogue import PLAYED, RECORDED
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.suites.treatments import plain_treatments, treatments
+from colift.cli.printing import counted, show
 
 FEW: Final = 10
 """Number of lifts below which an interval says little."""

@@ -3,18 +3,17 @@
 from collections.abc import Iterable, Sequence
 from typing import Any, Final
 
+from colift.agents.actions import HAND_SPEED
+from colift.agents.hardware.setup import LOWEST_RATE
+from colift.agents.sandbox.host.levels import LEVELS, VERIFIABLE
+from colift.benchmark.bundle import Results
+from colift.benchmark.channels import channel_name
+from colift.benchmark.episode.metric import LEADING, Metric, Metrics, notes
+from colift.benchmark.results.baselines import HUMAN_HUMAN, HUMAN_HUMAN_LABEL
+from colift.benchmark.results.headline import error, versus_human
+from colift.benchmark.results.summary import StratumScores
+from colift.cli.printing import counted, optional_number, styled, table
 from rich.table import Table
-
-from ...agents.actions import HAND_SPEED
-from ...agents.hardware.setup import LOWEST_RATE
-from ...agents.sandbox.host.levels import LEVELS, VERIFIABLE
-from ...benchmark.bundle import Results
-from ...benchmark.channels import channel_name
-from ...benchmark.episode.metric import LEADING, Metric, Metrics, notes
-from ...benchmark.results.baselines import HUMAN_HUMAN, HUMAN_HUMAN_LABEL
-from ...benchmark.results.headline import error, versus_human
-from ...benchmark.results.summary import StratumScores
-from ..printing import counted, optional_number, styled, table
 
 NAMES: Final = {
     HUMAN_HUMAN: HUMAN_HUMAN_LABEL,

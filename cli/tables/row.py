@@ -3,14 +3,13 @@
 from collections.abc import Sequence
 from typing import Final
 
+from colift.benchmark.comparison.formatting import probability
+from colift.benchmark.statistics import Estimate
+from colift.cli.printing import table
+from colift.leaderboard.board.standings import Section
+from colift.leaderboard.records.metrics import board_metrics
+from colift.leaderboard.records.row import BoardRow
 from rich.table import Table
-
-from ...benchmark.comparison.formatting import probability
-from ...benchmark.statistics import Estimate
-from ...leaderboard.board.standings import Section
-from ...leaderboard.records.metrics import board_metrics
-from ...leaderboard.records.row import BoardRow
-from ..printing import table
 
 UNRANKED: Final[dict[Section, str]] = {
     "unverified": "No rank: without a sandbox a row is not verified",

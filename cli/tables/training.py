@@ -3,10 +3,9 @@
 from collections.abc import Sequence
 
 import numpy as np
+from colift.benchmark.training.course import Course
+from colift.cli.printing import Cell, table
 from rich.table import Table
-
-from ...benchmark.training.course import Course
-from ..printing import Cell, table
 
 
 def training_table(trainer: str, courses: Sequence[Course]) -> Table:

@@ -5,13 +5,12 @@ import textwrap
 from collections.abc import Callable, Iterator
 from typing import Final
 
+from colift.benchmark.comparison.formatting import digits, p_value
+from colift.benchmark.validity.report import SourceValidity, SuiteOnSource, Validity
+from colift.benchmark.validity.scores import Quantity, Scores
+from colift.cli.printing import counted, styled, table
+from colift.cli.tables.comparison import BASELINE
 from rich.table import Table
-
-from ...benchmark.comparison.formatting import digits, p_value
-from ...benchmark.validity.report import SourceValidity, SuiteOnSource, Validity
-from ...benchmark.validity.scores import Quantity, Scores
-from ..printing import counted, styled, table
-from .comparison import BASELINE
 
 HEADING: Final = 12
 """Longest line of a source's name above a column."""

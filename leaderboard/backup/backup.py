@@ -17,17 +17,16 @@ from pathlib import Path
 from typing import IO, Final
 
 import sqlalchemy as sa
-
-from ...agents.errors import InputError
-from ..board.board import BUILTIN, Board
-from ..database.database import FILE, Database
-from ..database.queries import copy_tables, read_entries, read_seasons
-from ..database.room import NoRoomError, is_full
-from ..database.schema import jobs
-from ..storage.files import sync
-from ..storage.season_secrets import PRIVATE_FILE
-from ..storage.store import FORMAT as LAYOUT
-from ..storage.store import Store
+from colift.agents.errors import InputError
+from colift.leaderboard.board.board import BUILTIN, Board
+from colift.leaderboard.database.database import FILE, Database
+from colift.leaderboard.database.queries import copy_tables, read_entries, read_seasons
+from colift.leaderboard.database.room import NoRoomError, is_full
+from colift.leaderboard.database.schema import jobs
+from colift.leaderboard.storage.files import sync
+from colift.leaderboard.storage.season_secrets import PRIVATE_FILE
+from colift.leaderboard.storage.store import FORMAT as LAYOUT
+from colift.leaderboard.storage.store import Store
 
 MARK: Final = "backup.json"
 """The first member of the archive: its description."""

@@ -3,9 +3,8 @@
 from typing import Any
 
 import sqlalchemy as sa
-
-from ..database.database import Database
-from ..database.queries import (
+from colift.leaderboard.database.database import Database
+from colift.leaderboard.database.queries import (
     legible,
     read_entries,
     read_error_numbers,
@@ -13,11 +12,11 @@ from ..database.queries import (
     read_events,
     read_seasons,
 )
-from ..database.schema import metadata
-from ..records.row import BoardRow
-from ..records.season import BoardEntry, Event, SeasonInfo
-from ..storage.damage import DamagedError
-from ..storage.typed import mistyped
+from colift.leaderboard.database.schema import metadata
+from colift.leaderboard.records.row import BoardRow
+from colift.leaderboard.records.season import BoardEntry, Event, SeasonInfo
+from colift.leaderboard.storage.damage import DamagedError
+from colift.leaderboard.storage.typed import mistyped
 
 
 def check_tables(database: Database) -> None:

@@ -13,19 +13,18 @@ from pathlib import Path
 from typing import Final
 
 import sqlalchemy as sa
-
-from ...agents.errors import InputError
-from ...benchmark.suites.hidden import commitment
-from ..database.database import FILE, URL, Database
-from ..database.queries import copy_tables
-from ..database.schema import metadata, rank_groups
-from ..storage.damage import DamagedError
-from ..storage.files import sync, sync_tree, write_json
-from ..storage.season_secrets import FOLDER, PRIVATE_FILE
-from ..storage.store import FORMAT as LAYOUT
-from ..storage.store import Store
-from .backup import FORMAT, MARK, Backup, BackupContents, opened_tables
-from .checking import check_tables
+from colift.agents.errors import InputError
+from colift.benchmark.suites.hidden import commitment
+from colift.leaderboard.backup.backup import FORMAT, MARK, Backup, BackupContents, opened_tables
+from colift.leaderboard.backup.checking import check_tables
+from colift.leaderboard.database.database import FILE, URL, Database
+from colift.leaderboard.database.queries import copy_tables
+from colift.leaderboard.database.schema import metadata, rank_groups
+from colift.leaderboard.storage.damage import DamagedError
+from colift.leaderboard.storage.files import sync, sync_tree, write_json
+from colift.leaderboard.storage.season_secrets import FOLDER, PRIVATE_FILE
+from colift.leaderboard.storage.store import FORMAT as LAYOUT
+from colift.leaderboard.storage.store import Store
 
 PRIVATE: Final = ("private", "submissions", "logs")
 """Folders of a board that only its owner may enter."""

@@ -12,14 +12,27 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Self
 
-from ...agents.errors import InputError
-from ...agents.submissions.submission import Submission
-from ..database.database import URL, Database
-from ..database.queries import read_entries, read_events, record_errors, record_event
-from ..database.room import NoRoomError, is_full
-from ..database.schema import entries, events
-from ..records.row import BoardRow
-from ..records.season import (
+from colift.agents.errors import InputError
+from colift.agents.submissions.submission import Submission
+from colift.leaderboard.board.seasons import Clock, ImportedSeason, SeasonBook, utc_now
+from colift.leaderboard.board.standings import (
+    HumanHumanScores,
+    RankedRow,
+    frame,
+    human_human_scores,
+)
+from colift.leaderboard.board.tables import Tables
+from colift.leaderboard.database.database import URL, Database
+from colift.leaderboard.database.queries import (
+    read_entries,
+    read_events,
+    record_errors,
+    record_event,
+)
+from colift.leaderboard.database.room import NoRoomError, is_full
+from colift.leaderboard.database.schema import entries, events
+from colift.leaderboard.records.row import BoardRow
+from colift.leaderboard.records.season import (
     BoardEntry,
     Event,
     Kind,
@@ -27,10 +40,7 @@ from ..records.season import (
     SeasonInfo,
     check_season_suite,
 )
-from ..storage.store import Store
-from .seasons import Clock, ImportedSeason, SeasonBook, utc_now
-from .standings import HumanHumanScores, RankedRow, frame, human_human_scores
-from .tables import Tables
+from colift.leaderboard.storage.store import Store
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -12,12 +12,11 @@ from dataclasses import dataclass, field
 from typing import Any, Final, Self
 
 import sqlalchemy as sa
-
-from ...benchmark.statistics import decisive
-from ...benchmark.statistics import rank_groups as grouped
-from ..database.database import Database
-from ..database.queries import read_errors
-from ..database.schema import rank_groups
+from colift.benchmark.statistics import decisive
+from colift.benchmark.statistics import rank_groups as grouped
+from colift.leaderboard.database.database import Database
+from colift.leaderboard.database.queries import read_errors
+from colift.leaderboard.database.schema import rank_groups
 
 METHOD: Final = 3
 """Version of the method; every change that can move a rank raises it."""

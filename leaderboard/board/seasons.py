@@ -9,17 +9,16 @@ from pathlib import Path
 from typing import Any, Final
 
 import sqlalchemy as sa
-
-from ...agents.errors import InputError
-from ...benchmark.results.baselines import Baseline
-from ...benchmark.suites.hidden import commitment, new_secret
-from ...benchmark.suites.suite import make_suite
-from ..database.database import Database
-from ..database.queries import read_seasons, record_entry, record_event
-from ..database.schema import seasons
-from ..records.season import BoardEntry, Event, Kind, Season, SeasonInfo
-from ..storage.files import sync_tree
-from ..storage.store import Store
+from colift.agents.errors import InputError
+from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.suites.hidden import commitment, new_secret
+from colift.benchmark.suites.suite import make_suite
+from colift.leaderboard.database.database import Database
+from colift.leaderboard.database.queries import read_seasons, record_entry, record_event
+from colift.leaderboard.database.schema import seasons
+from colift.leaderboard.records.season import BoardEntry, Event, Kind, Season, SeasonInfo
+from colift.leaderboard.storage.files import sync_tree
+from colift.leaderboard.storage.store import Store
 
 Clock = Callable[[], datetime]
 """A function that returns a time with its zone."""

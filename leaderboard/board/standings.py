@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import TYPE_CHECKING, Final, Literal
 
-from ...agents.errors import InputError
-from ...agents.extras import how_to_install
-from ...benchmark.results.baselines import Baseline
-from ...benchmark.statistics import Estimate
-from ..evaluation.scoring import PLACES
-from ..records.metrics import board_metrics, known_means
-from ..records.row import BoardRow
-from ..records.season import OUT, Event
+from colift.agents.errors import InputError
+from colift.agents.extras import how_to_install
+from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.statistics import Estimate
+from colift.leaderboard.evaluation.scoring import PLACES
+from colift.leaderboard.records.metrics import board_metrics, known_means
+from colift.leaderboard.records.row import BoardRow
+from colift.leaderboard.records.season import OUT, Event
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -12,15 +12,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import sqlalchemy as sa
-
-from ..database.database import Database
-from ..database.queries import read_entries, read_error_numbers, read_events
-from ..database.schema import entries, events, hidden_errors
-from ..records.row import BoardRow
-from ..records.season import BoardEntry, Event
-from ..storage.store import Store
-from .ranks import Ranks, Scored, compute_ranks, fingerprint, read_ranks
-from .standings import ORDER, RANKED, RankedRow, Section, row_now, section
+from colift.leaderboard.board.ranks import Ranks, Scored, compute_ranks, fingerprint, read_ranks
+from colift.leaderboard.board.standings import ORDER, RANKED, RankedRow, Section, row_now, section
+from colift.leaderboard.database.database import Database
+from colift.leaderboard.database.queries import read_entries, read_error_numbers, read_events
+from colift.leaderboard.database.schema import entries, events, hidden_errors
+from colift.leaderboard.records.row import BoardRow
+from colift.leaderboard.records.season import BoardEntry, Event
+from colift.leaderboard.storage.store import Store
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,10 +8,9 @@ from datetime import datetime
 from typing import Final
 
 import sqlalchemy as sa
-
-from ...agents.errors import InputError
-from ..database.schema import tokens
-from .board import BUILTIN, LOCAL, Board
+from colift.agents.errors import InputError
+from colift.leaderboard.board.board import BUILTIN, LOCAL, Board
+from colift.leaderboard.database.schema import tokens
 
 NAME: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.@+-]{0,63}")
 """Pattern of a submitter's name."""

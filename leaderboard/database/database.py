@@ -10,12 +10,11 @@ from pathlib import Path
 from typing import Final, Self
 
 import sqlalchemy as sa
-
-from ...agents.errors import InputError
-from ...agents.extras import how_to_install
-from .migration import migrate
-from .room import NoRoomError, folder_with_room, is_full
-from .transactions import database_time, make_engine, reading, writing
+from colift.agents.errors import InputError
+from colift.agents.extras import how_to_install
+from colift.leaderboard.database.migration import migrate
+from colift.leaderboard.database.room import NoRoomError, folder_with_room, is_full
+from colift.leaderboard.database.transactions import database_time, make_engine, reading, writing
 
 URL: Final = "COLIFT_DATABASE_URL"
 """Environment variable that names another database than the file in the board's folder."""

@@ -4,10 +4,9 @@ from importlib.resources import as_file, files
 from typing import Final
 
 import sqlalchemy as sa
-
-from ...agents.errors import InputError
-from .schema import metadata
-from .transactions import reading, writing
+from colift.agents.errors import InputError
+from colift.leaderboard.database.schema import metadata
+from colift.leaderboard.database.transactions import reading, writing
 
 HEAD: Final = "0004"
 """The last revision: that of :mod:`.schema`."""

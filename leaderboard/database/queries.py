@@ -6,12 +6,11 @@ from typing import Any, Final
 
 import numpy as np
 import sqlalchemy as sa
-
-from ...agents.errors import error_text
-from ..records.row import BoardRow
-from ..records.season import BoardEntry, Event, SeasonInfo
-from ..storage.damage import DAMAGE, DamagedError
-from .schema import entries, events, hidden_errors, metadata, seasons
+from colift.agents.errors import error_text
+from colift.leaderboard.database.schema import entries, events, hidden_errors, metadata, seasons
+from colift.leaderboard.records.row import BoardRow
+from colift.leaderboard.records.season import BoardEntry, Event, SeasonInfo
+from colift.leaderboard.storage.damage import DAMAGE, DamagedError
 
 Errors = np.ndarray[tuple[int], np.dtype[np.float64]]
 """RMSE of each hidden episode [mm]."""

@@ -8,16 +8,16 @@ from dataclasses import dataclass
 from importlib.resources import files
 from typing import Final
 
-from ...agents import control
-from ...agents.errors import EvaluatorFault, InputError
-from ...agents.loading.loading import PolicySpec
-from ...agents.registry import POLICIES, lookup, own_entries, summary
-from ...agents.sandbox.host.levels import Choice, choose, fault
-from ...agents.sandbox.host.policy import SandboxedPolicy
-from ...agents.sandbox.host.process import BUBBLEWRAP
-from ...agents.spec import AgentSpec
-from ...agents.submissions.submission import Submission
-from ...benchmark.verification.audit import AUDIT
+from colift.agents import control
+from colift.agents.errors import EvaluatorFault, InputError
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.registry import POLICIES, lookup, own_entries, summary
+from colift.agents.sandbox.host.levels import Choice, choose, fault
+from colift.agents.sandbox.host.policy import SandboxedPolicy
+from colift.agents.sandbox.host.process import BUBBLEWRAP
+from colift.agents.spec import AgentSpec
+from colift.agents.submissions.submission import Submission
+from colift.benchmark.verification.audit import AUDIT
 
 AUTHORS: Final = ("The colift developers",)
 

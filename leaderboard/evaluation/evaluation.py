@@ -8,36 +8,36 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TypedDict
 
-from ...agents.errors import EvaluatorFault, InputError
-from ...agents.sandbox.host.levels import VERIFIABLE
-from ...agents.spec import AgentSpec
-from ...benchmark.bundle import results, write_bundle
-from ...benchmark.episode.episode import Episode
-from ...benchmark.episode.metric import SCORING
-from ...benchmark.execution.distributions import library_versions
-from ...benchmark.execution.runner import Run, run_suite
-from ...benchmark.results.baselines import (
+from colift.agents.errors import EvaluatorFault, InputError
+from colift.agents.sandbox.host.levels import VERIFIABLE
+from colift.agents.spec import AgentSpec
+from colift.benchmark.bundle import results, write_bundle
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.metric import SCORING
+from colift.benchmark.execution.distributions import library_versions
+from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.results.baselines import (
     BASELINES,
     Baseline,
     human_human_run,
     play_baselines,
     shipped_baselines,
 )
-from ...benchmark.statistics import Estimate
-from ...benchmark.suites.suite import Suite
-from ...benchmark.verification import verify
-from ...benchmark.verification.audit import RULE, audit, audited
-from ...benchmark.verification.checking import (
+from colift.benchmark.statistics import Estimate
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.verification import verify
+from colift.benchmark.verification.audit import RULE, audit, audited
+from colift.benchmark.verification.checking import (
     MACHINE,
     check_part,
     checked_with,
     presubmission_checks,
 )
-from ..records.row import BoardRow, HiddenScores, PublicScores
-from ..records.season import Season
-from .entrant import Entrant
-from .progress import HIDDEN, Budget, Callbacks, Stage
-from .scoring import failure_lines, gap, hidden_scores, public_scores
+from colift.leaderboard.evaluation.entrant import Entrant
+from colift.leaderboard.evaluation.progress import HIDDEN, Budget, Callbacks, Stage
+from colift.leaderboard.evaluation.scoring import failure_lines, gap, hidden_scores, public_scores
+from colift.leaderboard.records.row import BoardRow, HiddenScores, PublicScores
+from colift.leaderboard.records.season import Season
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,8 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final, Literal
 
-from ...agents.errors import InputError
-from ...benchmark.episode.episode import Episode
+from colift.agents.errors import InputError
+from colift.benchmark.episode.episode import Episode
 
 Stage = Literal[
     "human-human baseline", "check", "public run", "audit", "verification", "hidden run"

@@ -5,14 +5,14 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Final
 
-from ...benchmark.bundle.content import Results, real_time
-from ...benchmark.episode.episode import Episode
-from ...benchmark.execution.runner import Run
-from ...benchmark.results.baselines import Baseline
-from ...benchmark.results.summary import stratum, summarise
-from ...benchmark.statistics import Estimate, difference_of_means, probability_better
-from ..records.metrics import board_metrics
-from ..records.row import HiddenScores, PublicScores
+from colift.benchmark.bundle.content import Results, real_time
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.summary import stratum, summarise
+from colift.benchmark.statistics import Estimate, difference_of_means, probability_better
+from colift.leaderboard.records.metrics import board_metrics
+from colift.leaderboard.records.row import HiddenScores, PublicScores
 
 PLACES: Final = 2
 """Decimals of published numbers of hidden episodes: 0.01 mm, well within any interval."""

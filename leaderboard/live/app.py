@@ -4,16 +4,15 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
 from typing import Any, Final
 
+from colift.leaderboard.live import joining, limits, routes
+from colift.leaderboard.live.keeper import PlayConfig
+from colift.leaderboard.live.load import busy
+from colift.leaderboard.live.play import Play
+from colift.leaderboard.service.errors import FaultHandler, answer_errors
+from colift.leaderboard.service.security import Guard, Rate
 from fastapi import FastAPI
 from fastapi.middleware.gzip import GZipMiddleware
 from fastapi.staticfiles import StaticFiles
-
-from ..service.errors import FaultHandler, answer_errors
-from ..service.security import Guard, Rate
-from . import joining, limits, routes
-from .keeper import PlayConfig
-from .load import busy
-from .play import Play
 
 REQUESTS: Final = Rate(per_second=50.0, burst=500)
 """Of requests from an address."""

@@ -3,11 +3,11 @@
 import json
 from typing import Any, Final
 
-from ...benchmark.live.process import BINARY, JOIN, LEAVE, packet
-from ...benchmark.live.seats import ALL, watched_sentence
-from .page import TAKEN_OVER, Message, Page
-from .relay import RoomLink
-from .sessions import LiveSession, Role
+from colift.benchmark.live.process import BINARY, JOIN, LEAVE, packet
+from colift.benchmark.live.seats import ALL, watched_sentence
+from colift.leaderboard.live.page import TAKEN_OVER, Message, Page
+from colift.leaderboard.live.relay import RoomLink
+from colift.leaderboard.live.sessions import LiveSession, Role
 
 SEATS: Final[dict[Role, int]] = {"host": 0, "person": 1}
 """Seats of the people who lift."""

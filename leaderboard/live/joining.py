@@ -4,13 +4,12 @@ import asyncio
 import json
 from typing import Final
 
+from colift.leaderboard.live import limits
+from colift.leaderboard.live.page import REFUSED, Page
+from colift.leaderboard.live.play import Play, play_of
+from colift.leaderboard.live.sessions import LiveSession, Role
+from colift.leaderboard.service.security import client_of
 from fastapi import APIRouter, WebSocket
-
-from ..service.security import client_of
-from . import limits
-from .page import REFUSED, Page
-from .play import Play, play_of
-from .sessions import LiveSession, Role
 
 SEATS: Final[dict[str, Role]] = {"0": "host", "1": "person", "spectator": "spectator"}
 """Roles by the seats that pages request."""

@@ -7,15 +7,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
 
-from ...agents.spec import AgentSpec
-from ...benchmark.live.process import RoomProcess, start_room
-from ...benchmark.live.room import RoomConfig
-from ...benchmark.live.session import SessionFolder
-from .group import Group
-from .load import busy
-from .page import REFUSED, Page
-from .relay import RoomLink
-from .sessions import LiveSession, Role
+from colift.agents.spec import AgentSpec
+from colift.benchmark.live.process import RoomProcess, start_room
+from colift.benchmark.live.room import RoomConfig
+from colift.benchmark.live.session import SessionFolder
+from colift.leaderboard.live.group import Group
+from colift.leaderboard.live.load import busy
+from colift.leaderboard.live.page import REFUSED, Page
+from colift.leaderboard.live.relay import RoomLink
+from colift.leaderboard.live.sessions import LiveSession, Role
 
 log: Final = logging.getLogger("colift.live")
 

@@ -7,12 +7,11 @@ from dataclasses import dataclass, field
 from typing import Final
 from urllib.parse import urlsplit
 
+from colift.leaderboard.service.security import Rate
 from starlette.requests import HTTPConnection
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocketClose
-
-from ..service.security import Rate
 
 MESSAGES: Final = Rate(per_second=400.0, burst=800)
 """Rate of messages on one socket."""

@@ -7,10 +7,9 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from typing import Any, Final
 
+from colift.leaderboard.live.limits import MESSAGES
+from colift.leaderboard.service.security import RateLimit
 from starlette.websockets import WebSocket, WebSocketDisconnect
-
-from ..service.security import RateLimit
-from .limits import MESSAGES
 
 NORMAL: Final = 1000
 """Close code: the last message was sent."""

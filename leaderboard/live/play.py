@@ -5,14 +5,13 @@ import gc
 import json
 from collections.abc import Awaitable, Callable
 
+from colift.leaderboard.live import limits
+from colift.leaderboard.live.keeper import Keeper, PlayConfig
+from colift.leaderboard.live.replaying import Replays
+from colift.leaderboard.live.sessions import Sessions
+from colift.leaderboard.replays.geometry import geometry
+from colift.leaderboard.service.security import RateLimit
 from fastapi import Request, WebSocket
-
-from ..replays.geometry import geometry
-from ..service.security import RateLimit
-from . import limits
-from .keeper import Keeper, PlayConfig
-from .replaying import Replays
-from .sessions import Sessions
 
 
 class Play:

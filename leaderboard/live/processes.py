@@ -13,15 +13,14 @@ import time
 from multiprocessing.context import SpawnProcess
 from typing import Final, cast
 
+from colift.agents.errors import EvaluatorFault
+from colift.benchmark.live.priority import RELAY, take_turn
+from colift.leaderboard.live.app import create_play
+from colift.leaderboard.live.keeper import PlayConfig
+from colift.leaderboard.live.replaying import tether
+from colift.leaderboard.logs import write_log
+from colift.leaderboard.service.server import make_server
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
-
-from ...agents.errors import EvaluatorFault
-from ...benchmark.live.priority import RELAY, take_turn
-from ..logs import write_log
-from ..service.server import make_server
-from .app import create_play
-from .keeper import PlayConfig
-from .replaying import tether
 
 log: Final = logging.getLogger("colift.live")
 

@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Final
 
-from ...benchmark.live.process import LARGEST_PACKET, RoomProcess, parse_packet
+from colift.benchmark.live.process import LARGEST_PACKET, RoomProcess, parse_packet
 
 AT_ONCE: Final = 64
 """Number of packets that are read before other tasks of the event loop have their turn."""

@@ -10,11 +10,11 @@ from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any, Final
 
-from ...agents.errors import InputError
-from ...agents.humans import Played
-from ...benchmark.bundle import read_bundle
-from ...benchmark.live.scenarios import ghost_scenario
-from ..replays.replay import play_ghost, replay_content
+from colift.agents.errors import InputError
+from colift.agents.humans import Played
+from colift.benchmark.bundle import read_bundle
+from colift.benchmark.live.scenarios import ghost_scenario
+from colift.leaderboard.replays.replay import play_ghost, replay_content
 
 WAITING: Final = 8
 """Number of replays that may wait to be made."""

@@ -5,16 +5,15 @@ import json
 import re
 from typing import Annotated, Final
 
+from colift.benchmark.live.session import LIFTS
+from colift.benchmark.rendering.page import render
+from colift.leaderboard.live import limits
+from colift.leaderboard.live.play import play_of
+from colift.leaderboard.service.errors import problem
+from colift.leaderboard.service.security import client_of, seconds
 from fastapi import APIRouter, Path, Request, Response
 from fastapi.responses import HTMLResponse
 from pydantic import BaseModel
-
-from ...benchmark.live.session import LIFTS
-from ...benchmark.rendering.page import render
-from ..service.errors import problem
-from ..service.security import client_of, seconds
-from . import limits
-from .play import play_of
 
 ISOLATED: Final = {"Cross-Origin-Embedder-Policy": "require-corp"}
 """Isolates the page, together with the other headers: its clock is exact to 5 us, not to 100."""

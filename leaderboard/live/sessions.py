@@ -11,8 +11,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Final, Literal, get_args
 
-from ...benchmark.live.session import SESSION
-from ..storage.files import read_json, write_json
+from colift.benchmark.live.session import SESSION
+from colift.leaderboard.storage.files import read_json, write_json
 
 Role = Literal["host", "person", "spectator"]
 """Role that a secret allows: first person, second person, or spectator."""

@@ -3,9 +3,9 @@
 from datetime import UTC, datetime, timedelta
 from typing import Final
 
-from ...benchmark.statistics import Estimate
-from ..board.standings import RankedRow
-from ..records.metrics import sort_key
+from colift.benchmark.statistics import Estimate
+from colift.leaderboard.board.standings import RankedRow
+from colift.leaderboard.records.metrics import sort_key
 
 NONE: Final = "\N{EN DASH}"
 """Shown for a missing number."""

@@ -7,22 +7,21 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from colift.agents.errors import InputError
+from colift.agents.extras import how_to_install
+from colift.agents.submissions.new import PLACEHOLDER, write_template
+from colift.benchmark.comparison.scatter.svg import svg
+from colift.benchmark.episode.drawn import error_words
+from colift.benchmark.episode.metric import drawn_series
+from colift.benchmark.rendering.page import templates
+from colift.leaderboard.pages.formats import FILTERS
+from colift.leaderboard.pages.links import Links
+from colift.leaderboard.records.metrics import board_metrics, picture_axes, suite_metrics
+from colift.leaderboard.replays.html import script_json
+from colift.leaderboard.storage.archive import pack_archive
+from colift.leaderboard.views.task import task_view
 from jinja2 import Environment
 from markupsafe import Markup
-
-from ...agents.errors import InputError
-from ...agents.extras import how_to_install
-from ...agents.submissions.new import PLACEHOLDER, write_template
-from ...benchmark.comparison.scatter.svg import svg
-from ...benchmark.episode.drawn import error_words
-from ...benchmark.episode.metric import drawn_series
-from ...benchmark.rendering.page import templates
-from ..records.metrics import board_metrics, picture_axes, suite_metrics
-from ..replays.html import script_json
-from ..storage.archive import pack_archive
-from ..views.task import task_view
-from .formats import FILTERS
-from .links import Links
 
 
 def render_page(template: str, links: Links, **content: Any) -> str:

@@ -8,23 +8,23 @@ from importlib.resources import as_file, files
 from pathlib import Path
 from typing import Any, Final
 
-from ...agents.errors import InputError
-from ..board.board import Board
-from ..records.season import SeasonInfo
-from ..replays.chosen import replays_of
-from ..replays.html import replay_files, replay_page, script_json
-from ..storage.archive import pack_archive
-from ..views.asked import ROWS, Asked
-from ..views.board import board_view, ordered_seasons
-from ..views.compare import compare_view
-from ..views.exports import news_of, standings_csv, standings_json
-from ..views.lifts import is_whole
-from ..views.method import method_view
-from ..views.policy import PolicyView, policy_view
-from ..views.scenario import scenario_view, scenarios_view
-from .formats import badge_text
-from .links import SiteLinks
-from .rendering import prose, render_page, template_archive
+from colift.agents.errors import InputError
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.pages.formats import badge_text
+from colift.leaderboard.pages.links import SiteLinks
+from colift.leaderboard.pages.rendering import prose, render_page, template_archive
+from colift.leaderboard.records.season import SeasonInfo
+from colift.leaderboard.replays.chosen import replays_of
+from colift.leaderboard.replays.html import replay_files, replay_page, script_json
+from colift.leaderboard.storage.archive import pack_archive
+from colift.leaderboard.views.asked import ROWS, Asked
+from colift.leaderboard.views.board import board_view, ordered_seasons
+from colift.leaderboard.views.compare import compare_view
+from colift.leaderboard.views.exports import news_of, standings_csv, standings_json
+from colift.leaderboard.views.lifts import is_whole
+from colift.leaderboard.views.method import method_view
+from colift.leaderboard.views.policy import PolicyView, policy_view
+from colift.leaderboard.views.scenario import scenario_view, scenarios_view
 
 MARK: Final = "colift-site.txt"
 """Name of the file that marks a folder as a site, which another one may replace."""

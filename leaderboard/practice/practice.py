@@ -15,18 +15,18 @@ from datetime import datetime
 from pathlib import Path
 from typing import Final
 
-from ...agents.errors import EvaluatorFault
-from ...agents.sandbox.host.levels import choose
-from ...benchmark.bundle import read_bundle
-from ...benchmark.bundle.files import EPISODES, RESULTS
-from ...benchmark.results.baselines import Baseline
-from ...benchmark.suites.suite import make_suite
-from ..board.board import BUILTIN
-from ..evaluation.entrant import builtin_entrant
-from ..evaluation.evaluation import evaluate_entrant, versions
-from ..evaluation.progress import Callbacks
-from ..records.season import BoardEntry, Season
-from ..replays.chosen import FILE, chosen_replays
+from colift.agents.errors import EvaluatorFault
+from colift.agents.sandbox.host.levels import choose
+from colift.benchmark.bundle import read_bundle
+from colift.benchmark.bundle.files import EPISODES, RESULTS
+from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.suites.suite import make_suite
+from colift.leaderboard.board.board import BUILTIN
+from colift.leaderboard.evaluation.entrant import builtin_entrant
+from colift.leaderboard.evaluation.evaluation import evaluate_entrant, versions
+from colift.leaderboard.evaluation.progress import Callbacks
+from colift.leaderboard.records.season import BoardEntry, Season
+from colift.leaderboard.replays.chosen import FILE, chosen_replays
 
 NAME: Final = "practice"
 """Name of the season on the standard suite; others add that of their suite."""

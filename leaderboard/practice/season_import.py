@@ -18,14 +18,14 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any, Final, Self
 
-from ...benchmark.results.baselines import Baseline
-from ...benchmark.suites.suite import make_suite
-from ..board.board import SUITE, Board
-from ..board.seasons import ImportedEntry, ImportedSeason
-from ..database.room import NoRoomError
-from ..records.season import BoardEntry, SeasonInfo
-from ..storage.store import has_board
-from .practice import SUITES, PracticeRun, practice_season
+from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.suites.suite import make_suite
+from colift.leaderboard.board.board import SUITE, Board
+from colift.leaderboard.board.seasons import ImportedEntry, ImportedSeason
+from colift.leaderboard.database.room import NoRoomError
+from colift.leaderboard.practice.practice import SUITES, PracticeRun, practice_season
+from colift.leaderboard.records.season import BoardEntry, SeasonInfo
+from colift.leaderboard.storage.store import has_board
 
 FORMAT: Final = 2
 

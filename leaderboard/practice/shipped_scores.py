@@ -6,15 +6,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-
-from ...agents.registry import own_policies
-from ...benchmark.bundle.files import EPISODES
-from ...benchmark.episode.metric import LEADING
-from ...benchmark.statistics import FloatArray
-from ...benchmark.suites.suite import Suite
-from ..evaluation.entrant import builtin_entrant
-from .practice import PracticeRun
-from .season_import import DATA, PlayedSeason
+from colift.agents.registry import own_policies
+from colift.benchmark.bundle.files import EPISODES
+from colift.benchmark.episode.metric import LEADING
+from colift.benchmark.statistics import FloatArray
+from colift.benchmark.suites.suite import Suite
+from colift.leaderboard.evaluation.entrant import builtin_entrant
+from colift.leaderboard.practice.practice import PracticeRun
+from colift.leaderboard.practice.season_import import DATA, PlayedSeason
 
 
 def shipped_scores(suite: Suite, folder: Path = DATA) -> dict[str, FloatArray]:

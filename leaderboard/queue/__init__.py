@@ -1,9 +1,9 @@
 """The queue of a board: jobs, quotas and workers."""
 
-from .attendance import LEASE, Attendance
-from .queue import Queue
-from .quota import NO_QUOTA, Quota, QuotaError
-from .work import FAULTS, LOST, LostError, WorkerQueue
+from colift.leaderboard.queue.attendance import LEASE, Attendance
+from colift.leaderboard.queue.queue import Queue
+from colift.leaderboard.queue.quota import NO_QUOTA, Quota, QuotaError
+from colift.leaderboard.queue.work import FAULTS, LOST, LostError, WorkerQueue
 
 __all__ = [
     "FAULTS",

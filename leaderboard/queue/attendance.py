@@ -10,11 +10,10 @@ from datetime import datetime, timedelta
 from typing import Any, Final
 
 import sqlalchemy as sa
-
-from ..database.schema import jobs, workers
-from ..records.job import HELD
-from ..records.times import utc_minute
-from .jobs import is_gone
+from colift.leaderboard.database.schema import jobs, workers
+from colift.leaderboard.queue.jobs import is_gone
+from colift.leaderboard.records.job import HELD
+from colift.leaderboard.records.times import utc_minute
 
 LEASE: Final = timedelta(seconds=30)
 """Time after the last heartbeat at which another worker may take a job, and after the last

@@ -5,10 +5,9 @@ from types import TracebackType
 from typing import Final, Self
 
 import sqlalchemy as sa
-
-from ..evaluation.progress import HIDDEN, Callbacks, Stage
-from ..records.job import Job
-from . import LostError, WorkerQueue
+from colift.leaderboard.evaluation.progress import HIDDEN, Callbacks, Stage
+from colift.leaderboard.queue import LostError, WorkerQueue
+from colift.leaderboard.records.job import Job
 
 PERIOD_S: Final = 1.0
 """Longest time between two heartbeats [s]; at most a fifth of the lease."""

@@ -7,9 +7,9 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any, Final
 
-from ..records.job import Job
-from ..records.season import BoardEntry
-from ..storage.store import Store
+from colift.leaderboard.records.job import Job
+from colift.leaderboard.records.season import BoardEntry
+from colift.leaderboard.storage.store import Store
 
 REASON: Final = 2000
 """Maximum length of a reason [characters]."""

@@ -7,19 +7,18 @@ from datetime import datetime
 from typing import Any
 
 import sqlalchemy as sa
-
-from ...agents.errors import InputError
-from ...agents.submissions.submission import Submission
-from ..board.board import BUILTIN, LOCAL, Board
-from ..database.queries import read_entries, record_event
-from ..database.schema import entries, jobs
-from ..evaluation.entrant import Entrant
-from ..evaluation.evaluation import episode_count
-from ..records.job import HELD, Job, State
-from ..records.season import Event, Kind
-from .attendance import Attendance, read_attendance
-from .jobs import job_outcome, read_job, storable_reason
-from .quota import Quota, admit, in_turn, last_served
+from colift.agents.errors import InputError
+from colift.agents.submissions.submission import Submission
+from colift.leaderboard.board.board import BUILTIN, LOCAL, Board
+from colift.leaderboard.database.queries import read_entries, record_event
+from colift.leaderboard.database.schema import entries, jobs
+from colift.leaderboard.evaluation.entrant import Entrant
+from colift.leaderboard.evaluation.evaluation import episode_count
+from colift.leaderboard.queue.attendance import Attendance, read_attendance
+from colift.leaderboard.queue.jobs import job_outcome, read_job, storable_reason
+from colift.leaderboard.queue.quota import Quota, admit, in_turn, last_served
+from colift.leaderboard.records.job import HELD, Job, State
+from colift.leaderboard.records.season import Event, Kind
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,9 @@ from datetime import UTC, datetime, timedelta
 from typing import Any, Final
 
 import sqlalchemy as sa
-
-from ...agents.errors import InputError
-from ...agents.submissions.folder import MIB
-from ..database.schema import jobs
+from colift.agents.errors import InputError
+from colift.agents.submissions.folder import MIB
+from colift.leaderboard.database.schema import jobs
 
 
 class QuotaError(InputError):

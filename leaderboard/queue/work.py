@@ -13,16 +13,15 @@ from pathlib import Path
 from typing import Any, Final
 
 import sqlalchemy as sa
-
-from ..board.board import Board
-from ..database.queries import record_entry
-from ..database.schema import jobs
-from ..evaluation.progress import Stage
-from ..records.job import HELD, Job, State
-from ..records.season import BoardEntry
-from .attendance import LEASE, is_held, sign_in, sign_out
-from .jobs import job_outcome, read_job, storable_reason
-from .quota import in_turn, last_served
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.database.queries import record_entry
+from colift.leaderboard.database.schema import jobs
+from colift.leaderboard.evaluation.progress import Stage
+from colift.leaderboard.queue.attendance import LEASE, is_held, sign_in, sign_out
+from colift.leaderboard.queue.jobs import job_outcome, read_job, storable_reason
+from colift.leaderboard.queue.quota import in_turn, last_served
+from colift.leaderboard.records.job import HELD, Job, State
+from colift.leaderboard.records.season import BoardEntry
 
 FAULTS: Final = 3
 """Maximum number of retries after faults of this machine."""

@@ -12,22 +12,38 @@ from textwrap import indent
 from typing import Final
 
 import sqlalchemy as sa
-
-from ...agents.errors import EvaluatorFault, InputError, error_text
-from ...benchmark.bundle import read_bundle
-from ...benchmark.execution.runner import placed
-from ..board.board import BUILTIN, LOCAL, Board
-from ..evaluation.entrant import AUTO, Entrant, NoSandboxError, board_level, builtin_entrant
-from ..evaluation.evaluation import EntrantResult, episode_count, evaluate_entrant, play_human_human
-from ..evaluation.progress import HIDDEN, BudgetError, Callbacks, HiddenRunTimer, Stage
-from ..evaluation.scoring import failure_lines
-from ..records.job import Job
-from ..records.row import BoardRow
-from ..records.season import BoardEntry
-from ..records.times import utc_second
-from . import LostError, Queue, WorkerQueue
-from .heartbeat import Heartbeat
-from .jobs import this_worker
+from colift.agents.errors import EvaluatorFault, InputError, error_text
+from colift.benchmark.bundle import read_bundle
+from colift.benchmark.execution.runner import placed
+from colift.leaderboard.board.board import BUILTIN, LOCAL, Board
+from colift.leaderboard.evaluation.entrant import (
+    AUTO,
+    Entrant,
+    NoSandboxError,
+    board_level,
+    builtin_entrant,
+)
+from colift.leaderboard.evaluation.evaluation import (
+    EntrantResult,
+    episode_count,
+    evaluate_entrant,
+    play_human_human,
+)
+from colift.leaderboard.evaluation.progress import (
+    HIDDEN,
+    BudgetError,
+    Callbacks,
+    HiddenRunTimer,
+    Stage,
+)
+from colift.leaderboard.evaluation.scoring import failure_lines
+from colift.leaderboard.queue import LostError, Queue, WorkerQueue
+from colift.leaderboard.queue.heartbeat import Heartbeat
+from colift.leaderboard.queue.jobs import this_worker
+from colift.leaderboard.records.job import Job
+from colift.leaderboard.records.row import BoardRow
+from colift.leaderboard.records.season import BoardEntry
+from colift.leaderboard.records.times import utc_second
 
 log: Final = logging.getLogger("colift.worker")
 

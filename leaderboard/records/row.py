@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Final, Self
 
-from ...benchmark.statistics import Estimate, MeanWithMissing
-from .metrics import read_means
+from colift.benchmark.statistics import Estimate, MeanWithMissing
+from colift.leaderboard.records.metrics import read_means
 
 UNTRAINED: Final = ("nothing", "none", "no data")
 """Entries of ``trained_on`` that stand for a policy without training."""

@@ -6,10 +6,10 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any, Literal, Self
 
-from ...agents.errors import InputError
-from ...benchmark.suites.hidden import commitment, hidden_suite
-from ...benchmark.suites.suite import Suite
-from .row import BoardRow
+from colift.agents.errors import InputError
+from colift.benchmark.suites.hidden import commitment, hidden_suite
+from colift.benchmark.suites.suite import Suite
+from colift.leaderboard.records.row import BoardRow
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from ...benchmark.bundle import FILES, Bundle, read_bundle
-from ...benchmark.episode.episode import Episode
-from ..storage.files import read_json, write_json
-from .replay import Ghost, Which, play_ghost, replay_content
+from colift.benchmark.bundle import FILES, Bundle, read_bundle
+from colift.benchmark.episode.episode import Episode
+from colift.leaderboard.replays.replay import Ghost, Which, play_ghost, replay_content
+from colift.leaderboard.storage.files import read_json, write_json
 
 WHICH: Final[tuple[Which, ...]] = ("best", "median", "worst")
 

@@ -11,16 +11,14 @@ from functools import cache
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
-
-from ...benchmark.rendering import mannequin
-from ...benchmark.rendering.scene import FLOOR, PEDESTAL
-from ...benchmark.world.table import TABLE_LENGTH
-from ...robots.description import rotations
-from ...robots.description.parts import GREY, Shape
-from ...robots.nao import shapes as nao_shapes
-from ...robots.nao.facts import JOINTS, LINKS
-from ...robots.nao.kinematics import (
+from colift.benchmark.rendering import mannequin
+from colift.benchmark.rendering.scene import FLOOR, PEDESTAL
+from colift.benchmark.world.table import TABLE_LENGTH
+from colift.robots.description import rotations
+from colift.robots.description.parts import GREY, Shape
+from colift.robots.nao import shapes as nao_shapes
+from colift.robots.nao.facts import JOINTS, LINKS
+from colift.robots.nao.kinematics import (
     GRIP_X,
     REST_Z,
     STROKE,
@@ -28,7 +26,8 @@ from ...robots.nao.kinematics import (
     joint_positions,
     lifting_angles,
 )
-from ...robots.nao.shapes import dressed
+from colift.robots.nao.shapes import dressed
+from numpy.typing import NDArray
 
 ROWS: Final = 0.01
 """Height between two rows of a table of arms [m]; the page interpolates linearly."""

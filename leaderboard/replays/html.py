@@ -10,10 +10,9 @@ from functools import cache
 from importlib.resources import files
 from typing import Any, Final
 
+from colift.benchmark.rendering.page import render, style
+from colift.leaderboard.replays.geometry import geometry
 from markupsafe import Markup
-
-from ...benchmark.rendering.page import render, style
-from .geometry import geometry
 
 SCRIPTS: Final = (
     "replay-words.js",

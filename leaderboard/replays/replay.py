@@ -43,21 +43,20 @@ from dataclasses import dataclass
 from typing import Any, Final, Literal
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.humans import Plan, Played, goal_error_mm
+from colift.benchmark.bundle import one_line
+from colift.benchmark.episode.blame import blaming_plugins
+from colift.benchmark.episode.episode import Episode, run_episode
+from colift.benchmark.episode.lift import make_lift
+from colift.benchmark.episode.metric import drawn_series
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.seat import hand_commands
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.rendering.bodies import NAO, PERSON, no_picture, shown_body
+from colift.benchmark.results.baselines import partner_spec
+from colift.benchmark.results.goals import lift_goal_errors
 from numpy.typing import ArrayLike
-
-from ...agents.agent import FRAME
-from ...agents.humans import Plan, Played, goal_error_mm
-from ...benchmark.bundle import one_line
-from ...benchmark.episode.blame import blaming_plugins
-from ...benchmark.episode.episode import Episode, run_episode
-from ...benchmark.episode.lift import make_lift
-from ...benchmark.episode.metric import drawn_series
-from ...benchmark.episode.scenario import Scenario
-from ...benchmark.episode.seat import hand_commands
-from ...benchmark.episode.trace import Trace
-from ...benchmark.rendering.bodies import NAO, PERSON, no_picture, shown_body
-from ...benchmark.results.baselines import partner_spec
-from ...benchmark.results.goals import lift_goal_errors
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

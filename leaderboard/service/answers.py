@@ -7,13 +7,12 @@ from collections.abc import Mapping, Sequence
 from datetime import datetime
 from typing import Any, Self
 
+from colift.leaderboard.board.standings import RankedRow, Section
+from colift.leaderboard.records.job import Job, State
+from colift.leaderboard.records.row import BoardRow
+from colift.leaderboard.records.season import Event
+from colift.leaderboard.views.lifts import StratumScore
 from pydantic import BaseModel, ConfigDict, Field
-
-from ..board.standings import RankedRow, Section
-from ..records.job import Job, State
-from ..records.row import BoardRow
-from ..records.season import Event
-from ..views.lifts import StratumScore
 
 
 class Answer(BaseModel):

@@ -8,22 +8,21 @@ from pathlib import Path
 from typing import Final
 
 import anyio.to_thread
+from colift.leaderboard.board.tokens import Tokens
+from colift.leaderboard.practice.season_import import open_with_practice
+from colift.leaderboard.queue import Queue, Quota
+from colift.leaderboard.service import page_routes as pages
+from colift.leaderboard.service import published, reference, submitting
+from colift.leaderboard.service.answers import Health
+from colift.leaderboard.service.dependencies import PREFIX, Rates, Service, ServiceState
+from colift.leaderboard.service.documentation import PLACE, Documentation, Pages
+from colift.leaderboard.service.errors import FaultHandler, Problem, answer_errors, log
+from colift.leaderboard.service.ranker import Ranker
+from colift.leaderboard.service.security import Guard, RateLimit
+from colift.leaderboard.service.uploads import remove_orphans
 from fastapi import APIRouter, FastAPI
 from fastapi.middleware.gzip import GZipMiddleware
 from fastapi.staticfiles import StaticFiles
-
-from ..board.tokens import Tokens
-from ..practice.season_import import open_with_practice
-from ..queue import Queue, Quota
-from . import page_routes as pages
-from . import published, reference, submitting
-from .answers import Health
-from .dependencies import PREFIX, Rates, Service, ServiceState
-from .documentation import PLACE, Documentation, Pages
-from .errors import FaultHandler, Problem, answer_errors, log
-from .ranker import Ranker
-from .security import Guard, RateLimit
-from .uploads import remove_orphans
 
 THREADS: Final = 12
 """Number of requests that are handled at the same time: less than the database connections."""

@@ -5,16 +5,15 @@ from dataclasses import dataclass, field
 from typing import Annotated, Any, Final
 from urllib.parse import urlsplit
 
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.tokens import Tokens
+from colift.leaderboard.pages.links import ServiceLinks
+from colift.leaderboard.queue import Queue
+from colift.leaderboard.service.documentation import Documentation
+from colift.leaderboard.service.errors import Problem
+from colift.leaderboard.service.security import Rate, RateLimit
+from colift.leaderboard.service.slots import Slots
 from fastapi import Depends, Path, Query, Request
-
-from ..board.board import Board
-from ..board.tokens import Tokens
-from ..pages.links import ServiceLinks
-from ..queue import Queue
-from .documentation import Documentation
-from .errors import Problem
-from .security import Rate, RateLimit
-from .slots import Slots
 
 PLAY: Final = "/play"
 """Path of live lifts, below the board's root."""

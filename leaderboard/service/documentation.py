@@ -5,11 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, Self
 
+from colift.agents.errors import InputError
 from fastapi.staticfiles import StaticFiles
 from starlette.responses import Response
 from starlette.types import Scope
-
-from ...agents.errors import InputError
 
 PLACE: Final = "/docs"
 """Path of a folder's pages, below the board's root."""

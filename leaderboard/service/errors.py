@@ -7,6 +7,11 @@ import secrets
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final
 
+from colift.agents.errors import InputError
+from colift.leaderboard.database.database import AWAY
+from colift.leaderboard.database.room import is_full
+from colift.leaderboard.queue import QuotaError
+from colift.leaderboard.storage.damage import DamagedError
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import HTMLResponse, JSONResponse, Response
@@ -14,12 +19,6 @@ from pydantic import BaseModel, Field
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
-
-from ...agents.errors import InputError
-from ..database.database import AWAY
-from ..database.room import is_full
-from ..queue import QuotaError
-from ..storage.damage import DamagedError
 
 log: Final = logging.getLogger("colift.service")
 

@@ -3,25 +3,30 @@
 import contextlib
 from typing import Annotated, Any, Final
 
+from colift.agents.errors import InputError
+from colift.leaderboard.evaluation.progress import HIDDEN
+from colift.leaderboard.pages.formats import badge_text
+from colift.leaderboard.pages.rendering import prose, render_page, template_archive
+from colift.leaderboard.replays.chosen import has_replays, replays_of
+from colift.leaderboard.replays.html import KEYS, SCRIPTS, replay_data, replay_files, replay_page
+from colift.leaderboard.service.dependencies import (
+    Service,
+    ServiceState,
+    links_of,
+    origin_of,
+    service_state,
+)
+from colift.leaderboard.service.published import rules_of
+from colift.leaderboard.views.asked import Asked
+from colift.leaderboard.views.board import board_view, find_season, ordered_seasons
+from colift.leaderboard.views.compare import compare_view
+from colift.leaderboard.views.exports import news_of
+from colift.leaderboard.views.job import job_view, open_jobs
+from colift.leaderboard.views.method import method_view
+from colift.leaderboard.views.policy import PolicyView, policy_view
+from colift.leaderboard.views.scenario import scenario_view, scenarios_view
 from fastapi import APIRouter, Depends, Path, Query, Request
 from fastapi.responses import HTMLResponse, Response
-
-from ...agents.errors import InputError
-from ..evaluation.progress import HIDDEN
-from ..pages.formats import badge_text
-from ..pages.rendering import prose, render_page, template_archive
-from ..replays.chosen import has_replays, replays_of
-from ..replays.html import KEYS, SCRIPTS, replay_data, replay_files, replay_page
-from ..views.asked import Asked
-from ..views.board import board_view, find_season, ordered_seasons
-from ..views.compare import compare_view
-from ..views.exports import news_of
-from ..views.job import job_view, open_jobs
-from ..views.method import method_view
-from ..views.policy import PolicyView, policy_view
-from ..views.scenario import scenario_view, scenarios_view
-from .dependencies import Service, ServiceState, links_of, origin_of, service_state
-from .published import rules_of
 
 SUBMISSIONS: Final = "/api/v1/submissions"
 JOBS: Final = "/api/v1/jobs"

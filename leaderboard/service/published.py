@@ -3,18 +3,12 @@
 from datetime import timedelta
 from typing import Final
 
-from fastapi import APIRouter, Request, Response
-from fastapi.responses import FileResponse
-from starlette.concurrency import run_in_threadpool
-
-from ...agents.submissions.folder import LIMITS
-from ...agents.submissions.packages import PACKAGES
-from ..board.standings import RankedRow
-from ..records.season import SeasonInfo
-from ..views.exports import standings_csv
-from ..views.lifts import StratumScore, stratum_scores
-from .answers import EntryAnswer, RulesAnswer, StandingAnswer
-from .dependencies import (
+from colift.agents.submissions.folder import LIMITS
+from colift.agents.submissions.packages import PACKAGES
+from colift.leaderboard.board.standings import RankedRow
+from colift.leaderboard.records.season import SeasonInfo
+from colift.leaderboard.service.answers import EntryAnswer, RulesAnswer, StandingAnswer
+from colift.leaderboard.service.dependencies import (
     BINARY,
     MISSING,
     BehaviourAsked,
@@ -26,10 +20,15 @@ from .dependencies import (
     SubjectAsked,
     api_root,
 )
-from .errors import Problem, problem
-from .security import client_of
-from .slots import Slotted
-from .uploads import BODY, ZIP
+from colift.leaderboard.service.errors import Problem, problem
+from colift.leaderboard.service.security import client_of
+from colift.leaderboard.service.slots import Slotted
+from colift.leaderboard.service.uploads import BODY, ZIP
+from colift.leaderboard.views.exports import standings_csv
+from colift.leaderboard.views.lifts import StratumScore, stratum_scores
+from fastapi import APIRouter, Request, Response
+from fastapi.responses import FileResponse
+from starlette.concurrency import run_in_threadpool
 
 router: Final = APIRouter()
 

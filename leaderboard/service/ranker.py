@@ -5,8 +5,7 @@ import threading
 from typing import Final
 
 import sqlalchemy as sa
-
-from ..board.board import Board
+from colift.leaderboard.board.board import Board
 
 log: Final = logging.getLogger("colift.service")
 

@@ -2,12 +2,11 @@
 
 from typing import Final
 
+from colift.leaderboard.pages.rendering import render_page
+from colift.leaderboard.service.dependencies import Service, links_of
+from colift.leaderboard.service.openapi import operations, schemas
 from fastapi import APIRouter, Request
 from fastapi.responses import HTMLResponse
-
-from ..pages.rendering import render_page
-from .dependencies import Service, links_of
-from .openapi import operations, schemas
 
 router: Final = APIRouter(include_in_schema=False)
 

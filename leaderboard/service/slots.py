@@ -5,11 +5,10 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 
+from colift.leaderboard.service.errors import CLOSE, log, problem
+from colift.leaderboard.service.security import seconds
 from fastapi import Response
 from starlette.types import Receive, Scope, Send
-
-from .errors import CLOSE, log, problem
-from .security import seconds
 
 
 @dataclass(kw_only=True)

@@ -5,20 +5,27 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 from typing import Annotated, Final
 
 import sqlalchemy as sa
+from colift.agents.errors import InputError
+from colift.leaderboard.records.job import Job
+from colift.leaderboard.service.answers import JobAnswer, SubmissionAnswer, SubmitterAnswer
+from colift.leaderboard.service.dependencies import (
+    BINARY,
+    MISSING,
+    UNKNOWN,
+    JobId,
+    Service,
+    ServiceState,
+    api_root,
+)
+from colift.leaderboard.service.errors import CLOSE, Problem, problem
+from colift.leaderboard.service.security import client_of, seconds
+from colift.leaderboard.service.slots import Slotted
+from colift.leaderboard.service.uploads import BODY, ZIP, check_headers, received
 from fastapi import APIRouter, Depends, Request, Response
 from fastapi.responses import StreamingResponse
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
-
-from ...agents.errors import InputError
-from ..records.job import Job
-from .answers import JobAnswer, SubmissionAnswer, SubmitterAnswer
-from .dependencies import BINARY, MISSING, UNKNOWN, JobId, Service, ServiceState, api_root
-from .errors import CLOSE, Problem, problem
-from .security import client_of, seconds
-from .slots import Slotted
-from .uploads import BODY, ZIP, check_headers, received
 
 POLL_S: Final = 1.0
 """Time between two queries of the database [s]."""

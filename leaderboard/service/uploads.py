@@ -11,20 +11,19 @@ from pathlib import Path
 from typing import IO, Final
 
 import sqlalchemy as sa
+from colift.agents.errors import InputError
+from colift.agents.submissions.folder import MIB
+from colift.agents.submissions.manifest import MANIFEST
+from colift.agents.submissions.near_manifest import PACK, no_manifest
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.database.schema import jobs
+from colift.leaderboard.service.dependencies import ServiceState
+from colift.leaderboard.service.errors import CLOSE, problem
+from colift.leaderboard.storage.archive import unpack_archive
+from colift.leaderboard.storage.staging import Incoming, remove_abandoned
 from fastapi import Request
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect
-
-from ...agents.errors import InputError
-from ...agents.submissions.folder import MIB
-from ...agents.submissions.manifest import MANIFEST
-from ...agents.submissions.near_manifest import PACK, no_manifest
-from ..board.board import Board
-from ..database.schema import jobs
-from ..storage.archive import unpack_archive
-from ..storage.staging import Incoming, remove_abandoned
-from .dependencies import ServiceState
-from .errors import CLOSE, problem
 
 BODY: Final = 64 * MIB
 """Largest body [bytes]. For more, submit to the board's folder."""

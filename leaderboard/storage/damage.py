@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from ...agents.errors import EvaluatorFault
+from colift.agents.errors import EvaluatorFault
 
 DAMAGE: Final = (ValueError, TypeError, LookupError, AttributeError, RecursionError)
 """Errors of code that reads a record with other content than was written."""

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ...agents.errors import InputError, error_text
-from ...benchmark.results.baselines import Baseline
-from ...benchmark.suites.hidden import SECRET_BYTES
-from .damage import DAMAGE, DamagedError
-from .files import read_json, sync, write_json
-from .typed import mistyped
+from colift.agents.errors import InputError, error_text
+from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.suites.hidden import SECRET_BYTES
+from colift.leaderboard.storage.damage import DAMAGE, DamagedError
+from colift.leaderboard.storage.files import read_json, sync, write_json
+from colift.leaderboard.storage.typed import mistyped
 
 PRIVATE_FILE: Final = 0o600
 """Mode of a file that only its owner may read."""

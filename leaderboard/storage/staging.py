@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, Self
 
-from ...agents.errors import InputError
-from ...agents.submissions.folder import read_folder
-from ...agents.submissions.submission import Submission
-from .files import sync, sync_tree
+from colift.agents.errors import InputError
+from colift.agents.submissions.folder import read_folder
+from colift.agents.submissions.submission import Submission
+from colift.leaderboard.storage.files import sync, sync_tree
 
 if sys.platform != "win32":
     import fcntl

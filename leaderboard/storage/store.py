@@ -24,14 +24,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ...agents.errors import InputError
-from ...agents.submissions.folder import copy_folder
-from ...agents.submissions.new import check_author
-from ...agents.submissions.submission import Submission, read_submission
-from .archive import pack_archive
-from .files import read_json, sync, sync_tree, write_json
-from .season_secrets import FOLDER, PRIVATE_FILE, SeasonSecrets
-from .staging import Incoming, staging
+from colift.agents.errors import InputError
+from colift.agents.submissions.folder import copy_folder
+from colift.agents.submissions.new import check_author
+from colift.agents.submissions.submission import Submission, read_submission
+from colift.leaderboard.storage.archive import pack_archive
+from colift.leaderboard.storage.files import read_json, sync, sync_tree, write_json
+from colift.leaderboard.storage.season_secrets import FOLDER, PRIVATE_FILE, SeasonSecrets
+from colift.leaderboard.storage.staging import Incoming, staging
 
 if sys.platform != "win32":
     import fcntl

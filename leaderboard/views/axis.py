@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from ...benchmark.rendering.ticks import far_limit, round_step, round_ticks
-from ...benchmark.statistics import Estimate
+from colift.benchmark.rendering.ticks import far_limit, round_step, round_ticks
+from colift.benchmark.statistics import Estimate
 
 MOST: Final = 5
 """Maximum number of intervals between ticks."""

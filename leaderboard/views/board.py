@@ -5,19 +5,19 @@ from dataclasses import dataclass
 from typing import Any
 from weakref import WeakKeyDictionary
 
-from ...benchmark.comparison.scatter.scene import ScatterScene
-from ...benchmark.statistics import Estimate
-from ..board.board import Board
-from ..board.standings import HumanHumanScores, RankedRow
-from ..board.tables import Table
-from ..records.metrics import board_metrics
-from ..records.season import Event, SeasonInfo
-from .asked import ROWS, Asked
-from .axis import Axis, make_axis
-from .bounds import PublicBound, bounds_of
-from .lifts import Part, StratumScore, human_human_mean_rmse, known
-from .lines import Lines, RankedLine, lines_of, strata_of
-from .picture import PICTURED, pictures
+from colift.benchmark.comparison.scatter.scene import ScatterScene
+from colift.benchmark.statistics import Estimate
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.standings import HumanHumanScores, RankedRow
+from colift.leaderboard.board.tables import Table
+from colift.leaderboard.records.metrics import board_metrics
+from colift.leaderboard.records.season import Event, SeasonInfo
+from colift.leaderboard.views.asked import ROWS, Asked
+from colift.leaderboard.views.axis import Axis, make_axis
+from colift.leaderboard.views.bounds import PublicBound, bounds_of
+from colift.leaderboard.views.lifts import Part, StratumScore, human_human_mean_rmse, known
+from colift.leaderboard.views.lines import Lines, RankedLine, lines_of, strata_of
+from colift.leaderboard.views.picture import PICTURED, pictures
 
 
 @dataclass(frozen=True, kw_only=True)

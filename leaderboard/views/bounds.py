@@ -6,19 +6,18 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-
-from ...benchmark.results.baselines import (
+from colift.benchmark.results.baselines import (
     HUMAN_HUMAN,
     Baseline,
     shipped_baselines,
     shipped_bounds,
 )
-from ...benchmark.results.summary import Stratum
-from ...benchmark.statistics import Estimate
-from ...benchmark.suites.suite import Suite
-from ..records.metrics import known_means
-from ..records.season import SeasonInfo
-from .suites import season_suite
+from colift.benchmark.results.summary import Stratum
+from colift.benchmark.statistics import Estimate
+from colift.benchmark.suites.suite import Suite
+from colift.leaderboard.records.metrics import known_means
+from colift.leaderboard.records.season import SeasonInfo
+from colift.leaderboard.views.suites import season_suite
 
 MEANINGS: Final[Mapping[str, str]] = {
     "causal_bound": "sees what a policy sees, predicts as well as has been learned so far, and "

@@ -9,16 +9,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from ...agents.agent import FRAME
-from ...benchmark.statistics import Estimate, PairedDifference, permutation_ps_against
-from ..board.board import Board
-from ..board.standings import RankedRow
-from ..records.season import SeasonInfo
-from ..replays.chosen import made_replays
-from .asked import CHOSEN, ROWS
-from .axis import Axis, make_axis
-from .board import find_season, ordered_seasons
-from .lifts import (
+from colift.agents.agent import FRAME
+from colift.benchmark.statistics import Estimate, PairedDifference, permutation_ps_against
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.standings import RankedRow
+from colift.leaderboard.records.season import SeasonInfo
+from colift.leaderboard.replays.chosen import made_replays
+from colift.leaderboard.views.asked import CHOSEN, ROWS
+from colift.leaderboard.views.axis import Axis, make_axis
+from colift.leaderboard.views.board import find_season, ordered_seasons
+from colift.leaderboard.views.lifts import (
     Part,
     PublicLift,
     StratumScore,

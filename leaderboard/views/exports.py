@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Final
 
-from ..board.board import Board
-from ..board.standings import RankedRow, frame
-from ..records.season import SeasonInfo
-from .board import find_season, ordered_seasons
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.standings import RankedRow, frame
+from colift.leaderboard.records.season import SeasonInfo
+from colift.leaderboard.views.board import find_season, ordered_seasons
 
 FORMULA: Final = ("=", "+", "-", "@", "\t", "\r")
 """First characters of a text that spreadsheets take for a formula."""

@@ -4,13 +4,13 @@ from dataclasses import dataclass
 from datetime import timedelta
 from typing import Final
 
-from ..board.board import Board
-from ..evaluation.evaluation import stage_episodes
-from ..evaluation.progress import HIDDEN, Stage
-from ..queue import Queue
-from ..records.job import Job
-from ..records.season import BoardEntry
-from .suites import season_suite
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.evaluation.evaluation import stage_episodes
+from colift.leaderboard.evaluation.progress import HIDDEN, Stage
+from colift.leaderboard.queue import Queue
+from colift.leaderboard.records.job import Job
+from colift.leaderboard.records.season import BoardEntry
+from colift.leaderboard.views.suites import season_suite
 
 WAITING: Final = 100
 """Maximum number of jobs in the queue's list."""

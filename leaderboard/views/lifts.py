@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...benchmark.bundle.files import EPISODES, FILES, RESULTS
-from ...benchmark.statistics import Estimate, MeanWithMissing, mean_of
-from ..records.metrics import read_means
-from ..storage.files import read_json
+from colift.benchmark.bundle.files import EPISODES, FILES, RESULTS
+from colift.benchmark.statistics import Estimate, MeanWithMissing, mean_of
+from colift.leaderboard.records.metrics import read_means
+from colift.leaderboard.storage.files import read_json
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,14 +5,21 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from ...benchmark.statistics import Estimate, MeanWithMissing
-from ..board.board import Board
-from ..board.standings import RankedRow
-from ..board.tables import Table
-from ..records.metrics import board_metrics, sort_key
-from ..records.row import BoardRow
-from .asked import ROWS, Asked
-from .lifts import Part, StratumScore, human_human_mean_rmse, known, mean_rmse, stratum_scores
+from colift.benchmark.statistics import Estimate, MeanWithMissing
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.standings import RankedRow
+from colift.leaderboard.board.tables import Table
+from colift.leaderboard.records.metrics import board_metrics, sort_key
+from colift.leaderboard.records.row import BoardRow
+from colift.leaderboard.views.asked import ROWS, Asked
+from colift.leaderboard.views.lifts import (
+    Part,
+    StratumScore,
+    human_human_mean_rmse,
+    known,
+    mean_rmse,
+    stratum_scores,
+)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,14 +2,14 @@
 
 from dataclasses import dataclass
 
-from ...agents.sandbox.host.levels import LEVELS, VERIFIABLE
-from ...agents.sandbox.protocol import LIMITS, Limits
-from ...benchmark.episode.metrics import FAILED_FRAME_MM
-from ..board.board import Board
-from ..board.standings import HumanHumanScores
-from ..records.season import SeasonInfo
-from .board import find_season, ordered_seasons
-from .bounds import bounds_of
+from colift.agents.sandbox.host.levels import LEVELS, VERIFIABLE
+from colift.agents.sandbox.protocol import LIMITS, Limits
+from colift.benchmark.episode.metrics import FAILED_FRAME_MM
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.standings import HumanHumanScores
+from colift.leaderboard.records.season import SeasonInfo
+from colift.leaderboard.views.board import find_season, ordered_seasons
+from colift.leaderboard.views.bounds import bounds_of
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,14 +5,14 @@ from collections.abc import Sequence
 from typing import Final
 from weakref import WeakKeyDictionary
 
-from ...benchmark.comparison.front import FrontPoint, exact, pareto_front
-from ...benchmark.comparison.scatter.scene import NARROW, WIDE, ScatterScene, make_scene
-from ...benchmark.episode.metric import Metric
-from ..board.standings import HumanHumanScores
-from ..board.tables import Table
-from ..records.metrics import picture_axes
-from ..records.row import BoardRow
-from .bounds import PublicBound
+from colift.benchmark.comparison.front import FrontPoint, exact, pareto_front
+from colift.benchmark.comparison.scatter.scene import NARROW, WIDE, ScatterScene, make_scene
+from colift.benchmark.episode.metric import Metric
+from colift.leaderboard.board.standings import HumanHumanScores
+from colift.leaderboard.board.tables import Table
+from colift.leaderboard.records.metrics import picture_axes
+from colift.leaderboard.records.row import BoardRow
+from colift.leaderboard.views.bounds import PublicBound
 
 PICTURED: Final = 100
 """Number of policies, from the best, in a picture, beside those on the front."""

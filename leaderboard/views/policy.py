@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ...benchmark.statistics import Estimate
-from ..board.board import Board
-from ..board.standings import RANKED, RankedRow
-from ..database.schema import entries
-from ..records.season import BoardEntry, Event, SeasonInfo
-from .axis import Axis, make_axis
-from .board import find_season, ordered_seasons
-from .lifts import (
+from colift.benchmark.statistics import Estimate
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.standings import RANKED, RankedRow
+from colift.leaderboard.database.schema import entries
+from colift.leaderboard.records.season import BoardEntry, Event, SeasonInfo
+from colift.leaderboard.views.axis import Axis, make_axis
+from colift.leaderboard.views.board import find_season, ordered_seasons
+from colift.leaderboard.views.lifts import (
     Part,
     PublicLift,
     human_human_mean_rmse,

@@ -6,18 +6,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from ...agents.humans import Subject
-from ...benchmark.episode.lift import make_lift
-from ...benchmark.episode.scenario import Scenario
-from ...benchmark.statistics import Estimate
-from ..board.board import Board
-from ..board.standings import RankedRow
-from ..records.season import SeasonInfo
-from .asked import ROWS
-from .axis import Axis, make_axis
-from .board import find_season, ordered_seasons
-from .lifts import Part, StratumScore, known, part_estimate, stratum_scores
-from .suites import season_suite
+from colift.agents.humans import Subject
+from colift.benchmark.episode.lift import make_lift
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.statistics import Estimate
+from colift.leaderboard.board.board import Board
+from colift.leaderboard.board.standings import RankedRow
+from colift.leaderboard.records.season import SeasonInfo
+from colift.leaderboard.views.asked import ROWS
+from colift.leaderboard.views.axis import Axis, make_axis
+from colift.leaderboard.views.board import find_season, ordered_seasons
+from colift.leaderboard.views.lifts import Part, StratumScore, known, part_estimate, stratum_scores
+from colift.leaderboard.views.suites import season_suite
 
 CURVES: Final = 5
 """Number of lifts whose intended heights are drawn."""

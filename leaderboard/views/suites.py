@@ -1,8 +1,8 @@
 """The suite of a season, if this colift still plays it."""
 
-from ...agents.errors import InputError
-from ...benchmark.suites.suite import Suite, make_suite
-from ..records.season import SeasonInfo
+from colift.agents.errors import InputError
+from colift.benchmark.suites.suite import Suite, make_suite
+from colift.leaderboard.records.season import SeasonInfo
 
 
 def season_suite(info: SeasonInfo) -> Suite | None:

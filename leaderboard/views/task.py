@@ -4,12 +4,12 @@ import functools
 import inspect
 from dataclasses import dataclass
 
-from ...agents.registry import SUITES, entries
-from ...benchmark.episode.level import LEVEL
-from ...benchmark.suites.suite import make_suite
-from ...benchmark.verification.checking import SUITE as CHECKED
-from ...benchmark.verification.checking import checked_with
-from ..board.board import SUITE as PLAYED
+from colift.agents.registry import SUITES, entries
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.verification.checking import SUITE as CHECKED
+from colift.benchmark.verification.checking import checked_with
+from colift.leaderboard.board.board import SUITE as PLAYED
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,10 +3,9 @@
 from math import atan2, cos, hypot, sin
 
 import numpy as np
+from colift.robots.arithmetic import each, matmul
+from colift.robots.description.parts import Vector
 from numpy.typing import ArrayLike, NDArray
-
-from ..arithmetic import each, matmul
-from .parts import Vector
 
 
 def about(axis: Vector, angle: ArrayLike) -> NDArray[np.float64]:

@@ -4,11 +4,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
+from colift.robots.arithmetic import dot, matmul
+from colift.robots.description import rotations
+from colift.robots.description.parts import Inertia, Joint, Link, Shape, Vector
 from numpy.typing import NDArray
-
-from ..arithmetic import dot, matmul
-from . import rotations
-from .parts import Inertia, Joint, Link, Shape, Vector
 
 Array = NDArray[np.float64]
 

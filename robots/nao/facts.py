@@ -19,7 +19,14 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Final
 
-from ..description.parts import Inertia, Joint, Link, Vector, mirrored_joint, mirrored_link
+from colift.robots.description.parts import (
+    Inertia,
+    Joint,
+    Link,
+    Vector,
+    mirrored_joint,
+    mirrored_link,
+)
 
 NECK_OFFSET_Z: Final = 0.1265
 """Torso origin to the head's joints [m]."""

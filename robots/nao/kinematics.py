@@ -12,11 +12,9 @@ from math import acos, atan2, hypot, pi
 from typing import Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
-from ..arithmetic import dot, matmul
-from ..description import rotations
-from .facts import (
+from colift.robots.arithmetic import dot, matmul
+from colift.robots.description import rotations
+from colift.robots.nao.facts import (
     ARM,
     ELBOW_OFFSET_Y,
     HAND_OFFSET_X,
@@ -28,6 +26,7 @@ from .facts import (
     SHOULDER_OFFSET_Z,
     UPPER_ARM_LENGTH,
 )
+from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 

@@ -9,8 +9,8 @@ from dataclasses import replace
 from math import pi
 from typing import Final
 
-from ..description.parts import GREY, Link, Shape, mirrored_name
-from .facts import FOOT_HEIGHT, JOINTS, PHALANX_LENGTH
+from colift.robots.description.parts import GREY, Link, Shape, mirrored_name
+from colift.robots.nao.facts import FOOT_HEIGHT, JOINTS, PHALANX_LENGTH
 
 WHITE: Final = (0.94, 0.94, 0.93)
 DARK: Final = (0.20, 0.21, 0.23)

@@ -3,10 +3,10 @@
 from pathlib import Path
 from typing import Final
 
-from ..description.weld import weld
-from .facts import JOINTS, LINKS
-from .kinematics import ARM_JOINTS
-from .urdf_writer import write_urdf
+from colift.robots.description.weld import weld
+from colift.robots.nao.facts import JOINTS, LINKS
+from colift.robots.nao.kinematics import ARM_JOINTS
+from colift.robots.nao.urdf_writer import write_urdf
 
 _FIRST: Final = "ShoulderPitch"
 

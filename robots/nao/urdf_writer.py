@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Final
 from xml.etree import ElementTree as ET
 
-from ..description.parts import Joint, Link, Shape
-from .facts import JOINTS, LINKS
-from .shapes import dressed
+from colift.robots.description.parts import Joint, Link, Shape
+from colift.robots.nao.facts import JOINTS, LINKS
+from colift.robots.nao.shapes import dressed
 
 _INERTIA_NAMES: Final = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _HEADER: Final = (

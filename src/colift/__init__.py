@@ -19,16 +19,16 @@ from __future__ import annotations
 import importlib
 import sys
 
-from .registration import TYPE_CHECKING, register_with_gymnasium
+from colift.registration import TYPE_CHECKING, register_with_gymnasium
 
 if TYPE_CHECKING:
     from typing import Any, Final
 
-    from . import colift_v0
-    from .colift_v0 import env, parallel_env
-    from .evaluation import Evaluation, evaluate
-    from .listing import list_humans, list_policies, list_suites
-    from .registration import make
+    from colift import colift_v0
+    from colift.colift_v0 import env, parallel_env
+    from colift.evaluation import Evaluation, evaluate
+    from colift.listing import list_humans, list_policies, list_suites
+    from colift.registration import make
 
     __version__: str
 
@@ -77,7 +77,7 @@ def __dir__() -> list[str]:
 
 
 if sys.platform != "linux":
-    from .elsewhere import replace_what_needs_linux
+    from colift.elsewhere import replace_what_needs_linux
 
     replace_what_needs_linux()
 register_with_gymnasium()

@@ -1,5 +1,5 @@
 """``python -m colift``: the command line."""
 
-from .cli.start import start
+from colift.cli.start import start
 
 start()

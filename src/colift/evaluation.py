@@ -7,21 +7,21 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
-from .agents.agent import Agent
-from .agents.errors import InputError
-from .agents.identity import source_hash
-from .agents.loading.loading import source_digest
-from .agents.spec import AgentSpec, InProcess
-from .benchmark.bundle import results
-from .benchmark.channels import Channel, make_channel
-from .benchmark.execution.pool import local_pool
-from .benchmark.execution.runner import run_suite
-from .benchmark.results.baselines import BASELINES, play_baselines, shipped_baselines
-from .benchmark.suites.suite import Suite, make_suite
-from .cli.options import AUTO, NONE
-from .cli.policies import choose_policy
-from .cli.progress import progress_bar
-from .outcome import Evaluation
+from colift.agents.agent import Agent
+from colift.agents.errors import InputError
+from colift.agents.identity import source_hash
+from colift.agents.loading.loading import source_digest
+from colift.agents.spec import AgentSpec, InProcess
+from colift.benchmark.bundle import results
+from colift.benchmark.channels import Channel, make_channel
+from colift.benchmark.execution.pool import local_pool
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.results.baselines import BASELINES, play_baselines, shipped_baselines
+from colift.benchmark.suites.suite import Suite, make_suite
+from colift.cli.options import AUTO, NONE
+from colift.cli.policies import choose_policy
+from colift.cli.progress import progress_bar
+from colift.outcome import Evaluation
 
 UNKNOWN = "unknown"
 """The digest of a policy whose source cannot be read, such as one typed at a prompt."""

@@ -8,13 +8,13 @@ from typing import Any
 
 from rich.console import Console
 
-from .agents.errors import InputError
-from .benchmark.bundle import Results
-from .benchmark.bundle.table import table_row, treated
-from .benchmark.execution.runner import Run
-from .cli.failures import reported_failures
-from .cli.printing import show
-from .cli.tables.results import results_table, results_text
+from colift.agents.errors import InputError
+from colift.benchmark.bundle import Results
+from colift.benchmark.bundle.table import table_row, treated
+from colift.benchmark.execution.runner import Run
+from colift.cli.failures import reported_failures
+from colift.cli.printing import show
+from colift.cli.tables.results import results_table, results_text
 
 WIDTH = 100
 """Columns of the table as text."""
@@ -95,6 +95,6 @@ class Evaluation:
 
     def _repr_html_(self) -> str:
         """Return the view of a notebook: the picture and the table."""
-        from .picture import evaluation_picture
+        from colift.picture import evaluation_picture
 
         return f"{evaluation_picture(self.run, self.results)}<pre>{html.escape(str(self))}</pre>"

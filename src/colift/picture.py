@@ -7,9 +7,9 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from .benchmark.bundle import Results
-from .benchmark.execution.runner import Run
-from .benchmark.rendering.style import HUMAN, INK, ROBOT, style_axes
+from colift.benchmark.bundle import Results
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.rendering.style import HUMAN, INK, ROBOT, style_axes
 
 ROW: Final = 0.42
 """Height of a row [inches]."""

@@ -12,29 +12,29 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from .agents.actions import ActionError, checked_action
-from .agents.agent import FRAME, Agent, Explaining, RobotObservation
-from .agents.errors import InputError, PolicyError
-from .agents.humans import GOAL_RANGE, SUBJECTS, Behaviour, Plan, Subject
-from .agents.plugins import article, error_at, place_of
-from .agents.policies.copy import Copy
-from .agents.registry import TASKS, entries
-from .benchmark.bundle.recipe import FROM_NAMES, Recipe
-from .benchmark.episode.blame import blaming_plugins, check_episode
-from .benchmark.episode.conformance import (
+from colift.agents.actions import ActionError, checked_action
+from colift.agents.agent import FRAME, Agent, Explaining, RobotObservation
+from colift.agents.errors import InputError, PolicyError
+from colift.agents.humans import GOAL_RANGE, SUBJECTS, Behaviour, Plan, Subject
+from colift.agents.plugins import article, error_at, place_of
+from colift.agents.policies.copy import Copy
+from colift.agents.registry import TASKS, entries
+from colift.benchmark.bundle.recipe import FROM_NAMES, Recipe
+from colift.benchmark.episode.blame import blaming_plugins, check_episode
+from colift.benchmark.episode.conformance import (
     behaviour_fault,
     observation_fault,
     plan_fault,
     rewards_fault,
     task_fault,
 )
-from .benchmark.episode.episode import run_episode
-from .benchmark.episode.level import LEVEL
-from .benchmark.episode.lift import Lift, make_lift
-from .benchmark.episode.replay import replay
-from .benchmark.episode.task import Task
-from .benchmark.suites.catalogue import make_scenario
-from .benchmark.suites.suite import Suite, plain_name
+from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.episode.lift import Lift, make_lift
+from colift.benchmark.episode.replay import replay
+from colift.benchmark.episode.task import Task
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import Suite, plain_name
 
 ROUNDING: Final = 1e-9
 """Rounding of heights [m]."""

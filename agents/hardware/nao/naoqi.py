@@ -18,12 +18,17 @@ from contextlib import suppress
 from typing import Any, Final
 
 import numpy as np
+from colift.agents.hardware.clocks import awake_or_asleep
+from colift.agents.hardware.ports import (
+    ArmState,
+    HandLimits,
+    Naoqi,
+    RobotLostError,
+    RobotTakenError,
+)
+from colift.agents.hardware.safety import ASTRAY, hand_limits, next_command
+from colift.robots.nao.kinematics import ARM_JOINTS, MIRROR, REST_Z, arm_path, hand_position
 from numpy.typing import NDArray
-
-from ....robots.nao.kinematics import ARM_JOINTS, MIRROR, REST_Z, arm_path, hand_position
-from ..clocks import awake_or_asleep
-from ..ports import ArmState, HandLimits, Naoqi, RobotLostError, RobotTakenError
-from ..safety import ASTRAY, hand_limits, next_command
 
 NAMES: Final = list(ARM_JOINTS)
 

@@ -6,9 +6,9 @@ import time
 from collections.abc import Sequence
 from typing import Any, Final, NoReturn
 
-from ...errors import InputError
-from ..missing import import_optional
-from ..ports import RobotLostError
+from colift.agents.errors import InputError
+from colift.agents.hardware.missing import import_optional
+from colift.agents.hardware.ports import RobotLostError
 
 CONNECT_TIME: Final = 5.0
 """Longest time to connect [s]."""

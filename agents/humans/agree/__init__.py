@@ -1,9 +1,18 @@
 """People who have a hurdle to pass, and a partner who may have another."""
 
-from .hurdles import Abreast, Ahead, Behind, Hurdle, HurdlePlan, NoHurdle, OtherHurdle, OwnHurdle
-from .manner import MANNERS, AgreeingManner, agreeing_manner
-from .negotiator import Negotiator, Secret, with_secret
-from .second import SecondNegotiator
+from colift.agents.humans.agree.hurdles import (
+    Abreast,
+    Ahead,
+    Behind,
+    Hurdle,
+    HurdlePlan,
+    NoHurdle,
+    OtherHurdle,
+    OwnHurdle,
+)
+from colift.agents.humans.agree.manner import MANNERS, AgreeingManner, agreeing_manner
+from colift.agents.humans.agree.negotiator import Negotiator, Secret, with_secret
+from colift.agents.humans.agree.second import SecondNegotiator
 
 __all__ = [
     "MANNERS",

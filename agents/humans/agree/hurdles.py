@@ -4,11 +4,10 @@ from dataclasses import dataclass
 from typing import ClassVar, Final, NamedTuple
 
 import numpy as np
-
-from ...agent import FRAME
-from .. import Plan, Subject
-from ..movement import MovementDraw, natural_stroke
-from ..plan import assemble, move, still
+from colift.agents.agent import FRAME
+from colift.agents.humans import Plan, Subject
+from colift.agents.humans.movement import MovementDraw, natural_stroke
+from colift.agents.humans.plan import assemble, move, still
 
 COMMON: Final = (0.13, 0.17)
 """Range of the common height, to which both ends are lifted [m]."""

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-
-from .. import PARTNER_SUBJECT, Subject
+from colift.agents.humans import PARTNER_SUBJECT, Subject
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,12 +4,11 @@ import math
 from typing import Final, NamedTuple
 
 import numpy as np
-
-from ...agent import FRAME, HISTORY, Action, HumanObservation, Observation
-from ...estimators.belief import GoalBelief
-from .. import ScriptedHuman, Subject
-from .manner import AgreeingManner, agreeing_manner
-from .precedence import Precedence
+from colift.agents.agent import FRAME, HISTORY, Action, HumanObservation, Observation
+from colift.agents.estimators.belief import GoalBelief
+from colift.agents.humans import ScriptedHuman, Subject
+from colift.agents.humans.agree.manner import AgreeingManner, agreeing_manner
+from colift.agents.humans.agree.precedence import Precedence
 
 PACE: Final = 8.0
 """omega, the natural frequency of a person's approach [rad/s]: a hurdle 50 mm away is passed after

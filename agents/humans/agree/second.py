@@ -3,11 +3,11 @@
 import math
 from typing import Final
 
-from ...agent import FRAME, HumanObservation, Observation
-from .. import PARTNER_SUBJECT, Subject
-from ..partner import PartnerParameters
-from .manner import AgreeingManner
-from .negotiator import LIFTED, Negotiator
+from colift.agents.agent import FRAME, HumanObservation, Observation
+from colift.agents.humans import PARTNER_SUBJECT, Subject
+from colift.agents.humans.agree.manner import AgreeingManner
+from colift.agents.humans.agree.negotiator import LIFTED, Negotiator
+from colift.agents.humans.partner import PartnerParameters
 
 LOWERED: Final = 0.06
 """Height below which the other end is being lowered to the ground [m]."""

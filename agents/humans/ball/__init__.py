@@ -1,8 +1,15 @@
 """People who steer a ball on the table while they lift it."""
 
-from .manner import MANNERS, SteeringManner, steering_manner
-from .places import BallPause, BallPauseShared, BallPlan, BallSmooth, BallSmoothShared, Placing
-from .steerer import BallPartner, BallSenses, Steerer, with_ball
+from colift.agents.humans.ball.manner import MANNERS, SteeringManner, steering_manner
+from colift.agents.humans.ball.places import (
+    BallPause,
+    BallPauseShared,
+    BallPlan,
+    BallSmooth,
+    BallSmoothShared,
+    Placing,
+)
+from colift.agents.humans.ball.steerer import BallPartner, BallSenses, Steerer, with_ball
 
 __all__ = [
     "MANNERS",

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-
-from .. import SUBJECTS, Subject
+from colift.agents.humans import SUBJECTS, Subject
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,12 +5,11 @@ from dataclasses import dataclass
 from typing import ClassVar, Final
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.humans import Behaviour, Pause, Plan, Smooth, Subject
+from colift.agents.humans.plan import LENGTH_STEP
+from colift.agents.humans.subject import GOAL_RANGE
 from numpy.typing import NDArray
-
-from ...agent import FRAME
-from .. import Behaviour, Pause, Plan, Smooth, Subject
-from ..plan import LENGTH_STEP
-from ..subject import GOAL_RANGE
 
 FIRST: Final = (0.0, 0.5)
 """Range of the time from the beginning of the lift to the first change of the target [s]."""

@@ -5,12 +5,11 @@ from collections import deque
 from typing import Final
 
 import numpy as np
-
-from ...agent import FRAME, HISTORY, Action, HumanObservation, Observation
-from ...ball.facts import HALF_WEIGHT, PULL, meant_by_wrists
-from .. import PARTNER_SUBJECT, ScriptedHuman, Subject
-from ..partner import PartnerParameters
-from .manner import PARTNER_MANNER, SteeringManner, steering_manner
+from colift.agents.agent import FRAME, HISTORY, Action, HumanObservation, Observation
+from colift.agents.ball.facts import HALF_WEIGHT, PULL, meant_by_wrists
+from colift.agents.humans import PARTNER_SUBJECT, ScriptedHuman, Subject
+from colift.agents.humans.ball.manner import PARTNER_MANNER, SteeringManner, steering_manner
+from colift.agents.humans.partner import PartnerParameters
 
 DAMPING_RATIO: Final = 0.8
 """Damping ratio with which people bring the ball to its target."""

@@ -1,9 +1,9 @@
 """People who intend a pose of the whole table."""
 
-from .companion import Companion
-from .manner import MANNERS, LeadingManner, leading_manner
-from .pace import Pace, planned_at
-from .poses import Counter, Pivot, PosePlan, Posing, Switching, Together
+from colift.agents.humans.intent.companion import Companion
+from colift.agents.humans.intent.manner import MANNERS, LeadingManner, leading_manner
+from colift.agents.humans.intent.pace import Pace, planned_at
+from colift.agents.humans.intent.poses import Counter, Pivot, PosePlan, Posing, Switching, Together
 
 __all__ = [
     "MANNERS",

@@ -4,11 +4,10 @@ import math
 from typing import Final
 
 import numpy as np
-
-from ...agent import FRAME, Action, HumanObservation, Observation
-from ...touch.pose_filter import PoseFilter, PoseFilterParameters
-from ...touch.touch import TABLE_LENGTH
-from .. import PARTNER_SUBJECT, ScriptedHuman
+from colift.agents.agent import FRAME, Action, HumanObservation, Observation
+from colift.agents.humans import PARTNER_SUBJECT, ScriptedHuman
+from colift.agents.touch.pose_filter import PoseFilter, PoseFilterParameters
+from colift.agents.touch.touch import TABLE_LENGTH
 
 FELT_FRAMES: Final = 5
 """Newest frames of the felt force that are averaged."""

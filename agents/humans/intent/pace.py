@@ -3,11 +3,10 @@
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.humans import Subject
+from colift.agents.humans.intent.manner import leading_manner
 from numpy.typing import NDArray
-
-from ...agent import FRAME
-from .. import Subject
-from .manner import leading_manner
 
 CATCHING_UP: Final = 1.25
 """Fastest pace, for a person who is late; 1 is the plan's own."""

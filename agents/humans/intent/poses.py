@@ -5,11 +5,10 @@ from dataclasses import dataclass
 from typing import ClassVar, Final, NamedTuple
 
 import numpy as np
+from colift.agents.humans import Plan, Subject
+from colift.agents.humans.movement import MovementDraw, natural_stroke
+from colift.agents.humans.plan import LENGTH_STEP, Segment, assemble, move, still
 from numpy.typing import NDArray
-
-from .. import Plan, Subject
-from ..movement import MovementDraw, natural_stroke
-from ..plan import LENGTH_STEP, Segment, assemble, move, still
 
 BASE: Final = (0.12, 0.16)
 """Range of the height to which the table is lifted level at first [m]."""

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final, NamedTuple
 
-from .linux import syscall
+from colift.agents.sandbox.guest.linux import syscall
 
 CHANNEL: Final = 3
 """File descriptor of the connection; 1 and 2 are the output."""

@@ -16,12 +16,12 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
-from ..protocol import ORDER, Assignment, Limits
-from . import landlock, linux
-from .pages import Pages, mappings
-from .restrictions import Restrictions
-from .server import serve
-from .spawn import Ends, spawn
+from colift.agents.sandbox.guest import landlock, linux
+from colift.agents.sandbox.guest.pages import Pages, mappings
+from colift.agents.sandbox.guest.restrictions import Restrictions
+from colift.agents.sandbox.guest.server import serve
+from colift.agents.sandbox.guest.spawn import Ends, spawn
+from colift.agents.sandbox.protocol import ORDER, Assignment, Limits
 
 _TRIAL_SECONDS: Final = 30.0
 """Time limit for the trial of a process, for a busy machine [s]."""

@@ -14,10 +14,10 @@ import time
 from dataclasses import dataclass
 from typing import Final
 
-from . import filters
-from .filters import CHANNEL, FORKING, HEAD, LIFT, NUMBERS, Filter
-from .pages import Pages, mappings
-from .processes import Processes
+from colift.agents.sandbox.guest import filters
+from colift.agents.sandbox.guest.filters import CHANNEL, FORKING, HEAD, LIFT, NUMBERS, Filter
+from colift.agents.sandbox.guest.pages import Pages, mappings
+from colift.agents.sandbox.guest.processes import Processes
 
 _RECEIVE, _ANSWER = 0xC0502100, 0xC0182101
 """The listener's controls ``SECCOMP_IOCTL_NOTIF_RECV`` and ``SECCOMP_IOCTL_NOTIF_SEND``."""

@@ -8,7 +8,7 @@ from collections import defaultdict
 from collections.abc import Iterator
 from typing import Final, NamedTuple
 
-from . import linux
+from colift.agents.sandbox.guest import linux
 
 
 class Mapping(NamedTuple):

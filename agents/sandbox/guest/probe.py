@@ -12,10 +12,10 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
-from ...agent import Action, Observation
-from ..protocol import SECRETS
-from . import linux
-from .filters import NUMBERS
+from colift.agents.agent import Action, Observation
+from colift.agents.sandbox.guest import linux
+from colift.agents.sandbox.guest.filters import NUMBERS
+from colift.agents.sandbox.protocol import SECRETS
 
 _RWF_NOWAIT: Final = 8
 _NUMBERS: Final = {

@@ -6,9 +6,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ..protocol import AGENTS, Limits
-from . import filters, landlock, linux
-from .linux import MS_BIND, MS_NODEV, MS_NOEXEC, MS_NOSUID, MS_PRIVATE, MS_RDONLY, MS_REC
+from colift.agents.sandbox.guest import filters, landlock, linux
+from colift.agents.sandbox.guest.linux import (
+    MS_BIND,
+    MS_NODEV,
+    MS_NOEXEC,
+    MS_NOSUID,
+    MS_PRIVATE,
+    MS_RDONLY,
+    MS_REC,
+)
+from colift.agents.sandbox.protocol import AGENTS, Limits
 
 FRESH: Final = ("/tmp", "/dev/shm")
 """Private directories of an episode with namespaces, empty at first."""

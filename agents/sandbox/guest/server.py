@@ -28,17 +28,16 @@ import numpy.linalg
 import numpy.ma
 import numpy.polynomial
 import numpy.random
-
-from ...actions import ActionError, checked_action
-from ...agent import Agent, Explaining
-from ...errors import InputError, error_text
-from ...loading.description import described
-from ...loading.late import import_late
-from ...loading.loading import PolicySpec
-from ...loading.parameters import make_with, read_values
-from ...registry import summary
-from ...traced import own_traceback
-from ..protocol import (
+from colift.agents.actions import ActionError, checked_action
+from colift.agents.agent import Agent, Explaining
+from colift.agents.errors import InputError, error_text
+from colift.agents.loading.description import described
+from colift.agents.loading.late import import_late
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.parameters import make_with, read_values
+from colift.agents.registry import summary
+from colift.agents.sandbox.guest.filters import CHANNEL, FORKING, LIFT, install
+from colift.agents.sandbox.protocol import (
     AGENTS,
     INTERNALS,
     NAME,
@@ -50,7 +49,7 @@ from ..protocol import (
     WireError,
     packed,
 )
-from .filters import CHANNEL, FORKING, LIFT, install
+from colift.agents.traced import own_traceback
 
 _OURS: Final = f"{Path(__file__).parent}/"
 """Colift's own files, whose lines in a traceback would not help the policy's author."""

@@ -17,13 +17,18 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
-from . import linux
-from .filters import CHANNEL
-from .gate import Gate
-from .pages import Pages
-from .processes import Processes
-from .restrictions import NOBODY, Restrictions, drop_privileges, enter_root
-from .watch import Watch
+from colift.agents.sandbox.guest import linux
+from colift.agents.sandbox.guest.filters import CHANNEL
+from colift.agents.sandbox.guest.gate import Gate
+from colift.agents.sandbox.guest.pages import Pages
+from colift.agents.sandbox.guest.processes import Processes
+from colift.agents.sandbox.guest.restrictions import (
+    NOBODY,
+    Restrictions,
+    drop_privileges,
+    enter_root,
+)
+from colift.agents.sandbox.guest.watch import Watch
 
 
 class Ends(NamedTuple):

@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
-from ..protocol import CLOSED, END, ENDED, FORK, OF_LIFT, Limits
-from .gate import Gate
-from .processes import Figures, Processes
+from colift.agents.sandbox.guest.gate import Gate
+from colift.agents.sandbox.guest.processes import Figures, Processes
+from colift.agents.sandbox.protocol import CLOSED, END, ENDED, FORK, OF_LIFT, Limits
 
 PERIOD: Final = 0.02
 """Time between two checks of memory, processes and processor time [s]."""

@@ -7,15 +7,14 @@ import os
 from typing import Any, Final, NoReturn
 
 import numpy as np
-
-from ...agent import Action, Observation
-from ...errors import EvaluatorFault, PolicyError
-from ...loading.description import ParameterText
-from ..protocol import INTERNALS, NAME, OUTPUT, REASON, Limits
-from .cell import Cell
-from .connection import Connection
-from .output import clean
-from .sandbox import Load, Sandbox
+from colift.agents.agent import Action, Observation
+from colift.agents.errors import EvaluatorFault, PolicyError
+from colift.agents.loading.description import ParameterText
+from colift.agents.sandbox.host.cell import Cell
+from colift.agents.sandbox.host.connection import Connection
+from colift.agents.sandbox.host.output import clean
+from colift.agents.sandbox.host.sandbox import Load, Sandbox
+from colift.agents.sandbox.protocol import INTERNALS, NAME, OUTPUT, REASON, Limits
 
 TURNS: Final = 8
 """Turns on one processor before the scheduler may choose another."""

@@ -16,13 +16,12 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-
-from ...errors import EvaluatorFault, InputError, PolicyError
-from ..protocol import AGENTS, SECRETS, Assignment, Limits
-from .agent import allowed, remote_agent
-from .process import BUBBLEWRAP, LANDLOCK, LIMITS
-from .refusals import in_words
-from .sandbox import Load, Sandbox
+from colift.agents.errors import EvaluatorFault, InputError, PolicyError
+from colift.agents.sandbox.host.agent import allowed, remote_agent
+from colift.agents.sandbox.host.process import BUBBLEWRAP, LANDLOCK, LIMITS
+from colift.agents.sandbox.host.refusals import in_words
+from colift.agents.sandbox.host.sandbox import Load, Sandbox
+from colift.agents.sandbox.protocol import AGENTS, SECRETS, Assignment, Limits
 
 log: Final = logging.getLogger("colift.sandbox")
 """The reasons in the system's words, as information."""

@@ -6,7 +6,7 @@ import re
 from typing import Final
 from unicodedata import category
 
-from ..protocol import OUTPUT
+from colift.agents.sandbox.protocol import OUTPUT
 
 _CHUNK: Final = 64 * 1024
 _CHUNKS: Final = 16

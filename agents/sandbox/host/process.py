@@ -14,11 +14,11 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Final
 
-from ...errors import EvaluatorFault
-from ..protocol import AGENTS, MIB, ORDER, REASON, Limits
-from .control_group import ControlGroup
-from .output import clean
-from .view import View, environment, view
+from colift.agents.errors import EvaluatorFault
+from colift.agents.sandbox.host.control_group import ControlGroup
+from colift.agents.sandbox.host.output import clean
+from colift.agents.sandbox.host.view import View, environment, view
+from colift.agents.sandbox.protocol import AGENTS, MIB, ORDER, REASON, Limits
 
 BUBBLEWRAP: Final = "bubblewrap"
 LANDLOCK: Final = "landlock"

@@ -6,8 +6,8 @@ import socket
 import time
 from typing import Final
 
-from ...errors import EvaluatorFault, PolicyError
-from ..protocol import MIB, OF_LIFT, Limits
+from colift.agents.errors import EvaluatorFault, PolicyError
+from colift.agents.sandbox.protocol import MIB, OF_LIFT, Limits
 
 _REFUSALS: Final = {
     "processes": "started a process: a policy has only its own",

@@ -13,8 +13,7 @@ from typing import Final
 
 import msgpack
 import numpy as np
-
-from ..protocol import AGENTS
+from colift.agents.sandbox.protocol import AGENTS
 
 _SYSTEM: Final = (
     *("/usr/lib", "/usr/lib64", "/usr/lib32", "/lib", "/lib64", "/lib32"),

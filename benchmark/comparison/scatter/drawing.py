@@ -3,9 +3,15 @@
 from collections.abc import Sequence
 from typing import Final, Literal, Protocol
 
-from ..front import FrontPoint
-from .scale import Box, Place
-from .scene import LINE_HEIGHT, NAME_SIZE, NOTE_SIZE, Dot, ScatterScene
+from colift.benchmark.comparison.front import FrontPoint
+from colift.benchmark.comparison.scatter.scale import Box, Place
+from colift.benchmark.comparison.scatter.scene import (
+    LINE_HEIGHT,
+    NAME_SIZE,
+    NOTE_SIZE,
+    Dot,
+    ScatterScene,
+)
 
 Colour = Literal["ink", "faint", "line", "paper", "card", "human", "accent"]
 Anchor = Literal["start", "middle", "end"]

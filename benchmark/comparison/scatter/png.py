@@ -4,14 +4,13 @@ import io
 from collections.abc import Sequence
 from typing import Final
 
+from colift.benchmark.comparison.scatter.drawing import Anchor, Colour, draw
+from colift.benchmark.comparison.scatter.scale import Box, Place
+from colift.benchmark.comparison.scatter.scene import RADIUS, Dot, ScatterScene
+from colift.benchmark.rendering.style import FAINT, HUMAN, INK, LINE, PAPER, ROBOT, SKY
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
-
-from ...rendering.style import FAINT, HUMAN, INK, LINE, PAPER, ROBOT, SKY
-from .drawing import Anchor, Colour, draw
-from .scale import Box, Place
-from .scene import RADIUS, Dot, ScatterScene
 
 PIXELS: Final = 1.6
 """Pixels of the file per pixel of the scene."""

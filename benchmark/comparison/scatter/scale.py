@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from ...episode.metric import Metric
-from ...rendering.ticks import far_limit
-from ...statistics import Interval
-from ..front import FrontPoint
+from colift.benchmark.comparison.front import FrontPoint
+from colift.benchmark.episode.metric import Metric
+from colift.benchmark.rendering.ticks import far_limit
+from colift.benchmark.statistics import Interval
 
 STRIP: Final = 0.115
 """Breadth of a strip for points off the scale, relative to that of the plot."""

@@ -7,13 +7,12 @@ from itertools import pairwise
 from typing import Final
 
 import numpy as np
-
-from ...episode.metric import Metric
-from ...rendering.labels import nearest, place_labels
-from ...rendering.ticks import round_ticks
-from ...statistics import Interval
-from ..front import FrontPoint, pareto_front
-from .scale import Box, Place, Scale, make_scale
+from colift.benchmark.comparison.front import FrontPoint, pareto_front
+from colift.benchmark.comparison.scatter.scale import Box, Place, Scale, make_scale
+from colift.benchmark.episode.metric import Metric
+from colift.benchmark.rendering.labels import nearest, place_labels
+from colift.benchmark.rendering.ticks import round_ticks
+from colift.benchmark.statistics import Interval
 
 WIDE: Final = (920, 520)
 NARROW: Final = (390, 440)

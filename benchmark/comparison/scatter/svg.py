@@ -2,11 +2,10 @@
 
 from collections.abc import Sequence
 
+from colift.benchmark.comparison.scatter.drawing import Anchor, Colour, draw
+from colift.benchmark.comparison.scatter.scale import Box, Place
+from colift.benchmark.comparison.scatter.scene import RADIUS, Dot, ScatterScene
 from markupsafe import Markup, escape
-
-from .drawing import Anchor, Colour, draw
-from .scale import Box, Place
-from .scene import RADIUS, Dot, ScatterScene
 
 
 def svg(scene: ScatterScene, kind: str) -> Markup:

@@ -4,14 +4,21 @@ from collections.abc import Callable, Sequence
 from typing import Final
 
 import numpy as np
+from colift.benchmark.paper.exhibits import (
+    CONFIDENCE,
+    PREDICTION,
+    Claim,
+    Exhibit,
+    legend,
+    panels,
+    shade,
+)
+from colift.benchmark.paper.topics.timing import MOVING
+from colift.benchmark.paper.watched import SampledLift
+from colift.benchmark.rendering.style import FAINT, HUMAN, INK
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
-
-from ...rendering.style import FAINT, HUMAN, INK
-from ..exhibits import CONFIDENCE, PREDICTION, Claim, Exhibit, legend, panels, shade
-from ..watched import SampledLift
-from .timing import MOVING
 
 Series = NDArray[np.float64]
 

@@ -4,14 +4,13 @@ from collections.abc import Mapping, Sequence
 from typing import Final
 
 import numpy as np
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.paper.exhibits import CONFIDENCE, Claim, Exhibit, panels, shade
+from colift.benchmark.paper.refilter import confidence_trajectory, refilter
+from colift.benchmark.paper.table_one import FORGETTING, FORGETTING_FACTORS, errors
+from colift.benchmark.paper.watched import SampledLift, rms
+from colift.benchmark.rendering.style import HUMAN, INK
 from numpy.typing import ArrayLike
-
-from ...execution.runner import Run
-from ...rendering.style import HUMAN, INK
-from ..exhibits import CONFIDENCE, Claim, Exhibit, panels, shade
-from ..refilter import confidence_trajectory, refilter
-from ..table_one import FORGETTING, FORGETTING_FACTORS, errors
-from ..watched import SampledLift, rms
 
 SETTLED: Final = 0.05
 """A profile has settled within this fraction of its resting value."""

@@ -5,13 +5,12 @@ from collections.abc import Sequence
 from typing import Any, Final
 
 import numpy as np
+from colift.agents.control.q_learning import ACTIONS, Q_PARAMETERS, learned_table, state_of
+from colift.benchmark.paper.exhibits import Claim, Exhibit, legend, panels
+from colift.benchmark.paper.table_one import LONGEST_ITERATIONS, MEDIAN_ITERATIONS, TRIALS
+from colift.benchmark.rendering.style import FAINT, HUMAN, INK
+from colift.benchmark.training.q_learning import LearningTrial
 from numpy.typing import NDArray
-
-from ....agents.control.q_learning import ACTIONS, Q_PARAMETERS, learned_table, state_of
-from ...rendering.style import FAINT, HUMAN, INK
-from ...training.q_learning import LearningTrial
-from ..exhibits import Claim, Exhibit, legend, panels
-from ..table_one import LONGEST_ITERATIONS, MEDIAN_ITERATIONS, TRIALS
 
 LEVEL: Final = 0.01
 """Height difference within which the table counts as level [m]: half a position step."""

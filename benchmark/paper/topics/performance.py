@@ -3,20 +3,19 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.metrics import stroke_smoothness
+from colift.benchmark.episode.smoothness import sparc
+from colift.benchmark.paper.evidence import Evidence
+from colift.benchmark.paper.exhibits import Claim, Exhibit, legend, p_value_text, panels
+from colift.benchmark.paper.table_one import errors
+from colift.benchmark.paper.topics.confidence import moving_confidence
+from colift.benchmark.paper.watched import SampledLift, sampled_lifts
+from colift.benchmark.rendering.style import FAINT, HUMAN, INK, ROBOT
+from colift.benchmark.statistics import paired_permutation_p, stratified_bootstrap
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
-
-from ....agents.agent import FRAME
-from ...episode.episode import Episode
-from ...episode.metrics import stroke_smoothness
-from ...episode.smoothness import sparc
-from ...rendering.style import FAINT, HUMAN, INK, ROBOT
-from ...statistics import paired_permutation_p, stratified_bootstrap
-from ..evidence import Evidence
-from ..exhibits import Claim, Exhibit, legend, p_value_text, panels
-from ..table_one import errors
-from ..watched import SampledLift, sampled_lifts
-from .confidence import moving_confidence
 
 Series = NDArray[np.float64]
 

@@ -4,12 +4,11 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
+from colift.benchmark.paper.exhibits import PREDICTION, Claim, Exhibit, legend, p_value_text, panels
+from colift.benchmark.paper.watched import SampledLift, rms
+from colift.benchmark.rendering.style import HUMAN
+from colift.benchmark.statistics import paired_permutation_p
 from numpy.typing import NDArray
-
-from ...rendering.style import HUMAN
-from ...statistics import paired_permutation_p
-from ..exhibits import PREDICTION, Claim, Exhibit, legend, p_value_text, panels
-from ..watched import SampledLift, rms
 
 Series = NDArray[np.float64]
 

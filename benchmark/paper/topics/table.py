@@ -2,9 +2,9 @@
 
 from typing import Final
 
-from ...rendering.style import HUMAN, INK, ROBOT
-from ..exhibits import Claim, Exhibit, legend, p_value_text, panels
-from ..table_one import SubjectRow, TableOne
+from colift.benchmark.paper.exhibits import Claim, Exhibit, legend, p_value_text, panels
+from colift.benchmark.paper.table_one import SubjectRow, TableOne
+from colift.benchmark.rendering.style import HUMAN, INK, ROBOT
 
 CELL: Final = 0.12
 """Largest relative deviation of a cell of Table I."""

@@ -8,18 +8,17 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from colift.agents.control.predictor import PredictorParameters
+from colift.benchmark.episode.scenario import LATENCY
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.paper.evidence import TimingSetting
+from colift.benchmark.paper.exhibits import CONFIDENCE, PREDICTION, Claim, Exhibit, panels
+from colift.benchmark.paper.refilter import refilter
+from colift.benchmark.paper.table_one import errors
+from colift.benchmark.paper.watched import SampledLift, rms, sampled_lifts
+from colift.benchmark.rendering.style import FAINT, INK
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
-
-from ....agents.control.predictor import PredictorParameters
-from ...episode.scenario import LATENCY
-from ...execution.runner import Run
-from ...rendering.style import FAINT, INK
-from ..evidence import TimingSetting
-from ..exhibits import CONFIDENCE, PREDICTION, Claim, Exhibit, panels
-from ..refilter import refilter
-from ..table_one import errors
-from ..watched import SampledLift, rms, sampled_lifts
 
 Series = NDArray[np.float64]
 

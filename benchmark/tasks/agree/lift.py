@@ -1,11 +1,10 @@
 """A lift in which each holder has a private hurdle."""
 
 import numpy as np
+from colift.agents.agent import FRAME, Agent
+from colift.agents.humans.agree import Hurdle, HurdlePlan, Negotiator, Secret
+from colift.benchmark.tasks.haptic import HapticLift
 from numpy.typing import NDArray
-
-from ....agents.agent import FRAME, Agent
-from ....agents.humans.agree import Hurdle, HurdlePlan, Negotiator, Secret
-from ..haptic import HapticLift
 
 
 class AgreeLift(HapticLift):

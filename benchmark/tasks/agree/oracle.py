@@ -3,14 +3,13 @@
 from typing import Final, NamedTuple
 
 import numpy as np
+from colift.agents.agent import FRAME, Action, Observation, RobotObservation
+from colift.agents.humans.stroke import replan
+from colift.benchmark.episode.episode import Episode, run_episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.tasks.agree.lift import AgreeLift
+from colift.benchmark.tasks.rehearsal import Foreknowing, raised
 from numpy.typing import NDArray
-
-from ....agents.agent import FRAME, Action, Observation, RobotObservation
-from ....agents.humans.stroke import replan
-from ...episode.episode import Episode, run_episode
-from ...episode.lift import Lift
-from ..rehearsal import Foreknowing, raised
-from .lift import AgreeLift
 
 STARTS: Final = 5
 """Number of starting times, over its window, that are tried for a detour to the robot's hurdle."""

@@ -5,12 +5,11 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.humans.agree import Hurdle
+from colift.benchmark.episode.metrics import FAILED_FRAME_MM
+from colift.robots.arithmetic import dot
 from numpy.typing import NDArray
-
-from ....agents.agent import FRAME
-from ....agents.humans.agree import Hurdle
-from ....robots.arithmetic import dot
-from ...episode.metrics import FAILED_FRAME_MM
 
 PASSED: Final = 0.01
 """Root mean square distance of both ends from a hurdle within which the table passes it [m]."""

@@ -6,25 +6,29 @@ from dataclasses import dataclass
 from typing import ClassVar, Final
 
 import numpy as np
+from colift.agents.agent import FRAME, Agent, Observation
+from colift.agents.errors import InputError
+from colift.agents.humans import SUBJECTS
+from colift.agents.humans.agree import SecondNegotiator, with_secret
+from colift.benchmark.episode import metrics
+from colift.benchmark.episode.level import HEIGHT_BOUND, LONGEST_EPISODE
+from colift.benchmark.episode.metric import Metrics, Scores
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.task import Bounds, Playing
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.agree.lift import AgreeLift
+from colift.benchmark.tasks.agree.scores import (
+    agreement_ms,
+    agreement_rmse_mm,
+    leading_mw,
+    missed_mm,
+)
+from colift.benchmark.tasks.agree.table import AGREE_METRICS
+from colift.benchmark.tasks.haptic import Haptic
+from colift.benchmark.world.table import WEIGHT_SHARE
 from numpy.typing import NDArray
-
-from ....agents.agent import FRAME, Agent, Observation
-from ....agents.errors import InputError
-from ....agents.humans import SUBJECTS
-from ....agents.humans.agree import SecondNegotiator, with_secret
-from ...episode import metrics
-from ...episode.level import HEIGHT_BOUND, LONGEST_EPISODE
-from ...episode.metric import Metrics, Scores
-from ...episode.scenario import Scenario
-from ...episode.task import Bounds, Playing
-from ...episode.trace import Trace
-from ...suites.catalogue import make_scenario
-from ...suites.suite import Suite
-from ...world.table import WEIGHT_SHARE
-from ..haptic import Haptic
-from .lift import AgreeLift
-from .scores import agreement_ms, agreement_rmse_mm, leading_mw, missed_mm
-from .table import AGREE_METRICS
 
 BEHAVIOURS = ("abreast", "ahead", "behind", "own_hurdle", "other_hurdle", "no_hurdle")
 

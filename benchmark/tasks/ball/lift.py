@@ -5,13 +5,12 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
-
-from ....agents.agent import HISTORY, Agent, Observation
-from ....agents.humans.ball import BallPlan, Steerer, steering_manner, with_ball
-from ...episode.lift import MOCAP_NOISE
-from ...world import HISTORY_FRAMES
-from ...world.table import TABLE_LENGTH
-from ..haptic import HapticLift
+from colift.agents.agent import HISTORY, Agent, Observation
+from colift.agents.humans.ball import BallPlan, Steerer, steering_manner, with_ball
+from colift.benchmark.episode.lift import MOCAP_NOISE
+from colift.benchmark.tasks.haptic import HapticLift
+from colift.benchmark.world import HISTORY_FRAMES
+from colift.benchmark.world.table import TABLE_LENGTH
 
 STEEPEST_MEANT: Final = 0.5
 """Largest sine of an intended pitch; people's intentions stay far below it."""

@@ -4,16 +4,15 @@ from functools import cache
 from typing import Final, NamedTuple
 
 import numpy as np
+from colift.agents.agent import FRAME, Action, Observation
+from colift.agents.control.anticipation import ARM_LAG
+from colift.agents.policies.ball_game import BallGame
+from colift.benchmark.episode.episode import Episode, run_episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.tasks.ball.lift import BallLift
+from colift.benchmark.world.ball import ROLLING
+from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH
 from numpy.typing import NDArray
-
-from ....agents.agent import FRAME, Action, Observation
-from ....agents.control.anticipation import ARM_LAG
-from ....agents.policies.ball_game import BallGame
-from ...episode.episode import Episode, run_episode
-from ...episode.lift import Lift
-from ...world.ball import ROLLING
-from ...world.table import GRAVITY, TABLE_LENGTH
-from .lift import BallLift
 
 REHEARSALS: Final = 10
 """Number of rehearsals of an episode; the best one counts."""

@@ -6,11 +6,10 @@ from itertools import pairwise
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.benchmark.episode.metrics import FAILED_FRAME_MM
+from colift.robots.arithmetic import dot
 from numpy.typing import NDArray
-
-from ....agents.agent import FRAME
-from ....robots.arithmetic import dot
-from ...episode.metrics import FAILED_FRAME_MM
 
 NEAR: Final = 0.02
 """Distance from the target [m] within which the ball counts as there (Liu et al. 2022)."""

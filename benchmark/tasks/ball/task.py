@@ -6,26 +6,25 @@ from dataclasses import dataclass
 from typing import ClassVar, Final
 
 import numpy as np
+from colift.agents.agent import Agent, Observation
+from colift.agents.humans import SUBJECTS
+from colift.agents.humans.ball import BallPartner, BallSenses
+from colift.agents.observations import BallObservation
+from colift.benchmark.episode import metrics
+from colift.benchmark.episode.level import HEIGHT_BOUND
+from colift.benchmark.episode.metric import Metrics, Scores
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.task import Bounds, Playing
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.ball.lift import BallLift
+from colift.benchmark.tasks.ball.scores import ball_settling_ms, missed_rmse_mm, velocity_peaks
+from colift.benchmark.tasks.ball.table import BALL_METRICS
+from colift.benchmark.tasks.haptic import FINER, Haptic
+from colift.benchmark.world import Ball, BodyParameters, FarEnd, HapticWorld
+from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH, WEIGHT_SHARE
 from numpy.typing import NDArray
-
-from ....agents.agent import Agent, Observation
-from ....agents.humans import SUBJECTS
-from ....agents.humans.ball import BallPartner, BallSenses
-from ....agents.observations import BallObservation
-from ...episode import metrics
-from ...episode.level import HEIGHT_BOUND
-from ...episode.metric import Metrics, Scores
-from ...episode.scenario import Scenario
-from ...episode.task import Bounds, Playing
-from ...episode.trace import Trace
-from ...suites.catalogue import make_scenario
-from ...suites.suite import Suite
-from ...world import Ball, BodyParameters, FarEnd, HapticWorld
-from ...world.table import GRAVITY, TABLE_LENGTH, WEIGHT_SHARE
-from ..haptic import FINER, Haptic
-from .lift import BallLift
-from .scores import ball_settling_ms, missed_rmse_mm, velocity_peaks
-from .table import BALL_METRICS
 
 BEHAVIOURS: Final = ("ball_smooth", "ball_pause", "ball_smooth_shared", "ball_pause_shared")
 

@@ -4,11 +4,10 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-
-from ....agents.agent import FRAME, Observation
-from ....agents.humans.intent import Pace, PosePlan, leading_manner, planned_at
-from ...world.table import TABLE_LENGTH
-from ..haptic import HapticLift
+from colift.agents.agent import FRAME, Observation
+from colift.agents.humans.intent import Pace, PosePlan, leading_manner, planned_at
+from colift.benchmark.tasks.haptic import HapticLift
+from colift.benchmark.world.table import TABLE_LENGTH
 
 
 class IntentLift(HapticLift):

@@ -1,13 +1,12 @@
 """The oracle of intended poses: it knows the human's plan for both ends."""
 
 import numpy as np
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.tasks.intent.lift import IntentLift
+from colift.benchmark.tasks.rehearsal import rehearse_lift
 from numpy.typing import NDArray
-
-from ...episode.episode import Episode
-from ...episode.lift import Lift
-from ...episode.trace import Trace
-from ..rehearsal import rehearse_lift
-from .lift import IntentLift
 
 
 def foreknow_pose(lift: Lift, seed: int) -> Episode:

@@ -5,11 +5,10 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
+from colift.agents.agent import FRAME
+from colift.benchmark.episode.metrics import FAILED_FRAME_MM, STROKE_TAIL, Stroke
+from colift.robots.arithmetic import dot
 from numpy.typing import NDArray
-
-from ....agents.agent import FRAME
-from ....robots.arithmetic import dot
-from ...episode.metrics import FAILED_FRAME_MM, STROKE_TAIL, Stroke
 
 NEAR: Final = 0.01
 """Distance of the far end from its intended height [m] within which the pose counts as right."""

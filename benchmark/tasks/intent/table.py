@@ -2,8 +2,8 @@
 
 from typing import Final
 
-from ...episode.drawn import DrawnSeries
-from ...episode.metric import Metric, MetricWords, metric_table
+from colift.benchmark.episode.drawn import DrawnSeries
+from colift.benchmark.episode.metric import Metric, MetricWords, metric_table
 
 INTENT_METRICS: Final = metric_table(
     (

@@ -6,23 +6,22 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+from colift.agents.agent import Agent, Observation
+from colift.agents.humans import SUBJECTS
+from colift.agents.humans.intent import Companion
+from colift.benchmark.episode import metrics
+from colift.benchmark.episode.metric import Metrics, Scores
+from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.task import Playing
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.haptic import Haptic
+from colift.benchmark.tasks.intent.lift import IntentLift
+from colift.benchmark.tasks.intent.scores import opposing_work_j, peak_mm, pose_rmse_mm, settling_ms
+from colift.benchmark.tasks.intent.table import INTENT_METRICS
+from colift.benchmark.world.table import TABLE_LENGTH, WEIGHT_SHARE
 from numpy.typing import NDArray
-
-from ....agents.agent import Agent, Observation
-from ....agents.humans import SUBJECTS
-from ....agents.humans.intent import Companion
-from ...episode import metrics
-from ...episode.metric import Metrics, Scores
-from ...episode.scenario import Scenario
-from ...episode.task import Playing
-from ...episode.trace import Trace
-from ...suites.catalogue import make_scenario
-from ...suites.suite import Suite
-from ...world.table import TABLE_LENGTH, WEIGHT_SHARE
-from ..haptic import Haptic
-from .lift import IntentLift
-from .scores import opposing_work_j, peak_mm, pose_rmse_mm, settling_ms
-from .table import INTENT_METRICS
 
 BEHAVIOURS = ("together", "pivot", "counter", "switching")
 
