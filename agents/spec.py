@@ -3,11 +3,17 @@
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
-from typing import Protocol, Self, runtime_checkable
+from typing import Final, Protocol, Self, runtime_checkable
 
 from colift.agents.agent import Agent
 from colift.agents.threads import one_thread
 from colift.agents.traced import traced
+
+AUTO: Final = "auto"
+"""Isolation of colift's own policies in this process, and of others in the strongest sandbox."""
+
+NONE: Final = "none"
+"""Isolation of what acts in the process that scores."""
 
 
 class AgentSpec(Protocol):

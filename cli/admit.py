@@ -9,14 +9,15 @@ from colift.agents.errors import InputError
 from colift.benchmark.admission.admission import Admission, admission_of, players
 from colift.benchmark.admission.criteria import Criterion
 from colift.benchmark.bounds.bounds import suite_bounds
+from colift.benchmark.execution.progress import job_bar, workers
 from colift.benchmark.results.baselines import shipped_bounds
+from colift.benchmark.tables.printing import left, show, table
 from colift.benchmark.training.apg_settings import pair_settings
 from colift.benchmark.twin.libraries import require_jax
 from colift.cli.completion import suites
 from colift.cli.document import print_json
+from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import AsJson, Jobs, chosen_suite
-from colift.cli.printing import left, show, table
-from colift.cli.progress import job_bar, reported_interrupt, workers
 from numpy.typing import NDArray
 from rich.table import Column, Table
 

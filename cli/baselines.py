@@ -7,6 +7,7 @@ import typer
 from colift.agents.registry import SUITES, own_entries
 from colift.benchmark.bounds.bounds import suite_bounds
 from colift.benchmark.comparison.playing import play_bounds
+from colift.benchmark.execution.progress import workers
 from colift.benchmark.results.baselines import (
     BASELINES,
     Baseline,
@@ -17,10 +18,9 @@ from colift.benchmark.results.baselines import (
 )
 from colift.benchmark.statistics import stratified_bootstrap
 from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tables.printing import left, show, table
 from colift.cli.completion import suites as named
 from colift.cli.options import Jobs, check_output, write_output
-from colift.cli.printing import left, show, table
-from colift.cli.progress import workers
 
 
 def baselines(

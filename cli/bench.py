@@ -11,6 +11,7 @@ from colift.agents.loading.loading import PolicySpec
 from colift.agents.registry import playing
 from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.execution.pool import process_pool
+from colift.benchmark.execution.progress import progress_bar
 from colift.benchmark.profiling.cluster import scale as measure_scale
 from colift.benchmark.profiling.convergence import USUAL, solver_error, study
 from colift.benchmark.profiling.engine import endurance, single_process, two_workers_ratio
@@ -25,13 +26,12 @@ from colift.benchmark.profiling.sandbox import (
     isolation_cost,
 )
 from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tables.printing import Cell, left, show, table
 from colift.benchmark.twin.libraries import require_jax
 from colift.benchmark.world import Physics
 from colift.cli.completion import suites
 from colift.cli.document import print_json
 from colift.cli.options import AsJson, check_exclusive
-from colift.cli.printing import Cell, left, show, table
-from colift.cli.progress import progress_bar
 from rich.table import Table
 
 MEANING: Final = {

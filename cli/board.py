@@ -5,10 +5,10 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from colift.benchmark.tables.printing import show, stdout_console
 from colift.cli.board_options import BOARD, ExistingBoard, SeasonName, opened_board
 from colift.cli.document import print_json
 from colift.cli.options import AsJson, check_exclusive
-from colift.cli.printing import show, stdout_console
 from colift.cli.tables.board import board_table
 from colift.leaderboard.backup.backup import Backup, back_up
 from colift.leaderboard.backup.restoring import restore

@@ -14,13 +14,13 @@ from colift.benchmark.bounds.held_out import FIRST_SEED, held_out_suite
 from colift.benchmark.bounds.sweep import NAMES, Swept, human_human_rmse, lifts_to_play, timings
 from colift.benchmark.comparison.comparison import compare
 from colift.benchmark.comparison.playing import episodes_to_play, play_policies
+from colift.benchmark.execution.progress import workers
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import recorded_suite
+from colift.benchmark.tables.printing import show, table
 from colift.benchmark.training.anticipation import LIFTS, ROUNDS, learn_anticipation
 from colift.cli.options import Jobs, check_new_file, check_output
-from colift.cli.printing import show, table
-from colift.cli.progress import workers
 from colift.cli.remedies import naming
 from colift.cli.tables.comparison import behaviours_table, ranks_table
 from colift.cli.tables.recordings import show_recordings

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from colift.benchmark.execution.progress import workers
 from colift.benchmark.paper.calibration import (
     ROUNDS,
     TABLE_1,
@@ -12,9 +13,8 @@ from colift.benchmark.paper.calibration import (
     episodes,
     fit_rounds,
 )
+from colift.benchmark.tables.printing import show, table
 from colift.cli.options import Jobs, check_new_file, write_output
-from colift.cli.printing import show, table
-from colift.cli.progress import workers
 from rich.table import Table
 
 

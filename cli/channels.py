@@ -6,12 +6,16 @@ from collections.abc import Sequence
 from typing import Annotated, Final
 
 import typer
+from colift.agents.submissions.choice import checked_policy
 from colift.benchmark.channels import CHANNELS
 from colift.benchmark.comparison.over_channels import OverChannel, over_channels
 from colift.benchmark.execution.fitting import check_fits
+from colift.benchmark.execution.progress import workers
+from colift.benchmark.tables.printing import Cell, show, table
 from colift.cli.completion import channels as channel_names
 from colift.cli.completion import policies as named
 from colift.cli.document import print_json
+from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import (
     AsJson,
     Behaviours,
@@ -22,9 +26,6 @@ from colift.cli.options import (
     chosen_channel,
     chosen_suite,
 )
-from colift.cli.policies import checked_policy
-from colift.cli.printing import Cell, show, table
-from colift.cli.progress import reported_interrupt, workers
 from colift.cli.tables.comparison import policy_cell
 from colift.cli.tables.recordings import recordings_json, show_recordings
 from rich.table import Column, Table

@@ -8,24 +8,24 @@ from typing import Annotated, Any, Final
 
 import typer
 from colift.agents.errors import InputError
-from colift.agents.spec import AgentSpec
+from colift.agents.spec import AUTO, NONE, AgentSpec
 from colift.agents.submissions import from_file
+from colift.agents.submissions.choice import auto_level, usable_level
 from colift.agents.submissions.manifest import Manifest
 from colift.agents.submissions.new import AUTHOR, DESCRIPTION, check_author, template
 from colift.agents.submissions.packages import undeclared
 from colift.agents.submissions.submission import Submission, open_submission
+from colift.benchmark.execution.progress import workers
 from colift.benchmark.execution.runner import Run, run_suite
 from colift.benchmark.suites.suite import Suite, make_suite
+from colift.benchmark.tables.failures import printed_lines
+from colift.benchmark.tables.printing import counted, stdout_console
 from colift.benchmark.verification.audit import AUDIT
 from colift.benchmark.verification.checking import INTERFACE, SUITE, Check, presubmission_checks
 from colift.cli.completion import suites
 from colift.cli.document import print_json
-from colift.cli.failures import printed_lines
-from colift.cli.options import AUTO, NONE, AsJson, Jobs
-from colift.cli.policies import auto_level, usable_level
-from colift.cli.printing import argument, counted, stdout_console
-from colift.cli.progress import workers
-from colift.cli.remedies import explained
+from colift.cli.options import AsJson, Jobs
+from colift.cli.remedies import argument, explained
 from rich.console import Console
 from rich.text import Text
 

@@ -11,6 +11,7 @@ import typer
 from colift.agents.errors import InputError
 from colift.agents.registry import POLICIES, check_plays, entries, playing
 from colift.agents.spec import AgentSpec
+from colift.agents.submissions.choice import checked_policy
 from colift.benchmark.bounds.bounds import suite_bounds
 from colift.benchmark.bundle import is_bundle
 from colift.benchmark.channels import Channel
@@ -22,11 +23,14 @@ from colift.benchmark.comparison.paired_results import PolicyResults
 from colift.benchmark.comparison.playing import Bound, episodes_to_play, play_policies
 from colift.benchmark.comparison.stored import Stored, check_same_lifts, read_stored
 from colift.benchmark.execution.fitting import check_fits
+from colift.benchmark.execution.progress import workers
 from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tables.printing import show
 from colift.cli.bundles import mention_others
 from colift.cli.completion import policies as named
 from colift.cli.completion import suites
 from colift.cli.document import print_json
+from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import (
     AsJson,
     Behaviours,
@@ -38,9 +42,6 @@ from colift.cli.options import (
     chosen_suite,
     try_folder,
 )
-from colift.cli.policies import checked_policy
-from colift.cli.printing import show
-from colift.cli.progress import reported_interrupt, workers
 from colift.cli.tables.comparison import behaviours_table, differences_table, ranks_table
 from colift.cli.tables.recordings import show_recordings
 

@@ -5,6 +5,8 @@ from typing import Annotated
 
 import numpy as np
 import typer
+from colift.benchmark.execution.progress import workers
+from colift.benchmark.tables.printing import counted
 from colift.benchmark.training.demonstrations import (
     FIRST_SEED,
     LIFTS,
@@ -12,9 +14,8 @@ from colift.benchmark.training.demonstrations import (
     demonstrations,
     write_demonstrations,
 )
+from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import Jobs, check_new_file
-from colift.cli.printing import counted
-from colift.cli.progress import reported_interrupt, workers
 
 
 def demonstrate_lifts(

@@ -14,6 +14,8 @@ import typer
 from colift.agents.errors import EvaluatorFault, InputError
 from colift.agents.registry import check_plays
 from colift.agents.spec import AgentSpec
+from colift.agents.submissions.choice import checked_policy
+from colift.agents.submissions.hints import board_remarks
 from colift.benchmark.bundle import (
     Results,
     check_bundle_folder,
@@ -27,6 +29,7 @@ from colift.benchmark.channels.recorded import recorded
 from colift.benchmark.execution.cluster import Cluster
 from colift.benchmark.execution.fitting import check_fits
 from colift.benchmark.execution.journal import Journal, journal_path, open_journal
+from colift.benchmark.execution.progress import progress_bar
 from colift.benchmark.execution.provenance import origin, platform_of
 from colift.benchmark.execution.runner import InterruptedRunError, Run, run_suite
 from colift.benchmark.results.baselines import (
@@ -37,16 +40,13 @@ from colift.benchmark.results.baselines import (
 )
 from colift.benchmark.results.remarks import remarks
 from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tables.failures import DeadPolicyError, LifeWatch, reported_failures
+from colift.benchmark.tables.printing import counted, show
+from colift.benchmark.tables.results_table import results_table, results_text
 from colift.cli.document import print_json
-from colift.cli.failures import DeadPolicyError, LifeWatch, reported_failures
 from colift.cli.loading import INTERRUPTED
-from colift.cli.policies import checked_policy
-from colift.cli.policy_hints import board_remarks
-from colift.cli.printing import argument, counted, show
-from colift.cli.progress import progress_bar
-from colift.cli.remedies import naming, opened
+from colift.cli.remedies import argument, naming, opened
 from colift.cli.tables.recordings import recordings_json, show_recordings
-from colift.cli.tables.results import results_table, results_text
 
 GO_ON: Final = "the finished lifts are kept: resume with the same command and --resume"
 

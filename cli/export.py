@@ -9,6 +9,7 @@ import typer
 from colift.agents.errors import InputError
 from colift.benchmark.bundle import Bundle, one_line, read_bundle
 from colift.benchmark.execution.pool import checked_jobs
+from colift.benchmark.execution.progress import workers
 from colift.benchmark.export.contents import Contents
 from colift.benchmark.export.exporting import FORMATS, CardWords, check_format, export
 from colift.benchmark.export.fixed_sets import SetLift, play_set, set_digest, set_plan
@@ -19,10 +20,10 @@ from colift.benchmark.export.proving import proved_lifts
 from colift.benchmark.export.rules import CONVERTED, NAMES, RULES, digest, rule
 from colift.benchmark.live.session import is_session
 from colift.benchmark.suites.suite import Suite, recorded_suite
+from colift.benchmark.tables.printing import counted, show
 from colift.cli.bundles import mention_others
+from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import Jobs
-from colift.cli.printing import counted, show
-from colift.cli.progress import reported_interrupt, workers
 from colift.cli.tables.recordings import recordings_text
 
 SIZE: Final = 300

@@ -10,8 +10,8 @@ import typer
 from colift.agents.errors import EvaluatorFault, InputError
 from colift.benchmark.figures.making import FigureStatus, remake, statuses
 from colift.benchmark.figures.registry import clone_folder
+from colift.benchmark.tables.printing import left, show, table
 from colift.cli.options import check_exclusive
-from colift.cli.printing import left, show, table
 
 SHOWN: Final = 48
 """Characters of a command in the list of figures; a single figure is listed with all of it."""

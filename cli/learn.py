@@ -10,6 +10,8 @@ from colift.agents.control.learned_task import task_json
 from colift.agents.errors import InputError
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
 from colift.benchmark.execution.pool import checked_jobs
+from colift.benchmark.execution.progress import progress_bar, workers
+from colift.benchmark.tables.printing import show
 from colift.benchmark.training import anticipation
 from colift.benchmark.training.data import Timing
 from colift.benchmark.training.demonstrations import FIRST_SEED, LIFTS, read_demonstrations
@@ -23,8 +25,6 @@ from colift.benchmark.training.task_model import (
 )
 from colift.cli.demonstrate import record
 from colift.cli.options import LATENCY_OPTION, PERIOD_OPTION, Jobs, check_new_file, write_output
-from colift.cli.printing import show
-from colift.cli.progress import progress_bar, workers
 from colift.cli.tables.learning import anticipation_table, convergence_text, q_table, task_table
 from typer.core import TyperGroup
 

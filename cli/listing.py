@@ -23,13 +23,13 @@ from colift.agents.registry import (
     summary,
 )
 from colift.agents.sandbox.host.policy import SandboxedPolicy
+from colift.agents.submissions.choice import choose_policy
 from colift.agents.submissions.manifest import MANIFEST, Manifest
 from colift.agents.submissions.submission import read_submission
 from colift.benchmark.channels import CHANNELS
 from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tables.printing import show
 from colift.cli.completion import policies
-from colift.cli.policies import choose_policy
-from colift.cli.printing import show
 from rich.console import RenderableType
 from rich.padding import Padding
 from rich.table import Table

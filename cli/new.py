@@ -7,7 +7,7 @@ import typer
 from colift.agents.submissions.from_file import write_from
 from colift.agents.submissions.new import write_template
 from colift.agents.submissions.submission import read_submission
-from colift.cli.printing import argument
+from colift.cli.remedies import argument
 
 
 def new(

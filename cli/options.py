@@ -19,12 +19,6 @@ from colift.cli.remedies import naming, opened
 if TYPE_CHECKING:
     from colift.benchmark.suites.suite import Suite
 
-AUTO: Final = "auto"
-"""Colift's own policies in this process, all others in the strongest sandbox."""
-
-NONE: Final = "none"
-"""Everything in this process."""
-
 STANDARD: Final = "standard-v1"
 """The default suite."""
 

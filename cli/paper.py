@@ -4,10 +4,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
+from colift.benchmark.execution.progress import workers
+from colift.benchmark.tables.printing import left, show, table
 from colift.cli.document import print_json
+from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import AsJson, Jobs, seed_range, try_folder
-from colift.cli.printing import left, show, table
-from colift.cli.progress import reported_interrupt, workers
 from rich.console import RenderableType
 
 if TYPE_CHECKING:

@@ -6,12 +6,11 @@ from collections.abc import Mapping
 from colift.agents.errors import EvaluatorFault, InputError
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.registry import other_task, playing, summary
-from colift.agents.spec import AgentSpec
+from colift.agents.spec import AUTO, AgentSpec
+from colift.agents.submissions.choice import checked_policy, choose_policy
 from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.execution.fitting import check_fits
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.cli.options import AUTO
-from colift.cli.policies import checked_policy, choose_policy
 
 FIRST = "anticipate"
 """The default partner."""

@@ -10,9 +10,10 @@ from typing import Annotated, Final
 import typer
 from colift.agents.errors import InputError
 from colift.agents.extras import how_to_install
+from colift.agents.spec import AUTO
 from colift.cli.completion import policies
 from colift.cli.listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
-from colift.cli.options import AUTO, PolicyIsolation, check_folder
+from colift.cli.options import PolicyIsolation, check_folder
 from colift.cli.partners import FIRST, partners
 from colift.leaderboard.logs import write_log
 

@@ -10,9 +10,10 @@ from typing import Annotated
 import typer
 from colift.agents.errors import EvaluatorFault, InputError
 from colift.agents.registry import own_policies
+from colift.benchmark.execution.progress import job_bar
+from colift.benchmark.tables.printing import show, table
+from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import Dask, Jobs, executor
-from colift.cli.printing import show, table
-from colift.cli.progress import job_bar, reported_interrupt
 from colift.leaderboard.evaluation.evaluation import episode_count, play_human_human
 from colift.leaderboard.evaluation.progress import Callbacks
 from colift.leaderboard.practice.practice import SUITES, is_current, play_policy, practice_season

@@ -1,10 +1,13 @@
 """Errors in the words of the command line: options, and the commands that remedy them."""
 
+import shlex
 from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager, ExitStack, contextmanager
+from pathlib import Path
 from typing import Final, TypeVar
 
 from colift.agents.errors import InputError, Remedy
+from colift.agents.registry import POLICIES, entries
 
 T = TypeVar("T")
 
@@ -42,3 +45,11 @@ def opened(context: AbstractContextManager[T], option: str) -> Iterator[T]:
         with naming(option):
             value = stack.enter_context(context)
         yield value
+
+
+def argument(path: Path) -> str:
+    """Return a file or folder as an argument of a command: quoted, and never a policy's name."""
+    shown = str(path)
+    if shown in entries(POLICIES) or shown.startswith("-"):
+        shown = f"./{shown}"
+    return shlex.quote(shown)

@@ -8,17 +8,18 @@ import typer
 from colift.agents.errors import InputError
 from colift.agents.registry import check_plays
 from colift.agents.spec import AgentSpec
+from colift.agents.submissions.choice import checked_policy
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.episode.turns import is_policy_failure
 from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.progress import progress_bar
 from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.tables.failures import printed_lines
 from colift.cli.completion import behaviours, people
-from colift.cli.failures import printed_lines
+from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import LATENCY_OPTION, PERIOD_OPTION, PolicyName, check_output
-from colift.cli.policies import checked_policy
-from colift.cli.progress import progress_bar, reported_interrupt
 
 HTML: Final = ".html"
 

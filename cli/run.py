@@ -4,8 +4,8 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from colift.agents.spec import AUTO
 from colift.cli.options import (
-    AUTO,
     LATENCY_OPTION,
     PERIOD_OPTION,
     AsJson,

@@ -10,6 +10,7 @@ import typer
 from colift.agents.errors import InputError
 from colift.agents.extras import how_to_install
 from colift.agents.sandbox.host.levels import check_level
+from colift.agents.spec import AUTO
 from colift.agents.submissions.folder import MIB
 from colift.benchmark.execution.pool import default_jobs
 from colift.cli.board_options import (
@@ -21,7 +22,6 @@ from colift.cli.board_options import (
 )
 from colift.cli.listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
 from colift.cli.partners import partners
-from colift.leaderboard.evaluation.entrant import AUTO
 from colift.leaderboard.logs import write_log
 from colift.leaderboard.queue import Quota
 

@@ -12,14 +12,15 @@ from colift.agents.submissions.manifest import MANIFEST
 from colift.agents.submissions.new import check_author
 from colift.agents.submissions.submission import Submission, open_submission
 from colift.benchmark.execution.pool import checked_jobs, local_pool
+from colift.benchmark.execution.progress import job_bar
 from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tables.printing import show
 from colift.benchmark.verification.checking import SUITE, checked_with
 from colift.cli.board_options import opened_board, web_address
 from colift.cli.check import all_checks
 from colift.cli.completion import suites
 from colift.cli.options import Jobs
-from colift.cli.printing import argument, show
-from colift.cli.progress import job_bar
+from colift.cli.remedies import argument
 from colift.cli.tables.row import SectionRow, row_table, row_text
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.client import API, RemoteBoard

@@ -3,8 +3,8 @@
 from typing import Annotated
 
 import typer
+from colift.benchmark.tables.printing import show, table
 from colift.cli.board_options import BOARD, BoardFolder, ExistingBoard, opened_board
-from colift.cli.printing import show, table
 from colift.leaderboard.board.tokens import Tokens
 from colift.leaderboard.practice.season_import import open_to_read
 

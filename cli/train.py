@@ -11,7 +11,9 @@ from colift.agents.errors import InputError
 from colift.agents.registry import SUITES, own_entries
 from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.execution.pool import local_pool
+from colift.benchmark.execution.progress import job_bar
 from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tables.printing import show
 from colift.benchmark.training import cem as cross_entropy
 from colift.benchmark.training.apg_settings import NAME as APG
 from colift.benchmark.training.apg_settings import TASKS, ApgSettings
@@ -26,9 +28,9 @@ from colift.benchmark.training.ppo_settings import (
 )
 from colift.benchmark.training.ppo_settings import NAME as PPO
 from colift.benchmark.twin.libraries import require_jax
+from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import Jobs
-from colift.cli.printing import argument, show
-from colift.cli.progress import job_bar, reported_interrupt
+from colift.cli.remedies import argument
 from colift.cli.tables.training import training_table
 from typer.core import TyperGroup
 

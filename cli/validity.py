@@ -11,8 +11,11 @@ from colift.agents.errors import InputError
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.registry import playing
 from colift.agents.spec import AgentSpec
+from colift.agents.submissions.choice import checked_policy
 from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.execution.progress import workers
 from colift.benchmark.suites.suite import Suite, make_suite
+from colift.benchmark.tables.printing import show
 from colift.benchmark.validity.playing import (
     Known,
     check_same_task,
@@ -25,10 +28,8 @@ from colift.benchmark.validity.scores import Scores
 from colift.benchmark.validity.sources import Source, sources_of
 from colift.cli.completion import suites as suite_names
 from colift.cli.document import print_json
+from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import AsJson, Jobs, report_left_out
-from colift.cli.policies import checked_policy
-from colift.cli.printing import show
-from colift.cli.progress import reported_interrupt, workers
 from colift.cli.tables.recordings import recordings_json, show_recordings
 from colift.cli.tables.validity import MEANINGS, heading, ratios_table, source_table
 from colift.leaderboard.practice.shipped_scores import shipped_scores

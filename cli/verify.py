@@ -17,16 +17,16 @@ from colift.benchmark.bundle import (
     write_bundle,
 )
 from colift.benchmark.execution.pool import checked_jobs, process_pool
+from colift.benchmark.execution.progress import progress_bar
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.live.session import is_session, lift_folders, sessions_in
 from colift.benchmark.results.headline import headline
+from colift.benchmark.tables.printing import counted, show
 from colift.benchmark.verification import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Verdict, verify
 from colift.cli.bundles import mention_others
 from colift.cli.document import print_json
 from colift.cli.options import AsJson, Jobs
-from colift.cli.printing import argument, counted, show
-from colift.cli.progress import progress_bar
-from colift.cli.remedies import naming
+from colift.cli.remedies import argument, naming
 
 MOST_SESSIONS: Final = 5
 """Largest number of sessions that are named."""

@@ -6,6 +6,7 @@ from types import FrameType
 from typing import Annotated
 
 import typer
+from colift.agents.spec import AUTO
 from colift.cli.board_options import (
     BOARD,
     BoardFolder,
@@ -15,7 +16,6 @@ from colift.cli.board_options import (
     report_isolation,
 )
 from colift.cli.options import Dask, Jobs, executor
-from colift.leaderboard.evaluation.entrant import AUTO
 from colift.leaderboard.logs import write_log
 from colift.leaderboard.practice.season_import import open_with_practice
 from colift.leaderboard.queue import WorkerQueue

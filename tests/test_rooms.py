@@ -1,17 +1,15 @@
 """The picture of the folders: all are in it, imports go down, and its arrows are imports."""
 
-import ast
 import importlib.util
 import re
 import sys
-from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
 
+import grimp
 import pytest
 
 ROOT = Path(__file__).parents[1]
-PARTS = ("robots", "agents", "benchmark", "leaderboard", "cli")
 
 
 def picture():
@@ -30,41 +28,27 @@ def rooms():
     return {room.name: room for room in picture().read_rooms(text.splitlines())}
 
 
-def room_of(path, rooms):
-    """Return the folder of the picture that holds a path: the innermost."""
-    return next(str(each) for each in (path, *path.parents) if str(each) in rooms)
-
-
-def imported(source: Path) -> Iterator[Path]:
-    """Yield the files and folders of colift that a module imports."""
-    package = source.parent.parts
-    for node in ast.walk(ast.parse((ROOT / source).read_text())):
-        if not isinstance(node, ast.ImportFrom):
-            continue
-        if node.level:
-            base = package[: len(package) - node.level + 1]
-        elif (node.module or "").startswith("colift."):
-            base = ()
-        else:
-            continue
-        inner = (node.module or "").removeprefix("colift.").split(".") if node.module else []
-        module = Path(*base, *inner)
-        for name in node.names:
-            named = module / name.name
-            is_module = (ROOT / named).is_dir() or (ROOT / named).with_suffix(".py").is_file()
-            yield named if is_module else module
+def room_of(module, rooms):
+    """Return the folder of the picture that holds a module: the innermost."""
+    names = module.split(".")[1:]
+    places = ("/".join(names[:length]) for length in range(len(names), 0, -1))
+    return next((place for place in places if place in rooms), "src/colift")
 
 
 @pytest.fixture(scope="module")
 def imports(rooms):
-    """Return the pairs of different folders of which the first imports from the second."""
-    sources = [path.relative_to(ROOT) for part in PARTS for path in ROOT.glob(f"{part}/**/*.py")]
-    return {
-        (room_of(source.parent, rooms), room_of(target, rooms)): source
-        for source in sources
-        for target in imported(source)
-        if target.parts[0] in PARTS and room_of(source.parent, rooms) != room_of(target, rooms)
+    """Return the pairs of different folders of which the first imports from the second.
+
+    ``colift.__main__`` is the command itself, although it has to stand in the package.
+    """
+    graph = grimp.build_graph("colift", cache_dir=None)
+    graph.remove_module("colift.__main__")
+    pairs = {
+        (room_of(source, rooms), room_of(target, rooms)): f"{source} imports {target}"
+        for source in graph.modules
+        for target in graph.find_modules_directly_imported_by(source)
     }
+    return {pair: words for pair, words in pairs.items() if pair[0] != pair[1]}
 
 
 def test_each_folder_of_the_picture_exists(rooms):
@@ -79,11 +63,7 @@ def test_each_folder_with_code_is_in_the_picture(part, rooms):
 
 def test_imports_go_down(rooms, imports):
     assert len(imports) > 200
-    up = [
-        f"{source}: {here} imports {there}"
-        for (here, there), source in imports.items()
-        if rooms[here].row >= rooms[there].row
-    ]
+    up = [words for (here, there), words in imports.items() if rooms[here].row >= rooms[there].row]
     assert up == []
 
 

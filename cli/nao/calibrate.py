@@ -10,10 +10,10 @@ from colift.agents.hardware.trial_log import read_trial
 from colift.benchmark.episode.lift import MOCAP_NOISE
 from colift.benchmark.episode.scenario import LATENCY
 from colift.benchmark.hardware.estimates import Estimates, estimate_setup
+from colift.benchmark.tables.printing import show, table
 from colift.benchmark.world import SERVO
 from colift.cli.document import print_json
 from colift.cli.options import AsJson
-from colift.cli.printing import show, table
 from rich.table import Table
 
 

@@ -7,10 +7,11 @@ from typing import Annotated
 import typer
 from colift.agents.hardware.rerun import logged_commands, rerun_trial
 from colift.agents.hardware.trial_log import read_trial
+from colift.agents.spec import AUTO
+from colift.agents.submissions.choice import checked_policy
 from colift.benchmark.episode.turns import policy_seed
-from colift.cli.options import AUTO, PolicyIsolation
-from colift.cli.policies import checked_policy
-from colift.cli.printing import counted
+from colift.benchmark.tables.printing import counted
+from colift.cli.options import PolicyIsolation
 
 
 def replay_recording(

@@ -23,7 +23,8 @@ from colift.agents.hardware.terminal import tell, watched
 from colift.agents.hardware.trial_end import AfterDuration, AfterLift
 from colift.agents.hardware.trial_log import LoggedTrial, TrialLog, write_trial
 from colift.agents.hardware.watchdog import guarded
-from colift.agents.spec import AgentSpec
+from colift.agents.spec import AUTO, AgentSpec
+from colift.agents.submissions.choice import checked_policy
 from colift.benchmark.bundle import check_bundle_folder, is_bundle, results, write_bundle
 from colift.benchmark.bundle.files import HARDWARE
 from colift.benchmark.episode.turns import policy_seed
@@ -31,6 +32,8 @@ from colift.benchmark.execution.runner import Run
 from colift.benchmark.hardware.timing import timing_report
 from colift.benchmark.hardware.trial import episode, hardware_run, hardware_suite
 from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tables.printing import counted, show
+from colift.benchmark.tables.results_table import results_table, results_text, timing_table
 from colift.cli.document import print_json
 from colift.cli.nao.connections import (
     URL,
@@ -45,18 +48,8 @@ from colift.cli.nao.connections import (
     layout_of,
     open_place,
 )
-from colift.cli.options import (
-    AUTO,
-    PERIOD_OPTION,
-    AsJson,
-    PolicyIsolation,
-    PolicyName,
-    check_folder,
-)
-from colift.cli.policies import checked_policy
-from colift.cli.printing import counted, show
+from colift.cli.options import PERIOD_OPTION, AsJson, PolicyIsolation, PolicyName, check_folder
 from colift.cli.remedies import naming
-from colift.cli.tables.results import results_table, results_text, timing_table
 
 NUMBERED: Final = re.compile(r"lift-(\d+)\.csv")
 """Names of recorded trials."""

@@ -9,7 +9,7 @@ from colift.benchmark.comparison.ranking import MetricMean, RankedPolicy, Rankin
 from colift.benchmark.episode.metric import Metric
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from colift.benchmark.statistics import Estimate
-from colift.cli.printing import Cell, counted, styled, table
+from colift.benchmark.tables.printing import Cell, counted, styled, table
 from rich.table import Column, Table
 from rich.text import Text
 

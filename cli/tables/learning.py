@@ -6,8 +6,8 @@ import numpy as np
 from colift.agents.control.anticipation import Anticipation
 from colift.agents.control.learned_task import LearnedTask
 from colift.agents.control.q_learning import ACTIONS, Q_PARAMETERS
+from colift.benchmark.tables.printing import Cell, counted, table
 from colift.benchmark.training.q_learning import LearningTrial
-from colift.cli.printing import Cell, counted, table
 from rich.table import Table
 from rich.text import Text
 

@@ -6,7 +6,7 @@ from typing import Any, Final
 from colift.benchmark.suites.catalogue import PLAYED, RECORDED
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.suites.treatments import plain_treatments, treatments
-from colift.cli.printing import counted, show
+from colift.benchmark.tables.printing import counted, show
 
 FEW: Final = 10
 """Number of lifts below which an interval says little."""

@@ -5,7 +5,7 @@ from typing import Final
 
 from colift.benchmark.comparison.formatting import probability
 from colift.benchmark.statistics import Estimate
-from colift.cli.printing import table
+from colift.benchmark.tables.printing import table
 from colift.leaderboard.board.standings import Section
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.records.row import BoardRow

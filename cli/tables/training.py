@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 import numpy as np
+from colift.benchmark.tables.printing import Cell, table
 from colift.benchmark.training.course import Course
-from colift.cli.printing import Cell, table
 from rich.table import Table
 
 

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator
 from typing import Final
 
 from colift.benchmark.comparison.formatting import digits, p_value
+from colift.benchmark.tables.printing import counted, styled, table
 from colift.benchmark.validity.report import SourceValidity, SuiteOnSource, Validity
 from colift.benchmark.validity.scores import Quantity, Scores
-from colift.cli.printing import counted, styled, table
 from colift.cli.tables.comparison import BASELINE
 from rich.table import Table
 

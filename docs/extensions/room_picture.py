@@ -32,6 +32,8 @@ class Room:
 
     name: str
     """Its path, such as ``benchmark/world``."""
+    part: str
+    """The path of its part, such as ``benchmark``."""
     words: str
     """Its content."""
     row: int
@@ -64,22 +66,24 @@ def read_rooms(lines: Sequence[str]) -> list[Room]:
                 path = part if name == "." else f"{part}/{name}"
                 marked = cell.startswith(">")
                 rooms.append(
-                    Room(name=path, words=words, row=row, column=column, on_the_way=marked)
+                    Room(
+                        name=path, part=part, words=words, row=row, column=column, on_the_way=marked
+                    )
                 )
     return rooms
 
 
 def drawn(rooms: Sequence[Room]) -> str:
     """Return the picture as SVG."""
-    parts = list(dict.fromkeys(_part(room) for room in rooms))
+    parts = list(dict.fromkeys(room.part for room in rooms))
     top = {
-        room.row: room.row * (HEIGHT + GAP) + (2 * parts.index(_part(room)) + 1) * GAP
+        room.row: room.row * (HEIGHT + GAP) + (2 * parts.index(room.part) + 1) * GAP
         for room in rooms
     }
     width = LEFT + COLUMNS * (WIDTH + GAP)
     height = max(top.values()) + HEIGHT + 2 * GAP
     pieces = [
-        *(_panel(part, [top[room.row] for room in rooms if _part(room) == part], width)
+        *(_panel(part, [top[room.row] for room in rooms if room.part == part], width)
           for part in parts),
         *_arrows([room for room in rooms if room.on_the_way], top),
         *(_box(room, top[room.row]) for room in rooms),
@@ -91,16 +95,13 @@ def drawn(rooms: Sequence[Room]) -> str:
     )
 
 
-def _part(room: Room) -> str:
-    return room.name.partition("/")[0]
-
-
 def _panel(part: str, tops: Sequence[int], width: int) -> str:
     """Return the ground of a part, with its name."""
     first, last = min(tops) - GAP, max(tops) + HEIGHT + GAP
     return (
         f'<rect class="ground" x="0" y="{first}" width="{width}" height="{last - first - 4}" '
-        f'rx="6"/><text class="part" x="{GAP}" y="{first + GAP + HEIGHT / 2 + 5}">{part}</text>'
+        f'rx="6"/><text class="part" x="{GAP}" y="{first + GAP + HEIGHT / 2 + 5}">'
+        f"{part.rpartition('/')[2]}</text>"
     )
 
 

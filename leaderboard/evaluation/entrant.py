@@ -15,7 +15,7 @@ from colift.agents.registry import POLICIES, lookup, own_entries, summary
 from colift.agents.sandbox.host.levels import Choice, choose, fault
 from colift.agents.sandbox.host.policy import SandboxedPolicy
 from colift.agents.sandbox.host.process import BUBBLEWRAP
-from colift.agents.spec import AgentSpec
+from colift.agents.spec import AUTO, AgentSpec
 from colift.agents.submissions.submission import Submission
 from colift.benchmark.verification.audit import AUDIT
 
@@ -105,10 +105,6 @@ def trained_on(name: str) -> str:
     file = files(control).joinpath("data", f"{LEARNED[name]}.json")
     command = json.loads(file.read_text(encoding="utf-8"))["provenance"]["command"]
     return f"lifts that colift simulates ({command})"
-
-
-AUTO: Final = "auto"
-"""The strongest level whose results can be called verified."""
 
 
 class NoSandboxError(EvaluatorFault):

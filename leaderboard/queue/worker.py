@@ -13,11 +13,11 @@ from typing import Final
 
 import sqlalchemy as sa
 from colift.agents.errors import EvaluatorFault, InputError, error_text
+from colift.agents.spec import AUTO
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.execution.runner import placed
 from colift.leaderboard.board.board import BUILTIN, LOCAL, Board
 from colift.leaderboard.evaluation.entrant import (
-    AUTO,
     Entrant,
     NoSandboxError,
     board_level,

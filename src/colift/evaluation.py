@@ -11,16 +11,15 @@ from colift.agents.agent import Agent
 from colift.agents.errors import InputError
 from colift.agents.identity import source_hash
 from colift.agents.loading.loading import source_digest
-from colift.agents.spec import AgentSpec, InProcess
+from colift.agents.spec import AUTO, NONE, AgentSpec, InProcess
+from colift.agents.submissions.choice import choose_policy
 from colift.benchmark.bundle import results
 from colift.benchmark.channels import Channel, make_channel
 from colift.benchmark.execution.pool import local_pool
+from colift.benchmark.execution.progress import progress_bar
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import BASELINES, play_baselines, shipped_baselines
 from colift.benchmark.suites.suite import Suite, make_suite
-from colift.cli.options import AUTO, NONE
-from colift.cli.policies import choose_policy
-from colift.cli.progress import progress_bar
 from colift.outcome import Evaluation
 
 UNKNOWN = "unknown"

@@ -12,9 +12,9 @@ from colift.agents.errors import InputError
 from colift.benchmark.bundle import Results
 from colift.benchmark.bundle.table import table_row, treated
 from colift.benchmark.execution.runner import Run
-from colift.cli.failures import reported_failures
-from colift.cli.printing import show
-from colift.cli.tables.results import results_table, results_text
+from colift.benchmark.tables.failures import reported_failures
+from colift.benchmark.tables.printing import show
+from colift.benchmark.tables.results_table import results_table, results_text
 
 WIDTH = 100
 """Columns of the table as text."""

@@ -7,12 +7,12 @@ from colift.agents.errors import InputError
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.sandbox.host.levels import VERIFIABLE, working_levels
 from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
+from colift.agents.submissions.choice import choose_policy
 from colift.agents.submissions.new import write_template
 from colift.agents.submissions.trusted import TrustedSubmission
 from colift.benchmark.execution.batches import play
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.cli import policies
-from colift.cli.policies import choose_policy
 from colift.cli.run import run
 
 SOURCE = (

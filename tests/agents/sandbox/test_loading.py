@@ -9,10 +9,10 @@ import pytest
 from colift.agents.errors import PolicyError
 from colift.agents.registry import POLICIES, own_entries
 from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
+from colift.agents.submissions.choice import choose_policy
 from colift.agents.submissions.new import write_template
 from colift.benchmark.execution.batches import play
 from colift.benchmark.suites.suite import make_suite
-from colift.cli.policies import choose_policy
 
 from .keeping import COUNTING
 

@@ -12,7 +12,7 @@ from colift.benchmark.episode.metric import LEADING, Metric, Metrics, notes
 from colift.benchmark.results.baselines import HUMAN_HUMAN, HUMAN_HUMAN_LABEL
 from colift.benchmark.results.headline import error, versus_human
 from colift.benchmark.results.summary import StratumScores
-from colift.cli.printing import counted, optional_number, styled, table
+from colift.benchmark.tables.printing import counted, optional_number, styled, table
 from rich.table import Table
 
 NAMES: Final = {

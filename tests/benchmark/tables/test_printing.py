@@ -2,7 +2,7 @@
 
 import io
 
-from colift.cli.printing import counted, left, show, table
+from colift.benchmark.tables.printing import counted, left, show, table
 from rich.console import Console
 
 

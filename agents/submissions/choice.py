@@ -12,12 +12,11 @@ from colift.agents.near_names import did_you_mean
 from colift.agents.registry import POLICIES, entries, entry_of, own_entries
 from colift.agents.sandbox.host.levels import LEVELS, choose, fault
 from colift.agents.sandbox.host.policy import SandboxedPolicy
-from colift.agents.spec import AgentSpec
+from colift.agents.spec import AUTO, NONE, AgentSpec
+from colift.agents.submissions.hints import import_hint, refuse_other_file
 from colift.agents.submissions.modules import module_digest
 from colift.agents.submissions.snapshot import snapshot_file
 from colift.agents.submissions.submission import digest_with, open_submission
-from colift.cli.options import AUTO, NONE
-from colift.cli.policy_hints import import_hint, refuse_other_file
 
 
 def choose_policy(text: str, isolation: str = AUTO) -> AgentSpec:

@@ -1,12 +1,9 @@
 """Tables and text on stdout, without trailing blanks."""
 
 import os
-import shlex
 from collections.abc import Iterable, Iterator, Sequence
-from pathlib import Path
 from typing import Final
 
-from colift.agents.registry import POLICIES, entries
 from rich import box
 from rich.console import Console, RenderableType
 from rich.measure import Measurement
@@ -114,14 +111,6 @@ def show(*parts: RenderableType, console: Console | None = None) -> None:
 def counted(number: int, noun: str) -> str:
     """Return a number of things, such as '1 lift' or '3 lifts'; the noun is given in singular."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
-
-
-def argument(path: Path) -> str:
-    """Return a file or folder as an argument of a command: quoted, and never a policy's name."""
-    shown = str(path)
-    if shown in entries(POLICIES) or shown.startswith("-"):
-        shown = f"./{shown}"
-    return shlex.quote(shown)
 
 
 def _column(column: str | Column, *, first: bool) -> Column:

@@ -7,7 +7,7 @@ from colift.benchmark.bundle import one_line
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.turns import START, STEP
 from colift.benchmark.execution.runner import Run
-from colift.cli.printing import counted
+from colift.benchmark.tables.printing import counted
 
 LINES: Final = 20
 """Lines of the output that are shown."""

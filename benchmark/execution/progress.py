@@ -6,9 +6,7 @@ from concurrent.futures import Executor
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-import typer
 from colift.benchmark.execution.pool import local_pool
-from colift.cli.loading import INTERRUPTED
 from rich.console import Console
 from rich.progress import (
     BarColumn,
@@ -36,16 +34,6 @@ def workers(
     """
     with local_pool(jobs) as pool, progress_bar(description, total) as progress:
         yield pool, progress
-
-
-@contextmanager
-def reported_interrupt(message: str) -> Iterator[None]:
-    """End the command with a message if Ctrl-C is pressed while the body runs."""
-    try:
-        yield
-    except KeyboardInterrupt:
-        print(f"interrupted: {message}", file=sys.stderr)
-        raise typer.Exit(INTERRUPTED) from None
 
 
 @contextmanager
