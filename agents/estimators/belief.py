@@ -7,6 +7,9 @@ from typing import Final
 GOALS: Final = (-0.06, -0.05, -0.04, -0.03, -0.02, 0.0, 0.02, 0.03, 0.04, 0.05, 0.06)
 """The goals, above the common height [m]: the common height itself, and where hurdles may be."""
 
+FARTHEST: Final = 200.0
+"""Largest square of a deviation, in standard deviations, that counts."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class BeliefParameters:
@@ -67,11 +70,13 @@ class GoalBelief:
         spread = math.hypot(parameters.noise, noise) * time
         goals = [mine, *(common + offset for offset in GOALS)]
         change = 1 - (1 - parameters.change) ** (time / 0.1)
-        weighed = []
-        for chance, prior, goal in zip(self._chances, self._prior, goals, strict=True):
-            deviation = (after - before - moved * (goal - before)) / spread
-            kept = (1 - change) * chance + change * prior
-            weighed.append(kept * math.exp(-0.5 * min(deviation * deviation, 200.0)))
+        deviations = [(after - before - moved * (goal - before)) / spread for goal in goals]
+        squares = [min(each * each, FARTHEST) for each in deviations]
+        nearest = min(squares)  # The likeliest goal has the weight 1: the sum is never 0.
+        weighed = [
+            ((1 - change) * chance + change * prior) * math.exp(-0.5 * (square - nearest))
+            for chance, prior, square in zip(self._chances, self._prior, squares, strict=True)
+        ]
         total = math.fsum(weighed)
         self._chances = [weight / total for weight in weighed]
 

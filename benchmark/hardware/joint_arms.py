@@ -47,7 +47,7 @@ class JointArms(NaoArms):
         """Share of its torque that each motor has, 0 to 1."""
         self._compliant = 1 / servo.stiffness
         self._posture = np.full((2, 5), np.inf)
-        super().__init__(client, tree, physics, servo)
+        super().__init__(client, tree, physics, servo, apart=True)
 
     def reset(self) -> None:
         """Hold the commanded posture."""
@@ -74,15 +74,14 @@ class JointArms(NaoArms):
     def drive(self, begin: float, height: float, velocity: float) -> float:
         """Set the motors for the physics step that begins at ``begin`` of the frame."""
         angles = self._from + (self._to - self._from) * (begin + self._ahead)
-        left, right = self._left, self._right
-        for arm, side in ((left, slice(0, 5)), (right, slice(5, 10))):
-            efforts = self.stiffness[side] * arm.efforts
-            arm.drive(angles[side].tolist(), self._gains, efforts.tolist())
+        for arm, joints in self._arms:
+            efforts = self.stiffness[joints] * arm.efforts
+            arm.drive(angles[joints].tolist(), self._gains, efforts.tolist())
         return 0.0
 
     def angles(self) -> list[float]:
         """Return the joints' angles by the encoders [rad]."""
-        return self._left.angles() + self._right.angles()
+        return [angle for arm, _ in self._arms for angle in arm.angles()]
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 import jax
 import jax.numpy as jnp
 from colift.agents.agent import FRAME
-from colift.agents.estimators.belief import GOALS, BeliefParameters
+from colift.agents.estimators.belief import FARTHEST, GOALS, BeliefParameters
 from colift.agents.humans.agree.negotiator import APART, PACE
 from colift.agents.humans.agree.precedence import AWAY, FAR_NEAR, LEVEL, NEAR, SERVED, SLOW
 from colift.benchmark.twin.agree_lifts import AgreeLifts
@@ -14,7 +14,6 @@ from colift.benchmark.twin.body import delayed
 from colift.benchmark.twin.plant import Plant
 
 _BELIEF: Final = BeliefParameters()
-_FARTHEST: Final = 200.0
 
 
 class AgreeMind(NamedTuple):
@@ -79,7 +78,7 @@ def believed(
     spread = jnp.hypot(jnp.full_like(noise, _BELIEF.noise), noise) * period
     goals = jnp.concatenate((mine[jnp.newaxis], common + jnp.asarray(GOALS)[:, jnp.newaxis]))
     deviation = (after - before - moved * (goals - before)) / spread
-    squares = jnp.minimum(deviation**2, _FARTHEST)
+    squares = jnp.minimum(deviation**2, FARTHEST)
     # The likeliest goal gets the weight 1, so that the sum cannot underflow to 0.
     squares = squares - jax.lax.stop_gradient(squares.min(axis=0))
     kept = (1 - change) * chances + change * _prior(len(mine))

@@ -1,34 +1,38 @@
-"""PyBullet with the output of its C code discarded."""
+"""PyBullet, with the output of its C code discarded where the C library is GNU's."""
 
 import ctypes
 import os
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Final
 
-_C: Final = ctypes.PyDLL(None)
-_C.fopen.restype = ctypes.c_void_p
-_C.fclose.argtypes = [ctypes.c_void_p]
 _ONE_AT_A_TIME: Final = threading.Lock()
 
 
 @contextmanager
 def silent() -> Iterator[None]:
-    """Discard the output of C code to stdout.
+    """Discard the output of C code to stdout, on Linux.
 
     The C library's stream is exchanged, which the GNU C library allows, not the file descriptor, so
     that Python's own output, in any thread, and inherited descriptors are unaffected.
     """
+    if sys.platform != "linux":
+        yield
+        return
+    c = ctypes.PyDLL(None)
+    c.fopen.restype = ctypes.c_void_p
+    c.fclose.argtypes = [ctypes.c_void_p]
     with _ONE_AT_A_TIME:
-        stdout = ctypes.c_void_p.in_dll(_C, "stdout")
-        kept, nowhere = stdout.value, _C.fopen(os.fsencode(os.devnull), b"we")
+        stdout = ctypes.c_void_p.in_dll(c, "stdout")
+        kept, nowhere = stdout.value, c.fopen(os.fsencode(os.devnull), b"we")
         stdout.value = nowhere
         try:
             yield
         finally:
             stdout.value = kept
-            _C.fclose(nowhere)
+            c.fclose(nowhere)
 
 
 # PyBullet prints a line to stderr while it initialises the C++ library, which would keep an

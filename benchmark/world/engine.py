@@ -16,9 +16,9 @@ DIRECT: Final = {
 }
 """Dantzig's pivoting solves the constraints of a step exactly, up to a compliance of 1e-9.
 
-Two arms and a table form a closed loop with redundant constraints: without compliance the problem
-is singular, and the engine falls back to iterations. A compliance a hundred times larger or ten
-times smaller changes no RMSE by more than 2e-6 of its value. The number of iterations is that of
+Arm and table form a closed loop with redundant constraints: without compliance the problem is
+singular, and the engine falls back to iterations. A compliance ten times larger or smaller changes
+no RMSE by more than 5e-6 of its value. The number of iterations is that of
 the fall-back, which never occurs.
 """
 

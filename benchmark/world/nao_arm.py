@@ -17,9 +17,6 @@ _ONES: Final = [1.0] * len(ARM)
 class NaoArm:
     """One arm on a torso that does not move: a separate body with five joints.
 
-    The engine needs a fifth less time for two bodies of five joints than for one of ten, since
-    constraints of one arm do not have to be propagated through the joints of the other.
-
     Parameters
     ----------
     client
@@ -28,14 +25,16 @@ class NaoArm:
         ``L`` or ``R``.
     angles
         The angles to begin with [rad], in the order of :data:`~.facts.ARM`.
+    arms
+        Number of equal arms that it stands for: a factor of masses, inertias and torques.
     """
 
-    def __init__(self, client: int, side: str, angles: list[float]) -> None:
+    def __init__(self, client: int, side: str, angles: list[float], arms: int = 1) -> None:
         self._client = client
-        self._body = load_urdf_text(client, arm_urdf(side), (0, 0, 0))
+        self._body = load_urdf_text(client, arm_urdf(side, arms), (0, 0, 0))
         self._joints = list(range(len(ARM)))  # A chain: the engine's order is that of ``ARM``.
         self._wrist = self._joints[-1]
-        self.efforts = [JOINTS[f"{side}{name}"].effort for name in ARM]
+        self.efforts = [arms * JOINTS[f"{side}{name}"].effort for name in ARM]
         for joint, angle in zip(self._joints, angles, strict=True):
             pybullet.resetJointState(self._body, joint, angle, physicsClientId=client)
 

@@ -1,4 +1,4 @@
-"""The NAO's two arms at the far end of the table."""
+"""The NAO's arms at the far end of the table."""
 
 import math
 from dataclasses import dataclass
@@ -16,9 +16,16 @@ from colift.robots.nao.kinematics import GRIP_X, GRIP_Y, REST_Z, arm_path
 _HALF: Final = len(ARM)
 """Number of joints of one arm; in lists of both arms, the left arm's angles come first."""
 
+_SIDES: Final = (("L", slice(0, _HALF), GRIP_Y), ("R", slice(_HALF, None), -GRIP_Y))
+"""The arms: their joints in a list of both, and the distance of the hand from the middle [m]."""
+
 
 class NaoArms:
-    """Both arms of the NAO, their servos, and the hands' hold of the table.
+    """The arms of the NAO, their servos, and the hands' hold of the table.
+
+    The arms are mirror images, and so are their set-points: the right does what the left does.
+    Therefore the engine has the left arm alone, with twice its mass, inertia and torque, in less
+    than two thirds of the time. With ``apart`` it has both.
 
     The engine's joint motors are rigid up to the motors' torque limits. A proportional servo of
     stiffness k adds sag: a torque t displaces its joint by t / k. It enters through the set-point:
@@ -34,7 +41,9 @@ class NaoArms:
     REST_GRIP: ClassVar[Vector] = (GRIP_X, 0.0, REST_Z)
     """Middle between the hands at rest, in the torso frame [m]."""
 
-    def __init__(self, client: int, tree: int, physics: Physics, servo: Servo) -> None:
+    def __init__(
+        self, client: int, tree: int, physics: Physics, servo: Servo, *, apart: bool = False
+    ) -> None:
         self._path = path = arm_path()
         self._angles = path.joints
         weight_sag = -path.levers * path.gravity_torques / servo.stiffness
@@ -47,10 +56,12 @@ class NaoArms:
         self._ahead = (physics.step / gain - servo.time) / FRAME
         self._yielding = -math.expm1(-FRAME / servo.load_time)
         angles = path.joint_angles(0.0)
-        self._left = NaoArm(client, "L", angles[:_HALF])
-        self._right = NaoArm(client, "R", angles[_HALF:])
-        self._left.grip(tree, PITCH, (GRIP_X, GRIP_Y, REST_Z))
-        self._right.grip(tree, PITCH, (GRIP_X, -GRIP_Y, REST_Z))
+        sides, each = (_SIDES, 1) if apart else (_SIDES[:1], len(_SIDES))
+        self._arms = [
+            (NaoArm(client, side, angles[joints], each), joints) for side, joints, _ in sides
+        ]
+        for (arm, _), (_, _, aside) in zip(self._arms, sides, strict=True):
+            arm.grip(tree, PITCH, (GRIP_X, aside, REST_Z))
         rest = path.row(0.0)
         sag = self._weight_sag[rest] + self._compliance[rest] * WEIGHT_SHARE
         self._offset = sag if servo.weight_offset else 0.0
@@ -91,17 +102,18 @@ class NaoArms:
         row = int(previous + (self._target - previous) * (begin + self._ahead) + 0.5)
         if row != self._driven:
             self._driven = row
-            angles, arm, other = self._angles[row], self._left, self._right
-            arm.drive(angles[:_HALF], self._gains, arm.efforts)
-            other.drive(angles[_HALF:], self._gains, other.efforts)
+            angles = self._angles[row]
+            for arm, joints in self._arms:
+                arm.drive(angles[joints], self._gains, arm.efforts)
         return 0.0
 
     def hand_height(self, end: float) -> float:
-        """Return the mean height of the two hands [m] by forward kinematics of the joints.
+        """Return the mean height of the hands [m] by forward kinematics of the joints.
 
         It differs from the table's ``end`` when the hands slip.
         """
-        return (self._left.hand_height() + self._right.hand_height()) / 2 - REST_Z
+        heights = [arm.hand_height() for arm, _ in self._arms]
+        return sum(heights) / len(heights) - REST_Z
 
 
 @dataclass(frozen=True)
@@ -111,9 +123,12 @@ class NaoFarEnd:
     servo: Servo = SERVO
     """The position servo of its joints."""
 
+    apart: bool = False
+    """Whether the engine has both arms, instead of one for both; see :class:`NaoArms`."""
+
     mass: ClassVar[float] = 0.0
     """No mass beside that of the robot's own bodies [kg]."""
 
     def hold(self, client: int, table: int, physics: Physics) -> NaoArms:
         """Grip the table with both hands; see :meth:`.FarEnd.hold`."""
-        return NaoArms(client, table, physics, self.servo)
+        return NaoArms(client, table, physics, self.servo, apart=self.apart)

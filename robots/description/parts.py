@@ -82,6 +82,11 @@ class Link:
     collisions: tuple[Shape, ...] = ()
     """Its shapes in contacts."""
 
+    def times(self, factor: float) -> "Link":
+        """Return it with a multiple of its mass and inertia."""
+        xx, xy, xz, yy, yz, zz = (factor * each for each in self.inertia)
+        return replace(self, mass=factor * self.mass, inertia=(xx, xy, xz, yy, yz, zz))
+
 
 def mirrored_name(name: str) -> str:
     """Return the right side's name of a left joint or link, and the name itself of a middle one."""

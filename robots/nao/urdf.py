@@ -16,7 +16,7 @@ def nao_urdf_path() -> Path:
     return Path(__file__).parents[1] / "nao_urdf" / "nao.urdf"
 
 
-def arm_urdf(side: str) -> str:
+def arm_urdf(side: str, arms: int = 1) -> str:
     """Return the URDF of one arm: the torso as its base, and five links with moving joints.
 
     The shut hand is welded to the forearm here and not by PyBullet, whose
@@ -29,6 +29,8 @@ def arm_urdf(side: str) -> str:
     ----------
     side
         ``L`` or ``R``.
+    arms
+        A factor of all masses and inertias: the number of equal arms that this one stands for.
     """
     first = JOINTS[f"{side}{_FIRST}"]
     joints, links = [], [LINKS[first.parent]]
@@ -39,4 +41,5 @@ def arm_urdf(side: str) -> str:
             joints.append(joint)
             links.append(LINKS[joint.child])
     shut = {joint.name: 0.0 for joint in joints if joint.name not in ARM_JOINTS}
-    return write_urdf(*weld(joints, links, shut))
+    moving, welded = weld(joints, links, shut)
+    return write_urdf(moving, [link.times(arms) for link in welded])

@@ -17,7 +17,6 @@ Importing colift loads none of its parts: each is loaded when it is first used. 
 from __future__ import annotations
 
 import importlib
-import sys
 
 from colift.registration import TYPE_CHECKING, register_with_gymnasium
 
@@ -76,8 +75,4 @@ def __dir__() -> list[str]:
     return __all__
 
 
-if sys.platform != "linux":
-    from colift.elsewhere import replace_what_needs_linux
-
-    replace_what_needs_linux()
 register_with_gymnasium()

@@ -5,6 +5,8 @@ import math
 
 import numpy as np
 import pytest
+from colift.agents.actions import HAND_SPEED
+from colift.agents.agent import FRAME
 from colift.benchmark.world import (
     BodyParameters,
     BulletWorld,
@@ -200,6 +202,39 @@ class TestDeterminism:
         assert since_reset(nao.human_end).tobytes() == alone[0]
 
 
+def turns(seed: int, hold: int, speed: float, frames: int = 400) -> list[float]:
+    """Go up or down at a speed [m/s], drawn anew every ``hold`` frames, within the stroke."""
+    ways = np.random.default_rng(seed).choice([-speed, speed], frames // hold).repeat(hold)
+    heights = [0.1]
+    for way in ways:
+        heights.append(min(max(heights[-1] + way * FRAME, -0.02), 0.28))
+    return heights
+
+
+class TestArms:
+    @pytest.mark.parametrize("weight_offset", [True, False])
+    def test_one_arm_moves_as_two(self, weight_offset):
+        """Also against a person with other plans, and at the largest speed: to the URDF's digits.
+
+        Beyond that speed, at the limits of the motors, two arms need not stay mirror images.
+        """
+        worlds = [
+            BulletWorld(PULLED, NaoFarEnd(Servo(weight_offset=weight_offset), apart=apart))
+            for apart in (False, True)
+        ]
+        for world in worlds:
+            world.advance(turns(1, 40, 0.15), turns(2, 10, HAND_SPEED))
+        one, two = (since_reset(world.robot_end) for world in worlds)
+        assert np.abs(one - two).max() < 1e-8
+        one_force, two_force = (since_reset(world.robot_force) for world in worlds)
+        assert np.abs(one_force - two_force).max() < 1e-5
+        assert abs(worlds[0].hand_height - worlds[1].hand_height) < 1e-8
+        assert np.ptp(one) > 0.1
+        assert np.ptp(one_force) > 10
+        for world in worlds:
+            world.close()
+
+
 class TestConvergence:
     @pytest.mark.parametrize("far_end", [NaoFarEnd(), HumanFarEnd(BODY)])
     def test_the_default_step_is_near_a_fine_one(self, far_end):
@@ -216,7 +251,7 @@ class TestConvergence:
         assert rmse[0] == pytest.approx(rmse[1], rel=0.015)
 
     def test_the_direct_solver_is_where_iterations_lead(self):
-        """Two arms that hold one table are a loop with redundant constraints: the hard case."""
+        """An arm that holds the table closes a loop with redundant constraints: the hard case."""
         heights = []
         for physics in (Physics(), Physics(iterations=3000), Physics(iterations=35)):
             world = BulletWorld(PULLED, NaoFarEnd(), physics=physics)
