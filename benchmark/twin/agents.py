@@ -14,7 +14,7 @@ from colift.benchmark.episode.turns import policy_seed
 from colift.benchmark.twin import pair as pair_plant
 from colift.benchmark.twin import playing as lifting
 from colift.benchmark.twin.lifts import Lifts, draw_lifts, partner_body
-from colift.benchmark.twin.playing import Due, Frames, LiftState, in_chunks, ramp
+from colift.benchmark.twin.playing import Due, Frames, LiftState, in_chunks
 from colift.benchmark.world.table import WEIGHT_SHARE
 from numpy.typing import NDArray
 
@@ -82,8 +82,7 @@ def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
     def step(
         pair: pair_plant.PairPlant, correction: jax.Array, now: Due, far: jax.Array
     ) -> tuple[pair_plant.PairPlant, jax.Array, Frames]:
-        wanted = lifting.corrected(correction, pair.heights, body, now.seen_target, size)
-        references = ramp(correction, wanted, size) + now.reference
+        wanted, references = lifting.references(correction, pair.heights, body, now)
 
         def move(state: pair_plant.PairPlant, first: int, last: int) -> pair_plant.PairPlant:
             mine, others = references[first:last], far[first:last]

@@ -5,6 +5,7 @@ from typing import Final, NamedTuple
 import jax
 import jax.numpy as jnp
 from colift.agents.agent import FRAME
+from colift.agents.humans.hand import HandMemory
 from colift.benchmark.episode.seat import REFERENCE_RANGE
 from colift.benchmark.twin.agree_lifts import AgreeLifts, Obstacle
 from colift.benchmark.twin.agree_people import AgreeMind, AgreeSight, agree_minds, negotiated
@@ -16,7 +17,12 @@ from colift.benchmark.twin.haptic_plant import (
     advance_haptic_step,
     haptic_plant_at_rest,
 )
-from colift.benchmark.twin.haptic_playing import commanded, moved_hand, sensed_by_hands
+from colift.benchmark.twin.haptic_playing import (
+    commanded,
+    hands_at_rest,
+    moved_hand,
+    sensed_by_hands,
+)
 from colift.benchmark.twin.learning_person import Added
 from colift.benchmark.twin.playing import Frames
 from colift.benchmark.twin.touch_rollout import TouchSteps
@@ -28,10 +34,8 @@ class AgreeState(NamedTuple):
     haptic: HapticPlant
     command: jax.Array
     """(n,) command of the far hands [m]."""
-    correction: jax.Array
-    """(n,) the person's voluntary correction [m]."""
-    error: jax.Array
-    """(n,) error of the hand by motor noise [m]."""
+    hand: HandMemory[jax.Array]
+    """The people's hands."""
     mind: AgreeMind
     """The people."""
     targets: jax.Array
@@ -44,7 +48,7 @@ def agree_at_rest(count: int) -> AgreeState:
     """Return lifts at rest."""
     zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
     rest, number = haptic_plant_at_rest(count), jnp.zeros((), jnp.int32)
-    return AgreeState(rest, zero, zero, zero, agree_minds(count), past, number)
+    return AgreeState(rest, zero, hands_at_rest(count), agree_minds(count), past, number)
 
 
 class AgreeDue(NamedTuple):
@@ -106,8 +110,7 @@ def agree_step(
     """
     size, body, plant = len(due.gain), lifts.body, state.haptic.plant
     mind, targets = negotiated(state.mind, lifts, due.sight, plant)
-    hand = moved_hand(state, targets, plant.heights, body, due)
-    references = hand.references
+    hand, references = moved_hand(state, targets, body, due)
     level = wrist = jnp.zeros_like(references)
     if added is not None:
         references, wrist = references + added.height, added.pitch
@@ -118,8 +121,7 @@ def agree_step(
     after = AgreeState(
         haptic=haptic,
         command=commands[-1],
-        correction=hand.correction,
-        error=hand.error,
+        hand=hand,
         mind=mind,
         targets=pushed(state.targets, targets),
         step=state.step + 1,

@@ -5,6 +5,7 @@ from typing import Any, Final, NamedTuple
 import jax
 import jax.numpy as jnp
 from colift.agents.agent import FRAME
+from colift.agents.humans.hand import HandMemory
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.episode.seat import REFERENCE_RANGE
 from colift.benchmark.tasks.ball.lift import STEEPEST_MEANT
@@ -14,7 +15,12 @@ from colift.benchmark.twin.ball_people import SteeringMind, steered, steering_mi
 from colift.benchmark.twin.ball_plant import BallPlant, advance_ball_plant, ball_plant_at_rest
 from colift.benchmark.twin.body import DEPTH, delayed, pushed
 from colift.benchmark.twin.haptic_plant import HapticPlant, Meant
-from colift.benchmark.twin.haptic_playing import commanded, moved_hand, sensed_by_hands
+from colift.benchmark.twin.haptic_playing import (
+    commanded,
+    hands_at_rest,
+    moved_hand,
+    sensed_by_hands,
+)
 from colift.benchmark.twin.learning_person import Added
 from colift.benchmark.twin.lifts import chunk
 from colift.benchmark.twin.touch_rollout import TouchSteps, mean_error_mm
@@ -27,10 +33,8 @@ class BallState(NamedTuple):
     table: BallPlant
     command: jax.Array
     """(n,) command of the far hands [m]."""
-    correction: jax.Array
-    """(n,) the person's voluntary correction [m]."""
-    error: jax.Array
-    """(n,) error of the hand by motor noise [m]."""
+    hand: HandMemory[jax.Array]
+    """The people's hands."""
     mind: SteeringMind
     """The people."""
     plans: jax.Array
@@ -53,7 +57,7 @@ def balls_at_rest(count: int) -> BallState:
     zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
     table, mind = ball_plant_at_rest(count), steering_minds(count)
     number = jnp.zeros((), jnp.int32)
-    return BallState(table, zero, zero, zero, mind, past, past, zero, number)
+    return BallState(table, zero, hands_at_rest(count), mind, past, past, zero, number)
 
 
 class BallDue(NamedTuple):
@@ -113,11 +117,10 @@ def ball_step(
     added
         Additions by learning people; None adds nothing.
     """
-    size, body, plant = len(due.gain), lifts.body, state.haptic.plant
+    size, body = len(due.gain), lifts.body
     mind, offsets = steered(state.mind, lifts, state.table, state.plans, due.coming, size)
     targets = due.target + offsets
-    hand = moved_hand(state, targets, plant.heights, body, due)
-    references = hand.references
+    hand, references = moved_hand(state, targets, body, due)
     differences = due.target - references
     part, limit = lifts.manner.wrist / lifts.manner.share, STEEPEST_MEANT * TABLE_LENGTH
     wrist = jnp.arcsin(jnp.clip(part * differences, -limit, limit) / TABLE_LENGTH)
@@ -138,8 +141,7 @@ def ball_step(
     after = BallState(
         table=table,
         command=commands[-1],
-        correction=hand.correction,
-        error=hand.error,
+        hand=hand,
         mind=mind,
         plans=pushed(state.plans, due.target),
         targets=pushed(state.targets, targets),

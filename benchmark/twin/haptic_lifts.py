@@ -1,30 +1,24 @@
 """Drawn arrays of all tasks with touch: sensors, the noise of a hand, and stacked lifts."""
 
-import math
 from collections.abc import Sequence
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from colift.agents.agent import FRAME
 from colift.agents.errors import InputError
-from colift.agents.humans import ScriptedHuman, Subject
-from colift.agents.humans.scripted import LEAK
+from colift.agents.humans import Subject
+from colift.agents.humans.hand import drawn_noise
 from colift.benchmark.episode.lift import MOCAP_NOISE
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seat import body_parameters
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.tasks.haptic import FINER, FORCE_NOISE, TORQUE_NOISE
 from colift.benchmark.twin.body import Body, bodies
-from colift.benchmark.twin.lifts import hand_references
 from colift.benchmark.world.world import HISTORY_FRAMES
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-
-KEPT: Final = math.exp(-FRAME / LEAK)
-"""Part of a hand's error that is left after a frame; see :class:`.ScriptedHuman`."""
 
 
 class Sensed(NamedTuple):
@@ -47,7 +41,8 @@ def draw_sensed(scenario: Scenario, seed: int, steps: int) -> Sensed:
     rng = np.random.default_rng(derive_seed(seed, f"force sensor/{name}"))
     touch = rng.normal(0.0, 1.0, (2, steps + 1))[:, :steps]
     touch = touch * np.array([[FORCE_NOISE], [TORQUE_NOISE]])
-    gain, tremor = _hand_noise(scenario, seed, frames)
+    person = scenario.subject
+    gain, tremor = drawn_noise(person, derive_seed(seed, f"human/{name}"), frames)
     return Sensed(
         gain.reshape(steps, size),
         tremor.reshape(steps, size),
@@ -59,28 +54,6 @@ def sampled_frames(scenario: Scenario, steps: int) -> NDArray[np.int64]:
     """Return the indices of the steps' samples in a lift's motion-capture noise (s,)."""
     size = scenario.frames_per_step
     return size * np.arange(steps) + HISTORY_FRAMES - 1 - scenario.latency_frames
-
-
-def _hand_noise(scenario: Scenario, seed: int, frames: int) -> tuple[Array, Array]:
-    """Return gain and tremor of a person's hand (frames,), from its motion in two tests.
-
-    A hand that should stay shows only the tremor. A hand that should move by 1 m in each frame also
-    shows errors e, which include a part of the last frame's: g_i = e_i - kept e_(i-1).
-    """
-    size = scenario.frames_per_step
-    ramp = np.arange(1.0, frames + 1)
-    tremor, moving = (
-        hand_references(_hand(scenario, seed), target, size).ravel()
-        for target in (np.zeros(frames), ramp)
-    )
-    error = moving - ramp - tremor
-    return error - KEPT * np.concatenate(([0.0], error[:-1])), tremor
-
-
-def _hand(scenario: Scenario, seed: int) -> ScriptedHuman:
-    hand = ScriptedHuman(subject=scenario.subject)
-    hand.reset(derive_seed(seed, f"human/{scenario.name}"))
-    return hand
 
 
 def lengthened(values: Array, frames: int) -> Array:

@@ -1,36 +1,36 @@
 """The common part of a step of lifts with touch: sensors, the hand of the person, and commands."""
 
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol, cast
 
 import jax
 import jax.numpy as jnp
 from colift.agents.actions import action_limit
 from colift.agents.agent import FRAME
-from colift.agents.humans.scripted import CORRECTION_GAIN, CORRECTION_LIMIT
+from colift.agents.humans.hand import HandMemory, HandNoise, move_hand
 from colift.benchmark.twin.body import Body, delayed
-from colift.benchmark.twin.haptic_lifts import KEPT
+from colift.benchmark.twin.functions import LIFTS
 from colift.benchmark.twin.haptic_plant import HapticPlant
 from colift.benchmark.twin.playing import ramp
 from colift.robots.nao.kinematics import STROKE
 
 
 class HandState(Protocol):
-    """State of the hand before a step."""
+    """The part of a state that moves the hand of the person."""
 
     @property
-    def correction(self) -> jax.Array:
-        """(n,) the voluntary correction [m]."""
+    def hand(self) -> HandMemory[jax.Array]:
+        """The hand's memory; all (n,)."""
 
     @property
-    def error(self) -> jax.Array:
-        """(n,) error of the hand by motor noise [m]."""
+    def haptic(self) -> HapticPlant:
+        """The lifts."""
 
     @property
     def targets(self) -> jax.Array:
         """(DEPTH, n) history of the intended height [m], newest first."""
 
 
-class HandNoise(Protocol):
+class NoiseDue(Protocol):
     """A step's share of the hand's noise; both (f, n)."""
 
     @property
@@ -40,6 +40,12 @@ class HandNoise(Protocol):
     @property
     def tremor(self) -> jax.Array:
         """Tremor [m]."""
+
+
+def hands_at_rest(count: int) -> HandMemory[jax.Array]:
+    """Return the memories of n hands at the beginning of a lift."""
+    zero = jnp.zeros(count)
+    return HandMemory(zero, zero, zero)
 
 
 def sensed_by_hands(
@@ -81,85 +87,27 @@ def sensed_by_hands(
     )
 
 
-def corrected_by_sight(
-    correction: jax.Array, targets: jax.Array, heights: jax.Array, body: Body, size: int
-) -> jax.Array:
-    """Return the voluntary correction (n,) [m] at the end of a step; see :class:`.ScriptedHuman`.
-
-    Parameters
-    ----------
-    correction
-        (n,) correction before the step [m].
-    targets, heights
-        (DEPTH, n) histories of the intended height and of the height [m], newest first.
-    body
-        The people.
-    size
-        Frames of a step.
-    """
-    missing = (delayed(targets, body.seen, 1) - delayed(heights, body.seen, 1))[0]
-    wanted = correction + CORRECTION_GAIN * missing * size * FRAME
-    return jnp.clip(wanted, -CORRECTION_LIMIT, CORRECTION_LIMIT)
-
-
-def noise_of_motion(
-    error: jax.Array, gain: jax.Array, before: jax.Array, targets: jax.Array
-) -> jax.Array:
-    """Return the error of the hand by motor noise (f, n) [m] in each frame of a step.
-
-    Parameters
-    ----------
-    error
-        (n,) error in the last frame [m].
-    gain
-        (f, n) noise relative to the velocity.
-    before, targets
-        (n,) intended height in the last frame, and (f, n) in those of the step [m].
-    """
-    changes = jnp.diff(jnp.concatenate((before[jnp.newaxis], targets)), axis=0)
-
-    def erring(error: jax.Array, due: tuple[jax.Array, jax.Array]) -> tuple[jax.Array, jax.Array]:
-        error = KEPT * error + due[0] * due[1]
-        return error, error
-
-    return jax.lax.scan(erring, error, (gain, changes))[1]
-
-
-class MovedHand(NamedTuple):
-    """The person's hand in a step."""
-
-    references: jax.Array
-    """(f, n) heights that the arms pull towards in each frame [m], not yet clipped to their
-    range."""
-    correction: jax.Array
-    """(n,) the voluntary correction at the end [m]."""
-    error: jax.Array
-    """(n,) the error by motor noise at the end [m]."""
-
-
 def moved_hand(
-    state: HandState, targets: jax.Array, heights: jax.Array, body: Body, noise: HandNoise
-) -> MovedHand:
-    """Return the hand in a step of targets (f, n) [m], with noise and correction.
+    state: HandState, targets: jax.Array, body: Body, noise: NoiseDue
+) -> tuple[HandMemory[jax.Array], jax.Array]:
+    """Return the hands after a step, and the heights that the arms pull towards in it (f, n) [m].
 
     Parameters
     ----------
     state
         The lifts before the step.
     targets
-        Intended height in each frame [m].
-    heights
-        (DEPTH, n) history of the height [m], newest first.
+        (f, n) intended height in each frame [m].
     body
         The people.
     noise
         The step's share of the hand's noise.
     """
-    size = len(targets)
-    correction = corrected_by_sight(state.correction, state.targets, heights, body, size)
-    errors = noise_of_motion(state.error, noise.gain, state.targets[0], targets)
-    ramped = ramp(state.correction, correction, size)
-    return MovedHand(targets + errors + noise.tremor + ramped, correction, errors[-1])
+    heights = state.haptic.plant.heights
+    missing = (delayed(state.targets, body.seen, 1) - delayed(heights, body.seen, 1))[0]
+    drawn, columns = HandNoise(noise.gain, noise.tremor), cast(Any, targets)
+    hand, references = move_hand(LIFTS, state.hand, missing, columns, drawn)
+    return hand, cast(jax.Array, references)
 
 
 def commanded(command: jax.Array, action: jax.Array, size: int) -> jax.Array:

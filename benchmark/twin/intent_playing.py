@@ -5,6 +5,7 @@ from typing import Any, Final, NamedTuple
 import jax
 import jax.numpy as jnp
 from colift.agents.agent import FRAME
+from colift.agents.humans.hand import HandMemory
 from colift.agents.humans.intent.pace import CATCHING_UP
 from colift.benchmark.episode.seat import REFERENCE_RANGE
 from colift.benchmark.twin.arm import ArmVariation
@@ -15,7 +16,12 @@ from colift.benchmark.twin.haptic_plant import (
     advance_haptic_step,
     haptic_plant_at_rest,
 )
-from colift.benchmark.twin.haptic_playing import commanded, moved_hand, sensed_by_hands
+from colift.benchmark.twin.haptic_playing import (
+    commanded,
+    hands_at_rest,
+    moved_hand,
+    sensed_by_hands,
+)
 from colift.benchmark.twin.intent_lifts import IntentLifts
 from colift.benchmark.twin.learning_person import Added
 from colift.benchmark.twin.playing import Frames
@@ -32,10 +38,8 @@ class IntentState(NamedTuple):
     haptic: HapticPlant
     command: jax.Array
     """(n,) command of the far hands [m]."""
-    correction: jax.Array
-    """(n,) the person's voluntary correction [m]."""
-    error: jax.Array
-    """(n,) error of the hand by motor noise [m]."""
+    hand: HandMemory[jax.Array]
+    """The people's hands."""
     time: jax.Array
     """(n,) time within the plan, in frames."""
     targets: jax.Array
@@ -50,7 +54,7 @@ def intent_at_rest(count: int) -> IntentState:
     """Return lifts at rest."""
     zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
     rest, number = haptic_plant_at_rest(count), jnp.zeros((), jnp.int32)
-    return IntentState(rest, zero, zero, zero, zero, past, past, number)
+    return IntentState(rest, zero, hands_at_rest(count), zero, past, past, number)
 
 
 def planned(series: jax.Array, time: jax.Array) -> jax.Array:
@@ -134,14 +138,13 @@ def intent_step(
     added
         Additions by learning people; None adds nothing.
     """
-    size, body, plant = len(due.gain), lifts.body, state.haptic.plant
+    size, body = len(due.gain), lifts.body
     times = paced(state, lifts, size)
     targets, far_targets = planned(lifts.near, times), planned(lifts.far, times)
     ahead = times + lifts.lead
     sine = (planned(lifts.far, ahead) - planned(lifts.near, ahead)) / TABLE_LENGTH
     wrist = lifts.wrist * sine * (1 + sine**2 / 6)
-    hand = moved_hand(state, targets, plant.heights, body, due)
-    references = hand.references
+    hand, references = moved_hand(state, targets, body, due)
     if added is not None:
         references, wrist = references + added.height, wrist + added.pitch
     references = jnp.clip(references, *REFERENCE_RANGE)
@@ -152,8 +155,7 @@ def intent_step(
     moved = IntentState(
         haptic=haptic,
         command=commands[-1],
-        correction=hand.correction,
-        error=hand.error,
+        hand=hand,
         time=times[-1],
         targets=pushed(state.targets, targets),
         far_targets=pushed(state.far_targets, far_targets),

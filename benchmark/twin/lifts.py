@@ -6,9 +6,11 @@ from typing import Any, Final, NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
-from colift.agents.agent import FRAME, HISTORY, HumanObservation
+from colift.agents.agent import FRAME
 from colift.agents.errors import InputError
-from colift.agents.humans import Embodied, ScriptedHuman
+from colift.agents.humans import Embodied
+from colift.agents.humans.hand import HandMemory, NoiseStream, move_hand
+from colift.agents.rules import SCALARS
 from colift.benchmark.episode.level import Level
 from colift.benchmark.episode.lift import MOCAP_NOISE
 from colift.benchmark.episode.scenario import Scenario
@@ -108,26 +110,15 @@ def carried_out(scenario: Scenario, seed: int) -> DrawnLift:
     rng = np.random.default_rng(derive_seed(seed, f"sensor/{name}"))
     noise = rng.normal(0.0, MOCAP_NOISE, (2, HISTORY_FRAMES + len(target)))
     sampled = size * np.arange(steps) + HISTORY_FRAMES - 1 - scenario.latency_frames
-    human = ScriptedHuman(subject=scenario.subject)
-    human.reset(derive_seed(seed, f"human/{name}"))
+    stream = NoiseStream(scenario.subject, derive_seed(seed, f"human/{name}"))
+    hand, moved = HandMemory(0.0, 0.0, 0.0), stream.between(0, len(target))
+    _, references = move_hand(SCALARS, hand, 0.0, target.tolist(), moved)
     return DrawnLift(
         scenario,
-        hand_references(human, target, size),
+        np.array(references).reshape(steps, size),
         target.reshape(steps, size),
         noise[:, sampled].T,
     )
-
-
-def hand_references(human: ScriptedHuman, target: Array, size: int) -> Array:
-    """Return the references (s, f) of a person who sees the hand at its intended height."""
-    meant = np.concatenate((np.zeros(HISTORY), target))
-    view = np.zeros(HumanObservation.size(size))
-    references = []
-    for first in range(0, len(target), size):
-        view[HumanObservation.OWN_HEIGHT] = meant[first : first + HISTORY]
-        view[HumanObservation.TARGET] = target[first : first + size]
-        references.append(human.act(view))
-    return np.array(references)
 
 
 def stack(drawn: Sequence[DrawnLift]) -> Lifts:

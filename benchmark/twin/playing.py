@@ -8,11 +8,12 @@ import jax
 import jax.numpy as jnp
 from colift.agents.actions import action_limit
 from colift.agents.agent import FRAME
-from colift.agents.humans.scripted import CORRECTION_GAIN, CORRECTION_LIMIT
+from colift.agents.humans.hand import corrected
 from colift.benchmark.episode.level import DROP_TILT, GRIP_FORCE
 from colift.benchmark.episode.seat import REFERENCE_RANGE
 from colift.benchmark.twin.arm import ArmVariation
 from colift.benchmark.twin.body import Body, delayed
+from colift.benchmark.twin.functions import LIFTS
 from colift.benchmark.twin.lifts import Lifts, chunk
 from colift.benchmark.twin.pair import PairPlant
 from colift.benchmark.twin.plant import Plant, advance_plant, plant_at_rest
@@ -89,13 +90,16 @@ def observe(playing: LiftState, noise: jax.Array, latency: jax.Array, period: fl
     )
 
 
-def corrected(
-    correction: jax.Array, heights: jax.Array, body: Body, seen_target: jax.Array, size: int
-) -> jax.Array:
-    """Return the voluntary correction [m] at the end of a step; see :class:`.ScriptedHuman`."""
-    missing = seen_target - delayed(heights, body.seen, 1)[0]
-    wanted = correction + CORRECTION_GAIN * missing * size * FRAME
-    return jnp.clip(wanted, -CORRECTION_LIMIT, CORRECTION_LIMIT)
+def references(
+    correction: jax.Array, heights: jax.Array, body: Body, now: Due
+) -> tuple[jax.Array, jax.Array]:
+    """Return the voluntary correction after a step (n,), and the hands' references (f, n) [m].
+
+    ``heights`` is the history of the person's end (DEPTH, n), newest first [m].
+    """
+    missing = now.seen_target - delayed(heights, body.seen, 1)[0]
+    after = corrected(LIFTS, correction, missing, len(now.reference))
+    return after, ramp(correction, after, len(now.reference)) + now.reference
 
 
 def control_step(
@@ -120,17 +124,15 @@ def control_step(
     variation
         Variation of the arms; None is the benchmark's arms.
     """
-    size = now.reference.shape[0]
-    correction = corrected(playing.correction, playing.plant.heights, body, now.seen_target, size)
-    references = ramp(playing.correction, correction, size) + now.reference
-    playing, frames = hands_step(playing, body, references, action, variation)
+    correction, hands = references(playing.correction, playing.plant.heights, body, now)
+    playing, frames = hands_step(playing, body, hands, action, variation)
     return playing._replace(correction=correction), frames
 
 
 def hands_step(
     playing: LiftState,
     body: Body,
-    references: jax.Array,
+    hands: jax.Array,
     action: jax.Array,
     variation: ArmVariation | None = None,
 ) -> tuple[LiftState, Frames]:
@@ -142,7 +144,7 @@ def hands_step(
         The lifts; the person's voluntary correction is left as it is.
     body
         The people.
-    references
+    hands
         (f, n) heights that their hands pull towards in each frame [m]; they are clipped to their
         range.
     action, variation
@@ -153,14 +155,14 @@ def hands_step(
     tuple
         The lifts, and the heights in the frames of the step.
     """
-    size = references.shape[0]
+    size = hands.shape[0]
     limit = action_limit(size * FRAME)
     command = jnp.clip(playing.command + jnp.clip(action, -limit, limit), *STROKE)
-    references = jnp.clip(references, *REFERENCE_RANGE)
+    hands = jnp.clip(hands, *REFERENCE_RANGE)
     commands = ramp(playing.command, command, size)
 
     def move(state: Plant, first: int, last: int) -> Plant:
-        return advance_plant(state, body, references[first:last], commands[first:last], variation)
+        return advance_plant(state, body, hands[first:last], commands[first:last], variation)
 
     moving = playing.plant.moving._replace(pulled=jnp.zeros_like(command))
     state, frames = in_chunks(playing.plant._replace(moving=moving), size, move)
