@@ -122,11 +122,13 @@ class Gate:
             self._check_alone({process})
             self._check_files(process, self.connection, self.output)
             self._check_memory(process)
+            self._check_program(process, address, FORKING)  # A thread may have changed it.
             self._install(serial, process)
             self.closed = True
         elif self.closed and self.lift is None and self._forks == 0 and process != self.loaded:
             self._check_program(process, address, LIFT)
             self._settle(process)
+            self._check_program(process, address, LIFT)
             self._install(serial, process)
             self.lift = process
             # It would see how long the steps of the lift take.
@@ -138,8 +140,9 @@ class Gate:
     def _check_program(self, process: int, address: int, due: Filter) -> None:
         """Check that a process installs the filter that is due.
 
-        It waits for the answer, has one thread, and shares its memory with no other: what is read
-        here is what the kernel will read.
+        It waits for the answer, and shares its memory with no other process, which the filter does
+        not allow. Once it is known to have one thread, what is read here is what the kernel will
+        read.
         """
         program = due.program()
         with self.processes.opened(process, "mem") as memory:
