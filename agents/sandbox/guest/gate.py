@@ -45,6 +45,10 @@ class RefusedError(Exception):
     """A condition of the gate that does not hold."""
 
 
+class MachineError(Exception):
+    """What the gate needs of this machine, and does not get."""
+
+
 @dataclass
 class Gate:
     """The answers to the questions of a filter.
@@ -66,6 +70,8 @@ class Gate:
     """Devices of the file systems in which the policy may write, as ``major:minor``."""
     pages: Pages
     """Those that are kept in memory."""
+    doors: tuple[int, ...]
+    """A handle by which a process enters the control group of lifts, where there is one."""
     closed: bool = False
     """Whether the policy is loaded, and its gate closed."""
     lift: int | None = None
@@ -81,7 +87,10 @@ class Gate:
         self._forks, self.lift = 0, None
 
     def answer(self) -> str:
-        """Answer a question, and return a report: ``closed``, ``refused REASON``, or nothing."""
+        """Answer a question, and return a report.
+
+        It is ``closed``, ``refused REASON``, ``fault REASON``, or nothing.
+        """
         question = bytearray(_QUESTION.size)
         try:
             _control(self.listener, _RECEIVE, question)
@@ -95,11 +104,13 @@ class Gate:
             if operation != filters.SET_MODE_FILTER or flags:
                 raise RefusedError
             return self._close(serial, process, address)
-        except (RefusedError, OSError, struct.error) as error:
+        except (RefusedError, MachineError, OSError, struct.error) as error:
             try:
                 self._reply(serial, _EPERM)
             except OSError:
                 return ""  # Its process has ended, or was interrupted and will ask again.
+            if isinstance(error, MachineError):
+                return f"fault {error}"
             return f"refused {error}" if isinstance(error, RefusedError) and str(error) else ""
 
     def _reply(self, serial: int, error: int = 0) -> None:
@@ -123,6 +134,7 @@ class Gate:
             self._check_files(process, self.connection, self.output)
             self._check_memory(process)
             self._check_program(process, address, FORKING)  # A thread may have changed it.
+            self._enter_group(process)
             self._install(serial, process)
             self.closed = True
         elif self.closed and self.lift is None and self._forks == 0 and process != self.loaded:
@@ -200,6 +212,14 @@ class Gate:
                 self.pages.keep(each)
             except OSError:
                 raise RefusedError(f"mapping {each.path}") from None
+
+    def _enter_group(self, process: int) -> None:
+        """Move a process, and all that will be forked from it, to the control group of lifts."""
+        for door in self.doors:
+            try:
+                os.write(door, str(process).encode())
+            except OSError as error:
+                raise MachineError(f"control group of lifts: {error}") from None
 
     def _install(self, serial: int, process: int) -> None:
         """Let a process install its filter; raise RefusedError if the kernel then refuses it."""
