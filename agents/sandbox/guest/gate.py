@@ -165,7 +165,9 @@ class Gate:
     def _settle(self, process: int) -> None:
         """Check that the lift and what it was forked from are all there is, when both have settled.
 
-        The latter must not keep the connection of the lift, and the lift must have its own.
+        The latter must not keep the connection of the lift, and the lift must have its own. Nor may
+        it be the parent of the lift: a parent is told the exit, the memory and the times of its
+        children. The one that watches is the parent of both.
         """
         end = time.monotonic() + _SETTLE_SECONDS
         while True:
@@ -181,12 +183,14 @@ class Gate:
                 return
 
     def _check_alone(self, expected: set[int]) -> None:
-        """Check that these are all processes, with one thread each."""
+        """Check that these are all processes, with one thread each and the same parent."""
         found = self.processes.all()
         if found.keys() != expected:
             raise RefusedError(f"processes {len(found)}")
         if threads := sum(each.threads for each in found.values()) - len(expected):
             raise RefusedError(f"threads {threads}")
+        if len({each.parent for each in found.values()}) > 1:
+            raise RefusedError("parent")
 
     def _check_files(self, process: int, connection: int | None, output: int | None) -> None:
         """Check the open files of a process: those of the loaded one, or for None, others."""

@@ -137,6 +137,25 @@ GATE = [
         reason=r"ended its process .*|did not start in time",
     ),
     Hostile(
+        name="lift whose parent is what it is forked from",
+        top="""
+        fork, inside = os.fork, []
+        def as_parent():
+            if inside:
+                return 0
+            between = fork()
+            if between == 0:
+                os._exit(0)
+            os.waitpid(between, 0)
+            made = fork()
+            if made == 0:
+                inside.append(made)
+            return made
+        os.fork = as_parent
+        """,
+        reason=r"ended its process .*|did not start in time|could not be closed in .*",
+    ),
+    Hostile(
         name="keeps the connection of a lift",
         top="""
         close = os.close
