@@ -32,7 +32,7 @@ def screen(request, open_page):
 
 
 def looked_at(page):
-    """Check a page as it is now: nothing serious for axe-core, and nothing is cut off."""
+    """Check a page as it is now: nothing for axe-core, and nothing is cut off."""
     page.emulate_media(color_scheme="light")
     assert violations(page) == []
     page.emulate_media(color_scheme="dark")
