@@ -11,10 +11,11 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from ..agents.errors import InputError
+from ..agents.errors import InputError, Remedy
 from ..agents.humans import SUBJECTS, Subject
 from ..agents.loading.description import ParameterText, described
 from ..agents.loading.loading import PolicySpec
+from ..agents.near_names import near_names
 from ..agents.plugins import class_fault
 from ..agents.registry import (
     HUMANS,
@@ -65,7 +66,7 @@ def list_all(
     Exit code 1 if one of them cannot be loaded; its line gives the reason.
     """
     if named is not None and named not in SECTIONS:
-        show(*policy_parameters(named))
+        show(*_policy(named))
         return
     broken: list[str] = []
     table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
@@ -128,6 +129,17 @@ def _valid(group: str, name: str) -> Any:
     elif fault := class_fault(found):
         raise InputError(f"{called(group, name)} {fault}")
     return found
+
+
+def _policy(text: str) -> list[RenderableType]:
+    """Return the description of a policy; the error about an unknown one has a near section."""
+    try:
+        return list(policy_parameters(text))
+    except InputError as error:
+        near = near_names(text, SECTIONS, most=1)
+        if error.remedy is not Remedy.LIST or not near:
+            raise
+        raise InputError(f"{error}; or 'colift list {near[0]}'?") from error
 
 
 def _about(subject: Subject) -> str:
