@@ -18,7 +18,7 @@ _HEADER: Final = (
 
 
 def _numbers(*values: float) -> str:
-    return " ".join(f"{value + 0.0:.9g}" for value in values)
+    return " ".join(f"{value + 0.0:.12g}" for value in values)
 
 
 def _add_geometry(parent: ET.Element, shape: Shape) -> None:
