@@ -214,7 +214,7 @@ def turns(seed: int, hold: int, speed: float, frames: int = 400) -> list[float]:
 class TestArms:
     @pytest.mark.parametrize("weight_offset", [True, False])
     def test_one_arm_moves_as_two(self, weight_offset):
-        """Also against a person with other plans, and at the largest speed: to the compliance of the solver.
+        """To the compliance of the solver, against a person with other plans, at the largest speed.
 
         Beyond that speed, at the limits of the motors, two arms need not stay mirror images.
         """
