@@ -5,7 +5,12 @@ from typing import Any, Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-from colift.agents.humans.agree.manner import INSISTENCES, STIFFNESSES, TRUSTS
+from colift.agents.humans.agree.manner import (
+    INSISTENCES,
+    STIFFNESSES,
+    TRUSTS,
+    AgreeingManner,
+)
 from colift.agents.humans.agree.manner import PATIENCES as PATIENCES_TO_AGREE
 from colift.agents.humans.ball.manner import RANGES, SteeringManner
 from colift.agents.humans.intent.manner import LEADS, PATIENCES, SHARES, LeadingManner
@@ -70,12 +75,13 @@ def agreeing_anew(lifts: AgreeLifts, key: jax.Array, wide: float) -> AgreeLifts:
     patience, trust, stiffness, insistence = (
         low + (high - low) * share for (low, high), share in zip(ranges, drawn, strict=True)
     )
-    return lifts._replace(
+    manner = AgreeingManner(
         patience=jnp.maximum(patience, 0.0),
         trust=jnp.clip(trust, 0.0, 1.0),
         stiffness=jnp.clip(stiffness, 0.0, 1.0),
         insistence=jnp.maximum(insistence, 0.0),
     )
+    return lifts._replace(manner=manner)
 
 
 def leading_quietly(lifts: IntentLifts) -> IntentLifts:
