@@ -2,6 +2,8 @@
 
 from typing import Final
 
+from colift.agents.rules import N
+
 LENGTH: Final = 0.8
 """Distance between the table's ends [m]."""
 
@@ -18,7 +20,7 @@ WRIST: Final = 10.0
 """Pitch stiffness of a person's grip [Nm/rad]."""
 
 
-def meant_by_wrists(force: float, difference: float, place: float) -> float:
+def meant_by_wrists(force: N, difference: N, place: N) -> N:
     """Return the height difference of the ends [m] that the near person's wrists turn to.
 
     By the balance of torques about the near hands, without the table's inertia:

@@ -1,5 +1,6 @@
 """The functions of numbers that a rule may call, by the names of the array API standard."""
 
+import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Final, Protocol, TypeVar
 
@@ -8,6 +9,9 @@ if TYPE_CHECKING:
 
 N = TypeVar("N", float, "jax.Array")
 """A number of one lift, or an array (n,) with one number for each of n lifts."""
+
+N_co = TypeVar("N_co", float, "jax.Array", covariant=True)
+"""The same, where it is only returned."""
 
 Memory = TypeVar("Memory")
 Output = TypeVar("Output")
@@ -20,8 +24,23 @@ class ArrayFunctions(Protocol[N]):
     exactly as the standard library computes them.
     """
 
+    def abs(self, x: N, /) -> N:
+        """Return the absolute value."""
+
+    def arcsin(self, x: N, /) -> N:
+        """Return the inverse sine [rad]."""
+
     def clip(self, x: N, low: float, high: float, /) -> N:
         """Return ``x``, at least ``low``, at most ``high``."""
+
+    def floor(self, x: N, /) -> N:
+        """Return the largest whole number that is not larger."""
+
+    def minimum(self, x: N, y: N, /) -> N:
+        """Return the smaller one."""
+
+    def where(self, condition: Any, then: N, otherwise: N | float, /) -> N:
+        """Return ``then`` where the condition holds, else ``otherwise``."""
 
     def frames(
         self,
@@ -40,10 +59,20 @@ class ArrayFunctions(Protocol[N]):
 class Scalars:
     """The functions for plain floats."""
 
+    abs = staticmethod(abs)
+    arcsin = staticmethod(math.asin)
+    floor = staticmethod(math.floor)
+    minimum = staticmethod(min)
+
     @staticmethod
     def clip(x: float, low: float, high: float, /) -> float:
         """Return ``x``, at least ``low``, at most ``high``."""
         return min(max(x, low), high)
+
+    @staticmethod
+    def where(condition: Any, then: float, otherwise: float, /) -> float:
+        """Return ``then`` if the condition holds, else ``otherwise``."""
+        return then if condition else otherwise
 
     @staticmethod
     def frames(

@@ -5,18 +5,22 @@ from typing import Any, Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-from colift.agents.agent import FRAME
-from colift.agents.humans.agree.manner import INSISTENCES, STIFFNESSES, TRUSTS
+from colift.agents.humans.agree.manner import (
+    INSISTENCES,
+    STIFFNESSES,
+    TRUSTS,
+    AgreeingManner,
+)
 from colift.agents.humans.agree.manner import PATIENCES as PATIENCES_TO_AGREE
-from colift.agents.humans.ball.manner import RANGES
-from colift.agents.humans.intent.manner import LEADS, PATIENCES, SHARES
+from colift.agents.humans.ball.manner import RANGES, SteeringManner
+from colift.agents.humans.intent.manner import LEADS, PATIENCES, SHARES, LeadingManner
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.tasks.agree.task import BEHAVIOURS as HURDLES
 from colift.benchmark.tasks.ball.task import BEHAVIOURS as ROLLINGS
 from colift.benchmark.tasks.intent.task import BEHAVIOURS as INTENTS
 from colift.benchmark.twin.agree_lifts import AgreeLifts, draw_agree, stack_agree
 from colift.benchmark.twin.agree_playing import AGREE_STEPS
-from colift.benchmark.twin.ball_lifts import BallLifts, Manner, draw_ball, stack_ball
+from colift.benchmark.twin.ball_lifts import BallLifts, draw_ball, stack_ball
 from colift.benchmark.twin.ball_playing import BALL_STEPS
 from colift.benchmark.twin.intent_lifts import IntentLifts, draw_intent, stack_intent
 from colift.benchmark.twin.intent_playing import INTENT_STEPS
@@ -47,7 +51,7 @@ def leading_anew(lifts: IntentLifts, key: jax.Array, wide: float) -> IntentLifts
         low + (high - low) * share
         for (low, high), share in zip((SHARES, LEADS, PATIENCES), drawn, strict=True)
     )
-    return lifts._replace(wrist=wrist, lead=lead / FRAME, patience=patience)
+    return lifts._replace(manner=LeadingManner(wrist=wrist, lead=lead, patience=patience))
 
 
 def steering_anew(lifts: BallLifts, key: jax.Array, wide: float) -> BallLifts:
@@ -61,7 +65,7 @@ def steering_anew(lifts: BallLifts, key: jax.Array, wide: float) -> BallLifts:
         name: low + (high - low) * share
         for (name, (low, high)), share in zip(RANGES.items(), drawn, strict=True)
     }
-    return lifts._replace(manner=Manner(**manner))
+    return lifts._replace(manner=SteeringManner(**manner))
 
 
 def agreeing_anew(lifts: AgreeLifts, key: jax.Array, wide: float) -> AgreeLifts:
@@ -71,17 +75,19 @@ def agreeing_anew(lifts: AgreeLifts, key: jax.Array, wide: float) -> AgreeLifts:
     patience, trust, stiffness, insistence = (
         low + (high - low) * share for (low, high), share in zip(ranges, drawn, strict=True)
     )
-    return lifts._replace(
+    manner = AgreeingManner(
         patience=jnp.maximum(patience, 0.0),
         trust=jnp.clip(trust, 0.0, 1.0),
         stiffness=jnp.clip(stiffness, 0.0, 1.0),
         insistence=jnp.maximum(insistence, 0.0),
     )
+    return lifts._replace(manner=manner)
 
 
 def leading_quietly(lifts: IntentLifts) -> IntentLifts:
     """Return lifts with wrists that stay level."""
-    return lifts._replace(wrist=jnp.zeros_like(lifts.wrist))
+    manner = lifts.manner
+    return lifts._replace(manner=manner._replace(wrist=jnp.zeros_like(manner.wrist)))
 
 
 def steering_quietly(lifts: BallLifts) -> BallLifts:

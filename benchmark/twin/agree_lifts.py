@@ -8,13 +8,14 @@ import jax.numpy as jnp
 import numpy as np
 from colift.agents.agent import FRAME
 from colift.agents.errors import InputError
-from colift.agents.humans.agree import Hurdle, HurdlePlan, agreeing_manner
+from colift.agents.humans.agree import AgreeingManner, Hurdle, HurdlePlan, agreeing_manner
 from colift.agents.humans.agree.negotiator import LIFTED, RESTING
 from colift.agents.humans.agree.precedence import EARLY, NEEDED
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.tasks.agree.task import Agree
 from colift.benchmark.twin.body import Body
+from colift.benchmark.twin.columns import columns
 from colift.benchmark.twin.haptic_lifts import (
     Sensed,
     bodies_in_touch,
@@ -75,12 +76,8 @@ class AgreeLifts(NamedTuple):
     """(2, n) first frame at the common height, and frame after the last."""
     body: Body
     """The people."""
-    patience: jax.Array
-    """(n,) see :class:`.AgreeingManner`, and so on."""
-    trust: jax.Array
-    stiffness: jax.Array
-    insistence: jax.Array
-    """[s]"""
+    manner: AgreeingManner[jax.Array]
+    """Their manners; all (n,)."""
 
     @property
     def size(self) -> int:
@@ -178,7 +175,6 @@ def stack_agree(drawn: Sequence[DrawnAgree]) -> AgreeLifts:
     common_size([lift.scenario.frames_per_step for lift in drawn])
     longest = max(len(lift.target) for lift in drawn)
     people = [lift.scenario.subject for lift in drawn]
-    manners = [agreeing_manner(person) for person in people]
 
     def column(values: Sequence[float]) -> jax.Array:
         return jnp.asarray(values, jnp.float32)
@@ -203,8 +199,5 @@ def stack_agree(drawn: Sequence[DrawnAgree]) -> AgreeLifts:
         robot=obstacle([lift.robot for lift in drawn]),
         agreeing=jnp.asarray([lift.agreeing for lift in drawn]).T,
         body=bodies_in_touch(people),
-        patience=column([manner.patience for manner in manners]),
-        trust=column([manner.trust for manner in manners]),
-        stiffness=column([manner.stiffness for manner in manners]),
-        insistence=column([manner.insistence for manner in manners]),
+        manner=columns([agreeing_manner(person) for person in people]),
     )

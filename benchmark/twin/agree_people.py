@@ -131,9 +131,11 @@ def negotiated(
     )
     mind, mine = _precede(mind, lifts, due, apart, own, period)
 
-    goal = common + lifts.trust * (chances[1:] * jnp.asarray(GOALS)[:, jnp.newaxis]).sum(axis=0)
+    goal = common + lifts.manner.trust * (chances[1:] * jnp.asarray(GOALS)[:, jnp.newaxis]).sum(
+        axis=0
+    )
     goal = jnp.where(mine, lifts.human.height, goal)
-    response = lifts.stiffness * goal + (1 - lifts.stiffness) * far
+    response = lifts.manner.stiffness * goal + (1 - lifts.manner.stiffness) * far
     aim = jnp.where(resting, response - due.way[-1], 0.0)
     offset, rate, heights = mind.offset, mind.rate, []
     for height in due.way:
@@ -158,12 +160,12 @@ def _precede(
     asked = (hurdle.given > 0.0) & (due.common > 0.0)
     there = (jnp.abs(own - hurdle.height) < NEAR) & (jnp.abs(mind.far - hurdle.height) < FAR_NEAR)
     passed = mind.passed | (asked & (start <= 0.0) & there)
-    patience = jnp.where(mind.served, 0.0, lifts.patience)
+    patience = jnp.where(mind.served, 0.0, lifts.manner.patience)
     open_now = asked & ~passed & (stop > 0.0) & (earliest + patience * (latest - earliest) <= 0.0)
     begins = ~apart | mind.served | (latest <= 0.0)
     goes_on = open_now & mind.begun
     conflict = jnp.where(goes_on, jnp.where(apart, mind.conflict + period, 0.0), mind.conflict)
-    yielded = mind.yielded | (goes_on & (conflict > lifts.insistence))
+    yielded = mind.yielded | (goes_on & (conflict > lifts.manner.insistence))
     mine = jnp.where(mind.begun, mind.served | ~yielded, begins) & open_now
     mind = mind._replace(
         begun=mind.begun | (open_now & begins), yielded=yielded, passed=passed, conflict=conflict

@@ -8,12 +8,13 @@ import jax.numpy as jnp
 import numpy as np
 from colift.agents.agent import HISTORY
 from colift.agents.errors import InputError
-from colift.agents.humans.ball import BallPlan, steering_manner
+from colift.agents.humans.ball import BallPlan, SteeringManner, steering_manner
 from colift.benchmark.episode.lift import MOCAP_NOISE
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.tasks.ball.task import BALL, BallSteering
 from colift.benchmark.twin.body import Body
+from colift.benchmark.twin.columns import columns
 from colift.benchmark.twin.haptic_lifts import (
     Sensed,
     bodies_in_touch,
@@ -53,23 +54,13 @@ class BallLifts(NamedTuple):
     """(n,) 1 if the robot knows the target, else 0."""
     body: Body
     """The people."""
-    manner: "Manner"
-    """Their manners of steering."""
+    manner: SteeringManner[jax.Array]
+    """Their manners of steering; all (n,)."""
 
     @property
     def size(self) -> int:
         """Number of lifts."""
         return int(self.steps.shape[0])
-
-
-class Manner(NamedTuple):
-    """The manners of n people, see :class:`.SteeringManner`; all (n,)."""
-
-    share: jax.Array
-    haste: jax.Array
-    lead: jax.Array
-    trust: jax.Array
-    wrist: jax.Array
 
 
 class DrawnBall(NamedTuple):
@@ -131,11 +122,6 @@ def stack_ball(drawn: Sequence[DrawnBall]) -> BallLifts:
     steps = [len(lift.target) for lift in drawn]
     longest = max(steps)
     people = [lift.scenario.subject for lift in drawn]
-    manners = [steering_manner(person) for person in people]
-
-    def manner(name: str) -> jax.Array:
-        return jnp.asarray([getattr(each, name) for each in manners], jnp.float32)
-
     return BallLifts(
         target=joined([lift.target for lift in drawn], longest),
         place=joined([lift.place for lift in drawn], longest),
@@ -147,5 +133,5 @@ def stack_ball(drawn: Sequence[DrawnBall]) -> BallLifts:
         steps=jnp.asarray(steps),
         shown=jnp.asarray([lift.shown for lift in drawn], jnp.float32),
         body=bodies_in_touch(people),
-        manner=Manner(*map(manner, Manner._fields)),
+        manner=columns([steering_manner(person) for person in people]),
     )

@@ -4,16 +4,24 @@ from typing import Any, Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
-from colift.agents.agent import FRAME
+from colift.agents.agent import FRAME, HISTORY
+from colift.agents.humans.ball.steering import (
+    SQUARE,
+    BallTarget,
+    SteeringMemory,
+    SteeringSenses,
+    steer,
+)
 from colift.agents.humans.hand import HandMemory
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.episode.seat import REFERENCE_RANGE
 from colift.benchmark.tasks.ball.lift import STEEPEST_MEANT
 from colift.benchmark.twin.arm import ArmVariation
 from colift.benchmark.twin.ball_lifts import BallLifts
-from colift.benchmark.twin.ball_people import SteeringMind, steered, steering_minds
 from colift.benchmark.twin.ball_plant import BallPlant, advance_ball_plant, ball_plant_at_rest
 from colift.benchmark.twin.body import DEPTH, delayed, pushed
+from colift.benchmark.twin.columns import filled
+from colift.benchmark.twin.functions import LIFTS
 from colift.benchmark.twin.haptic_plant import HapticPlant, Meant
 from colift.benchmark.twin.haptic_playing import (
     commanded,
@@ -35,7 +43,7 @@ class BallState(NamedTuple):
     """(n,) command of the far hands [m]."""
     hand: HandMemory[jax.Array]
     """The people's hands."""
-    mind: SteeringMind
+    mind: SteeringMemory[jax.Array]
     """The people."""
     plans: jax.Array
     """History of the planned height [m]."""
@@ -55,7 +63,7 @@ class BallState(NamedTuple):
 def balls_at_rest(count: int) -> BallState:
     """Return lifts at rest."""
     zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
-    table, mind = ball_plant_at_rest(count), steering_minds(count)
+    table, mind = ball_plant_at_rest(count), filled(SteeringMemory(0.0, 0.0, 0.0, SQUARE), count)
     number = jnp.zeros((), jnp.int32)
     return BallState(table, zero, hands_at_rest(count), mind, past, past, zero, number)
 
@@ -94,6 +102,26 @@ def ball_known(state: BallState, lifts: BallLifts, due: BallDue) -> jax.Array:
     return 5.0 * jnp.concatenate((place, due.coming[jnp.array([0, -1])]))
 
 
+def steering_senses(state: BallState, lifts: BallLifts, due: BallDue) -> SteeringSenses[jax.Array]:
+    """Return what n people perceive, who all know the target."""
+    seen, plant, places = lifts.body.seen, state.haptic.plant, state.table.places
+    (own,) = delayed(plant.heights, seen, 1)
+    # The oldest of the ten places is nine frames older than the newest.
+    (newest,), (oldest,) = delayed(places[:DEPTH], seen, 1), delayed(places[HISTORY - 1 :], seen, 1)
+    half = (HISTORY - 1) // 2
+    return SteeringSenses(
+        own=own,
+        other=own + delayed(plant.differences, seen, 1)[0],
+        planned=delayed(state.plans, seen, 1)[0],
+        place=newest,
+        speed=(newest - oldest) / (FRAME * (HISTORY - 1)),
+        target=BallTarget(due.coming[0], due.coming[half], due.coming[2 * half]),
+        span=half * FRAME,
+        known=jnp.ones_like(own),
+        felt=jnp.zeros_like(own),
+    )
+
+
 def ball_step(
     state: BallState,
     lifts: BallLifts,
@@ -118,8 +146,9 @@ def ball_step(
         Additions by learning people; None adds nothing.
     """
     size, body = len(due.gain), lifts.body
-    mind, offsets = steered(state.mind, lifts, state.table, state.plans, due.coming, size)
-    targets = due.target + offsets
+    senses = steering_senses(state, lifts, due)
+    mind, offsets = steer(LIFTS, lifts.manner, state.mind, senses, -1.0, size)
+    targets = due.target + jnp.stack(offsets)
     hand, references = moved_hand(state, targets, body, due)
     differences = due.target - references
     part, limit = lifts.manner.wrist / lifts.manner.share, STEEPEST_MEANT * TABLE_LENGTH

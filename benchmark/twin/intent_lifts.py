@@ -6,13 +6,13 @@ from typing import NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
-from colift.agents.agent import FRAME
 from colift.agents.errors import InputError
-from colift.agents.humans.intent import PosePlan, leading_manner
+from colift.agents.humans.intent import LeadingManner, PosePath, PosePlan, leading_manner
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.tasks.intent.task import Intent
 from colift.benchmark.twin.body import Body
+from colift.benchmark.twin.columns import LiftSeries, columns
 from colift.benchmark.twin.haptic_lifts import (
     Sensed,
     bodies_in_touch,
@@ -29,10 +29,10 @@ Array = NDArray[np.float64]
 class IntentLifts(NamedTuple):
     """n lifts of at most s steps of f frames, in single precision."""
 
-    near: jax.Array
-    """(s f, n) planned height of the person's end at the end of each frame [m]."""
-    far: jax.Array
-    """(s f, n) planned height of the far end [m]."""
+    near: LiftSeries
+    """Planned height of the person's end [m]."""
+    far: LiftSeries
+    """Planned height of the far end [m]."""
     gain: jax.Array
     """(s, f, n) signal-dependent noise of the person's hand, relative to its velocity."""
     tremor: jax.Array
@@ -45,17 +45,18 @@ class IntentLifts(NamedTuple):
     """(n,) length in steps."""
     body: Body
     """The people."""
-    wrist: jax.Array
-    """(n,) share of the intended pitch that the wrists show."""
-    lead: jax.Array
-    """(n,) lead of the wrists over the hands, in frames."""
-    patience: jax.Array
-    """(n,) see :class:`.LeadingManner` [m]."""
+    manner: LeadingManner[jax.Array]
+    """Their manners; all (n,)."""
 
     @property
     def size(self) -> int:
         """Number of lifts."""
         return int(self.steps.shape[0])
+
+    @property
+    def path(self) -> PosePath[jax.Array]:
+        """The plans of both ends."""
+        return PosePath(self.near, self.far)
 
 
 class DrawnIntent(NamedTuple):
@@ -104,17 +105,14 @@ def stack_intent(drawn: Sequence[DrawnIntent]) -> IntentLifts:
     steps = [len(lift.sensed.gain) for lift in drawn]
     longest = max(steps)
     people = [lift.scenario.subject for lift in drawn]
-    manners = [leading_manner(person) for person in people]
     return IntentLifts(
-        near=joined([lift.near for lift in drawn], longest * size),
-        far=joined([lift.far for lift in drawn], longest * size),
+        near=LiftSeries.of(joined([lift.near for lift in drawn], longest * size)),
+        far=LiftSeries.of(joined([lift.far for lift in drawn], longest * size)),
         gain=joined([lift.sensed.gain for lift in drawn], longest),
         tremor=joined([lift.sensed.tremor for lift in drawn], longest),
         noise=joined([lift.sensed.noise for lift in drawn], longest),
         latency=jnp.asarray([lift.scenario.latency_frames for lift in drawn]),
         steps=jnp.asarray(steps),
         body=bodies_in_touch(people),
-        wrist=jnp.asarray([manner.wrist for manner in manners], jnp.float32),
-        lead=jnp.asarray([manner.lead / FRAME for manner in manners], jnp.float32),
-        patience=jnp.asarray([manner.patience for manner in manners], jnp.float32),
+        manner=columns([leading_manner(person) for person in people]),
     )

@@ -6,10 +6,12 @@ import jax
 import jax.numpy as jnp
 from colift.agents.agent import FRAME
 from colift.agents.humans.hand import HandMemory
-from colift.agents.humans.intent.pace import CATCHING_UP
+from colift.agents.humans.intent import PaceMemory, PaceSenses, intended, pace
+from colift.agents.rules import at_time
 from colift.benchmark.episode.seat import REFERENCE_RANGE
 from colift.benchmark.twin.arm import ArmVariation
 from colift.benchmark.twin.body import DEPTH, delayed, pushed
+from colift.benchmark.twin.functions import LIFTS
 from colift.benchmark.twin.haptic_plant import (
     HapticPlant,
     Meant,
@@ -40,8 +42,8 @@ class IntentState(NamedTuple):
     """(n,) command of the far hands [m]."""
     hand: HandMemory[jax.Array]
     """The people's hands."""
-    time: jax.Array
-    """(n,) time within the plan, in frames."""
+    pace: PaceMemory[jax.Array]
+    """The people's places within their plans; all (n,)."""
     targets: jax.Array
     """History of the near end's intended height [m]."""
     far_targets: jax.Array
@@ -54,30 +56,7 @@ def intent_at_rest(count: int) -> IntentState:
     """Return lifts at rest."""
     zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
     rest, number = haptic_plant_at_rest(count), jnp.zeros((), jnp.int32)
-    return IntentState(rest, zero, hands_at_rest(count), zero, past, past, number)
-
-
-def planned(series: jax.Array, time: jax.Array) -> jax.Array:
-    """Return a plan's heights (f, n) of (T, n) at times in frames (f, n), as ``planned_at``."""
-    place = jnp.clip(time - 1.0, -1.0, len(series) - 1.0)
-    below = jnp.floor(jax.lax.stop_gradient(place)).astype(jnp.int32)
-    padded = jnp.concatenate((jnp.zeros((1, series.shape[1])), series, series[-1:]))
-    low = jnp.take_along_axis(padded, below + 1, axis=0)
-    high = jnp.take_along_axis(padded, below + 2, axis=0)
-    return low + (place - below) * (high - low)
-
-
-def paced(state: IntentState, lifts: IntentLifts, size: int) -> jax.Array:
-    """Return the times within the plan at the end of each frame of a step (f, n); see Pace."""
-    plant = state.haptic.plant
-    far_end = plant.heights + plant.differences
-    seen = lifts.body.seen
-    away = jnp.abs(delayed(far_end, seen, 1) - delayed(state.far_targets, seen, 1))[0]
-    pace = jnp.clip(2.0 - away / lifts.patience, 0.0, 1.0)
-    late = state.step * size - state.time
-    hurried = jnp.minimum(pace * CATCHING_UP, pace + late / size)
-    pace = jnp.where(late > 0.0, hurried, pace)
-    return state.time + pace * jnp.arange(1, size + 1, dtype=jnp.float32)[:, jnp.newaxis]
+    return IntentState(rest, zero, hands_at_rest(count), PaceMemory(zero, zero), past, past, number)
 
 
 class IntentDue(NamedTuple):
@@ -94,7 +73,7 @@ class IntentDue(NamedTuple):
 
 def intent_due(lifts: IntentLifts) -> IntentDue:
     """Return the shares of all steps, with a first axis of steps."""
-    near, far = (each.reshape(lifts.gain.shape) for each in (lifts.near, lifts.far))
+    near, far = (series.own.reshape(lifts.gain.shape) for series in (lifts.near, lifts.far))
     return IntentDue(near, far, lifts.gain, lifts.tremor, lifts.noise)
 
 
@@ -110,9 +89,9 @@ def intent_known(state: IntentState, lifts: IntentLifts, due: IntentDue) -> jax.
     The rows are the intended heights of their end at three times ahead, then the intended
     differences of the far end from it.
     """
-    ahead = state.time + jnp.asarray(LOOKS_AHEAD)[:, jnp.newaxis]
-    near = planned(lifts.near, ahead)
-    return jnp.concatenate((10.0 * near, 20.0 * (planned(lifts.far, ahead) - near)))
+    ahead = state.pace.time + jnp.asarray(LOOKS_AHEAD)[:, jnp.newaxis]
+    near, far = (at_time(LIFTS, series, ahead) for series in lifts.path)
+    return jnp.concatenate((10.0 * near, 20.0 * (far - near)))
 
 
 def intent_step(
@@ -139,11 +118,12 @@ def intent_step(
         Additions by learning people; None adds nothing.
     """
     size, body = len(due.gain), lifts.body
-    times = paced(state, lifts, size)
-    targets, far_targets = planned(lifts.near, times), planned(lifts.far, times)
-    ahead = times + lifts.lead
-    sine = (planned(lifts.far, ahead) - planned(lifts.near, ahead)) / TABLE_LENGTH
-    wrist = lifts.wrist * sine * (1 + sine**2 / 6)
+    plant = state.haptic.plant
+    (far_end,) = delayed(plant.heights + plant.differences, body.seen, 1)
+    senses = PaceSenses(far_end, delayed(state.far_targets, body.seen, 1)[0])
+    memory, times = pace(LIFTS, lifts.manner, state.pace, senses, size)
+    pose = intended(LIFTS, lifts.manner, lifts.path, jnp.stack(times), TABLE_LENGTH)
+    targets, far_targets, wrist = pose
     hand, references = moved_hand(state, targets, body, due)
     if added is not None:
         references, wrist = references + added.height, wrist + added.pitch
@@ -156,7 +136,7 @@ def intent_step(
         haptic=haptic,
         command=commands[-1],
         hand=hand,
-        time=times[-1],
+        pace=memory,
         targets=pushed(state.targets, targets),
         far_targets=pushed(state.far_targets, far_targets),
         step=state.step + 1,

@@ -1,26 +1,28 @@
 """The manner in which a person comes to an agreement with a partner."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, Generic, NamedTuple
 
 import numpy as np
 from colift.agents.humans import PARTNER_SUBJECT, Subject
+from colift.agents.rules import N
 
 
-@dataclass(frozen=True, kw_only=True)
-class AgreeingManner:
-    """A person's readiness to go first, and to go along with the other."""
+class AgreeingManner(NamedTuple, Generic[N]):
+    """A person's readiness to go first, and to go along with the other.
 
-    patience: float
+    The numbers are those of one person, or arrays of many.
+    """
+
+    patience: N
     """Time for which the person lets the other go first, relative: at 0 the person goes as soon as
     the window opens, at 1 at the last moment that leaves enough time, above 1 too late."""
-    trust: float
+    trust: N
     """Share of the way to the partner's inferred goal that the person goes."""
-    stiffness: float
+    stiffness: N
     """Weight of the person's own goal against a level table, in [0, 1]; the remainder gives way to
     the far end."""
-    insistence: float
+    insistence: N
     """Time for which the person insists when both go to their own goals, before giving way [s]."""
 
 
@@ -31,7 +33,7 @@ INSISTENCES: Final = (0.2, 2.0)
 """Ranges of the population, uniform and independent: chosen, wide enough that the eager and the
 timid need different partners."""
 
-MANNERS: Final[Mapping[str, AgreeingManner]] = {
+MANNERS: Final[Mapping[str, AgreeingManner[float]]] = {
     "S1": AgreeingManner(patience=0.0, trust=0.75, stiffness=1.0, insistence=2.0),
     "S2": AgreeingManner(patience=1.15, trust=1.0, stiffness=0.6, insistence=0.2),
     "S3": AgreeingManner(patience=0.0, trust=0.9, stiffness=0.9, insistence=1.5),
@@ -42,7 +44,7 @@ MANNERS: Final[Mapping[str, AgreeingManner]] = {
 """The manners of the five subjects, spread over the ranges, and of the second human."""
 
 
-def agreeing_manner(subject: Subject) -> AgreeingManner:
+def agreeing_manner(subject: Subject) -> AgreeingManner[float]:
     """Return a person's manner: for the five subjects as stated, for others drawn by name."""
     if subject.name in MANNERS:
         return MANNERS[subject.name]

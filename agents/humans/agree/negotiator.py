@@ -84,7 +84,7 @@ class Negotiator:
         The person's manner; by default that of :func:`.agreeing_manner`.
     """
 
-    def __init__(self, *, subject: Subject, manner: AgreeingManner | None = None) -> None:
+    def __init__(self, *, subject: Subject, manner: AgreeingManner[float] | None = None) -> None:
         self._hand = ScriptedHuman(subject=subject)
         self._manner = manner or agreeing_manner(subject)
         self._delay = round(subject.visual_delay / FRAME)

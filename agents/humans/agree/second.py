@@ -28,7 +28,7 @@ class SecondNegotiator(Negotiator):
     """
 
     def __init__(
-        self, *, subject: Subject = PARTNER_SUBJECT, manner: AgreeingManner | None = None
+        self, *, subject: Subject = PARTNER_SUBJECT, manner: AgreeingManner[float] | None = None
     ) -> None:
         super().__init__(subject=subject, manner=manner)
         self._parameters = PartnerParameters()

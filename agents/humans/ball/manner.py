@@ -1,27 +1,29 @@
 """The manner in which a person steers the ball."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, Generic, NamedTuple
 
 import numpy as np
 from colift.agents.humans import SUBJECTS, Subject
+from colift.agents.rules import N
 
 
-@dataclass(frozen=True, kw_only=True)
-class SteeringManner:
-    """A person's share of the steering, and the response to the partner."""
+class SteeringManner(NamedTuple, Generic[N]):
+    """A person's share of the steering, and the response to the partner.
 
-    share: float
+    The numbers are those of one person, or arrays of many.
+    """
+
+    share: N
     """Part of the wanted height difference of the ends that the person's own end makes; 1 is all of
     it."""
-    haste: float
+    haste: N
     """Natural frequency with which the person means to bring the ball to its target [rad/s]."""
-    lead: float
+    lead: N
     """Time by which the person extrapolates the seen motion of the ball [s]."""
-    trust: float
+    trust: N
     """Part of this share that the person leaves to a partner who seems to do everything."""
-    wrist: float
+    wrist: N
     """Part of the wanted inclination that the wrists turn to, however little the person's end
     does."""
 
@@ -36,7 +38,7 @@ RANGES: Final = {
 """Ranges of the population, uniform and independent: chosen, from people who leave the ball to the
 partner to people who do it all."""
 
-MANNERS: Final[Mapping[str, SteeringManner]] = {
+MANNERS: Final[Mapping[str, SteeringManner[float]]] = {
     "S1": SteeringManner(share=1.3, haste=2.2, lead=0.2, trust=0.0, wrist=0.4),
     "S2": SteeringManner(share=0.9, haste=2.0, lead=0.2, trust=0.5, wrist=0.5),
     "S3": SteeringManner(share=1.2, haste=2.2, lead=0.1, trust=0.0, wrist=0.5),
@@ -50,7 +52,7 @@ PARTNER_MANNER: Final = SteeringManner(share=0.6, haste=1.8, lead=0.2, trust=0.3
 """The manner of the second person of the human-human baseline."""
 
 
-def steering_manner(subject: Subject) -> SteeringManner:
+def steering_manner(subject: Subject) -> SteeringManner[float]:
     """Return a person's manner: for the five subjects as stated, for others drawn by name."""
     if subject.name in SUBJECTS:
         return MANNERS[subject.name]

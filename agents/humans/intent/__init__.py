@@ -2,7 +2,14 @@
 
 from colift.agents.humans.intent.companion import Companion
 from colift.agents.humans.intent.manner import MANNERS, LeadingManner, leading_manner
-from colift.agents.humans.intent.pace import Pace, planned_at
+from colift.agents.humans.intent.pace import (
+    PaceMemory,
+    PaceSenses,
+    Pose,
+    PosePath,
+    intended,
+    pace,
+)
 from colift.agents.humans.intent.poses import Counter, Pivot, PosePlan, Posing, Switching, Together
 
 __all__ = [
@@ -10,12 +17,16 @@ __all__ = [
     "Companion",
     "Counter",
     "LeadingManner",
-    "Pace",
+    "PaceMemory",
+    "PaceSenses",
     "Pivot",
+    "Pose",
+    "PosePath",
     "PosePlan",
     "Posing",
     "Switching",
     "Together",
+    "intended",
     "leading_manner",
-    "planned_at",
+    "pace",
 ]

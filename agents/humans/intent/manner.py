@@ -1,24 +1,26 @@
 """The manner in which a person leads another to a pose of the table."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, Generic, NamedTuple
 
 import numpy as np
 from colift.agents.humans import SUBJECTS, Subject
+from colift.agents.rules import N
 
 
-@dataclass(frozen=True, kw_only=True)
-class LeadingManner:
-    """The share of an intention that a person's wrists show, its lead, and the patience."""
+class LeadingManner(NamedTuple, Generic[N]):
+    """The share of an intention that a person's wrists show, its lead, and the patience.
 
-    wrist: float
+    The numbers are those of one person, or arrays of many.
+    """
+
+    wrist: N
     """Share of the intended pitch that the wrists turn to. A person with little of it leads by
     waiting rather than by torque. It is negative if the wrists turn along with the forearms: a
     person who raises a hand from the elbow tilts it up, whatever the table should do."""
-    lead: float
+    lead: N
     """Lead of the wrists over the hands [s]; negative if they follow."""
-    patience: float
+    patience: N
     """Distance of the far end from its intended height [m] beyond which the person slows down; at
     twice this distance the person waits."""
 
@@ -29,7 +31,7 @@ PATIENCES: Final = (0.02, 0.08)
 """Ranges of the population, uniform and independent: chosen, wide enough that people differ in how
 their intention shows."""
 
-MANNERS: Final[Mapping[str, LeadingManner]] = {
+MANNERS: Final[Mapping[str, LeadingManner[float]]] = {
     "S1": LeadingManner(wrist=1.2, lead=0.1, patience=0.06),
     "S2": LeadingManner(wrist=0.6, lead=0.0, patience=0.03),
     "S3": LeadingManner(wrist=-0.4, lead=0.1, patience=0.05),
@@ -39,7 +41,7 @@ MANNERS: Final[Mapping[str, LeadingManner]] = {
 """The manners of the five subjects, spread over the ranges."""
 
 
-def leading_manner(subject: Subject) -> LeadingManner:
+def leading_manner(subject: Subject) -> LeadingManner[float]:
     """Return a person's manner: for the five subjects as stated, for others drawn by name."""
     if subject.name in SUBJECTS:
         return MANNERS[subject.name]

@@ -1,78 +1,83 @@
-"""The pace at which a person goes through a plan: slower while the far end is off its path."""
+"""The pace at which a person goes through a plan, and the pose that the person intends there."""
 
-from typing import Final
+from typing import Final, Generic, NamedTuple
 
-import numpy as np
 from colift.agents.agent import FRAME
-from colift.agents.humans import Subject
-from colift.agents.humans.intent.manner import leading_manner
-from numpy.typing import NDArray
+from colift.agents.humans.intent.manner import LeadingManner
+from colift.agents.rules import ArrayFunctions, N, Series, at_time
 
 CATCHING_UP: Final = 1.25
 """Fastest pace, for a person who is late; 1 is the plan's own."""
 
 
-class Pace:
-    """The time within a plan for each frame of an episode.
+class PaceMemory(NamedTuple, Generic[N]):
+    """What a person keeps from step to step; both 0 at the beginning."""
+
+    time: N
+    """Time within the plan, in frames."""
+    past: N
+    """Frames since the beginning."""
+
+
+class PaceSenses(NamedTuple, Generic[N]):
+    """What the pace depends on, one visual delay ago."""
+
+    far: N
+    """Height of the far end [m]."""
+    planned: N
+    """Its planned height at the person's time within the plan [m]."""
+
+
+def pace(
+    f: ArrayFunctions[N],
+    manner: LeadingManner[N],
+    memory: PaceMemory[N],
+    senses: PaceSenses[N],
+    frames: int,
+) -> tuple[PaceMemory[N], list[N]]:
+    """Return the memory after a step, and the time within the plan at the end of each frame of it.
 
     A person who sees the far end at a distance e from its planned height goes through the plan at
 
         min(max(2 - e / patience, 0), 1)
 
     of its speed, and waits from twice the patience on. Afterwards the person catches up, at most at
-    :data:`CATCHING_UP`. What is seen is one visual delay old.
-
-    Parameters
-    ----------
-    subject
-        The person.
-    far
-        (n,) planned height of the far end at the end of each frame [m].
+    :data:`CATCHING_UP`.
     """
-
-    def __init__(self, subject: Subject, far: NDArray[np.float64]) -> None:
-        self._patience = leading_manner(subject).patience
-        self._delay = round(subject.visual_delay / FRAME)
-        self._far = far
-        self._times: list[float] = []
-
-    def coming(self, frames: int, far_end: list[float]) -> list[float]:
-        """Return the time within the plan at the end of each of the next frames, in frames.
-
-        Parameters
-        ----------
-        frames
-            Number of these frames.
-        far_end
-            Height of the far end [m], newest last.
-        """
-        past = len(self._times)
-        now = self._times[-1] if past else 0.0
-        seen = self._times[past - 1 - self._delay] if past > self._delay else 0.0
-        away = abs(far_end[-1 - self._delay] - self.far_at(seen))
-        pace = min(max(2.0 - away / self._patience, 0.0), 1.0)
-        late = past - now
-        if late > 0.0:
-            pace = min(pace * CATCHING_UP, pace + late / frames)
-        times = [now + pace * (i + 1) for i in range(frames)]
-        self._times += times
-        return times
-
-    def far_at(self, time: float) -> float:
-        """Return the planned height of the far end [m] at a time within the plan, in frames."""
-        return planned_at(self._far, time)
+    away = f.abs(senses.far - senses.planned)
+    rate = f.clip(2.0 - away / manner.patience, 0.0, 1.0)
+    late = memory.past - memory.time
+    hurried = f.minimum(rate * CATCHING_UP, rate + late / frames)
+    rate = f.where(late > 0.0, hurried, rate)
+    times = [memory.time + rate * (i + 1) for i in range(frames)]
+    return PaceMemory(times[-1], memory.past + frames), times
 
 
-def planned_at(series: NDArray[np.float64], time: float) -> float:
-    """Return the interpolated value, at a time in frames, of a series of values at frame ends.
+class Pose(NamedTuple, Generic[N]):
+    """A person's intention at the end of a frame."""
 
-    Before its first frame it is 0, after its last frame the last value.
-    """
-    place = time - 1.0
-    last = len(series) - 1
-    if place >= last:
-        return float(series[last])
-    index = int(place // 1)
-    before = float(series[index]) if index >= 0 else 0.0
-    after = float(series[index + 1]) if index >= -1 else 0.0
-    return before + (place - index) * (after - before)
+    near: N
+    """Height of the person's end [m]."""
+    far: N
+    """Height of the far end [m]."""
+    pitch: N
+    """Pitch that the wrists turn towards [rad]."""
+
+
+class PosePath(NamedTuple, Generic[N]):
+    """A plan of both ends."""
+
+    near: Series[N]
+    """Height of the person's end [m]."""
+    far: Series[N]
+    """Height of the far end [m]."""
+
+
+def intended(
+    f: ArrayFunctions[N], manner: LeadingManner[N], plan: PosePath[N], time: N, length: float
+) -> Pose[N]:
+    """Return the intention at a time within a plan, in frames, on a table of a length [m]."""
+    near, far = at_time(f, plan.near, time), at_time(f, plan.far, time)
+    ahead = time + manner.lead / FRAME
+    difference = at_time(f, plan.far, ahead) - at_time(f, plan.near, ahead)
+    return Pose(near, far, manner.wrist * f.arcsin(difference / length))

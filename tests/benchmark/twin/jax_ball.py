@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from colift.agents.agent import FRAME
 from colift.agents.errors import InputError
+from colift.agents.humans.ball import steering as steering_rule
 from colift.agents.observations import BallObservation as Seen
 from colift.agents.policies.ball_game import BallGame
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.tasks.ball.task import BALL
-from colift.benchmark.twin import ball_people
 from colift.benchmark.twin.ball_lifts import draw_ball, stack_ball
 from colift.benchmark.twin.ball_playing import BALL_STEPS
 from colift.benchmark.twin.touch_rollout import touch_rmse_mm
@@ -118,7 +118,7 @@ def test_the_gradient_is_the_slope_and_finite_where_the_ball_falls(drawn):
 
 def test_people_who_steer_otherwise_are_found(drawn, monkeypatch):
     engine, _ = played(yielding)
-    monkeypatch.setattr(ball_people, "HAND_TIME", 0.3)
+    monkeypatch.setattr(steering_rule, "HAND_TIME", 0.3)
     assert np.abs(in_twin(yielding, drawn) / engine - 1).max() > 0.015
 
 

@@ -111,4 +111,4 @@ def test_people_differ_and_a_name_is_always_the_same_person():
         values = [getattr(manner, name) for manner in drawn]
         assert low <= min(values) < max(values) <= high
         assert max(values) - min(values) > 0.6 * (high - low)
-    assert all(math.isfinite(value) for manner in drawn for value in vars(manner).values())
+    assert all(math.isfinite(value) for manner in drawn for value in manner)

@@ -8,15 +8,17 @@ from colift.agents.humans import SUBJECTS, Subject
 from colift.agents.humans.intent import (
     MANNERS,
     Counter,
-    Pace,
+    PaceMemory,
+    PaceSenses,
     Pivot,
     Switching,
     Together,
     leading_manner,
-    planned_at,
+    pace,
 )
 from colift.agents.humans.intent.pace import CATCHING_UP
 from colift.agents.humans.intent.poses import HIGHEST, LOWEST, SHARES, STEEPEST
+from colift.agents.rules import SCALARS, NumberSeries, at_time
 
 S1 = SUBJECTS["S1"]
 
@@ -52,23 +54,43 @@ def test_switching_has_two_intents_without_a_rest_between_them():
     assert len(plan.strokes) == 6
 
 
+class Walking:
+    """S1 on the way through a plan of the far end."""
+
+    def __init__(self, far):
+        self.plan, self.memory = NumberSeries.of(far), PaceMemory(0.0, 0.0)
+        self.seen = -1 - round(S1.visual_delay / 0.01)
+        self.planned = [0.0] * -self.seen
+
+    def coming(self, frames, far_end):
+        """Return the times within the plan of the next frames, for a history of the far end."""
+        senses = PaceSenses(far_end[self.seen], self.planned[self.seen])
+        self.memory, times = pace(SCALARS, MANNERS["S1"], self.memory, senses, frames)
+        self.planned += [at_time(SCALARS, self.plan, time) for time in times]
+        return times
+
+
+def planned_at(series, time):
+    return at_time(SCALARS, NumberSeries.of(series), time)
+
+
 def test_a_person_waits_for_a_far_end_that_is_off_and_catches_up_later():
     far = np.linspace(0.0, 0.2, 400)
-    pace = Pace(S1, far)
+    walking = Walking(far)
     patience, delay = MANNERS["S1"].patience, round(S1.visual_delay / 0.01)
     history = [0.0] * 50
     for _ in range(10):  # The far end follows perfectly, then stands still.
-        times = pace.coming(10, history)
+        times = walking.coming(10, history)
         history += [planned_at(far, time) for time in times]
     assert times[-1] == 100
     for _ in range(90):
-        times = pace.coming(10, history)
+        times = walking.coming(10, history)
         history += [history[-1]] * 10
     assert times[-1] - times[0] < 0.01
     assert planned_at(far, times[-1]) - history[-1] == pytest.approx(2 * patience, abs=0.01)
     waited = times[-1]
     history += [planned_at(far, waited)] * (delay + 1)
-    times = pace.coming(10, history)
+    times = walking.coming(10, history)
     assert times[-1] - waited == pytest.approx(10 * CATCHING_UP)
 
 

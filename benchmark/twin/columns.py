@@ -1,0 +1,52 @@
+"""What the rules read of many lifts at a time: series, and records of parameters."""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple, TypeVar, cast
+
+import jax
+import jax.numpy as jnp
+
+Record = TypeVar("Record", bound=tuple[Any, ...])
+
+
+class LiftSeries(NamedTuple):
+    """A series of each of n lifts; see :class:`.Series`."""
+
+    values: jax.Array
+    """(T + 2, n): 0, then the values, the last one twice."""
+
+    @classmethod
+    def of(cls, values: jax.Array) -> "LiftSeries":
+        """Return the series of an array (T, n)."""
+        return cls(jnp.concatenate((jnp.zeros_like(values[:1]), values, values[-1:])))
+
+    def pair(self, index: Any, /) -> tuple[jax.Array, jax.Array]:
+        """Return the numbers (..., n) of frames (..., n), -1 or later, and of the next ones."""
+        places = jax.lax.stop_gradient(index).astype(jnp.int32) + 1
+        rows = places.reshape(-1, places.shape[-1])
+        before, after = (
+            jnp.take_along_axis(self.values, rows + ahead, axis=0).reshape(places.shape)
+            for ahead in (0, 1)
+        )
+        return before, after
+
+    @property
+    def last(self) -> int:
+        """Index of the last frame."""
+        return len(self.values) - 3
+
+    @property
+    def own(self) -> jax.Array:
+        """The values (T, n)."""
+        return self.values[1:-1]
+
+
+def columns(records: Sequence[Record]) -> Any:
+    """Return one record of arrays (n,), in single precision, from n named tuples of numbers."""
+    kind: Any = type(records[0])
+    return kind(*(jnp.asarray(column, jnp.float32) for column in zip(*records, strict=True)))
+
+
+def filled(memory: Record, count: int) -> Any:
+    """Return the memory (named tuples of numbers) of one lift at its beginning, for n lifts."""
+    return cast(Any, jax.tree.map(lambda value: jnp.full(count, value, jnp.float32), memory))
