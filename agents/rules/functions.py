@@ -33,14 +33,44 @@ class ArrayFunctions(Protocol[N]):
     def clip(self, x: N, low: float, high: float, /) -> N:
         """Return ``x``, at least ``low``, at most ``high``."""
 
+    def exp(self, x: N, /) -> N:
+        """Return the exponential function."""
+
     def floor(self, x: N, /) -> N:
         """Return the largest whole number that is not larger."""
 
-    def minimum(self, x: N, y: N, /) -> N:
+    def hypot(self, x: N | float, y: N, /) -> N:
+        """Return the root of the sum of squares."""
+
+    def logical_and(self, one: Any, other: Any, /) -> Any:
+        """Return whether both hold."""
+
+    def logical_not(self, one: Any, /) -> Any:
+        """Return whether it does not hold."""
+
+    def logical_or(self, one: Any, other: Any, /) -> Any:
+        """Return whether either holds."""
+
+    def minimum(self, x: N, y: N | float, /) -> N:
         """Return the smaller one."""
 
-    def where(self, condition: Any, then: N, otherwise: N | float, /) -> N:
+    def where(self, condition: Any, then: N | float, otherwise: N | float, /) -> N:
         """Return ``then`` where the condition holds, else ``otherwise``."""
+
+    def fixed(self, x: N, /) -> N:
+        """Return ``x``, as a constant for gradients."""
+
+    def row(self, values: Sequence[N | float], like: N, /) -> Any:
+        """Return some numbers as a row: a list, or an array (k, n) for the n lifts of ``like``."""
+
+    def each(self, function: Callable[..., Any], /, *rows: Any) -> Any:
+        """Return the row of a function's values for the numbers of rows of one length."""
+
+    def total(self, row: Any, /) -> N:
+        """Return the sum of a row's numbers."""
+
+    def least(self, row: Any, /) -> N:
+        """Return the smallest of a row's numbers."""
 
     def frames(
         self,
@@ -61,8 +91,50 @@ class Scalars:
 
     abs = staticmethod(abs)
     arcsin = staticmethod(math.asin)
+    exp = staticmethod(math.exp)
     floor = staticmethod(math.floor)
+    hypot = staticmethod(math.hypot)
     minimum = staticmethod(min)
+
+    @staticmethod
+    def logical_and(one: Any, other: Any, /) -> Any:
+        """Return whether both hold."""
+        return one and other
+
+    @staticmethod
+    def logical_not(one: Any, /) -> Any:
+        """Return whether it does not hold."""
+        return not one
+
+    @staticmethod
+    def logical_or(one: Any, other: Any, /) -> Any:
+        """Return whether either holds."""
+        return one or other
+
+    @staticmethod
+    def fixed(x: float, /) -> float:
+        """Return ``x``."""
+        return x
+
+    @staticmethod
+    def row(values: Sequence[float], like: float, /) -> list[float]:
+        """Return a list."""
+        return list(values)
+
+    @staticmethod
+    def total(row: Sequence[float], /) -> float:
+        """Return the sum of a row's numbers, rounded once."""
+        return math.fsum(row)
+
+    @staticmethod
+    def least(row: Sequence[float], /) -> float:
+        """Return the smallest of a row's numbers."""
+        return min(row)
+
+    @staticmethod
+    def each(function: Callable[..., Any], /, *rows: Sequence[float]) -> list[Any]:
+        """Return the function's values."""
+        return [function(*numbers) for numbers in zip(*rows, strict=True)]
 
     @staticmethod
     def clip(x: float, low: float, high: float, /) -> float:

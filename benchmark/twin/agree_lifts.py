@@ -9,8 +9,6 @@ import numpy as np
 from colift.agents.agent import FRAME
 from colift.agents.errors import InputError
 from colift.agents.humans.agree import AgreeingManner, Hurdle, HurdlePlan, agreeing_manner
-from colift.agents.humans.agree.negotiator import LIFTED, RESTING
-from colift.agents.humans.agree.precedence import EARLY, NEEDED
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.tasks.agree.task import Agree
@@ -47,11 +45,9 @@ class AgreeLifts(NamedTuple):
 
     target: jax.Array
     """(s, f, n) height of the common way at the end of each frame [m]."""
-    common: jax.Array
-    """(s, n) the common height while the way rests there [m], 0 elsewhere."""
     times: jax.Array
-    """(s, 4, n) times from the beginning of each step until the human's window opens and closes,
-    and until the earliest and the latest moment to set out [s]."""
+    """(s, 2, n) times from the beginning of each step until the human's window opens and closes
+    [s]."""
     shown: jax.Array
     """(s, 4, n) the robot's hurdle as the robot knows it, see :class:`.Secret`."""
     gain: jax.Array
@@ -90,7 +86,6 @@ class DrawnAgree(NamedTuple):
 
     scenario: Scenario
     target: Array
-    common: Array
     times: Array
     shown: Array
     sight: Array
@@ -123,8 +118,6 @@ def draw_agree(scenario: Scenario, seed: int) -> DrawnAgree:
         human, robot, agreeing = plan.own, plan.other, plan.agreeing
     target = lengthened(plan.target, steps * size).reshape(steps, size)
     rng = np.random.default_rng((derive_seed(seed, f"human/{name}"), 1))
-    until = _until(human, steps, size)
-    going = np.column_stack((until[:, 0] - EARLY, until[:, 1] - NEEDED))
     shown = np.zeros((steps, 4))
     if robot is not None:
         shown[:, 0], shown[:, 3] = robot.height, 1.0
@@ -132,8 +125,7 @@ def draw_agree(scenario: Scenario, seed: int) -> DrawnAgree:
     return DrawnAgree(
         scenario,
         target,
-        common_heights(target),
-        np.concatenate((until, going), axis=1),
+        _until(human, steps, size),
         shown,
         task.uncertainty * rng.standard_normal(steps),
         draw_sensed(scenario, seed, steps),
@@ -142,19 +134,6 @@ def draw_agree(scenario: Scenario, seed: int) -> DrawnAgree:
         agreeing,
         task.uncertainty,
     )
-
-
-def common_heights(target: Array) -> Array:
-    """Return the common height (s,) [m] of a way (s, f); 0 in steps in which it does not rest.
-
-    It is the height at the end of the first step of a rest, as a :class:`.Negotiator` takes it.
-    """
-    heights, common = [], 0.0
-    for way in target:
-        rests = abs(way[-1] - way[0]) < RESTING * len(way) * FRAME and way[0] > LIFTED
-        common = (common or float(way[-1])) if rests else 0.0
-        heights.append(common)
-    return np.array(heights)
 
 
 def _until(hurdle: Hurdle | None, steps: int, size: int) -> Array:
@@ -185,7 +164,6 @@ def stack_agree(drawn: Sequence[DrawnAgree]) -> AgreeLifts:
 
     return AgreeLifts(
         target=joined([lift.target for lift in drawn], longest),
-        common=joined([lift.common for lift in drawn], longest),
         times=joined([lift.times for lift in drawn], longest),
         shown=joined([lift.shown for lift in drawn], longest),
         gain=joined([lift.sensed.gain for lift in drawn], longest),

@@ -1,16 +1,28 @@
 """The steps of lifts with two hurdles: people, sensors, frames, score."""
 
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
 from colift.agents.agent import FRAME
+from colift.agents.humans.agree.negotiating import (
+    Agreeing,
+    AgreeingSenses,
+    Detour,
+    approach,
+    beginning,
+    common_height,
+    negotiate,
+    response,
+    rests,
+)
+from colift.agents.humans.agree.precedence import Secret
 from colift.agents.humans.hand import HandMemory
 from colift.benchmark.episode.seat import REFERENCE_RANGE
 from colift.benchmark.twin.agree_lifts import AgreeLifts, Obstacle
-from colift.benchmark.twin.agree_people import AgreeMind, AgreeSight, agree_minds, negotiated
 from colift.benchmark.twin.arm import ArmVariation
-from colift.benchmark.twin.body import DEPTH, pushed
+from colift.benchmark.twin.body import DEPTH, delayed, pushed
+from colift.benchmark.twin.functions import LIFTS
 from colift.benchmark.twin.haptic_plant import (
     HapticPlant,
     Meant,
@@ -36,8 +48,10 @@ class AgreeState(NamedTuple):
     """(n,) command of the far hands [m]."""
     hand: HandMemory[jax.Array]
     """The people's hands."""
-    mind: AgreeMind
-    """The people."""
+    agreeing: Agreeing[jax.Array]
+    """What the people keep."""
+    detour: Detour[jax.Array]
+    """Their hands' distances from the common way."""
     targets: jax.Array
     """(DEPTH, n) history of the hand's intended height [m], newest first."""
     step: jax.Array
@@ -48,13 +62,23 @@ def agree_at_rest(count: int) -> AgreeState:
     """Return lifts at rest."""
     zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
     rest, number = haptic_plant_at_rest(count), jnp.zeros((), jnp.int32)
-    return AgreeState(rest, zero, hands_at_rest(count), agree_minds(count), past, number)
+    return AgreeState(
+        haptic=rest,
+        command=zero,
+        hand=hands_at_rest(count),
+        agreeing=beginning(LIFTS, zero, jnp.zeros(count, bool)),
+        detour=Detour(zero, zero),
+        targets=past,
+        step=number,
+    )
 
 
 class AgreeDue(NamedTuple):
     """A step's share of :class:`.AgreeLifts`, see there."""
 
-    sight: AgreeSight
+    way: jax.Array
+    times: jax.Array
+    sight: jax.Array
     shown: jax.Array
     gain: jax.Array
     tremor: jax.Array
@@ -63,8 +87,15 @@ class AgreeDue(NamedTuple):
 
 def agree_due(lifts: AgreeLifts) -> AgreeDue:
     """Return the shares of all steps, with a first axis of steps."""
-    sight = AgreeSight(lifts.target, lifts.common, lifts.times, lifts.sight)
-    return AgreeDue(sight, lifts.shown, lifts.gain, lifts.tremor, lifts.noise)
+    return AgreeDue(
+        lifts.target,
+        lifts.times,
+        lifts.sight,
+        lifts.shown,
+        lifts.gain,
+        lifts.tremor,
+        lifts.noise,
+    )
 
 
 def agree_view(state: AgreeState, lifts: AgreeLifts, due: AgreeDue) -> jax.Array:
@@ -80,9 +111,43 @@ def agree_known(state: AgreeState, lifts: AgreeLifts, due: AgreeDue) -> jax.Arra
     The rows are the common height while the way rests there, the height of the person's hurdle, the
     times until its window opens and closes, and whether there is a hurdle.
     """
-    sight, own = due.sight, lifts.human
-    heights = jnp.stack((10.0 * sight.common, 10.0 * own.height))
-    return jnp.concatenate((heights, 0.5 * sight.times[:2], own.given[jnp.newaxis]))
+    own = lifts.human
+    common = common_height(LIFTS, state.agreeing.common, resting(due), due.way[-1])
+    heights = jnp.stack((10.0 * common, 10.0 * own.height))
+    return jnp.concatenate((heights, 0.5 * due.times, own.given[jnp.newaxis]))
+
+
+def resting(due: AgreeDue) -> Any:
+    """Return whether the common way rests above the ground in a step (n,)."""
+    return rests(LIFTS, due.way[0], due.way[-1], len(due.way))
+
+
+def negotiated(
+    state: AgreeState, lifts: AgreeLifts, due: AgreeDue
+) -> tuple[Agreeing[jax.Array], Detour[jax.Array], jax.Array]:
+    """Return people after a step, their detours, and the hands' intended heights (f, n) [m].
+
+    Decisions are made in single precision and have no gradient: a loss depends on a person's
+    actions, not on how close a decision was.
+    """
+    plant, body, size = state.haptic.plant, lifts.body, len(due.way)
+    (then,) = delayed(plant.heights, body.seen, 1)
+    senses = AgreeingSenses(
+        own=plant.heights[0],
+        then=then,
+        far=then + delayed(plant.differences, body.seen, 1)[0],
+        sight=due.sight,
+        uncertainty=lifts.uncertainty,
+    )
+    hurdle = Secret(lifts.human.height, due.times[0], due.times[1], lifts.human.given)
+    still, last = resting(due), due.way[-1]
+    agreeing, goes = negotiate(
+        LIFTS, lifts.manner, state.agreeing, senses, hurdle, still, last, size * FRAME
+    )
+    wanted = response(LIFTS, lifts.manner, agreeing, hurdle, goes)
+    aim = jnp.where(still, wanted - last, 0.0)
+    detour, heights = approach(LIFTS, state.detour, aim, due.way)
+    return agreeing, detour, heights
 
 
 def agree_step(
@@ -108,8 +173,8 @@ def agree_step(
     added
         Additions by learning people; None adds nothing.
     """
-    size, body, plant = len(due.gain), lifts.body, state.haptic.plant
-    mind, targets = negotiated(state.mind, lifts, due.sight, plant)
+    size, body = len(due.gain), lifts.body
+    agreeing, detour, targets = negotiated(state, lifts, due)
     hand, references = moved_hand(state, targets, body, due)
     level = wrist = jnp.zeros_like(references)
     if added is not None:
@@ -122,7 +187,8 @@ def agree_step(
         haptic=haptic,
         command=commands[-1],
         hand=hand,
-        mind=mind,
+        agreeing=agreeing,
+        detour=detour,
         targets=pushed(state.targets, targets),
         step=state.step + 1,
     )

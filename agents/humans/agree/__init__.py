@@ -11,7 +11,8 @@ from colift.agents.humans.agree.hurdles import (
     OwnHurdle,
 )
 from colift.agents.humans.agree.manner import MANNERS, AgreeingManner, agreeing_manner
-from colift.agents.humans.agree.negotiator import Negotiator, Secret, with_secret
+from colift.agents.humans.agree.negotiator import Negotiator, with_secret
+from colift.agents.humans.agree.precedence import Secret
 from colift.agents.humans.agree.second import SecondNegotiator
 
 __all__ = [

@@ -1,6 +1,9 @@
 """Precedence at two hurdles: the time to go to one's own."""
 
-from typing import Final
+from typing import Any, Final, Generic, NamedTuple
+
+from colift.agents.humans.agree.manner import AgreeingManner
+from colift.agents.rules import ArrayFunctions, N
 
 NEEDED: Final = 0.7
 """Time that a passage needs [s]."""
@@ -27,67 +30,104 @@ SERVED: Final = 0.2
 [s]."""
 
 
-class Precedence:
-    """Decides when to go to one's own hurdle, when to give way, and when it is passed.
+class Secret(NamedTuple, Generic[N]):
+    """A hurdle as its holder knows it."""
+
+    height: N
+    """Height to pass [m]."""
+    start: N
+    """When its window opens, from now [s]."""
+    stop: N
+    """When it closes, from now [s]."""
+    given: N
+    """1 if there is a hurdle; otherwise all four are 0."""
+
+
+class Turn(NamedTuple, Generic[N]):
+    """What a person keeps of the agreement from step to step; at the beginning 0 and False."""
+
+    rested: N
+    """Time for which the table has rested at a goal of the partner's [s]."""
+    conflict: N
+    """Time for which both have been going to their own goals [s]."""
+    begun: Any
+    """Whether the person has set out to the own hurdle."""
+    served: Any
+    """Whether the partner has been at its goal."""
+    yielded: Any
+    """Whether the person has given way."""
+    passed: Any
+    """Whether the table has passed the person's hurdle."""
+
+
+class Sight(NamedTuple, Generic[N]):
+    """What a person sees of the table at the common height."""
+
+    own: N
+    """Height of the person's end, as felt now [m]."""
+    far: N
+    """Height of the far end, one visual delay ago [m]."""
+    common: N
+    """The common height [m]."""
+    speed: N
+    """Speed of the far end [m/s]."""
+
+
+def served(f: ArrayFunctions[N], turn: Turn[N], seen: Sight[N], period: float) -> Turn[N]:
+    """Return the turn after a look at whether the table rests, level, at a goal of the partner's.
+
+    ``period`` is the time since the last look [s].
+    """
+    away = f.abs(seen.far - seen.common) > AWAY
+    level = f.abs(seen.far - seen.own) < LEVEL
+    resting = f.logical_and(f.logical_and(away, level), seen.speed < SLOW)
+    rested = f.where(resting, turn.rested + period, 0.0)
+    return turn._replace(rested=rested, served=f.logical_or(turn.served, rested >= SERVED))
+
+
+def mine(
+    f: ArrayFunctions[N],
+    manner: AgreeingManner[N],
+    turn: Turn[N],
+    hurdle: Secret[N],
+    seen: Sight[N],
+    apart: Any,
+    period: float,
+) -> tuple[Turn[N], Any]:
+    """Return the turn after a step, and whether the person goes to the own hurdle now.
 
     The turn comes at the share ``patience`` of the time between the earliest and the latest moment
     to begin, or as soon as the partner has been at its own goal. A partner who is seen to go to a
     goal of its own may go first, up to the latest moment. If both have begun, the person insists
     for a while and then gives way, until the partner has been at its goal.
 
-    Parameters
-    ----------
-    patience, insistence
-        Numbers of the person's :class:`.AgreeingManner`.
+    ``apart`` is whether the partner goes to a goal of its own, ``period`` the time of a step [s].
     """
+    given = hurdle.given > 0.0
+    ends = f.logical_and(
+        f.abs(seen.own - hurdle.height) < NEAR, f.abs(seen.far - hurdle.height) < FAR_NEAR
+    )
+    passes = f.logical_and(f.logical_and(given, hurdle.start <= 0.0), ends)
+    passed = f.logical_or(turn.passed, passes)
+    earliest, latest = hurdle.start - EARLY, hurdle.stop - NEEDED
+    patience = f.where(turn.served, 0.0, manner.patience)
+    due = earliest + patience * (latest - earliest) <= 0.0
+    ahead = f.logical_and(f.logical_not(passed), hurdle.stop > 0.0)
+    open_now = f.logical_and(given, f.logical_and(ahead, due))
 
-    def __init__(self, patience: float, insistence: float) -> None:
-        self._patience, self._insistence = patience, insistence
-        self._begun = self._served = self._gave_way = False
-        self._conflict = self._rested = 0.0
-        self.passed = False
-
-    def mine(self, start: float, stop: float, *, apart: bool, period: float) -> bool:
-        """Return whether to go to the hurdle now.
-
-        Parameters
-        ----------
-        start, stop
-            When the window opens and closes, from now [s].
-        apart
-            Whether the partner goes to a goal of its own.
-        period
-            Time since the last call [s].
-        """
-        earliest, latest = start - EARLY, stop - NEEDED
-        patience = 0.0 if self._served else self._patience
-        at = earliest + patience * (latest - earliest)
-        if self.passed or stop <= 0.0 or at > 0.0:
-            return False
-        if not self._begun:
-            self._begun = not apart or self._served or latest <= 0.0
-            return self._begun
-        self._conflict = self._conflict + period if apart else 0.0
-        self._gave_way = self._gave_way or self._conflict > self._insistence
-        return self._served or not self._gave_way
-
-    def see(self, height: float, start: float, own: float, far: float) -> None:
-        """Note whether the table passes the person's own hurdle, by the seen heights [m]."""
-        if start <= 0.0 and abs(own - height) < NEAR and abs(far - height) < FAR_NEAR:
-            self.passed = True
-
-    def serve(self, away: float, apart: float, speed: float, period: float) -> None:
-        """Note whether the table rests, level, at a goal of the partner's.
-
-        Parameters
-        ----------
-        away, apart
-            Seen distances of the far end from the common height and from the person's own end [m].
-        speed
-            Seen speed of the far end [m/s].
-        period
-            Time since the last call [s].
-        """
-        resting = away > AWAY and apart < LEVEL and speed < SLOW
-        self._rested = self._rested + period if resting else 0.0
-        self._served = self._served or self._rested >= SERVED
+    begins = f.logical_or(f.logical_or(f.logical_not(apart), turn.served), latest <= 0.0)
+    goes_on = f.logical_and(open_now, turn.begun)
+    contested = f.where(apart, turn.conflict + period, 0.0)
+    conflict = f.where(goes_on, contested, turn.conflict)
+    yields = f.logical_and(goes_on, conflict > manner.insistence)
+    yielded = f.logical_or(turn.yielded, yields)
+    held = f.logical_or(turn.served, f.logical_not(yielded))
+    goes = f.logical_and(
+        open_now,
+        f.logical_or(
+            f.logical_and(turn.begun, held), f.logical_and(f.logical_not(turn.begun), begins)
+        ),
+    )
+    begun = f.logical_or(turn.begun, f.logical_and(open_now, begins))
+    turn = turn._replace(conflict=conflict, begun=begun, yielded=yielded, passed=passed)
+    return turn, goes

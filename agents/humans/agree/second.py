@@ -1,12 +1,13 @@
 """The second human: keeps level with the other, and has a hurdle of its own."""
 
 import math
-from typing import Final
+from typing import ClassVar, Final
 
 from colift.agents.agent import FRAME, HumanObservation, Observation
 from colift.agents.humans import PARTNER_SUBJECT, Subject
 from colift.agents.humans.agree.manner import AgreeingManner
-from colift.agents.humans.agree.negotiator import LIFTED, Negotiator
+from colift.agents.humans.agree.negotiating import LIFTED, Detour
+from colift.agents.humans.agree.negotiator import Negotiator
 from colift.agents.humans.partner import PartnerParameters
 
 LOWERED: Final = 0.06
@@ -26,6 +27,8 @@ class SecondNegotiator(Negotiator):
     the height at which that end first comes to rest is the common height. In its turn the hand
     moves from there to its own hurdle.
     """
+
+    _responds: ClassVar[bool] = False
 
     def __init__(
         self, *, subject: Subject = PARTNER_SUBJECT, manner: AgreeingManner[float] | None = None
@@ -57,18 +60,16 @@ class SecondNegotiator(Negotiator):
             self._height + self._velocity * (self._ahead + FRAME * i) for i in range(1, frames + 1)
         ]
 
-    def _base(self, way: list[float]) -> list[float]:
-        """Return the way or, in its turn, the common height; the hand does not jump."""
-        fixed = way[0] if self._common is None else self._common
-        if self._mine != self._apart:
-            sign = 1.0 if self._mine else -1.0
-            self._offset += sign * (way[0] - fixed)
-            self._rate += sign * self._velocity
-            self._apart = self._mine
-        return [fixed] * len(way) if self._mine else way
-
-    def _along(self, common: float, way: list[float], far: float) -> float:
-        return way[-1]
-
-    def _at_rest(self, way: list[float]) -> bool:
+    def _rests(self, way: list[float]) -> bool:
         return self._rested
+
+    def _base(self, way: list[float], goes: bool) -> list[float]:
+        """Return the way or, in its turn, the common height; the hand does not jump."""
+        common = self._memory.common
+        fixed = way[0] if common == 0.0 else common
+        if goes != self._apart:
+            sign = 1.0 if goes else -1.0
+            offset, rate = self._detour
+            self._detour = Detour(offset + sign * (way[0] - fixed), rate + sign * self._velocity)
+            self._apart = goes
+        return [fixed] * len(way) if goes else way

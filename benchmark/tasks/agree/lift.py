@@ -29,7 +29,7 @@ class AgreeLift(HapticLift):
         human.reset(self.role_seed("human"))
         return human
 
-    def secret(self, hurdle: Hurdle | None) -> Secret:
+    def secret(self, hurdle: Hurdle | None) -> Secret[float]:
         """Return a hurdle as its holder knows it now; all 0 if there is none."""
         if hurdle is None:
             return Secret(0.0, 0.0, 0.0, 0.0)

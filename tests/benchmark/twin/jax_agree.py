@@ -8,14 +8,12 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
-from colift.agents.estimators.belief import GoalBelief
+from colift.agents.humans.agree import negotiating
 from colift.agents.observations import AgreeObservation as Seen
 from colift.agents.policies.agree_game import AgreeGame
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.tasks.agree.task import BEHAVIOURS
-from colift.benchmark.twin import agree_people
 from colift.benchmark.twin.agree_lifts import draw_agree, stack_agree
-from colift.benchmark.twin.agree_people import agree_minds, believed
 from colift.benchmark.twin.agree_playing import AGREE_STEPS
 from colift.benchmark.twin.touch_rollout import touch_rmse_mm
 from colift.benchmark.world.table import TABLE_LENGTH
@@ -89,22 +87,6 @@ def test_the_agent_that_infers_the_goal_plays_as_in_the_engine(drawn):
     assert abs(twin.mean() / engine.mean() - 1) < 0.01
 
 
-def test_beliefs_are_those_of_one_person_at_a_time():
-    rng = np.random.default_rng(0)
-    steps, people = 12, 3
-    heights = 0.15 + 0.02 * rng.standard_normal((steps + 1, people)).cumsum(axis=0)
-    mine = 0.15 + 0.02 * rng.standard_normal((steps, people))
-    noise = np.array([0.0, 0.01, 0.2])
-    minds = [GoalBelief() for _ in range(people)]
-    chances = agree_minds(people).chances
-    for before, after, own in zip(heights, heights[1:], mine, strict=False):
-        chances = believed(chances, before, after, own, jnp.full(people, 0.15), 0.1, noise)
-        for i, mind in enumerate(minds):
-            mind.update(before[i], after[i], own[i], 0.15, 0.1, noise[i])
-        goals = np.asarray(agree_people.GOALS) @ np.asarray(chances[1:])
-        assert goals == pytest.approx([mind.offset for mind in minds], abs=1e-5)
-
-
 def test_the_gradient_is_the_slope_where_nobody_decides_otherwise(drawn):
     @jax.jit
     @jax.value_and_grad
@@ -117,7 +99,7 @@ def test_the_gradient_is_the_slope_where_nobody_decides_otherwise(drawn):
 
 def test_people_who_go_slower_are_found(drawn, monkeypatch):
     engine = played(yielding)
-    monkeypatch.setattr(agree_people, "PACE", 7.0)
+    monkeypatch.setattr(negotiating, "PACE", 7.0)
     assert worst(in_twin(yielding, drawn), engine) > 0.015
 
 

@@ -3,11 +3,19 @@
 import numpy as np
 import pytest
 from colift.agents.agent import FRAME, HumanObservation
-from colift.agents.estimators.belief import GoalBelief
+from colift.agents.estimators.belief import (
+    BeliefParameters,
+    GoalBelief,
+    Motion,
+    believe,
+    own_goal,
+    prior,
+)
 from colift.agents.humans import SUBJECTS, Subject
 from colift.agents.humans.agree import (
     MANNERS,
     Abreast,
+    AgreeingManner,
     Ahead,
     Behind,
     Negotiator,
@@ -20,7 +28,16 @@ from colift.agents.humans.agree import (
     with_secret,
 )
 from colift.agents.humans.agree.hurdles import APART, AWAY, LENGTH
-from colift.agents.humans.agree.precedence import EARLY, NEEDED, SERVED, Precedence
+from colift.agents.humans.agree.precedence import (
+    EARLY,
+    NEEDED,
+    SERVED,
+    Sight,
+    Turn,
+    mine,
+    served,
+)
+from colift.agents.rules import SCALARS
 from colift.testing import check_behaviour
 
 S1 = SUBJECTS["S1"]
@@ -84,49 +101,66 @@ def test_a_partner_who_rests_or_comes_along_has_no_goal():
 
 
 def test_a_belief_is_slower_the_less_is_known():
-    beliefs = [GoalBelief(), GoalBelief()]
-    for belief, noise in zip(beliefs, (0.0, 0.2), strict=True):
-        belief.update(0.15, 0.165, 0.15, 0.15, 0.1, noise)
-    assert beliefs[0].own_goal > beliefs[1].own_goal
-    beliefs[0].forget()
-    assert beliefs[0].own_goal < 0.2
+    parameters, found = BeliefParameters(), []
+    nothing = prior(SCALARS, parameters, 0.0)
+    for noise in (0.0, 0.2):
+        seen = Motion(before=0.15, after=0.165, mine=0.15, common=0.15, noise=noise)
+        found.append(own_goal(believe(SCALARS, parameters, nothing, seen, 0.1)))
+    assert found[0] > found[1]
+    assert own_goal(nothing) < 0.2
 
 
-def first_turn(turn, *, apart=False, length=1.5):
+class Deciding:
+    """A person at a hurdle of 200 mm, who decides every 0.1 s."""
+
+    def __init__(self, patience, insistence):
+        self.manner = AgreeingManner(
+            patience=patience, trust=1.0, stiffness=1.0, insistence=insistence
+        )
+        self.turn = Turn(0.0, 0.0, False, False, False, False)
+
+    def mine(self, start, stop, *, apart, own=0.15, far=0.15):
+        """Return whether it is the person's turn."""
+        seen, hurdle = Sight(own, far, 0.15, 0.0), Secret(0.2, start, stop, 1.0)
+        self.turn, goes = mine(SCALARS, self.manner, self.turn, hurdle, seen, apart, 0.1)
+        return goes
+
+
+def first_turn(deciding, *, apart=False, length=1.5):
     """Return when the turn comes [s] after the opening of a window, None if never."""
     for k in range(-10, round(10 * length)):
-        if turn.mine(-0.1 * k, length - 0.1 * k, apart=apart, period=0.1):
+        if deciding.mine(-0.1 * k, length - 0.1 * k, apart=apart):
             return 0.1 * k
     return None
 
 
 def test_the_eager_begin_as_the_window_opens_and_the_patient_at_the_last_moment():
-    assert first_turn(Precedence(0.0, 1.0)) == pytest.approx(-EARLY, abs=0.1)
-    assert first_turn(Precedence(1.0, 1.0)) == pytest.approx(1.5 - NEEDED, abs=0.1)
+    assert first_turn(Deciding(0.0, 1.0)) == pytest.approx(-EARLY, abs=0.1)
+    assert first_turn(Deciding(1.0, 1.0)) == pytest.approx(1.5 - NEEDED, abs=0.1)
 
 
 def test_a_partner_on_the_way_is_let_go_first_until_it_is_too_late():
-    assert first_turn(Precedence(0.0, 1.0), apart=True) == pytest.approx(1.5 - NEEDED, abs=0.1)
+    assert first_turn(Deciding(0.0, 1.0), apart=True) == pytest.approx(1.5 - NEEDED, abs=0.1)
 
 
 def test_in_a_conflict_a_person_gives_way_after_a_while_and_resumes_when_the_partner_is_done():
-    turn = Precedence(0.0, 0.35)
-    assert turn.mine(0.0, 1.5, apart=False, period=0.1)
-    insisted = [turn.mine(0.0, 1.4, apart=True, period=0.1) for _ in range(6)]
+    deciding = Deciding(0.0, 0.35)
+    assert deciding.mine(0.0, 1.5, apart=False)
+    insisted = [deciding.mine(0.0, 1.4, apart=True) for _ in range(6)]
     assert insisted == [True, True, True, False, False, False]
+    there = Sight(own=0.188, far=0.19, common=0.15, speed=0.01)
     for _ in range(round(SERVED / 0.1) + 1):
-        turn.serve(0.04, 0.002, 0.01, 0.1)
-    assert turn.mine(-0.8, 0.7, apart=True, period=0.1)
+        deciding.turn = served(SCALARS, deciding.turn, there, 0.1)
+    assert deciding.mine(-0.8, 0.7, apart=True)
 
 
 def test_a_hurdle_is_passed_by_both_ends_in_its_window_alone():
-    turn = Precedence(0.0, 1.0)
-    turn.see(0.2, 0.1, 0.2, 0.2)
-    turn.see(0.2, -0.1, 0.2, 0.17)
-    assert not turn.passed
-    turn.see(0.2, -0.1, 0.201, 0.195)
-    assert turn.passed
-    assert not turn.mine(-0.1, 1.0, apart=False, period=0.1)
+    deciding = Deciding(0.0, 1.0)
+    deciding.mine(0.1, 1.0, apart=False, own=0.2, far=0.2)
+    deciding.mine(-0.1, 1.0, apart=False, own=0.2, far=0.17)
+    assert not deciding.turn.passed
+    assert not deciding.mine(-0.1, 1.0, apart=False, own=0.201, far=0.195)
+    assert deciding.turn.passed
 
 
 def played(person, secret, far, steps, common=0.15, frames=10):
