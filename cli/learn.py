@@ -47,7 +47,7 @@ class _Learnable(TyperGroup):
 
 app = typer.Typer(
     cls=_Learnable,
-    help="Learn a policy in the way in which the built-in one was learned.",
+    help="Retrain a built-in policy.",
     no_args_is_help=True,
 )
 

@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Annotated, Any, Final
 
 import typer
-from colift.agents.errors import InputError
+from colift.agents.errors import InputError, Remedy
 from colift.agents.humans import SUBJECTS, Subject
 from colift.agents.loading.description import ParameterText, described
 from colift.agents.loading.loading import PolicySpec
+from colift.agents.near_names import near_names
 from colift.agents.plugins import class_fault
 from colift.agents.registry import (
     HUMANS,
@@ -64,7 +65,7 @@ def list_all(
     Exit code 1 if one of them cannot be loaded; its line gives the reason.
     """
     if named is not None and named not in SECTIONS:
-        show(*policy_parameters(named))
+        show(*_policy(named))
         return
     broken: list[str] = []
     table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
@@ -127,6 +128,17 @@ def _valid(group: str, name: str) -> Any:
     elif fault := class_fault(found):
         raise InputError(f"{called(group, name)} {fault}")
     return found
+
+
+def _policy(text: str) -> list[RenderableType]:
+    """Return the description of a policy; the error about an unknown one has a near section."""
+    try:
+        return list(policy_parameters(text))
+    except InputError as error:
+        near = near_names(text, SECTIONS, most=1)
+        if error.remedy is not Remedy.LIST or not near:
+            raise
+        raise InputError(f"{error}; or 'colift list {near[0]}'?") from error
 
 
 def _about(subject: Subject) -> str:

@@ -114,6 +114,7 @@
       this.rest = grip[1];
       this.robotX = robotX;
       this.humanX = humanX;
+      this.hold("");
     }
 
     // The visible part of the scene.

@@ -1,8 +1,12 @@
 import json
+import re
 from dataclasses import dataclass
 
 import pytest
-from colift.agents.loading.description import field_docstrings
+from colift.agents.loading.description import described, field_docstrings
+from colift.agents.loading.loading import PolicySpec
+from colift.agents.registry import summary
+from colift.cli.listing import SECTIONS
 from colift.listing import list_policies
 
 
@@ -86,6 +90,35 @@ def test_what_is_wrong_is_one_line_and_exit_code_2(colift, arguments, told):
     assert told in err
     assert err.startswith("error:")
     assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+def test_each_section_can_be_listed_alone(colift, section):
+    alone, every = (colift("list", *words, COLUMNS="250") for words in ((section,), ()))
+    assert (alone.returncode, alone.stderr) == (0, "")
+    titles = [line for line in alone.stdout.splitlines() if not line.startswith(" ")]
+    assert all(each.lower().endswith(section) or section == "policies" for each in titles)
+    shown, listed = (
+        {" ".join(line.split()) for line in done.stdout.splitlines()} for done in (alone, every)
+    )
+    assert shown < listed
+
+
+@pytest.mark.parametrize(
+    ("named", "section"), [("polices", "policies"), ("task", "tasks"), ("Suites", "suites")]
+)
+def test_a_section_that_is_misspelt_is_suggested(colift, named, section):
+    code, _, err = colift("list", named)
+    assert code == 2
+    assert f"unknown policy '{named}'" in err
+    assert f"'colift list {section}'" in err
+
+
+@pytest.mark.parametrize("name", list_policies())
+def test_a_description_has_words_and_no_markup(name):
+    policy = PolicySpec(text=name).load()
+    told = [summary(policy), *(each.meaning for each in described(policy))]
+    assert [each for each in told if re.search(r"`|:[a-z]+:", each)] == []
 
 
 def test_policies_for_one_task_have_a_section_of_their_own(colift):

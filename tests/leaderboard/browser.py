@@ -57,12 +57,7 @@ def browser(locks: bool = False) -> Iterator[Browser]:
         opened.close()
 
 
-def serious(page: Page, options: dict[str, Any] | None = None) -> list[tuple[str, str]]:
-    """Return what axe-core finds serious in a page: the rule, and the beginning of the element."""
+def violations(page: Page, options: dict[str, Any] | None = None) -> list[tuple[str, str]]:
+    """Return what axe-core finds in a page: the rule, and the beginning of the element."""
     found = Axe().run(page, options=options)["violations"]
-    return [
-        (each["id"], node["html"][:200])
-        for each in found
-        if each["impact"] in ("serious", "critical")
-        for node in each["nodes"][:3]
-    ]
+    return [(each["id"], node["html"][:200]) for each in found for node in each["nodes"][:3]]

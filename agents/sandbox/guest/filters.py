@@ -153,9 +153,11 @@ LOADING: Final = Filter(
     getrandom arch_prctl fcntl ioctl prctl
     """,
     conditions={
-        # No CLONE_NEW, CLONE_PARENT, CLONE_PIDFD; a thread is allowed, a process is asked for.
+        # No CLONE_NEW, CLONE_PARENT, CLONE_PIDFD. A thread, which shares memory, files, folder and
+        # signals, is allowed; a process, which shares none of them nor waits, is asked for.
         "clone": (
             Condition(0, 0x7E029080, (0,)),
+            Condition(0, 0x14F00, (0x10F00, 0)),
             Condition(0, 0x10000, (0x10000,), _ASK),
         ),
         "mmap": (_UNSHARED,),

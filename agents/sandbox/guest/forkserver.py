@@ -72,6 +72,7 @@ def _restrictions(settings: dict[str, Any]) -> Restrictions:
         hidden=tuple(map(Path, settings["hidden"])),
         folder=Path(settings["folder"]) if settings["folder"] else None,
         limits=Limits(**settings["limits"]),
+        doors=tuple(settings["doors"]),
     )
     if not settings["namespaces"]:
         return restrictions

@@ -45,6 +45,10 @@ class RefusedError(Exception):
     """A condition of the gate that does not hold."""
 
 
+class MachineError(Exception):
+    """What the gate needs of this machine, and does not get."""
+
+
 @dataclass
 class Gate:
     """The answers to the questions of a filter.
@@ -66,6 +70,8 @@ class Gate:
     """Devices of the file systems in which the policy may write, as ``major:minor``."""
     pages: Pages
     """Those that are kept in memory."""
+    doors: tuple[int, ...]
+    """A handle by which a process enters the control group of lifts, where there is one."""
     closed: bool = False
     """Whether the policy is loaded, and its gate closed."""
     lift: int | None = None
@@ -81,7 +87,10 @@ class Gate:
         self._forks, self.lift = 0, None
 
     def answer(self) -> str:
-        """Answer a question, and return a report: ``closed``, ``refused REASON``, or nothing."""
+        """Answer a question, and return a report.
+
+        It is ``closed``, ``refused REASON``, ``fault REASON``, or nothing.
+        """
         question = bytearray(_QUESTION.size)
         try:
             _control(self.listener, _RECEIVE, question)
@@ -95,11 +104,13 @@ class Gate:
             if operation != filters.SET_MODE_FILTER or flags:
                 raise RefusedError
             return self._close(serial, process, address)
-        except (RefusedError, OSError, struct.error) as error:
+        except (RefusedError, MachineError, OSError, struct.error) as error:
             try:
                 self._reply(serial, _EPERM)
             except OSError:
                 return ""  # Its process has ended, or was interrupted and will ask again.
+            if isinstance(error, MachineError):
+                return f"fault {error}"
             return f"refused {error}" if isinstance(error, RefusedError) and str(error) else ""
 
     def _reply(self, serial: int, error: int = 0) -> None:
@@ -122,11 +133,14 @@ class Gate:
             self._check_alone({process})
             self._check_files(process, self.connection, self.output)
             self._check_memory(process)
+            self._check_program(process, address, FORKING)  # A thread may have changed it.
+            self._enter_group(process)
             self._install(serial, process)
             self.closed = True
         elif self.closed and self.lift is None and self._forks == 0 and process != self.loaded:
             self._check_program(process, address, LIFT)
             self._settle(process)
+            self._check_program(process, address, LIFT)
             self._install(serial, process)
             self.lift = process
             # It would see how long the steps of the lift take.
@@ -138,8 +152,9 @@ class Gate:
     def _check_program(self, process: int, address: int, due: Filter) -> None:
         """Check that a process installs the filter that is due.
 
-        It waits for the answer, has one thread, and shares its memory with no other: what is read
-        here is what the kernel will read.
+        It waits for the answer, and shares its memory with no other process, which the filter does
+        not allow. Once it is known to have one thread, what is read here is what the kernel will
+        read.
         """
         program = due.program()
         with self.processes.opened(process, "mem") as memory:
@@ -150,7 +165,9 @@ class Gate:
     def _settle(self, process: int) -> None:
         """Check that the lift and what it was forked from are all there is, when both have settled.
 
-        The latter must not keep the connection of the lift, and the lift must have its own.
+        The latter must not keep the connection of the lift, and the lift must have its own. Nor may
+        it be the parent of the lift: a parent is told the exit, the memory and the times of its
+        children. The one that watches is the parent of both.
         """
         end = time.monotonic() + _SETTLE_SECONDS
         while True:
@@ -166,12 +183,14 @@ class Gate:
                 return
 
     def _check_alone(self, expected: set[int]) -> None:
-        """Check that these are all processes, with one thread each."""
+        """Check that these are all processes, with one thread each and the same parent."""
         found = self.processes.all()
         if found.keys() != expected:
             raise RefusedError(f"processes {len(found)}")
         if threads := sum(each.threads for each in found.values()) - len(expected):
             raise RefusedError(f"threads {threads}")
+        if len({each.parent for each in found.values()}) > 1:
+            raise RefusedError("parent")
 
     def _check_files(self, process: int, connection: int | None, output: int | None) -> None:
         """Check the open files of a process: those of the loaded one, or for None, others."""
@@ -197,6 +216,14 @@ class Gate:
                 self.pages.keep(each)
             except OSError:
                 raise RefusedError(f"mapping {each.path}") from None
+
+    def _enter_group(self, process: int) -> None:
+        """Move a process, and all that will be forked from it, to the control group of lifts."""
+        for door in self.doors:
+            try:
+                os.write(door, str(process).encode())
+            except OSError as error:
+                raise MachineError(f"control group of lifts: {error}") from None
 
     def _install(self, serial: int, process: int) -> None:
         """Let a process install its filter; raise RefusedError if the kernel then refuses it."""

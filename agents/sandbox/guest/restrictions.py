@@ -49,6 +49,8 @@ class Restrictions:
     scratch: Path | None = None
     """Its writable directory, if it has no private /tmp."""
     limits: Limits
+    doors: tuple[int, ...] = ()
+    """A handle by which a process enters the control group of lifts, where there is one."""
 
     @property
     def fresh(self) -> tuple[str, ...]:

@@ -134,7 +134,7 @@ def _supervise(
         processes=own,
         limits=restrictions.limits,
         fresh=restrictions.fresh,
-        gate=Gate(listeners[0], own, child, connection, output, fresh, pages)
+        gate=Gate(listeners[0], own, child, connection, output, fresh, pages, restrictions.doors)
         if listeners
         else None,
     ).run()

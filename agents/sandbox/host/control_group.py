@@ -47,6 +47,10 @@ class ControlGroup:
         """Return the command that enters the group and then runs another."""
         return ["/bin/sh", "-c", _ENTER, str(self.folder), *command]
 
+    def door(self) -> int:
+        """Return a handle; a process enters that whose number is written to it."""
+        return os.open(self.folder / "cgroup.procs", os.O_WRONLY | os.O_CLOEXEC)
+
     def remove(self) -> None:
         """Remove the group, whose processes have ended or are about to."""
         end = time.monotonic() + _REMOVE_SECONDS

@@ -27,7 +27,7 @@ log: Final = logging.getLogger("colift.sandbox")
 """The reasons in the system's words, as information."""
 
 LEVELS: Final = {
-    BUBBLEWRAP: "bubblewrap: own file system, processes, network and users; Landlock, filter",
+    BUBBLEWRAP: "own file system, processes, network and users; Landlock, filter",
     LANDLOCK: "namespaces of file systems, processes, network and users; Landlock, filter",
     LIMITS: "no namespaces: resource limits; Landlock and the filter where the kernel has them",
 }

@@ -84,36 +84,39 @@ class ForkServer:
 
     def __init__(self, isolation: str, seen: Path | None, limits: Limits) -> None:
         visible = view(seen)
-        group = None
-        with contextlib.suppress(OSError):  # Not every machine allows one.
-            group = ControlGroup(limits.memory + HEADROOM)
+        groups, doors = _groups(limits.memory + HEADROOM)
         self.orders, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         """The socket on which it takes orders."""
         with tempfile.TemporaryFile() as errors, contextlib.closing(theirs):
             try:
                 words = command(isolation, visible, theirs.fileno(), superuser=os.geteuid() == 0)
+                for group in groups[:1]:
+                    words = group.entering([*words])
                 self._process = subprocess.Popen(
-                    group.entering(words) if group else words,
+                    words,
                     stdin=subprocess.DEVNULL,
                     stdout=errors,
                     stderr=errors,
-                    pass_fds=[theirs.fileno()],
+                    pass_fds=[theirs.fileno(), *doors],
                     env=environment(),
                     cwd="/",
                     start_new_session=True,
                 )
             except OSError as error:
                 self.orders.close()
-                if group:
+                for group in groups:
                     group.remove()
                 raise EvaluatorFault(f"the {isolation} sandbox does not start: {error}") from error
+            finally:
+                for door in doors:
+                    os.close(door)
             theirs.close()
             self.close = weakref.finalize(
-                self, _end, os.getpid(), self._process, self.orders, group
+                self, _end, os.getpid(), self._process, self.orders, groups
             )
             """End all of its processes."""
             try:
-                settings = _settings(isolation, visible, seen, limits)
+                settings = _settings(isolation, visible, seen, limits, doors)
                 self.namespaces = self._introduce(settings)
                 """Namespaces of an episode: made by ``root``, by the ``user``, or none (empty)."""
             except (OSError, ValueError) as error:
@@ -140,7 +143,10 @@ class ForkServer:
 
 
 def _end(
-    owner: int, process: subprocess.Popen[bytes], orders: socket.socket, group: ControlGroup | None
+    owner: int,
+    process: subprocess.Popen[bytes],
+    orders: socket.socket,
+    groups: tuple[ControlGroup, ...],
 ) -> None:
     """End a fork server; in a fork of its owner, only close the socket."""
     orders.close()
@@ -153,11 +159,31 @@ def _end(
         with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
         process.wait()
-    if group:
+    for group in groups:
         group.remove()
 
 
-def _settings(isolation: str, visible: View, seen: Path | None, limits: Limits) -> dict[str, Any]:
+def _groups(memory: int) -> tuple[tuple[ControlGroup, ...], tuple[int, ...]]:
+    """Return a control group for all processes and one for lifts, and the door of the latter.
+
+    A group that needs memory takes it from the files that its processes have read. Lifts read
+    none: in a group of their own they cannot do that, so what they need shows on no file. Return
+    nothing where this process may make no groups.
+    """
+    made: list[ControlGroup] = []
+    try:
+        made += [ControlGroup(memory)]
+        made += [ControlGroup(memory)]
+        return tuple(made), (made[1].door(),)
+    except OSError:  # Not every machine allows one.
+        for group in made:
+            group.remove()
+        return (), ()
+
+
+def _settings(
+    isolation: str, visible: View, seen: Path | None, limits: Limits, doors: tuple[int, ...]
+) -> dict[str, Any]:
     """Return the settings of a fork server, for its :class:`.Restrictions`."""
     covered = isolation != LIMITS
     shown = visible.outermost() if covered else visible.visible()
@@ -168,6 +194,7 @@ def _settings(isolation: str, visible: View, seen: Path | None, limits: Limits) 
         "hidden": [str(path) for path in visible.hidden] if covered else [],
         "folder": str(seen) if seen and seen.is_dir() else "",
         "limits": asdict(limits),
+        "doors": doors,
     }
 
 

@@ -55,18 +55,18 @@ def test_a_group_left_by_a_killed_owner_is_removed_by_the_next(group):
     assert not left.exists()
 
 
-def test_a_sandbox_is_in_a_group_and_takes_it_away(group):
+def test_a_sandbox_is_in_a_group_has_one_for_lifts_and_takes_both_away(group):
     limits = Limits(memory=100 * MIB)
     mine = f"colift-{os.getpid()}-*"
     before = set(group.folder.parent.glob(mine))
     server = ForkServer(strongest(), None, limits)
     try:
-        (own,) = set(group.folder.parent.glob(mine)) - before
-        assert len((own / "cgroup.procs").read_text().split()) >= 1
-        limit = next(
-            own / name for name in ("memory.max", "memory.limit_in_bytes") if (own / name).exists()
-        )
-        assert int(limit.read_text()) == limits.memory + HEADROOM
+        made = set(group.folder.parent.glob(mine)) - before
+        assert sorted(bool((own / "cgroup.procs").read_text()) for own in made) == [False, True]
+        for own in made:
+            names = (own / "memory.max", own / "memory.limit_in_bytes")
+            limit = next(name for name in names if name.exists())
+            assert int(limit.read_text()) == limits.memory + HEADROOM
     finally:
         server.close()
     assert set(group.folder.parent.glob(mine)) == before

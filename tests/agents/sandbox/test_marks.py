@@ -3,10 +3,15 @@
 import ctypes
 import mmap
 import os
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from colift.agents.sandbox.host.control_group import ControlGroup
 from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
+from colift.agents.sandbox.protocol import MIB
+
+from .conftest import PATIENT
 
 PAGES = 64
 
@@ -55,15 +60,17 @@ def marks(tmp_path):
 
 def in_memory(path):
     """Return the pages of a file that are in memory, without reading any."""
-    size, pages = PAGES * mmap.PAGESIZE, ctypes.create_string_buffer(PAGES)
+    size = path.stat().st_size
+    pages = ctypes.create_string_buffer(size // mmap.PAGESIZE)
     libc = ctypes.CDLL(None, use_errno=True)
     libc.mmap.restype = ctypes.c_void_p
     with path.open("rb") as file:
+        length = ctypes.c_size_t(size)
         place = ctypes.c_void_p(
-            libc.mmap(None, size, mmap.PROT_READ, mmap.MAP_SHARED, file.fileno(), 0)
+            libc.mmap(None, length, mmap.PROT_READ, mmap.MAP_SHARED, file.fileno(), 0)
         )
-        assert libc.mincore(place, size, pages) == 0
-        assert libc.munmap(place, size) == 0
+        assert libc.mincore(place, length, pages) == 0
+        assert libc.munmap(place, length) == 0
     return {page for page, byte in enumerate(pages.raw) if byte & 1}
 
 
@@ -105,4 +112,46 @@ def test_what_is_mapped_is_in_memory_before_the_first_lift(tmp_path, marks, each
             content[3],
             content[60],
         ]
+    close_sandboxes()
+
+
+FILLING = """
+class Filling:
+    def reset(self, seed):
+        with open("marks", "rb") as file:
+            while file.read(1 << 20):
+                pass
+
+    def act(self, observation):
+        block = bytearray(int(observation[0]))
+        return [float(block[-1])]
+"""
+
+
+@pytest.fixture
+def _groups():
+    try:
+        ControlGroup(MIB).remove()
+    except OSError as error:
+        pytest.skip(f"this process may make no control group: {error}")
+
+
+@pytest.mark.usefixtures("_groups")
+def test_the_memory_that_a_lift_takes_is_not_that_of_files(tmp_path, each_level):
+    """Files, a lift and the sandbox need more than its control group has together."""
+    with (tmp_path / "marks").open("wb") as file:
+        file.truncate(420 * MIB)
+    (tmp_path / "policy.py").write_text(FILLING)
+    limits = replace(PATIENT, memory=300 * MIB)
+    policy = SandboxedPolicy(
+        name="p", place="policy:Filling", folder=tmp_path, isolation=each_level, limits=limits
+    )
+    with policy.agent() as agent:
+        agent.reset(1)
+        read = in_memory(tmp_path / "marks")
+        assert len(read) > 350 * MIB / mmap.PAGESIZE
+        for size in (100 * MIB, 200 * MIB):
+            agent.reset(1)
+            agent.act(np.full(5, float(size)))
+            assert in_memory(tmp_path / "marks") == read
     close_sandboxes()

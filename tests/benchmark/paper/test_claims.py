@@ -9,8 +9,9 @@ from colift.agents.control.q_learning import ACTIONS
 from colift.benchmark.paper.exhibits import Claim
 from colift.benchmark.paper.report import median_lift
 from colift.benchmark.paper.topics.learning import learning_claims, levels
-from colift.benchmark.paper.topics.table import table_claims
+from colift.benchmark.paper.topics.table import FEWEST, SURE, table_claims
 from colift.benchmark.paper.topics.timing import timing_claims
+from colift.benchmark.statistics.permutation import paired_permutation_p
 from colift.benchmark.training.q_learning import LearningTrial
 
 RIGHT = np.eye(5)[::-1]
@@ -61,6 +62,15 @@ def test_one_subject_without_a_difference_breaks_the_improvement(made):
     assert table_claims(dataclasses.replace(table, rows=tuple(rows)))[0].holds
     rows[1] = dataclasses.replace(rows[1], p=0.02)
     assert not table_claims(dataclasses.replace(table, rows=tuple(rows)))[0].holds
+
+
+@pytest.mark.parametrize("lifts", [2, FEWEST - 1, FEWEST])
+def test_lifts_that_are_too_few_for_any_small_p_are_told(made, lifts):
+    table = made.report.table
+    rows = tuple(dataclasses.replace(row, p=0.02) for row in table.rows)
+    note = table_claims(dataclasses.replace(table, rows=rows, lifts=lifts))[0].note
+    apart = np.arange(1.0, lifts + 1)
+    assert ("can give no p below" in note) == (paired_permutation_p(apart, 0 * apart) >= SURE)
 
 
 def test_timing_claims_tell_one_value_a_period(made):

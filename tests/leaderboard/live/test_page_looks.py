@@ -7,7 +7,7 @@ import pytest
 from colift.leaderboard.replays.html import SCRIPTS
 from playwright.sync_api import expect
 
-from ..browser import serious
+from ..browser import violations
 from .browsing import WAIT_MS, enter, wait_for, wait_for_phase
 
 SCREENS = {
@@ -32,11 +32,11 @@ def screen(request, open_page):
 
 
 def looked_at(page):
-    """Check a page as it is now: nothing serious for axe-core, and nothing is cut off."""
+    """Check a page as it is now: nothing for axe-core, and nothing is cut off."""
     page.emulate_media(color_scheme="light")
-    assert serious(page) == []
+    assert violations(page) == []
     page.emulate_media(color_scheme="dark")
-    assert serious(page, {"runOnly": ["color-contrast"]}) == []
+    assert violations(page, {"runOnly": ["color-contrast"]}) == []
     width = page.viewport_size["width"]
     assert page.evaluate("document.documentElement.scrollWidth") <= width
 

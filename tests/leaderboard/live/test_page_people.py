@@ -32,6 +32,13 @@ def grip(page):
     page.keyboard.press("Space")
 
 
+def drawn(page):
+    """Return how many people the picture has, and whether it has a NAO."""
+    stage = page.locator("#stage")
+    people = stage.locator(".replay-person").locator("visible=true").count()
+    return people, stage.locator(".replay-nao").first.is_visible()
+
+
 def test_two_people_and_a_spectator(open_page, url):
     """The follower and the spectator see the table alone; the ends can be swapped."""
     host, guest, watcher = (open_page() for _ in range(3))
@@ -53,7 +60,7 @@ def test_two_people_and_a_spectator(open_page, url):
     expect(watcher.locator("#place")).to_contain_text("You watch")
     assert not guest.locator("#change, #swap, #invitation").locator("visible=true").count()
     assert not watcher.locator("#lift").is_visible()
-    assert "far-person" in host.locator("#stage svg").get_attribute("class")
+    assert [drawn(page) for page in (host, guest, watcher)] == 3 * [(2, False)]
     grip(host)
     expect(guest.locator("#who")).to_contain_text("one hand is closed", timeout=WAIT_MS)
     grip(guest)
@@ -121,4 +128,4 @@ def test_a_person_in_the_place_of_the_robot(open_page, url):
     guest.goto(host.locator("#invite-link").input_value())
     wait_until_ready(guest)
     expect(guest.locator("#place")).to_contain_text("You command the robot")
-    assert "far-person" not in guest.locator("#stage svg").get_attribute("class")
+    assert [drawn(page) for page in (host, guest)] == 2 * [(1, True)]

@@ -7,7 +7,7 @@ import pytest
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.queue import Queue, WorkerQueue
 
-from ..browser import serious
+from ..browser import violations
 from ..signed import write_signed
 from .boards import digest
 
@@ -50,19 +50,19 @@ def path(request, job):
 
 
 def test_everybody_can_read_a_page(page, url, path):
-    """Nothing serious for axe-core, in light and dark; and a telephone is wide enough."""
+    """Nothing for axe-core, in light and dark; and a telephone is wide enough."""
     page.emulate_media(color_scheme="light", reduced_motion="reduce")
     page.goto(url + path)
-    assert serious(page) == []
+    assert violations(page) == []
     page.emulate_media(color_scheme="dark", reduced_motion="reduce")
-    assert serious(page, {"runOnly": ["color-contrast"]}) == []
+    assert violations(page, {"runOnly": ["color-contrast"]}) == []
     page.set_viewport_size({"width": 390, "height": 800})
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
 
 
 def test_a_filtered_board_can_be_read_too(page, url):
     page.goto(f"{url}/#behaviour=jerky&sort=-rmse")
-    assert serious(page) == []
+    assert violations(page) == []
 
 
 def test_nothing_in_a_page_is_inline(url, path):

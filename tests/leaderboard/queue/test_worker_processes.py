@@ -74,8 +74,10 @@ def enqueue(board, write_submission, names):
 
 
 def nameless(row):
-    public = dataclasses.replace(row.public, step_ms_p50=None, step_ms_p99=None)
-    return dataclasses.replace(row, public=public, name="", submission="")
+    """Return a row without its name and without what follows from the clock."""
+    public = dataclasses.replace(row.public, step_ms_p50=None, step_ms_p99=None, real_time=None)
+    hidden = dataclasses.replace(row.hidden, real_time=None)
+    return dataclasses.replace(row, public=public, hidden=hidden, name="", submission="")
 
 
 def test_workers_that_are_killed_lose_nothing(real_board, write_submission, start):

@@ -44,6 +44,12 @@ def zero(result):
     if result != 0:
         raise OSError(ctypes.get_errno(), "refused")
 
+stack = mmap.mmap(-1, 1 << 20, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+
+def clone(flags, function, argument):
+    top = ctypes.addressof(ctypes.c_char.from_buffer(stack)) + len(stack)
+    return libc().clone(function, ctypes.c_void_p(top), flags, ctypes.c_void_p(argument))
+
 def touch(path):
     with open(path, "w") as file:
         file.write("x")
