@@ -1,4 +1,4 @@
-"""Golden traces: every policy on a few lifts of its task, and two people, bit for bit.
+"""Golden traces: every policy on ``quick-v1``, bit for bit.
 
 A change that is meant to change no number leaves them as they are. One that is meant to writes
 them anew: ``COLIFT_GOLDEN=write pytest tests/benchmark/test_golden.py``. They are the same on each
@@ -9,7 +9,6 @@ Python, with each NumPy and each PyBullet; on another processor they are, or the
 import hashlib
 import json
 import os
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -23,43 +22,18 @@ from colift.benchmark.suites.suite import make_suite
 FILE = Path(os.environ.get("COLIFT_GOLDEN_FILE") or Path(__file__).with_name("golden.json"))
 SHIPPED = {"binaries", "linear_algebra", "numpy", "pybullet", "python"}
 """What comes with a Python and its packages, and has changed no bit."""
-SUITES = {"level": "quick-v1", "agree": "agree-v1", "ball": "ball-v1", "intent": "intent-v1"}
+NAMES = [HUMAN_HUMAN, *own_policies("level")]
 
 
-def players(task):
-    """Return the policies that play a task here: of the other tasks, those that can do no other."""
-    level = {*own_policies("level")} - {"copy"} if task != "level" else set()
-    return [HUMAN_HUMAN, *(name for name in own_policies(task) if name not in level)]
-
-
-NAMES = [f"{task} {name}" for task in SUITES for name in players(task)]
-
-
-def lifts(task):
-    """Return suites of a task that together have several behaviours, subjects and timings."""
-    suite = make_suite(SUITES[task])
-    if task == "level":
-        return suite, replace(suite, seeds=(3,)).with_timing(0.15, 0.05)
-    scenarios = suite.scenarios[::8]
-    return (
-        replace(suite, scenarios=scenarios, seeds=(1,)),
-        replace(suite, scenarios=scenarios[:1], seeds=(2,)).with_timing(0.15, 0.05),
-    )
-
-
-def played(text):
+def played(name):
     """Return a digest for each lift: of its trace, and of its scores."""
-    task, name = text.split()
-    runs = [
-        human_human_run(suite) if name == HUMAN_HUMAN else run_suite(PolicySpec(text=name), suite)
-        for suite in lifts(task)
-    ]
+    suite = make_suite("quick-v1")
+    run = human_human_run(suite) if name == HUMAN_HUMAN else run_suite(PolicySpec(text=name), suite)
     return {
         f"{each.behaviour} {each.subject} {each.seed}": [
             each.trace.digest()[:16],
             hashlib.sha256(repr(each.scores).encode()).hexdigest()[:16],
         ]
-        for run in runs
         for each in run.episodes
     }
 
