@@ -175,10 +175,10 @@ def first_paragraph(place: str) -> str:
                 return str(
                     next(ast.literal_eval(each.value) for each in keywords if each.arg == "help")
                 )
-            case ast.ImportFrom(level=1, module=str(other), names=names) if any(
+            case ast.ImportFrom(module=str(other), names=names) if any(
                 each.name == attribute for each in names
             ):
-                return first_paragraph(f"{other}:{attribute}")
+                return first_paragraph(f"{other.removeprefix(f'{__package__}.')}:{attribute}")
     raise LookupError(f"no {attribute} in {module}")
 
 

@@ -5,27 +5,12 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import Any, Final
+from typing import Any
 
-from colift.cli.loading import INTERRUPTED
+from colift.cli.loading import Ending
 
 Handler = Callable[[int, FrameType | None], Any] | int
 """A handler of a signal."""
-
-TERMINATED: Final = 128 + signal.SIGTERM
-"""Exit code after SIGTERM."""
-
-
-class Ending:
-    """The exit code of a command that a signal ends."""
-
-    code: int = INTERRUPTED
-
-    def terminate(self, number: int, frame: FrameType | None) -> None:
-        """Raise KeyboardInterrupt for SIGTERM; a second one ends the process at once."""
-        signal.signal(number, signal.SIG_DFL)
-        self.code = TERMINATED
-        raise KeyboardInterrupt
 
 
 @contextmanager

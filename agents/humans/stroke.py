@@ -5,6 +5,7 @@ at the ends of the motion's frames, at ``FRAME, 2 FRAME, ...``; its start, at ti
 frame of the preceding motion.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -71,7 +72,7 @@ def stroke(
     sum ends at ``rise``. The duration is rounded to whole frames; the extras must end within it.
     """
     frames = max(round(duration / FRAME), 1)
-    rest = rise - sum(piece.rise for piece in extra)
+    rest = rise - math.fsum(piece.rise for piece in extra)
     base = Submovement(start=0.0, duration=frames * FRAME, rise=rest, skew=skew)
     return superpose((base, *extra), frames)
 

@@ -99,7 +99,7 @@ class Level:
         world, size = lift.world, lift.frames_per_step
         if abs(world.human_end[-1] - world.robot_end[-1]) > TABLE_LENGTH * math.sin(DROP_TILT):
             return f"the table is inclined by more than {math.degrees(DROP_TILT):.0f} deg"
-        if abs(sum(world.robot_force[-size:])) > GRIP_FORCE * size:
+        if abs(math.fsum(world.robot_force[-size:])) > GRIP_FORCE * size:
             return f"more than {GRIP_FORCE:.0f} N pull at the partner's hands"
         if abs(world.hand_height - world.robot_end[-1]) > GRIP_GAP:
             return "the table's end is out of the partner's reach"

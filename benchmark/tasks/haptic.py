@@ -1,5 +1,6 @@
 """The common part of the tasks with touch: world, sensors and observation."""
 
+import math
 from typing import Final
 
 import numpy as np
@@ -47,8 +48,8 @@ class HapticLift(Lift):
     def touch(self) -> tuple[float, float]:
         """Return the sensed force beyond half of the weight [N], and the sensed torque [Nm]."""
         world, step = self.world, self.frame // self.frames_per_step
-        force = sum(world.robot_force[-SENSED_FRAMES:]) / SENSED_FRAMES - WEIGHT_SHARE
-        torque = sum(world.robot_torque[-SENSED_FRAMES:]) / SENSED_FRAMES
+        force = math.fsum(world.robot_force[-SENSED_FRAMES:]) / SENSED_FRAMES - WEIGHT_SHARE
+        torque = math.fsum(world.robot_torque[-SENSED_FRAMES:]) / SENSED_FRAMES
         return force + self._force_noise[step], torque + self._torque_noise[step]
 
     def haptic_view(self) -> Observation:

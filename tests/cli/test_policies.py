@@ -7,12 +7,12 @@ from colift.agents.errors import InputError
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.sandbox.host.levels import VERIFIABLE, working_levels
 from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
+from colift.agents.submissions import choice
 from colift.agents.submissions.choice import choose_policy
 from colift.agents.submissions.new import write_template
 from colift.agents.submissions.trusted import TrustedSubmission
 from colift.benchmark.execution.batches import play
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.cli import policies
 from colift.cli.run import run
 
 SOURCE = (
@@ -64,9 +64,9 @@ def test_everything_else_runs_on_the_strongest_level(text):
 
 
 def test_policies_of_other_packages_by_name_are_sandboxed(monkeypatch):
-    own = policies.own_entries("colift.policies")
+    own = choice.own_entries("colift.policies")
     monkeypatch.setattr(
-        policies,
+        choice,
         "own_entries",
         lambda group: {name: own[name] for name in own if name != "hold"},
     )
@@ -116,7 +116,7 @@ def test_a_name_comes_before_a_folder_of_that_name(here):
 
 
 def test_a_level_that_does_not_work_here_is_refused_with_the_reason(monkeypatch):
-    monkeypatch.setattr(policies, "fault", lambda level: "there is no bwrap")
+    monkeypatch.setattr(choice, "fault", lambda level: "there is no bwrap")
     with pytest.raises(InputError) as caught:
         choose_policy("blend", "bubblewrap")
     assert str(caught.value) == "isolation bubblewrap does not work here: there is no bwrap"

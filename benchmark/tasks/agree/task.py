@@ -111,7 +111,7 @@ class Agree(Haptic):
             else 0.0
             for hurdle in (lift.human_hurdle, lift.robot_hurdle)
         ]
-        return -level - missed[0], -level - sum(missed)
+        return -level - missed[0], -level - math.fsum(missed)
 
     def series(self, lift: Playing) -> Mapping[str, NDArray[np.float64]]:
         """Return the hurdles in their windows, the common way elsewhere; the robot's torque."""

@@ -36,7 +36,7 @@ def pose_rmse_mm(missed: Sequence[Heights], horizon: int) -> float:
         Distance [mm].
     """
     frames = len(missed[0])
-    squares = sum(1e6 * float(dot(each, each)) for each in missed) / len(missed)
+    squares = math.fsum(1e6 * float(dot(each, each)) for each in missed) / len(missed)
     return math.sqrt((squares + (horizon - frames) * FAILED_FRAME_MM**2) / horizon)
 
 
