@@ -2,6 +2,7 @@
 
 import io
 import re
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,6 +18,7 @@ from colift.leaderboard.service.security import Rate
 from colift.leaderboard.storage.archive import pack_archive
 
 from ..serving import serving as served
+from .uploaded import left_over
 
 UNLIMITED = Rates(
     address=Rate(per_second=1e6, burst=10**6), submitter=Rate(per_second=1e6, burst=10**6)
@@ -110,3 +112,12 @@ def zipped(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., bytes]:
         return file.getvalue()
 
     return make
+
+
+@pytest.fixture
+def nothing_is_left(folder):
+    yield
+    deadline = time.monotonic() + 20  # The service may still be told that a client has gone.
+    while left_over(folder) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert left_over(folder) == []
