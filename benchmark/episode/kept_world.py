@@ -1,36 +1,39 @@
 """One world for the scenarios of a run, one after the other.
 
 Making a new world takes as long as half a lift. Therefore one person replaces another in the same
-world, bit for bit as in a new one (:class:`.SharedWorld`).
+world, bit for bit as in a new one (:class:`Shared`).
 """
 
 import contextlib
 from collections.abc import Iterator
-from typing import Final
+from functools import partial
+from typing import Final, Protocol, Self, runtime_checkable
 
-from colift.benchmark.episode.level import Level
-from colift.benchmark.episode.lift import Lift, Staging, make_lift
+from colift.benchmark.episode.lift import Lift, make_lift
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.world import BodyParameters, FarEnd
-from colift.benchmark.world.shared_world import SharedWorld
+from colift.benchmark.episode.task import Task
+from colift.benchmark.world import BodyParameters, FarEnd, World
 
-_kept: Final[list[tuple[FarEnd, SharedWorld]]] = []
-"""The world left by the last lift, with the holder of its far end."""
+@runtime_checkable
+class Shared(World, Protocol):
+    """A world in which one person can replace another."""
+
+    def with_person(self, human: BodyParameters) -> Self:
+        """Exchange the person, and return the world, which must then be reset."""
+
+
+_kept: Final[list[tuple[Task, FarEnd, Shared]]] = []
+"""The world left by the last lift, with its task and the holder of its far end."""
 
 
 @contextlib.contextmanager
 def lift_in_kept_world(scenario: Scenario) -> Iterator[Lift]:
-    """Yield a lift, in the world of the last lift if the far end has the same holder.
+    """Yield a lift, in the world of the last lift if task and holder of the far end are the same.
 
-    Its world is left for the next one, unless an error ends the context. A task with its own world
-    or lift gets a new world.
+    Its world is left for the next one, unless an error ends the context or it can have one person
+    only.
     """
-    task = scenario.task
-    if isinstance(task, Staging) or type(task).world is not Level.world:
-        with contextlib.closing(make_lift(scenario)) as lift:
-            yield lift
-        return
-    lift = Lift(scenario, world=_taken)
+    lift = make_lift(scenario, world=partial(_taken, scenario.task))
     try:
         yield lift
     except GeneratorExit:  # No more episodes are requested.
@@ -45,19 +48,21 @@ def lift_in_kept_world(scenario: Scenario) -> Iterator[Lift]:
 def drop_kept_world() -> None:
     """Release the world that is kept, if there is one: 30 MB."""
     while _kept:
-        _kept.pop()[1].close()
+        _kept.pop()[-1].close()
 
 
-def _taken(human: BodyParameters, far_end: FarEnd) -> SharedWorld:
+def _taken(task: Task, human: BodyParameters, far_end: FarEnd) -> World:
     while _kept:
-        holder, world = _kept.pop()
-        if holder == far_end:
-            return world.with_person(human, far_end)
+        kept, holder, world = _kept.pop()
+        if (kept, holder) == (task, far_end):
+            return world.with_person(human)
         world.close()
-    return SharedWorld(human, far_end)
+    return task.world(human, far_end)
 
 
 def _keep(lift: Lift) -> None:
     drop_kept_world()
-    assert isinstance(lift.world, SharedWorld)
-    _kept.append((lift.seat.body, lift.world))
+    if isinstance(lift.world, Shared):
+        _kept.append((lift.task, lift.seat.body, lift.world))
+    else:
+        lift.close()

@@ -14,7 +14,7 @@ from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.smoothness import ldlj, sparc
 from colift.benchmark.episode.task import Bounds, Playing
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.world import BodyParameters, BulletWorld, FarEnd, World
+from colift.benchmark.world import PHYSICS, BodyParameters, BulletWorld, FarEnd, Physics
 from colift.benchmark.world.table import TABLE_LENGTH, WEIGHT_SHARE
 from numpy.typing import NDArray
 
@@ -52,9 +52,11 @@ class Level:
     name: ClassVar[str] = "level"
     metrics: ClassVar[Metrics] = LEVEL_METRICS
 
-    def world(self, human: BodyParameters, far_end: FarEnd) -> World:
+    def world(
+        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics = PHYSICS
+    ) -> BulletWorld:
         """Return the world of the table alone."""
-        return BulletWorld(human, far_end)
+        return BulletWorld(human, far_end, physics=physics)
 
     def robot_observation(self, lift: Playing) -> Observation:
         """Return the robot's senses."""

@@ -10,7 +10,7 @@ from colift.agents.humans import Embodied, Plan, ScriptedHuman, Subject
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seat import body_parameters, within_range
 from colift.benchmark.episode.seeding import derive_seed
-from colift.benchmark.world import HISTORY_FRAMES, BodyParameters, FarEnd, World
+from colift.benchmark.world import HISTORY_FRAMES, BodyParameters, FarEnd, Intended, World
 from numpy.typing import ArrayLike, NDArray
 
 MOCAP_NOISE: Final = 0.00023
@@ -125,7 +125,11 @@ class Lift:
 
     def move(self, human: Sequence[float], commands: Sequence[float]) -> None:
         """Advance by a frame for each hand reference and command of the far end [m]."""
-        self.world.advance(within_range(human), commands)
+        self.world.advance(within_range(human), commands, self.intended_in(human))
+
+    def intended_in(self, human: Sequence[float]) -> Intended | None:
+        """Return the person's intention in the frames of some hand references."""
+        return None
 
     def end(self, command: float) -> None:
         """End the control period after all of its frames, with its last command [m]."""
@@ -229,7 +233,7 @@ class Staging(Protocol):
         """Return the lift of a scenario of the task."""
 
 
-def make_lift(scenario: Scenario) -> Lift:
+def make_lift(scenario: Scenario, world: MakeWorld | None = None) -> Lift:
     """Return the lift of a scenario, of the class that its task requires."""
     task = scenario.task
-    return task.lift(scenario) if isinstance(task, Staging) else Lift(scenario)
+    return task.lift(scenario) if isinstance(task, Staging) else Lift(scenario, world=world)

@@ -8,7 +8,7 @@ from colift.agents.agent import Observation
 from colift.agents.humans import Plan
 from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.world import BodyParameters, FarEnd, World
+from colift.benchmark.world import BodyParameters, FarEnd, Physics, World
 from numpy.typing import NDArray
 
 Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
@@ -70,8 +70,9 @@ class Task(Protocol):
     def metrics(self) -> Metrics:
         """Its metrics by name; the first is the leading one, ``rmse_mm``."""
 
-    def world(self, human: BodyParameters, far_end: FarEnd) -> World:
-        """Return a world of a person and a holder of the far end."""
+    def world(self, human: BodyParameters, far_end: FarEnd, *, physics: Physics = ...) -> World:
+        """Return a world of a person and a holder of the far end, with the task's own physics by
+        default."""
 
     def robot_observation(self, lift: Playing) -> Observation:
         """Return the robot's observation at the beginning of a step."""

@@ -6,10 +6,11 @@ from typing import Final
 
 import numpy as np
 from colift.benchmark.world import BodyParameters, BulletWorld, NaoFarEnd
+from colift.benchmark.world.engine import BulletEngine
 from colift.benchmark.world.nao_arms import NaoArms
-from colift.benchmark.world.physics import Physics
 from colift.benchmark.world.servo import Servo
 from colift.benchmark.world.table import WEIGHT_SHARE
+from colift.benchmark.world.world import Engine, Intended
 from colift.robots.nao.kinematics import (
     ARM_JOINTS,
     MIRROR,
@@ -40,14 +41,14 @@ class JointArms(NaoArms):
     No offset compensates for the weight: the sender of the commands has to do that.
     """
 
-    def __init__(self, client: int, tree: int, physics: Physics, servo: Servo) -> None:
+    def __init__(self, engine: BulletEngine, servo: Servo) -> None:
         self.commanded: NDArray[np.float64] = np.array(arm_path().joint_angles(0.0))
         """Set-points at the end of the next frame [rad], in the order of ``ARM_JOINTS``."""
         self.stiffness: NDArray[np.float64] = np.ones(len(ARM_JOINTS))
         """Share of its torque that each motor has, 0 to 1."""
         self._compliant = 1 / servo.stiffness
         self._posture = np.full((2, 5), np.inf)
-        super().__init__(client, tree, physics, servo, apart=True)
+        super().__init__(engine, servo, apart=True)
 
     def reset(self) -> None:
         """Hold the commanded posture."""
@@ -88,9 +89,10 @@ class JointArms(NaoArms):
 class JointFarEnd(NaoFarEnd):
     """A NAO whose arms are moved joint by joint."""
 
-    def hold(self, client: int, table: int, physics: Physics) -> JointArms:
+    def hold(self, engine: Engine) -> JointArms:
         """Grip the table with both hands."""
-        return JointArms(client, table, physics, self.servo)
+        assert isinstance(engine, BulletEngine)
+        return JointArms(engine, self.servo)
 
 
 class JointWorld(BulletWorld):
@@ -106,9 +108,14 @@ class JointWorld(BulletWorld):
         if not self._started:
             super().reset()
 
-    def advance(self, human_reference: Sequence[float], robot_reference: Sequence[float]) -> None:
+    def advance(
+        self,
+        human_reference: Sequence[float],
+        robot_reference: Sequence[float],
+        intended: Intended | None = None,
+    ) -> None:
         """Advance, and drop the oldest frames: a laboratory may run for days."""
-        super().advance(human_reference, robot_reference)
+        super().advance(human_reference, robot_reference, intended)
         if len(self.human_end) > 2 * _KEPT:
             for history in (
                 self.human_end, self.human_velocity, self.human_force,

@@ -20,7 +20,7 @@ from colift.benchmark.results.baselines import partner_spec
 from colift.benchmark.suites.suite import Suite, make_suite
 from colift.benchmark.tasks.ball.task import BallSteering
 from colift.benchmark.tasks.haptic import FINER, Haptic
-from colift.benchmark.world import PHYSICS, BulletWorld, HapticWorld, Physics
+from colift.benchmark.world import PHYSICS, Physics
 from numpy.typing import NDArray
 
 FINE: Final = Physics(step=0.0005)
@@ -175,11 +175,6 @@ def _play(policy: str, physics: Physics, drawn: tuple[Scenario, int]) -> tuple[f
 
 def _lift(scenario: Scenario, physics: Physics) -> Lift:
     """Return the lift of a scenario in its task's world, but with another physics."""
-    task = scenario.task
-    world: MakeWorld = partial(BulletWorld, physics=physics)
-    if isinstance(task, BallSteering):
-        world = partial(HapticWorld, physics=physics, ball=task.ball)
-    elif isinstance(task, Haptic):
-        world = partial(HapticWorld, physics=physics)
+    world: MakeWorld = partial(scenario.task.world, physics=physics)
     with closing(make_lift(scenario)) as usual:
         return type(usual)(scenario, world=world)

@@ -10,7 +10,7 @@ from colift.benchmark.episode.level import FORCE_BOUND, Level
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.task import Bounds, Playing
-from colift.benchmark.world import BodyParameters, FarEnd, HapticWorld, Physics
+from colift.benchmark.world import BodyParameters, BulletWorld, FarEnd, Physics
 from colift.benchmark.world.table import WEIGHT_SHARE
 
 SENSED_FRAMES: Final = 5
@@ -32,9 +32,7 @@ bench --convergence --suite agree-v1``)."""
 
 
 class HapticLift(Lift):
-    """A lift in a :class:`.HapticWorld`, with sensors of force and torque at the robot's hands."""
-
-    world: HapticWorld
+    """A lift in a world with touch, with sensors of force and torque at the robot's hands."""
 
     def reset(self, seed: int) -> None:
         """Begin the episode ``seed``: draw plan and noise, as :meth:`.Lift.reset`."""
@@ -60,9 +58,11 @@ class HapticLift(Lift):
 class Haptic(Level):
     """The base of tasks with touch: subclasses state purpose, end and scores."""
 
-    def world(self, human: BodyParameters, far_end: FarEnd) -> HapticWorld:
+    def world(
+        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics = FINER
+    ) -> BulletWorld:
         """Return a world with torques at both grips."""
-        return HapticWorld(human, far_end, physics=FINER)
+        return BulletWorld(human, far_end, physics=physics, touch=True)
 
     def lift(self, scenario: Scenario) -> HapticLift:
         """Return a lift with the sensors of touch."""

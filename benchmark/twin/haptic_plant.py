@@ -11,8 +11,14 @@ from colift.benchmark.twin.body import DEPTH, Body, activated, delayed, pushed, 
 from colift.benchmark.twin.lifts import chunk
 from colift.benchmark.twin.plant import Moving, Plant, after_physics_step, plant_at_rest
 from colift.benchmark.twin.rolling import Rolling, pressed_by, rolled, shared_load
-from colift.benchmark.world.haptic_world import FAR_GRIP_DAMPING, FAR_GRIP_STIFFNESS
-from colift.benchmark.world.table import GRIP_DAMPING, GRIP_STIFFNESS, TABLE_INERTIA, WEIGHT_SHARE
+from colift.benchmark.world.table import (
+    FAR_GRIP_DAMPING,
+    FAR_GRIP_STIFFNESS,
+    GRIP_DAMPING,
+    GRIP_STIFFNESS,
+    TABLE_INERTIA,
+    WEIGHT_SHARE,
+)
 
 _STEPS: Final = FINER.steps_per_frame
 _STEP: Final = FINER.step
@@ -100,7 +106,7 @@ def advance_haptic_plant(
     variation: ArmVariation | None = None,
     ball: Rolling | None = None,
 ) -> tuple[HapticPlant, Rolling | None, jax.Array | None]:
-    """Return the lifts some frames later, at most :data:`.CHUNK`; see :class:`.HapticWorld`.
+    """Return the lifts some frames later, at most :data:`.CHUNK`; see :class:`.BulletWorld`.
 
     Parameters
     ----------

@@ -2,13 +2,20 @@
 
 from colift.benchmark.world.ball import Ball
 from colift.benchmark.world.bullet_world import BulletWorld
-from colift.benchmark.world.haptic_world import HapticWorld
 from colift.benchmark.world.human_body import BodyParameters
 from colift.benchmark.world.nao_arms import NaoFarEnd
 from colift.benchmark.world.physics import PHYSICS, Physics
 from colift.benchmark.world.second_human import HumanFarEnd
 from colift.benchmark.world.servo import SERVO, Servo
-from colift.benchmark.world.world import HISTORY_FRAMES, FarEnd, Hands, World, since_reset
+from colift.benchmark.world.world import (
+    HISTORY_FRAMES,
+    Engine,
+    FarEnd,
+    Hands,
+    Intended,
+    World,
+    since_reset,
+)
 
 __all__ = [
     "HISTORY_FRAMES",
@@ -17,10 +24,11 @@ __all__ = [
     "Ball",
     "BodyParameters",
     "BulletWorld",
+    "Engine",
     "FarEnd",
     "Hands",
-    "HapticWorld",
     "HumanFarEnd",
+    "Intended",
     "NaoFarEnd",
     "Physics",
     "Servo",

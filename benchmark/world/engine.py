@@ -1,11 +1,22 @@
 """Set-up of PyBullet: clients, solver, models."""
 
 import tempfile
+from dataclasses import dataclass
 from typing import Final
 
 from colift.benchmark.world.bullet import pybullet, silent
 from colift.benchmark.world.physics import Physics
 from colift.benchmark.world.table import GRAVITY
+from colift.benchmark.world.world import Engine
+
+@dataclass(frozen=True, kw_only=True)
+class BulletEngine(Engine):
+    """A simulation in PyBullet."""
+
+    client: int
+    table: int
+    """Body of the table."""
+
 
 Vector = tuple[float, float, float]
 

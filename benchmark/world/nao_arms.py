@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from typing import ClassVar, Final
 
 from colift.agents.agent import FRAME
-from colift.benchmark.world.engine import Vector
+from colift.benchmark.world.engine import BulletEngine, Vector
 from colift.benchmark.world.nao_arm import NaoArm
-from colift.benchmark.world.physics import Physics
 from colift.benchmark.world.servo import SERVO, Servo
 from colift.benchmark.world.table import PITCH, WEIGHT_SHARE
+from colift.benchmark.world.world import Engine
 from colift.robots.nao.facts import ARM
 from colift.robots.nao.kinematics import GRIP_X, GRIP_Y, REST_Z, arm_path
 
@@ -41,9 +41,8 @@ class NaoArms:
     REST_GRIP: ClassVar[Vector] = (GRIP_X, 0.0, REST_Z)
     """Middle between the hands at rest, in the torso frame [m]."""
 
-    def __init__(
-        self, client: int, tree: int, physics: Physics, servo: Servo, *, apart: bool = False
-    ) -> None:
+    def __init__(self, engine: BulletEngine, servo: Servo, *, apart: bool = False) -> None:
+        physics = engine.physics
         self._path = path = arm_path()
         self._angles = path.joints
         weight_sag = -path.levers * path.gravity_torques / servo.stiffness
@@ -58,10 +57,10 @@ class NaoArms:
         angles = path.joint_angles(0.0)
         sides, each = (_SIDES, 1) if apart else (_SIDES[:1], len(_SIDES))
         self._arms = [
-            (NaoArm(client, side, angles[joints], each), joints) for side, joints, _ in sides
+            (NaoArm(engine.client, side, angles[joints], each), joints) for side, joints, _ in sides
         ]
         for (arm, _), (_, _, aside) in zip(self._arms, sides, strict=True):
-            arm.grip(tree, PITCH, (GRIP_X, aside, REST_Z))
+            arm.grip(engine.table, PITCH, (GRIP_X, aside, REST_Z))
         rest = path.row(0.0)
         sag = self._weight_sag[rest] + self._compliance[rest] * WEIGHT_SHARE
         self._offset = sag if servo.weight_offset else 0.0
@@ -129,6 +128,9 @@ class NaoFarEnd:
     mass: ClassVar[float] = 0.0
     """No mass beside that of the robot's own bodies [kg]."""
 
-    def hold(self, client: int, table: int, physics: Physics) -> NaoArms:
+    carries: ClassVar[bool] = False
+
+    def hold(self, engine: Engine) -> NaoArms:
         """Grip the table with both hands; see :meth:`.FarEnd.hold`."""
-        return NaoArms(client, table, physics, self.servo, apart=self.apart)
+        assert isinstance(engine, BulletEngine)
+        return NaoArms(engine, self.servo, apart=self.apart)

@@ -1,11 +1,12 @@
 """A second human at the robot's end of the table."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from colift.agents.agent import FRAME
 from colift.benchmark.world.human_body import BodyParameters, HumanBody
-from colift.benchmark.world.physics import Physics
 from colift.benchmark.world.table import GRAVITY
+from colift.benchmark.world.world import Engine
 
 
 @dataclass(frozen=True)
@@ -14,14 +15,16 @@ class HumanFarEnd:
 
     body: BodyParameters
 
+    carries: ClassVar[bool] = True
+
     @property
     def mass(self) -> float:
         """Apparent mass of the arms [kg]; it moves with the table's end."""
         return self.body.mass
 
-    def hold(self, client: int, table: int, physics: Physics) -> "SecondHuman":
+    def hold(self, engine: Engine) -> "SecondHuman":
         """Return the person's arms; see :meth:`.FarEnd.hold`."""
-        return SecondHuman(self.body, physics.step)
+        return SecondHuman(self.body, engine.physics.step)
 
 
 class SecondHuman:

@@ -9,7 +9,7 @@ holder of the far end closes the loop. The tree's three joints:
 
 A table on a free pin would transmit nothing. A two-handed grip on its edge resists pitching, so
 that a height difference is felt: 60 mm over 0.8 m are 75 mrad, 0.75 Nm, about 1 N at the hands.
-The far end has no such stiffness with either holder: the NAO's fingers do not resist pitching, and
+In the task ``level`` the far end has no such stiffness with either holder: the NAO's fingers do not resist pitching, and
 the wrists of a following person yield. A height difference therefore feels the same with both.
 """
 
@@ -28,6 +28,13 @@ each, the order of magnitude found for relaxed to lightly tensed wrists."""
 
 GRIP_DAMPING: Final = 0.3
 """Pitch damping of that grip [Nm s/rad]: about half critical for the table about the grip."""
+
+FAR_GRIP_STIFFNESS: Final = 1.0
+"""Pitch stiffness of the grip at the far end in tasks with touch [Nm/rad], a tenth of the human's:
+an assumption for fingers that hold an edge without clamping it."""
+
+FAR_GRIP_DAMPING: Final = 0.03
+"""Pitch damping of that grip [Nm s/rad], in the same ratio to the human's."""
 
 GRAVITY: Final = 9.81
 """Acceleration of gravity [m/s2]."""

@@ -1,6 +1,7 @@
 """The interface of the physics: a world stepped frame by frame, and the hands at its far end."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Final, Protocol
 
 import numpy as np
@@ -9,6 +10,11 @@ from numpy.typing import NDArray
 
 HISTORY_FRAMES: Final = 50
 """Frames of rest before an episode, long enough for every delay up to 0.5 s."""
+
+
+Intended = tuple[Sequence[float], Sequence[float]]
+"""A person's intention: the height of the far end above the near one at the end of each frame [m],
+from which the reflexes correct deviations, and the pitch that the wrists turn towards [rad]."""
 
 
 class World(Protocol):
@@ -33,13 +39,25 @@ class World(Protocol):
     """Force of the human's hands on the table."""
     robot_force: list[float]
     """Force of the hands at the far end on the table."""
+    robot_torque: list[float]
+    """Torque of the far hands on the table about their grip [Nm], positive if it raises the far
+    end; 0 in a world without touch, whose histories of torque and ball may not grow."""
+    ball_place: list[float]
+    """Place of the ball on the table [m], from the middle towards the far end."""
+    ball_speed: list[float]
+    """Speed of the ball's centre along the table [m/s]."""
     hand_height: float
     """Present height of the hands at the far end; for a NAO, from its encoders."""
 
     def reset(self) -> None:
         """Restore the state of rest, bit for bit the same each time."""
 
-    def advance(self, human_reference: Sequence[float], robot_reference: Sequence[float]) -> None:
+    def advance(
+        self,
+        human_reference: Sequence[float],
+        robot_reference: Sequence[float],
+        intended: Intended | None = None,
+    ) -> None:
         """Advance by as many frames as the references have entries.
 
         Parameters
@@ -49,13 +67,22 @@ class World(Protocol):
         robot_reference
             The height that the arms at the far end pull towards [m]; for a NAO, the commanded
             height of its hands.
+        intended
+            The person's intention in these frames; None if it stays. At rest it is a level table.
         """
 
     def state(self) -> tuple[float, ...]:
-        """Return the last frame's heights, velocities and forces, and the height of the hand."""
+        """Return the last frame's read-outs, and the height of the hand."""
 
     def close(self) -> None:
         """Release the engine; the world cannot be used afterwards."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Engine:
+    """A simulation in which the hands of a :class:`FarEnd` hold the table."""
+
+    physics: Physics
 
 
 class Hands(Protocol):
@@ -105,8 +132,12 @@ class FarEnd(Protocol):
     def mass(self) -> float:
         """Mass that moves with the table's end [kg]."""
 
-    def hold(self, client: int, table: int, physics: Physics) -> Hands:
-        """Grip the table in the engine ``client`` at the far end, and return the hands."""
+    @property
+    def carries(self) -> bool:
+        """Whether it carries half of all weight on the table without feeling it, as people do."""
+
+    def hold(self, engine: Engine) -> Hands:
+        """Grip the table in an engine at the far end, and return the hands."""
 
 
 def since_reset(history: list[float]) -> NDArray[np.float64]:

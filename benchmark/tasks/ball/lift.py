@@ -9,7 +9,7 @@ from colift.agents.agent import HISTORY, Agent, Observation
 from colift.agents.humans.ball import BallPlan, Steerer, steering_manner, with_ball
 from colift.benchmark.episode.lift import MOCAP_NOISE
 from colift.benchmark.tasks.haptic import HapticLift
-from colift.benchmark.world import HISTORY_FRAMES
+from colift.benchmark.world import HISTORY_FRAMES, Intended
 from colift.benchmark.world.table import TABLE_LENGTH
 
 STEEPEST_MEANT: Final = 0.5
@@ -46,17 +46,16 @@ class BallLift(HapticLift):
         human.reset(self.role_seed("human"))
         return human
 
-    def move(self, human: Sequence[float], commands: Sequence[float]) -> None:
-        """Advance by a frame for each hand reference and command; see :meth:`.Lift.move`."""
+    def intended_in(self, human: Sequence[float]) -> Intended:
+        """Return the person's intention in the frames of some hand references."""
         target = self.target[self._moved : self._moved + len(human)].tolist()
         meant = [height - mine for height, mine in zip(target, human, strict=True)]
         limit = STEEPEST_MEANT * TABLE_LENGTH
         pitches = [
             math.asin(min(max(self._wrist * each, -limit), limit) / TABLE_LENGTH) for each in meant
         ]
-        self.world.intend(meant, pitches)
         self._moved += len(human)
-        super().move(human, commands)
+        return meant, pitches
 
     def coming_places(self) -> Observation:
         """Return the intended place of the ball [m] at the end of each of the next ten frames."""

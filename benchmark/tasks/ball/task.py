@@ -22,7 +22,7 @@ from colift.benchmark.tasks.ball.lift import BallLift
 from colift.benchmark.tasks.ball.scores import ball_settling_ms, missed_rmse_mm, velocity_peaks
 from colift.benchmark.tasks.ball.table import BALL_METRICS
 from colift.benchmark.tasks.haptic import FINER, Haptic
-from colift.benchmark.world import Ball, BodyParameters, FarEnd, HapticWorld
+from colift.benchmark.world import Ball, BodyParameters, BulletWorld, FarEnd, Physics
 from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH, WEIGHT_SHARE
 from numpy.typing import NDArray
 
@@ -48,9 +48,11 @@ class BallSteering(Haptic):
     second_human: ClassVar[type[Agent]] = BallPartner
     ball: Ball = BALL
 
-    def world(self, human: BodyParameters, far_end: FarEnd) -> HapticWorld:
+    def world(
+        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics = FINER
+    ) -> BulletWorld:
         """Return a world with a ball on the table."""
-        return HapticWorld(human, far_end, physics=FINER, ball=self.ball)
+        return BulletWorld(human, far_end, physics=physics, touch=True, ball=self.ball)
 
     def lift(self, scenario: Scenario) -> BallLift:
         """Return a lift whose human steers the ball."""

@@ -15,6 +15,7 @@ from colift.agents.humans.intent import (
 )
 from colift.agents.rules import SCALARS, NumberSeries
 from colift.benchmark.tasks.haptic import HapticLift
+from colift.benchmark.world import Intended
 from colift.benchmark.world.table import TABLE_LENGTH
 
 
@@ -59,9 +60,8 @@ class IntentLift(HapticLift):
         self._planned += [pose.far for pose in self._poses]
         self._moved = 0
 
-    def move(self, human: Sequence[float], commands: Sequence[float]) -> None:
-        """Advance by a frame for each hand reference and command; see :meth:`.Lift.move`."""
-        poses = self._poses[self._moved : self._moved + len(commands)]
-        self.world.intend([pose.far - pose.near for pose in poses], [pose.pitch for pose in poses])
-        self._moved += len(commands)
-        super().move(human, commands)
+    def intended_in(self, human: Sequence[float]) -> Intended:
+        """Return the person's intention in the frames of some hand references."""
+        poses = self._poses[self._moved : self._moved + len(human)]
+        self._moved += len(human)
+        return [pose.far - pose.near for pose in poses], [pose.pitch for pose in poses]
