@@ -5,6 +5,57 @@ reads those by name also plays here.
 """
 
 from enum import IntEnum
+from typing import Final
+
+from colift.agents.senses import HEIGHT_BOUND, LONGEST_EPISODE, MOCAP_NOISE, Sense
+
+HURDLE_SENSES: Final = (
+    Sense(
+        "hurdle_height",
+        -HEIGHT_BOUND,
+        HEIGHT_BOUND,
+        "height that the table has to pass [m]",
+        scale=10.0,
+    ),
+    Sense(
+        "hurdle_start",
+        -LONGEST_EPISODE,
+        LONGEST_EPISODE,
+        "time until the window for it opens [s]; negative once it is open",
+        scale=0.5,
+    ),
+    Sense(
+        "hurdle_stop",
+        -LONGEST_EPISODE,
+        LONGEST_EPISODE,
+        "time until it closes [s]; negative once it is closed",
+        scale=0.5,
+    ),
+    Sense("hurdle_given", -1.0, 1.0, "1 if the robot has a hurdle in this lift, 0 if not"),
+)
+"""The senses of the task ``agree`` besides sight and touch; all 0 without a hurdle."""
+
+BALL_SENSES: Final = (
+    Sense(
+        "ball_place",
+        -HEIGHT_BOUND,
+        HEIGHT_BOUND,
+        "place of the ball along the table [m], from the middle towards the robot: motion capture",
+        MOCAP_NOISE,
+        role="ball",
+        scale=5.0,
+        rate=50.0,
+    ),
+    Sense(
+        "target_place",
+        -HEIGHT_BOUND,
+        HEIGHT_BOUND,
+        "the place where the ball should be [m]; 0 if only the human knows it",
+        scale=5.0,
+    ),
+    Sense("target_known", 0.0, 1.0, "1 if the robot knows the target, else 0"),
+)
+"""The senses of the task ``ball`` besides sight and touch."""
 
 
 class HapticObservation(IntEnum):

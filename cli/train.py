@@ -16,7 +16,7 @@ from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tables.printing import show
 from colift.benchmark.training import cem as cross_entropy
 from colift.benchmark.training.apg_settings import NAME as APG
-from colift.benchmark.training.apg_settings import TASKS, ApgSettings
+from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.cem import CemSettings
 from colift.benchmark.training.course import Course, Point, open_course, write_summary
 from colift.benchmark.training.ppo_settings import (
@@ -102,7 +102,7 @@ def apg(
     out: Out,
     seeds: Seeds = 1,
     task: Annotated[
-        str, typer.Option(metavar="NAME", help=f"Task: {', '.join(TASKS)}.")
+        str, typer.Option(metavar="NAME", help="Task: level, or one that is stated by rules.")
     ] = ApgSettings.task,
     updates: Annotated[
         int, typer.Option(metavar="N", help="Steps of the optimiser.")

@@ -7,7 +7,7 @@ from typing import Any, Final, Generic, NamedTuple
 import numpy as np
 from colift.agents.agent import FRAME
 from colift.agents.humans.subject import Subject
-from colift.agents.rules import ArrayFunctions, N
+from colift.agents.rules import ArrayFunctions, N, View
 from colift.robots.arithmetic import dot, each
 from numpy.typing import NDArray
 
@@ -93,6 +93,22 @@ def move_hand(
     held = memory.error, memory.correction, memory.target
     (error, _, last), references = f.frames(frame, held, (target, noise.gain, noise.tremor))
     return HandMemory(error, correction, last), references
+
+
+def carry_out(
+    f: ArrayFunctions[N],
+    memory: HandMemory[N],
+    view: View[N],
+    target: Sequence[N],
+    noise: HandNoise,
+) -> tuple[HandMemory[N], Sequence[N]]:
+    """Return the memory after a step and the references of :func:`move_hand`, as the person sees.
+
+    The height error is that of the person's end from its intended height one visual delay ago.
+    """
+    late = view.visual
+    missing = view.seen("target", late) - view.seen("human_end", late)
+    return move_hand(f, memory, missing, target, noise)
 
 
 class NoiseStream:

@@ -2,5 +2,6 @@
 
 from colift.agents.rules.functions import SCALARS, ArrayFunctions, N
 from colift.agents.rules.series import NumberSeries, Series, at_time
+from colift.agents.rules.view import Drawn, View
 
-__all__ = ["SCALARS", "ArrayFunctions", "N", "NumberSeries", "Series", "at_time"]
+__all__ = ["SCALARS", "ArrayFunctions", "Drawn", "N", "NumberSeries", "Series", "View", "at_time"]

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Final, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Final, Protocol, TypeVar, cast
 
 if TYPE_CHECKING:
     import jax
@@ -14,6 +14,7 @@ N_co = TypeVar("N_co", float, "jax.Array", covariant=True)
 """The same, where it is only returned."""
 
 Memory = TypeVar("Memory")
+Record = TypeVar("Record", bound=tuple[Any, ...])
 Output = TypeVar("Output")
 
 
@@ -65,6 +66,12 @@ class ArrayFunctions(Protocol[N]):
 
     def each(self, function: Callable[..., Any], /, *rows: Any) -> Any:
         """Return the row of a function's values for the numbers of rows of one length."""
+
+    def column(self, values: Sequence[N], /) -> Any:
+        """Return numbers of successive frames as a column: a list, or an array (frames, n)."""
+
+    def along(self, function: Callable[[Any], Record], column: Any, /) -> Record:
+        """Return a record of columns, from a function that returns the record of a frame."""
 
     def total(self, row: Any, /) -> N:
         """Return the sum of a row's numbers."""
@@ -120,6 +127,18 @@ class Scalars:
     def row(values: Sequence[float], like: float, /) -> list[float]:
         """Return a list."""
         return list(values)
+
+    @staticmethod
+    def column(values: Sequence[float], /) -> list[float]:
+        """Return a list."""
+        return list(values)
+
+    @staticmethod
+    def along(function: Callable[[Any], Record], column: Sequence[float], /) -> Record:
+        """Return a record of lists, from the records of the frames."""
+        found = [function(number) for number in column]
+        kind: Any = type(found[0])
+        return cast(Record, kind(*map(list, zip(*found, strict=True))))
 
     @staticmethod
     def total(row: Sequence[float], /) -> float:

@@ -14,6 +14,12 @@ class Series(Protocol[N_co]):
     def pair(self, index: Any, /) -> tuple[N_co, N_co]:
         """Return the numbers of a frame, -1 or later, and of the next; 0 is the first."""
 
+    def at(self, frame: Any, /) -> N_co:
+        """Return the number of a frame."""
+
+    def next(self, frame: Any, frames: int, /) -> Any:
+        """Return the column of the numbers of some frames, of which ``frame`` is the first."""
+
     @property
     def last(self) -> int:
         """Index of the last frame."""
@@ -34,6 +40,15 @@ class NumberSeries:
         """Return the numbers of a frame, -1 or later, and of the next."""
         place = int(index) + 1
         return self._values[place], self._values[place + 1]
+
+    def at(self, frame: int, /) -> float:
+        """Return the number of a frame."""
+        return self._values[min(max(frame + 1, 0), len(self._values) - 1)]
+
+    def next(self, frame: int, frames: int, /) -> list[float]:
+        """Return the numbers of some frames, of which ``frame``, 0 or later, is the first."""
+        found = self._values[frame + 1 : frame + 1 + frames]
+        return found + [self._values[-1]] * (frames - len(found))
 
     @property
     def last(self) -> int:

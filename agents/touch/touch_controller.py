@@ -11,8 +11,9 @@ from colift.agents.agent import Action, Observation
 from colift.agents.control.portable import PORTABLE
 from colift.agents.control.recurrent import network_of
 from colift.agents.errors import InputError
+from colift.agents.registry import TASKS, entries, lookup
+from colift.agents.senses import Sense
 from colift.agents.touch.touch_law import (
-    TASK_SENSES,
     TouchNetwork,
     felt_action,
     inputs_of,
@@ -31,11 +32,10 @@ class TouchController:
 
     def __init__(self, learned: TouchNetwork) -> None:
         self._learned = learned
-        self._expected = len(TASK_SENSES[learned.task].observation)
 
     def reset(self, seed: int) -> None:
         """Begin an episode."""
-        self._memory = touch_at_rest(self._learned.network)
+        self._memory = touch_at_rest(self._learned)
 
     def act(self, observation: Observation) -> Action:
         """Return the change of the command [m].
@@ -46,10 +46,10 @@ class TouchController:
             If the observation is that of another task.
         """
         observation = np.asarray(observation, dtype=np.float64)
-        if observation.shape != (self._expected,):
+        if observation.shape != (self._learned.expected,):
             raise InputError(
                 f"these weights are of the task {self._learned.task!r}, whose observation has "
-                f"{self._expected} numbers; got {observation.shape}"
+                f"{self._learned.expected} numbers; got {observation.shape}"
             )
         self._memory, change = felt_action(self._learned, self._memory, observation, PORTABLE)
         return np.array([change])
@@ -81,6 +81,21 @@ def touch_network(arrays: Any, source: str) -> TouchNetwork:
     if "task" not in arrays:
         raise InputError(f"{source}: not the weights of a policy by touch: task is missing")
     task = str(arrays["task"])
-    if task not in TASK_SENSES:
-        raise InputError(f"{source}: task must be one of {', '.join(TASK_SENSES)}, got {task!r}")
-    return TouchNetwork(task, network_of(arrays, source, inputs_of(task)))
+    senses = senses_of(task, source)
+    return TouchNetwork(task, senses, network_of(arrays, source, inputs_of(senses)))
+
+
+def senses_of(task: str, source: str) -> tuple[Sense, ...]:
+    """Return the senses of a task with touch besides sight and touch.
+
+    Raises
+    ------
+    InputError
+        If there is no such task, or it has no touch.
+    """
+    if task not in entries(TASKS):
+        raise InputError(f"{source}: task must be one of {', '.join(entries(TASKS))}, got {task!r}")
+    made: Any = lookup(TASKS, task)
+    if not getattr(made, "touch", False):
+        raise InputError(f"{source}: the task {task!r} has no touch")
+    return tuple(made.senses)

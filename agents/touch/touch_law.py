@@ -1,13 +1,12 @@
 """A recurrent network that moves the hand by sight and touch: inputs, memory and action."""
 
-from collections.abc import Mapping
-from enum import IntEnum
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 from colift.agents.control.portable import ArrayFunctions
 from colift.agents.control.recurrent import GatedNetwork, gated
-from colift.agents.observations import AgreeObservation, BallObservation, HapticObservation
+from colift.agents.observations import HapticObservation
+from colift.agents.senses import Sense
 from colift.agents.touch.touch import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS
 
 AHEAD: Final = 1.2
@@ -24,7 +23,14 @@ class TouchNetwork(NamedTuple):
     """A network, and the task for which it was learned."""
 
     task: str
+    senses: tuple[Sense, ...]
+    """The task's senses besides sight and touch."""
     network: GatedNetwork
+
+    @property
+    def expected(self) -> int:
+        """Numbers of the task's observation."""
+        return len(HapticObservation) + len(self.senses)
 
 
 class TouchMemory(NamedTuple):
@@ -36,31 +42,15 @@ class TouchMemory(NamedTuple):
     """The last height of the human's end [m]."""
     command: Any
     """The command before the last one [m]."""
-    place: Any
-    """The last place of the ball [m]; 0 without one."""
+    own: tuple[Any, ...]
+    """The last numbers of the task's own senses."""
     begun: Any
     """1 after the first step, else 0."""
 
 
-class TaskSenses(NamedTuple):
-    """The part of an observation that only one task has, as inputs."""
-
-    observation: type[IntEnum]
-    """Layout of the observation."""
-    inputs: int
-    """Number of inputs that only this task has."""
-
-
-TASK_SENSES: Final[Mapping[str, TaskSenses]] = {
-    "intent": TaskSenses(HapticObservation, 0),
-    "agree": TaskSenses(AgreeObservation, 4),
-    "ball": TaskSenses(BallObservation, 4),
-}
-
-
-def inputs_of(task: str) -> int:
-    """Return the number of a network's inputs in a task."""
-    return TOUCH_INPUTS + TASK_SENSES[task].inputs
+def inputs_of(senses: tuple[Sense, ...]) -> int:
+    """Return the number of a network's inputs in a task with some senses of its own."""
+    return TOUCH_INPUTS + sum(sense.inputs for sense in senses)
 
 
 def felt_action(
@@ -91,7 +81,7 @@ def felt_action(
     near = hand - TABLE_LENGTH * pitch * (1.0 - pitch * pitch / 6.0)
     wrist = pitch + (FAR_STIFFNESS * pitch - force * TABLE_LENGTH) / WRIST_STIFFNESS
     rise = (near - memory.near) * memory.begun
-    own, place = _of_task(learned.task, memory, observation)
+    own = tuple(observation[len(HapticObservation) + i] for i in range(len(learned.senses)))
     inputs = functions.stack(
         (
             50.0 * rise,
@@ -104,7 +94,7 @@ def felt_action(
             2.0 * force,
             10.0 * (observation[layout.HUMAN_END] - 0.1),
             20.0 * (observation[layout.ROBOT_END] - observation[layout.HUMAN_END]),
-            *own,
+            *_inputs(learned.senses, own, memory),
         )
     )
     units = gated(network, memory.units, inputs, functions)
@@ -112,32 +102,20 @@ def felt_action(
     departure = REACH * (output[0] + network.output_bias[0])
     wanted = near + AHEAD * rise + departure
     begun = memory.begun * 0.0 + 1.0
-    return TouchMemory(units, near, command, place, begun), wanted - command
+    return TouchMemory(units, near, command, own, begun), wanted - command
 
 
-def _of_task(task: str, memory: TouchMemory, observation: Any) -> tuple[tuple[Any, ...], Any]:
-    """Return the inputs that only a task has, and the ball's place [m]."""
-    if task == "agree":
-        hurdle = AgreeObservation
-        own = (
-            10.0 * observation[hurdle.HURDLE_HEIGHT],
-            0.5 * observation[hurdle.HURDLE_START],
-            0.5 * observation[hurdle.HURDLE_STOP],
-            observation[hurdle.HURDLE_GIVEN],
-        )
-        return own, memory.place
-    if task == "ball":
-        place = observation[BallObservation.BALL_PLACE]
-        own = (
-            5.0 * place,
-            50.0 * (place - memory.place) * memory.begun,
-            5.0 * observation[BallObservation.TARGET_PLACE],
-            observation[BallObservation.TARGET_KNOWN],
-        )
-        return own, place
-    return (), memory.place
+def _inputs(senses: tuple[Sense, ...], own: tuple[Any, ...], memory: TouchMemory) -> list[Any]:
+    """Return the inputs that only this task has: its senses, and the changes of some."""
+    found = []
+    for sense, number, last in zip(senses, own, memory.own, strict=True):
+        found.append(sense.scale * number)
+        if sense.rate:
+            found.append(sense.rate * (number - last) * memory.begun)
+    return found
 
 
-def touch_at_rest(network: GatedNetwork) -> TouchMemory:
+def touch_at_rest(learned: TouchNetwork) -> TouchMemory:
     """Return the memory at the beginning of a lift."""
-    return TouchMemory(np.zeros(network.units), 0.0, 0.0, 0.0, 0.0)
+    units = np.zeros(learned.network.units)
+    return TouchMemory(units, 0.0, 0.0, (0.0,) * len(learned.senses), 0.0)

@@ -1,6 +1,7 @@
 """The causal bound, learned from all observations."""
 
 import hashlib
+import re
 from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass
@@ -16,7 +17,7 @@ from colift.agents.errors import InputError
 from colift.agents.identity import code_hash
 from colift.agents.spec import InProcess
 from colift.agents.touch.touch_controller import TouchController, read_touch
-from colift.agents.touch.touch_law import TASK_SENSES, TouchNetwork
+from colift.agents.touch.touch_law import TouchNetwork
 from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.execution.runner import Run, run_suite
@@ -24,7 +25,15 @@ from colift.benchmark.suites.suite import Suite
 
 CAUSAL_BOUND: Final = "causal_bound"
 
-BOUNDED: Final = (LEVEL.name, *TASK_SENSES)
+_NAME: Final = re.compile(r"causal_(\w+)\.npz")
+
+BOUNDED: Final = tuple(
+    sorted(
+        found[1]
+        for file in files(__package__).joinpath("data").iterdir()
+        if (found := _NAME.fullmatch(file.name))
+    )
+)
 """Names of the tasks for which a causal bound was learned."""
 
 LEARNED_TIMING: Final = (LATENCY, CONTROL_PERIOD)

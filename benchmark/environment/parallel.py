@@ -18,12 +18,12 @@ from colift.benchmark.environment.settings import (
     observation_space,
 )
 from colift.benchmark.environment.state import state_space, true_state
+from colift.benchmark.episode.kept_world import next_lift
 from colift.benchmark.episode.level import LEVEL as LEVEL_TASK
-from colift.benchmark.episode.lift import Lift, make_lift
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.rendering.scene import Scene, check_render_mode
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.world.shared_world import SharedWorld
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
@@ -107,7 +107,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         self.render_mode = render_mode
         self.metadata = {**type(self).metadata, "render_fps": 1 / scenario.control_period}
         self._reward, self._drawing = reward, drawing
-        self.lift = make_lift(scenario) if drawing is None else Lift(scenario, world=SharedWorld)
+        self.lift = Lift(scenario)
         self.possible_agents = [HUMAN, ROBOT]
         self.agents: list[str] = []
         agents = self.possible_agents
@@ -166,8 +166,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         info: dict[str, Any] = {}
         if self._drawing is not None:
             scenario, seed = self._drawing.lift(seed)
-            assert isinstance(self.lift.world, SharedWorld)
-            self.lift = Lift(scenario, world=self.lift.world.with_person)
+            self.lift = next_lift(self.lift, scenario)
             info = {"scenario": scenario.name, "seed": seed}
         self.lift.reset(seed)
         self._begun = True

@@ -3,7 +3,8 @@
 from enum import IntEnum
 
 import numpy as np
-from colift.benchmark.episode.level import FORCE_BOUND, HEIGHT_BOUND, VELOCITY_BOUND
+from colift.agents.senses import FORCE_BOUND, HEIGHT_BOUND
+from colift.benchmark.episode.level import VELOCITY_BOUND
 from colift.benchmark.episode.lift import Lift
 from gymnasium.spaces import Box
 from numpy.typing import NDArray

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from colift.agents.actions import checked_action
 from colift.agents.agent import Agent
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.metric import Scores
@@ -55,7 +54,7 @@ def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
         If the machine failed, and not the partner.
     """
     lift.reset(seed)
-    human, frames = lift.scripted_human(), lift.frames_per_step
+    human = lift.human()
     recorder, turns = Recorder(lift), Turns(partner, lift.partner_size)
     turns.start()
     while turns.failure is None and not lift.done:
@@ -63,7 +62,7 @@ def run_episode(lift: Lift, partner: Agent, seed: int) -> Episode:
         if turn is None:
             break
         action, internals = turn
-        reference = checked_action("human", human.act(lift.human_observation()), frames)
+        reference = human.references()
         lift.carry_out(reference, action)
         recorder.step(reference, action, internals)
     return outcome(lift, recorder, turns)

@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
-from colift.agents import calibration
+from colift.agents import calibration, senses
 from colift.agents.actions import HAND_SPEED
 from colift.agents.agent import FRAME, HISTORY, RobotObservation
 from colift.agents.calibration import CALIBRATION
@@ -24,7 +24,7 @@ from colift.agents.humans import (
 )
 from colift.agents.identity import Root, code_hash
 from colift.agents.registry import HUMANS, TASKS, lookup, own_entries
-from colift.benchmark.episode import level, level_metrics, lift, metrics, seat, smoothness
+from colift.benchmark.episode import drops, level_metrics, metrics, seat, smoothness
 from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.kept_world import lift_in_kept_world
 from colift.benchmark.episode.lift import Lift
@@ -59,12 +59,12 @@ def numbers() -> Mapping[str, Any]:
             "physics": PHYSICS,
             "servo": SERVO,
             "time": {"frame_s": FRAME, "seen_frames": HISTORY},
-            "sensors": {"noise_m": lift.MOCAP_NOISE},
+            "sensors": {"noise_m": senses.MOCAP_NOISE},
             "hand": {"speed_m_s": HAND_SPEED, "stroke_m": STROKE},
             "drop": {
-                "tilt_rad": level.DROP_TILT,
-                "force_n": level.GRIP_FORCE,
-                "gap_m": level.GRIP_GAP,
+                "tilt_rad": drops.DROP_TILT,
+                "force_n": drops.GRIP_FORCE,
+                "gap_m": drops.GRIP_GAP,
             },
             "table": {
                 "length_m": table.TABLE_LENGTH,

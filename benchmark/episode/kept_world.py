@@ -9,10 +9,11 @@ from collections.abc import Iterator
 from functools import partial
 from typing import Final, Protocol, Self, runtime_checkable
 
-from colift.benchmark.episode.lift import Lift, make_lift
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.task import Task
 from colift.benchmark.world import BodyParameters, FarEnd, World
+
 
 @runtime_checkable
 class Shared(World, Protocol):
@@ -22,7 +23,7 @@ class Shared(World, Protocol):
         """Exchange the person, and return the world, which must then be reset."""
 
 
-_kept: Final[list[tuple[Task, FarEnd, Shared]]] = []
+_kept: Final[list[tuple[Task, FarEnd, World]]] = []
 """The world left by the last lift, with its task and the holder of its far end."""
 
 
@@ -30,10 +31,9 @@ _kept: Final[list[tuple[Task, FarEnd, Shared]]] = []
 def lift_in_kept_world(scenario: Scenario) -> Iterator[Lift]:
     """Yield a lift, in the world of the last lift if task and holder of the far end are the same.
 
-    Its world is left for the next one, unless an error ends the context or it can have one person
-    only.
+    Its world is left for the next one, unless an error ends the context.
     """
-    lift = make_lift(scenario, world=partial(_taken, scenario.task))
+    lift = Lift(scenario, world=partial(_taken, scenario.task))
     try:
         yield lift
     except GeneratorExit:  # No more episodes are requested.
@@ -51,18 +51,33 @@ def drop_kept_world() -> None:
         _kept.pop()[-1].close()
 
 
+def next_lift(lift: Lift, scenario: Scenario) -> Lift:
+    """Return a lift of a scenario after another one, in the other's world if it can be used."""
+    left = (lift.task, lift.seat.body, lift.world)
+
+    def world(human: BodyParameters, far_end: FarEnd) -> World:
+        return _exchanged(left, scenario.task, human, far_end)
+
+    return Lift(scenario, world=world)
+
+
+def _exchanged(
+    left: tuple[Task, FarEnd, World], task: Task, human: BodyParameters, far_end: FarEnd
+) -> World:
+    """Return the world that is left with another person, or a new one if that cannot be."""
+    *setting, world = left
+    if isinstance(world, Shared) and setting == [task, far_end]:
+        return world.with_person(human)
+    world.close()
+    return task.world(human, far_end)
+
+
 def _taken(task: Task, human: BodyParameters, far_end: FarEnd) -> World:
-    while _kept:
-        kept, holder, world = _kept.pop()
-        if (kept, holder) == (task, far_end):
-            return world.with_person(human)
-        world.close()
+    if _kept:
+        return _exchanged(_kept.pop(), task, human, far_end)
     return task.world(human, far_end)
 
 
 def _keep(lift: Lift) -> None:
     drop_kept_world()
-    if isinstance(lift.world, Shared):
-        _kept.append((lift.task, lift.seat.body, lift.world))
-    else:
-        lift.close()
+    _kept.append((lift.task, lift.seat.body, lift.world))

@@ -2,13 +2,32 @@
 
 import functools
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Final
+from typing import Any, ClassVar, Final
 
 import numpy as np
-from colift.agents.agent import FRAME, HumanObservation, Observation, RobotObservation
+from colift.agents.agent import FRAME, HumanObservation, Observation
+from colift.agents.humans import Plan
+from colift.agents.humans.following import FOLLOWS_PLAN
+from colift.agents.humans.person import Person
+from colift.agents.rules import SCALARS, ArrayFunctions, Drawn, N, View
+from colift.agents.senses import (
+    FORCE_BOUND,
+    HEIGHT_BOUND,
+    LONGEST_EPISODE,
+    SIGHT,
+    TOUCH,
+    Sense,
+)
 from colift.benchmark.episode import metrics
+from colift.benchmark.episode.drops import (
+    DROP_TILT,
+    GRIP_FORCE,
+    out_of_reach,
+    pulled_off,
+    slides_off,
+)
 from colift.benchmark.episode.level_metrics import LEVEL_METRICS
 from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.smoothness import ldlj, sparc
@@ -18,26 +37,8 @@ from colift.benchmark.world import PHYSICS, BodyParameters, BulletWorld, FarEnd,
 from colift.benchmark.world.table import TABLE_LENGTH, WEIGHT_SHARE
 from numpy.typing import NDArray
 
-DROP_TILT: Final = math.radians(40)
-"""A table inclined by more than this [rad] slides out of the hands."""
-
-GRIP_FORCE: Final = 20.0
-"""Mean force over a control period [N] above which the partner's two hands lose the table."""
-
-GRIP_GAP: Final = 0.03
-"""Distance between the NAO's hands and the table's end [m] at which the hold is lost."""
-
-HEIGHT_BOUND: Final = 2.0
-"""Bound of every height in an observation [m]; a lift stays far inside it."""
-
 VELOCITY_BOUND: Final = 50.0
 """Bound of every velocity in an observation [m/s]."""
-
-FORCE_BOUND: Final = 1e4
-"""Bound of every force in an observation [N]."""
-
-LONGEST_EPISODE: Final = 120.0
-"""Bound of the time in an observation [s]; a step of at most 0.5 s may end beyond it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,12 +52,24 @@ class Level:
 
     name: ClassVar[str] = "level"
     metrics: ClassVar[Metrics] = LEVEL_METRICS
+    person: ClassVar[Person] = FOLLOWS_PLAN
+    touch: ClassVar[bool] = False
+    physics: ClassVar[Physics] = PHYSICS
+    senses: ClassVar[tuple[Sense, ...]] = ()
+
+    def drawn(self, plan: Plan, frames: int) -> tuple[Any, Any]:
+        """Return nothing: the plan is all there is."""
+        return (), ()
+
+    def observe(self, f: ArrayFunctions[N], drawn: Drawn[N], view: View[N]) -> Sequence[N]:
+        """Return nothing besides sight and touch."""
+        return ()
 
     def world(
-        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics = PHYSICS
+        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics | None = None
     ) -> BulletWorld:
         """Return the world of the table alone."""
-        return BulletWorld(human, far_end, physics=physics)
+        return BulletWorld(human, far_end, physics=physics or self.physics)
 
     def robot_observation(self, lift: Playing) -> Observation:
         """Return the robot's senses."""
@@ -64,20 +77,16 @@ class Level:
 
     def human_observation(self, lift: Playing) -> Observation:
         """Return the human's senses and the intended heights in the coming step."""
-        frame = lift.frame
-        return lift.human_view(lift.target[frame : frame + lift.frames_per_step])
+        return lift.human_view(np.array(lift.intention.target))
 
     def partner_observation(self, lift: Playing) -> Observation:
         """Return a second human's senses; its target is the height of the end that it sees."""
         return lift.partner_view(np.full(lift.frames_per_step, lift.seen_by_partner()))
 
     def robot_bounds(self) -> Bounds:
-        """Return the bounds of :class:`.RobotObservation`."""
-        high = np.full(len(RobotObservation), HEIGHT_BOUND)
-        low = -high
-        high[RobotObservation.TIME] = LONGEST_EPISODE + 0.5
-        low[RobotObservation.TIME] = 0.0
-        return low, high
+        """Return the bounds of the robot's senses."""
+        every = (*SIGHT, *(TOUCH if self.touch else ()), *self.senses)
+        return np.array([each.low for each in every]), np.array([each.high for each in every])
 
     def human_bounds(self, frames: int) -> Bounds:
         """Return the bounds of :class:`.HumanObservation`."""
@@ -99,11 +108,11 @@ class Level:
     def failure(self, lift: Playing) -> str | None:
         """Return how the table was dropped in the step just made, or None."""
         world, size = lift.world, lift.frames_per_step
-        if abs(world.human_end[-1] - world.robot_end[-1]) > TABLE_LENGTH * math.sin(DROP_TILT):
+        if slides_off(SCALARS, world.human_end[-1] - world.robot_end[-1]):
             return f"the table is inclined by more than {math.degrees(DROP_TILT):.0f} deg"
-        if abs(math.fsum(world.robot_force[-size:])) > GRIP_FORCE * size:
+        if pulled_off(SCALARS, math.fsum(world.robot_force[-size:]), size):
             return f"more than {GRIP_FORCE:.0f} N pull at the partner's hands"
-        if abs(world.hand_height - world.robot_end[-1]) > GRIP_GAP:
+        if out_of_reach(SCALARS, world.hand_height - world.robot_end[-1]):
             return "the table's end is out of the partner's reach"
         return None
 

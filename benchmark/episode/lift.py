@@ -1,21 +1,21 @@
 """The lift: sensors, actions and time on top of a world, independent of PettingZoo."""
 
+from collections import deque
 from collections.abc import Callable, Sequence
-from typing import Final, Protocol, runtime_checkable
+from typing import Any, Final, Protocol
 
 import numpy as np
 from colift.agents.actions import action_limit, checked_action
-from colift.agents.agent import FRAME, HISTORY, Agent, HumanObservation, Observation
-from colift.agents.humans import Embodied, Plan, ScriptedHuman, Subject
+from colift.agents.agent import FRAME, HISTORY, Action, Agent, HumanObservation, Observation
+from colift.agents.humans import Embodied, Plan, Subject
+from colift.agents.humans.hand import HandMemory, NoiseStream, carry_out
+from colift.agents.rules import SCALARS, Drawn, NumberSeries
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seat import body_parameters, within_range
 from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.episode.sensing import drawn_errors, sight, touch
 from colift.benchmark.world import HISTORY_FRAMES, BodyParameters, FarEnd, Intended, World
 from numpy.typing import ArrayLike, NDArray
-
-MOCAP_NOISE: Final = 0.00023
-"""Standard deviation of a motion-capture height [m]; the system of the paper is precise within
-0.7 mm (section II.A), read as three standard deviations."""
 
 MakeWorld = Callable[[BodyParameters, FarEnd], World]
 """Returns a world of a person and a holder of the far end."""
@@ -45,29 +45,74 @@ class Lift:
         self.frames_per_step = scenario.frames_per_step
         self.partner_size = seat.action_size(self.frames_per_step)
         self.step_limit = action_limit(scenario.control_period)
-        self._human_delays = _delays(scenario.subject)
-        self._partner_delays = (0, 0) if seat.person is None else _delays(seat.person)
+        self.latency = scenario.latency_frames
+        self.visual, self.haptic = _delays(scenario.subject)
+        far = (0, 0) if seat.person is None else _delays(seat.person)
+        self.partner_visual, self.partner_haptic = far
+        self._person = self.task.person
         make = world or self.task.world
         self.world: World = make(body_parameters(scenario.subject), seat.body)
 
     def reset(self, seed: int) -> None:
         """Begin the episode ``seed``: draw the human's plan and the sensors' noise."""
-        scenario = self.scenario
+        scenario, task, size = self.scenario, self.task, self.frames_per_step
         self.world.reset()
         self.seed = seed
         self.plan: Plan = scenario.human.plan(scenario.subject, self.role_seed("plan"))
-        size = self.frames_per_step
         steps = -(-len(self.plan.target) // size)
         self.horizon = steps * size
-        target = np.full(self.horizon, self.plan.target[-1])
-        target[: len(self.plan.target)] = self.plan.target
-        self.target = target
-        rng = np.random.default_rng(self.role_seed("sensor"))
-        noise = rng.normal(0.0, MOCAP_NOISE, (2, HISTORY_FRAMES + self.horizon))
-        self._human_noise, self._robot_noise = noise.tolist()
+        self._errors: list[list[float]] = drawn_errors(
+            task.senses, task.touch, self.role_seed, steps, size, self.latency
+        ).tolist()
         self.frame = 0
         self.command = 0.0
         self.dropped: str | None = None
+        self.begin(lasting(self.plan.target, self.horizon))
+
+    def begin(self, target: NDArray[np.float64]) -> None:
+        """Let the person begin to carry out intended heights [m], one per frame."""
+        world, person = self.world, self._person
+        self.target = target
+        series, self.facts = self.task.drawn(self.plan, self.horizon)
+        self.due: Any = series
+        """The task's series, arrays (horizon,)."""
+        size = self.frames_per_step
+        chance, manner = person.draw(
+            self.scenario.subject, self.role_seed, self.horizon // size, size
+        )
+        self.drawn: Drawn[float] = Drawn(
+            NumberSeries.of(target), _numbers(series), self.facts, _numbers(chance), manner
+        )
+        self._read: dict[str, Sequence[float]] = {
+            "human_end": world.human_end,
+            "robot_end": world.robot_end,
+            "human_force": world.human_force,
+            "robot_force": world.robot_force,
+            "robot_torque": world.robot_torque,
+            "ball_place": world.ball_place,
+        }
+        self._intentions: dict[str, deque[float]] = {}
+        self._memory = person.begin(SCALARS, 0.0, False)
+        self._intend()
+
+    def seen(self, name: str, age: int) -> float:
+        """Return a past read-out; see :meth:`.View.seen`."""
+        past = self._read.get(name)
+        if past is None:
+            past = self._intentions[name] if self._intentions else _REST
+        return past[-1 - age]
+
+    @property
+    def hand(self) -> float:
+        """Height of the hands at the far end by their encoders [m]."""
+        return self.world.hand_height
+
+    def _intend(self) -> None:
+        """Let the person decide on the coming step."""
+        self._memory, self.intention = self._person.intend(
+            SCALARS, self.drawn, self._memory, self, self.frames_per_step
+        )
+        self._moved = 0
 
     def role_seed(self, role: str) -> int:
         """Return the episode's seed of a role, independent of those of other scenarios."""
@@ -83,14 +128,18 @@ class Lift:
         """Whether the episode is over, by the horizon or by a drop."""
         return self.dropped is not None or self.frame >= self.horizon
 
-    def scripted_human(self) -> Agent:
-        """Return the agent that executes the human's plan, reset for the current episode."""
+    def human(self) -> "Human":
+        """Return the human of the current episode: scripted, or brought by the behaviour."""
         behaviour, subject = self.scenario.human, self.scenario.subject
-        human: Agent = ScriptedHuman(subject=subject)
         if isinstance(behaviour, Embodied):
-            human = behaviour.person(subject)
-        human.reset(self.role_seed("human"))
-        return human
+            agent = behaviour.person(subject)
+            agent.reset(self.role_seed("human"))
+            return Observing(self, agent)
+        return Scripted(self)
+
+    def scripted_human(self) -> Agent:
+        """Return the human of the current episode as an agent; it does without the observation."""
+        return self.human()
 
     def step(self, human: ArrayLike, partner: ArrayLike) -> None:
         """Advance by one control period.
@@ -125,17 +174,30 @@ class Lift:
 
     def move(self, human: Sequence[float], commands: Sequence[float]) -> None:
         """Advance by a frame for each hand reference and command of the far end [m]."""
-        self.world.advance(within_range(human), commands, self.intended_in(human))
+        intended = self._driven(human) if self.task.touch else None
+        self.world.advance(within_range(human), commands, intended)
 
-    def intended_in(self, human: Sequence[float]) -> Intended | None:
+    def _driven(self, human: Sequence[float]) -> Intended:
         """Return the person's intention in the frames of some hand references."""
-        return None
+        drive, kind, first = self._person.drive, type(self.intention), self._moved
+        self._moved += len(human)
+        columns = (column[first : self._moved] for column in self.intention)
+        driven = [
+            drive(SCALARS, self.drawn, kind(*frame), reference)
+            for *frame, reference in zip(*columns, human, strict=True)
+        ]
+        return [difference for difference, _ in driven], [pitch for _, pitch in driven]
 
     def end(self, command: float) -> None:
         """End the control period after all of its frames, with its last command [m]."""
+        for name, column in self.intention._asdict().items():
+            if name not in self._intentions:
+                self._intentions[name] = deque([0.0] * HISTORY_FRAMES, HISTORY_FRAMES)
+            self._intentions[name].extend(column)
         self.command = command
         self.frame += self.frames_per_step
         self.dropped = self.task.failure(self)
+        self._intend()
 
     def partner_observation(self) -> Observation:
         """Return the observation of the holder of the robot's end."""
@@ -146,19 +208,19 @@ class Lift:
         return self.task.human_observation(self)
 
     def robot_view(self) -> Observation:
-        """Return the robot's senses now, laid out as :class:`.RobotObservation`."""
-        world, age = self.world, self.scenario.latency_frames
-        sample = -1 - age
-        noise = self.frame + HISTORY_FRAMES - 1 - age
-        return np.array(
-            (
-                world.human_end[sample] + self._human_noise[noise],
-                world.robot_end[sample] + self._robot_noise[noise],
-                world.hand_height,
-                self.command,
-                self.frame * FRAME,
-            )
-        )
+        """Return the robot's senses now: sight, touch, and the task's own."""
+        task = self.task
+        exact = [*sight(SCALARS, self)]
+        if task.touch:
+            exact += touch(SCALARS, self)
+        if task.senses:
+            exact += task.observe(SCALARS, self.drawn, self)
+        errors = self._errors[self.frame // self.frames_per_step]
+        return np.array([value + error for value, error in zip(exact, errors, strict=True)])
+
+    def planned(self) -> Observation:
+        """Return the planned height of the human's end in each frame of the coming step [m]."""
+        return np.array(self.drawn.target.next(self.frame, self.frames_per_step))
 
     def human_view(self, target: Observation) -> Observation:
         """Return the human's senses now, laid out as :class:`.HumanObservation`.
@@ -172,7 +234,7 @@ class Lift:
             world.robot_end,
             world.human_force,
             target,
-            self._human_delays,
+            (self.visual, self.haptic),
         )
 
     def partner_view(self, target: Observation) -> Observation:
@@ -184,12 +246,12 @@ class Lift:
             world.human_end,
             world.robot_force,
             target,
-            self._partner_delays,
+            (self.partner_visual, self.partner_haptic),
         )
 
     def seen_by_partner(self) -> float:
         """Return the height of the human's end [m] that a second human sees now."""
-        return self.world.human_end[-1 - self._partner_delays[0]]
+        return self.world.human_end[-1 - self.partner_visual]
 
     def clipped(self, actions: NDArray[np.float64]) -> float:
         """Return the share of actions beyond the hands' speed; NaN for a second human."""
@@ -210,8 +272,7 @@ class Lift:
         view[HumanObservation.OWN_VELOCITY] = velocity[-HISTORY:]
         view[HumanObservation.OTHER_END] = other[seen - HISTORY : seen]
         view[HumanObservation.HAND_FORCE] = force[felt - HISTORY : felt]
-        # Beyond a truncated horizon the person intends to stay.
-        view[HumanObservation.TARGET] = target if len(target) else self.target[-1]
+        view[HumanObservation.TARGET] = target
         view[HumanObservation.TIME] = self.frame * FRAME
         return view
 
@@ -220,20 +281,80 @@ class Lift:
         self.world.close()
 
 
+def lasting(values: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
+    """Return values, one per frame, for as many frames; the last one lasts."""
+    return np.concatenate((values, np.full(frames - len(values), values[-1])))
+
+
+_REST: Final = [0.0] * HISTORY_FRAMES
+
+
+def _numbers(series: Any) -> Any:
+    """Return the named tuple of arrays as one of series."""
+    return type(series)(*map(NumberSeries.of, series)) if series else series
+
+
+class Human(Agent, Protocol):
+    """The human of a lift, who is asked once in each step."""
+
+    def references(self) -> list[float]:
+        """Return the hand's reference height in each frame of the coming step [m]."""
+
+
+class Scripted:
+    """Carries out the intentions of a lift's person as the subject would (:func:`.carry_out`).
+
+    The hand's noise depends on seed and frame alone: it is the same whatever the robot does.
+    """
+
+    def __init__(self, lift: Lift) -> None:
+        self._lift = lift
+        self.reset(lift.role_seed("human"))
+
+    def reset(self, seed: int) -> None:
+        """Begin an episode; the noise comes from ``seed``."""
+        self._noise = NoiseStream(self._lift.scenario.subject, seed)
+        self._memory = HandMemory(0.0, 0.0, 0.0)
+
+    def act(self, observation: Observation) -> Action:
+        """Return the references of the coming step; the person knows the lift itself."""
+        return np.array(self.references())
+
+    def references(self) -> list[float]:
+        """Return the hand's reference height in each frame of the coming step [m]."""
+        lift, first = self._lift, self._lift.frame
+        noise = self._noise.between(first, first + lift.frames_per_step)
+        self._memory, found = carry_out(SCALARS, self._memory, lift, lift.intention.target, noise)
+        return list(found)
+
+
+class Observing:
+    """An agent as the human of a lift, by the human's observations."""
+
+    def __init__(self, lift: Lift, agent: Agent) -> None:
+        self._lift, self._agent = lift, agent
+
+    def reset(self, seed: int) -> None:
+        """Begin an episode."""
+        self._agent.reset(seed)
+
+    def act(self, observation: Observation) -> Action:
+        """Return the agent's references."""
+        return self._agent.act(observation)
+
+    def references(self) -> list[float]:
+        """Return the references of the coming step [m].
+
+        Raises
+        ------
+        ActionError
+            If the agent's action is not usable.
+        """
+        lift = self._lift
+        chosen = self._agent.act(lift.human_observation())
+        return checked_action("human", chosen, lift.frames_per_step)
+
+
 def _delays(person: Subject) -> tuple[int, int]:
     """Return a person's visual and haptic delay in frames."""
     return round(person.visual_delay / FRAME), round(person.haptic_delay / FRAME)
-
-
-@runtime_checkable
-class Staging(Protocol):
-    """A task with its own class of lifts."""
-
-    def lift(self, scenario: Scenario) -> Lift:
-        """Return the lift of a scenario of the task."""
-
-
-def make_lift(scenario: Scenario, world: MakeWorld | None = None) -> Lift:
-    """Return the lift of a scenario, of the class that its task requires."""
-    task = scenario.task
-    return task.lift(scenario) if isinstance(task, Staging) else Lift(scenario, world=world)

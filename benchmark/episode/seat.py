@@ -9,6 +9,7 @@ import numpy as np
 from colift.agents.actions import action_limit
 from colift.agents.agent import Observation
 from colift.agents.humans import LIVE_SUBJECT, PARTNER_SUBJECT, Subject
+from colift.agents.rules import SCALARS, ArrayFunctions, N
 from colift.benchmark.episode.task import Playing, Task
 from colift.benchmark.world import BodyParameters, FarEnd, HumanFarEnd, NaoFarEnd
 from colift.robots.nao.kinematics import STROKE
@@ -39,7 +40,7 @@ def within_range(references: Sequence[float]) -> Sequence[float]:
     return references
 
 
-def limited_command(command: float, change: float, limit: float) -> float:
+def limited_command(f: ArrayFunctions[N], command: N, change: N, limit: float) -> N:
     """Return the hand command [m] after a step: clipped to the hands' speed, then to their stroke.
 
     Parameters
@@ -51,8 +52,7 @@ def limited_command(command: float, change: float, limit: float) -> float:
     limit
         The largest change in one step [m]; see :func:`action_limit`.
     """
-    low, high = STROKE
-    return min(max(command + min(max(change, -limit), limit), low), high)
+    return f.clip(command + f.clip(change, -limit, limit), *STROKE)
 
 
 def hand_commands(actions: ArrayLike, control_period: float) -> NDArray[np.float64]:
@@ -68,7 +68,7 @@ def hand_commands(actions: ArrayLike, control_period: float) -> NDArray[np.float
     """
     limit, command, found = action_limit(control_period), 0.0, []
     for change in np.asarray(actions, dtype=np.float64).ravel().tolist():
-        command = limited_command(command, change, limit)
+        command = limited_command(SCALARS, command, change, limit)
         found.append(command)
     return np.array(found)
 
@@ -128,7 +128,7 @@ class NaoSeat:
     def commands(self, lift: Playing, action: list[float]) -> Sequence[float]:
         """Return a ramp from the present command, clipped to the hands' speed and stroke."""
         start, size = lift.command, lift.frames_per_step
-        change = limited_command(start, action[0], lift.step_limit) - start
+        change = limited_command(SCALARS, start, action[0], lift.step_limit) - start
         return [start + change * (i + 1) / size for i in range(size)]
 
     def observation(self, task: Task, lift: Playing) -> Observation:

@@ -1,11 +1,14 @@
 """The interface of tasks: observations, rewards, end and scores of an episode."""
 
-from collections.abc import Mapping
-from typing import Protocol
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
 
 import numpy as np
 from colift.agents.agent import Observation
 from colift.agents.humans import Plan
+from colift.agents.humans.person import Person
+from colift.agents.rules import ArrayFunctions, Drawn, N, View
+from colift.agents.senses import Sense
 from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.world import BodyParameters, FarEnd, Physics, World
@@ -34,18 +37,31 @@ class Playing(Protocol):
     """Frames since its beginning."""
     command: float
     """The robot's hand command [m]."""
+    visual: int
+    """The human's visual delay in frames."""
+    partner_visual: int
+    """That of a second human."""
+    due: Any
+    """The task's series, arrays (horizon,)."""
+    facts: Any
+    """The task's numbers."""
+    intention: Any
+    """The person's intention in the coming step; see :meth:`.Person.intend`."""
 
     def role_seed(self, role: str) -> int:
         """Return the episode's seed of a role such as ``"sensor"``."""
 
     def robot_view(self) -> Observation:
-        """Return the robot's senses, laid out as :class:`.RobotObservation`."""
+        """Return the robot's senses: sight, touch, and the task's own."""
 
     def human_view(self, target: Observation) -> Observation:
         """Return the human's senses, laid out as :class:`.HumanObservation`, with a target [m]."""
 
     def partner_view(self, target: Observation) -> Observation:
         """Return the same for a second human at the robot's end."""
+
+    def planned(self) -> Observation:
+        """Return the planned height of the human's end in each frame of the coming step [m]."""
 
     def seen_by_partner(self) -> float:
         """Return the height of the human's end [m] that a second human sees."""
@@ -70,9 +86,36 @@ class Task(Protocol):
     def metrics(self) -> Metrics:
         """Its metrics by name; the first is the leading one, ``rmse_mm``."""
 
-    def world(self, human: BodyParameters, far_end: FarEnd, *, physics: Physics = ...) -> World:
-        """Return a world of a person and a holder of the far end, with the task's own physics by
-        default."""
+    @property
+    def person(self) -> Person:
+        """The people who hold the near end."""
+
+    @property
+    def touch(self) -> bool:
+        """Whether the robot senses force and torque, and the wrists show an intended pitch."""
+
+    @property
+    def physics(self) -> Physics:
+        """Time step and solver of its world."""
+
+    @property
+    def senses(self) -> tuple[Sense, ...]:
+        """The robot's senses besides sight and touch."""
+
+    def drawn(self, plan: Plan, frames: int) -> tuple[Any, Any]:
+        """Return what follows from a plan: a named tuple of series, and one of numbers.
+
+        The series are arrays (frames,), one number per frame; the task's rules and people read
+        them as :attr:`.Drawn.series` and :attr:`.Drawn.facts`.
+        """
+
+    def observe(self, f: ArrayFunctions[N], drawn: Drawn[N], view: View[N]) -> Sequence[N]:
+        """Return the robot's own senses in this task without their errors."""
+
+    def world(
+        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics | None = None
+    ) -> World:
+        """Return a world of a person and a holder of the far end; by default with its physics."""
 
     def robot_observation(self, lift: Playing) -> Observation:
         """Return the robot's observation at the beginning of a step."""

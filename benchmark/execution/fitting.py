@@ -8,7 +8,7 @@ from colift.agents.errors import InputError
 from colift.agents.registry import TASKS, entries
 from colift.agents.spec import AgentSpec, Paced
 from colift.benchmark.episode.blame import blaming_plugins, check_start
-from colift.benchmark.episode.lift import make_lift
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.turns import Turns
 from colift.benchmark.execution.batches import entered
@@ -59,7 +59,7 @@ def _first_failure(policy: AgentSpec, scenario: Scenario, seed: int) -> str | No
     if isinstance(policy, Paced):
         policy = policy.paced(scenario.control_period)
     with blaming_plugins(scenario, seed), ExitStack() as stack:
-        lift = stack.enter_context(closing(make_lift(scenario)))
+        lift = stack.enter_context(closing(Lift(scenario)))
         check_start(lift, seed)
         lift.reset(seed)
         turns = Turns(entered(stack, policy), lift.partner_size)

@@ -43,13 +43,13 @@ class EmulatedLift(Lift):
         """Let the person wait at rest height."""
         super().reset(0)
         self.lifting = False
-        self.target = np.zeros(1)
-        self._human = self.scripted_human()
+        self.begin(np.zeros(1))
+        self._human = self.human()
 
     def start(self, seed: int) -> None:
         """Let the person begin the lift ``seed``."""
         super().reset(seed)
-        self._human = self.scripted_human()
+        self._human = self.human()
         self.lifting = True
 
     def advance(self, commanded: Sequence[float], stiffness: Sequence[float]) -> None:
@@ -64,7 +64,6 @@ class EmulatedLift(Lift):
         """
         self.arms.commanded = np.array(commanded)
         self.arms.stiffness = np.array(stiffness)
-        reference = self._human.act(self.human_observation())
-        self.step(reference, [0.0])
+        self.step(self._human.references(), [0.0])
         if self.lifting and self.truncated:
             self._rest()

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from typing import Final
 
 import numpy as np
-from colift.benchmark.episode.lift import MOCAP_NOISE
+from colift.agents.senses import MOCAP_NOISE
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.hardware.faults import Fault
 from colift.benchmark.world.table import TABLE_LENGTH

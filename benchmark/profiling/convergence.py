@@ -11,15 +11,13 @@ import numpy as np
 from colift.agents.errors import InputError
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.episode.episode import run_episode
-from colift.benchmark.episode.lift import Lift, MakeWorld, make_lift
+from colift.benchmark.episode.lift import Lift, MakeWorld
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.task import Task
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.execution.pool import default_jobs, process_pool
 from colift.benchmark.results.baselines import partner_spec
 from colift.benchmark.suites.suite import Suite, make_suite
-from colift.benchmark.tasks.ball.task import BallSteering
-from colift.benchmark.tasks.haptic import FINER, Haptic
 from colift.benchmark.world import PHYSICS, Physics
 from numpy.typing import NDArray
 
@@ -106,7 +104,7 @@ def solver_error() -> float:
 
 def physics_of(task: Task) -> Physics:
     """Return the physics with which a task is played."""
-    return FINER if isinstance(task, Haptic) else PHYSICS
+    return task.physics
 
 
 def physics_errors(
@@ -176,5 +174,4 @@ def _play(policy: str, physics: Physics, drawn: tuple[Scenario, int]) -> tuple[f
 def _lift(scenario: Scenario, physics: Physics) -> Lift:
     """Return the lift of a scenario in its task's world, but with another physics."""
     world: MakeWorld = partial(scenario.task.world, physics=physics)
-    with closing(make_lift(scenario)) as usual:
-        return type(usual)(scenario, world=world)
+    return Lift(scenario, world=world)

@@ -5,22 +5,16 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from colift.agents.errors import InputError
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.suites.catalogue import make_task
 
 NAME: Final = "apg"
 
 PARTS: Final = 2
 """Parts of a batch, each in a thread of its own: a fixed number, so that sums keep their order."""
 
-TASKS: Final = ("level", "intent", "agree", "ball")
-"""Tasks with a twin."""
-
-SOME_TASKS: Final = {
-    "wide": TASKS[:3],
-    "encoders": TASKS[:1],
-    "smoothness": TASKS[:1],
-    "gentleness": TASKS[:1],
-}
-"""Settings that only the training of some tasks uses, with these tasks."""
+OF_SIGHT: Final = ("encoders", "smoothness", "gentleness")
+"""Settings that only the training of a level table uses."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,7 +27,7 @@ class ApgSettings:
         If a number is out of range.
     """
 
-    task: str = TASKS[0]
+    task: str = LEVEL.name
     """Name of the task."""
     updates: int = 800
     """Steps of the optimiser."""
@@ -62,13 +56,13 @@ class ApgSettings:
 
     def __post_init__(self) -> None:
         """Check the ranges."""
-        if self.task not in TASKS:
-            raise InputError(f"--task must be one of {', '.join(TASKS)}, got {self.task!r}")
-        for name, tasks in SOME_TASKS.items():
-            if self.task not in tasks and getattr(self, name) != getattr(ApgSettings, name):
-                raise InputError(
-                    f"--{name} has no effect on {self.task}, only on {', '.join(tasks)}"
-                )
+        task = make_task(self.task)
+        unused = OF_SIGHT if task.touch else ()
+        if task.touch and not any(trait.wider for trait in task.person.traits.values()):
+            unused = (*unused, "wide")
+        for name in unused:
+            if getattr(self, name) != getattr(ApgSettings, name):
+                raise InputError(f"--{name} has no effect on the task {self.task!r}")
         for name in ("updates", "units"):
             if getattr(self, name) < 1:
                 raise InputError(f"--{name} must be at least 1, got {getattr(self, name)}")
@@ -98,9 +92,8 @@ def pair_settings(task: str) -> ApgSettings:
     Raises
     ------
     InputError
-        If the task is not one with touch, or has no twin.
+        If there is no such task, or it has no touch.
     """
-    paired = TASKS[1:]
-    if task not in paired:
-        raise InputError(f"pairs can be trained for {', '.join(paired)}; got the task {task!r}")
+    if not make_task(task).touch:
+        raise InputError(f"pairs can be trained for tasks with touch; {task!r} has none")
     return ApgSettings(task=task, updates=200, lifts=1000, batch=128, units=32)

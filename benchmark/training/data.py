@@ -9,7 +9,8 @@ from colift.agents.agent import FRAME, Agent, RobotObservation
 from colift.agents.control.anticipation import Anticipation, FeatureWindow
 from colift.agents.policies.anticipate import AnticipateParameters, AnticipationController
 from colift.agents.policies.extrapolate import Extrapolate
-from colift.benchmark.episode.lift import MOCAP_NOISE, Lift
+from colift.agents.senses import MOCAP_NOISE
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.suites.catalogue import make_scenario, make_subject

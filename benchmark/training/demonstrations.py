@@ -37,8 +37,9 @@ from colift.agents.agent import FRAME
 from colift.agents.errors import InputError
 from colift.agents.humans import Partner
 from colift.agents.registry import SUITES, own_entries
+from colift.agents.senses import MOCAP_NOISE
 from colift.agents.text import decoded, read_bytes
-from colift.benchmark.episode.lift import MOCAP_NOISE, Lift
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import CONTROL_PERIOD
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.suites.catalogue import make_scenario

@@ -2,7 +2,8 @@
 
 from functools import cache
 
-from colift.benchmark.training.apg_settings import TASKS
+from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.suites.catalogue import make_task
 from colift.benchmark.training.lesson import PolicyLesson
 from colift.benchmark.training.level_lesson import LevelLesson
 from colift.benchmark.training.touch_lesson import TouchLesson
@@ -10,5 +11,11 @@ from colift.benchmark.training.touch_lesson import TouchLesson
 
 @cache
 def lesson_of(task: str) -> PolicyLesson:
-    """Return the lesson of a task of :data:`.TASKS`."""
-    return LevelLesson() if task == TASKS[0] else TouchLesson(task)
+    """Return the lesson of a task.
+
+    Raises
+    ------
+    InputError
+        If there is no such task, or it is neither ``level`` nor stated by rules.
+    """
+    return LevelLesson() if make_task(task) == LEVEL else TouchLesson(task)

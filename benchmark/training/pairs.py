@@ -13,15 +13,15 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from colift.agents.control.recurrent import GatedNetwork, gated
-from colift.agents.touch.touch_law import TouchNetwork
 from colift.benchmark.training.apg import updates
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.lesson import BatchDraw, first_network
-from colift.benchmark.training.touch_lesson import TouchLesson, touch_policy
+from colift.benchmark.training.touch_lesson import TouchLesson
 from colift.benchmark.training.validation import VALIDATION_SEEDS
 from colift.benchmark.twin.learning_person import SENSES, LearningPerson
+from colift.benchmark.twin.people import with_quiet_wrists
 from colift.benchmark.twin.rollout import JAX
-from colift.benchmark.twin.touch_rollout import touch_rmse_mm
+from colift.benchmark.twin.touch_lifts import draw_touch, stack_touch
 from numpy.typing import NDArray
 
 
@@ -40,28 +40,32 @@ class PairLesson:
 
     def first(self, settings: ApgSettings, seed: int) -> TrainedPair:
         """Return a pair that has not learned anything."""
-        inputs = SENSES + self.of_robot.twin.steps.knows
+        inputs = SENSES + self.of_robot.known()
         person = first_network(inputs, settings.units, seed + 1_000_000, outputs=2)
         return TrainedPair(self.of_robot.first(settings, seed), person)
 
     def draw(self, settings: ApgSettings) -> Any:
         """Return lifts with drawn people whose wrists show no intention."""
-        return self.of_robot.twin.quiet(self.of_robot.draw(settings))
+        return self.quiet(self.of_robot.draw(settings))
 
     def loss(
         self, network: TrainedPair, pool: Any, settings: ApgSettings, draw: BatchDraw
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
         lifts, variation = self.of_robot.batch(pool, settings, draw)
-        mean = self.errors(network, self.of_robot.twin.quiet(lifts), variation).mean()
+        mean = self.errors(network, self.quiet(lifts), variation).mean()
         return mean, mean
+
+    def quiet(self, lifts: Any) -> Any:
+        """Return lifts in which the people's wrists show no intention by themselves."""
+        return with_quiet_wrists(self.of_robot.twin.task.person, lifts)
 
     def errors(self, pair: TrainedPair, lifts: Any, variation: Any = None) -> jax.Array:
         """Return the RMSE of lifts (n,) with a pair [mm]."""
         count = lifts.size
-        policy, memory = touch_policy(TouchNetwork(self.of_robot.task, pair.robot), count)
+        policy, memory = self.of_robot.policy(pair.robot, count)
         person = learned_person(pair.person, count)
-        return touch_rmse_mm(self.of_robot.twin.steps, policy, memory, lifts, variation, person)
+        return self.of_robot.twin.rmse_mm(policy, memory, lifts, variation, person)
 
 
 def learned_person(network: GatedNetwork, count: int) -> LearningPerson:
@@ -108,9 +112,8 @@ def cross_play(
 
 def played_across(lesson: PairLesson, pairs: Sequence[TrainedPair]) -> NDArray[np.float64]:
     """Return the mean RMSE of each person (rows) with each robot (columns) of some pairs [mm]."""
-    twin = lesson.of_robot.twin
     scenarios = [(lesson.of_robot.scenario(seed), seed) for seed in VALIDATION_SEEDS]
-    lifts = twin.quiet(twin.stack([twin.draw(*each) for each in scenarios]))
+    lifts = lesson.quiet(stack_touch([draw_touch(*each) for each in scenarios]))
     errors = jax.jit(lambda pair: lesson.errors(pair, lifts).mean())
     return np.array(
         [[float(errors(TrainedPair(two.robot, one.person))) for two in pairs] for one in pairs]

@@ -12,7 +12,7 @@ import jax
 import jax.numpy as jnp
 from colift.agents.agent import FRAME
 from colift.agents.humans import GOAL_RANGE
-from colift.benchmark.episode.lift import MOCAP_NOISE
+from colift.agents.senses import MOCAP_NOISE
 from colift.benchmark.episode.scenario import CONTROL_PERIOD
 from colift.benchmark.episode.seat import REFERENCE_RANGE, body_parameters
 from colift.benchmark.suites.catalogue import make_subject

@@ -11,7 +11,7 @@ from colift.agents.agent import FRAME, RobotObservation
 from colift.agents.control.recurrent import STEPS_AHEAD
 from colift.agents.humans import Subject
 from colift.agents.humans.subject import BOUNDS
-from colift.benchmark.episode.lift import MOCAP_NOISE
+from colift.agents.senses import MOCAP_NOISE
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.suites.suite import BEHAVIOURS

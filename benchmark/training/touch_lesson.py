@@ -8,20 +8,29 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from colift.agents.control.recurrent import GatedNetwork
+from colift.agents.errors import InputError
 from colift.agents.submissions import touch as submission
 from colift.agents.touch.touch_controller import TouchController, touch_network
-from colift.agents.touch.touch_law import TouchMemory, TouchNetwork, felt_action, inputs_of
+from colift.agents.touch.touch_law import (
+    TouchMemory,
+    TouchNetwork,
+    felt_action,
+    inputs_of,
+    touch_at_rest,
+)
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.catalogue import make_scenario, make_task
+from colift.benchmark.tasks.touch import Touch
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.lesson import BatchDraw, Weights, first_network
 from colift.benchmark.training.pool import draw_arms
-from colift.benchmark.training.touch_twins import TWINS
 from colift.benchmark.training.validation import LEARNING_SEEDS, learning_seeds, task_error
 from colift.benchmark.twin.arm import ArmVariation
 from colift.benchmark.twin.lifts import some
+from colift.benchmark.twin.people import with_new_manners
 from colift.benchmark.twin.rollout import JAX
-from colift.benchmark.twin.touch_rollout import touch_rmse_mm
+from colift.benchmark.twin.task_twin import TaskTwin
+from colift.benchmark.twin.touch_lifts import TouchLifts, draw_touch, stack_touch
 
 
 class TouchLesson:
@@ -36,21 +45,24 @@ class TouchLesson:
     package: ModuleType = submission
 
     def __init__(self, task: str) -> None:
-        self.task = task
-        self.twin = TWINS[task]
+        made = make_task(task)
+        if not isinstance(made, Touch):
+            raise InputError(f"the task {task!r} is not stated by rules, so that it has no twin")
+        self.task, self.twin = task, TaskTwin(made)
 
     def first(self, settings: ApgSettings, seed: int) -> Any:
         """Return a network that hardly departs from level."""
-        return first_network(inputs_of(self.task), settings.units, seed)
+        return first_network(inputs_of(self.twin.task.senses), settings.units, seed)
 
     def draw(self, settings: ApgSettings) -> Any:
         """Return lifts with drawn people, the behaviours in turn."""
         seeds = learning_seeds(settings.lifts)
-        return self.twin.stack([self.twin.draw(self.scenario(seed), seed) for seed in seeds])
+        return stack_touch([draw_touch(self.scenario(seed), seed) for seed in seeds])
 
     def scenario(self, seed: int) -> Scenario:
         """Return the lift of a seed."""
-        behaviour = self.twin.behaviours[seed % len(self.twin.behaviours)]
+        behaviours = self.twin.task.behaviours
+        behaviour = behaviours[seed % len(behaviours)]
         return make_scenario(behaviour, f"draw-{seed}", task=self.task)
 
     def steps(self, pool: Any) -> float:
@@ -62,16 +74,27 @@ class TouchLesson:
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
         lifts, variation = self.batch(pool, settings, draw)
-        policy, memory = touch_policy(TouchNetwork(self.task, network), draw.size)
-        mean = touch_rmse_mm(self.twin.steps, policy, memory, lifts, variation).mean()
+        policy, memory = self.policy(network, draw.size)
+        mean = self.twin.rmse_mm(policy, memory, lifts, variation).mean()
         return mean, mean
 
     def batch(self, pool: Any, settings: ApgSettings, draw: BatchDraw) -> tuple[Any, ArmVariation]:
         """Return some of the lifts, with people and arms drawn anew."""
         keys = jax.random.split(draw.key, 4)
-        lifts = some(pool, jax.random.randint(keys[0], (draw.size,), 0, pool.size))
+        lifts: TouchLifts = some(pool, jax.random.randint(keys[0], (draw.size,), 0, pool.size))
         arms = draw_arms(draw.varied, draw.size, keys[2:])
-        return self.twin.manners(lifts, keys[1], settings.wide), arms
+        people = self.twin.task.person
+        return with_new_manners(people, lifts, keys[1], settings.wide), arms
+
+    def policy(self, network: Any, count: int) -> tuple[Any, TouchMemory]:
+        """Return the policy of a network, and its memory at the beginning of n lifts."""
+        return touch_policy(TouchNetwork(self.task, self.twin.task.senses, network), count)
+
+    def known(self) -> int:
+        """Return how many numbers people know about the task."""
+        seed = LEARNING_SEEDS[0]
+        lifts = stack_touch([draw_touch(self.scenario(seed), seed)])
+        return len(self.twin.known(self.twin.at_rest(1), lifts))
 
     def error(self, weights: Weights) -> float:
         """Return the policy's mean RMSE on validation lifts in the engine [mm]."""
@@ -103,6 +126,5 @@ def touch_policy(learned: TouchNetwork, count: int) -> tuple[Any, TouchMemory]:
     def policy(memory: TouchMemory, view: jax.Array) -> tuple[TouchMemory, jax.Array]:
         return felt_action(learned, memory, view, JAX)
 
-    zero = jnp.zeros(count)
-    units = jnp.zeros((learned.network.units, count))
-    return policy, TouchMemory(units, zero, zero, zero, zero)
+    rest = touch_at_rest(learned)
+    return policy, jax.tree.map(lambda zero: jnp.zeros((*np.shape(zero), count)), rest)

@@ -11,7 +11,7 @@ from colift.agents.agent import Agent
 from colift.agents.errors import InputError
 from colift.benchmark.environment.drawing import TRAINING_SEEDS
 from colift.benchmark.episode.episode import run_episode
-from colift.benchmark.episode.lift import Lift, make_lift
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.metrics import rmse_mm
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.suites.suite import BEHAVIOURS
@@ -115,6 +115,6 @@ def task_error(policy: MakeAgent, make: Callable[[int], Scenario]) -> float:
     """
     errors = []
     for seed in VALIDATION_SEEDS:
-        with closing(make_lift(make(seed))) as lift:
+        with closing(Lift(make(seed))) as lift:
             errors.append(run_episode(lift, policy(), seed).scores["rmse_mm"])
     return float(np.mean(errors))

@@ -1,7 +1,7 @@
 """What the rules read of many lifts at a time: series, and records of parameters."""
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple, TypeVar, cast
+from typing import Any, NamedTuple, TypeVar
 
 import jax
 import jax.numpy as jnp
@@ -30,6 +30,17 @@ class LiftSeries(NamedTuple):
         )
         return before, after
 
+    def at(self, frame: Any, /) -> jax.Array:
+        """Return the numbers (n,) of a frame (), or of a frame (n,) in each lift."""
+        place = jnp.clip(frame + 1, 0, len(self.values) - 1)
+        if jnp.ndim(place) == 0:
+            return jnp.asarray(jax.lax.dynamic_index_in_dim(self.values, place, keepdims=False))
+        return jnp.take_along_axis(self.values, place[jnp.newaxis], axis=0)[0]
+
+    def next(self, frame: Any, frames: int, /) -> jax.Array:
+        """Return the numbers (frames, n) of some frames, of which ``frame`` () is the first."""
+        return jnp.asarray(jax.lax.dynamic_slice_in_dim(self.values, frame + 1, frames))
+
     @property
     def last(self) -> int:
         """Index of the last frame."""
@@ -43,10 +54,4 @@ class LiftSeries(NamedTuple):
 
 def columns(records: Sequence[Record]) -> Any:
     """Return one record of arrays (n,), in single precision, from n named tuples of numbers."""
-    kind: Any = type(records[0])
-    return kind(*(jnp.asarray(column, jnp.float32) for column in zip(*records, strict=True)))
-
-
-def filled(memory: Record, count: int) -> Any:
-    """Return the memory (named tuples of numbers) of one lift at its beginning, for n lifts."""
-    return cast(Any, jax.tree.map(lambda value: jnp.full(count, value, jnp.float32), memory))
+    return jax.tree.map(lambda *numbers: jnp.asarray(numbers, jnp.float32), *records)

@@ -26,6 +26,14 @@ class LiftFunctions:
         """Return the function's values (k, n)."""
         return function(*rows)
 
+    def column(self, values: Sequence[Any], /) -> jax.Array:
+        """Return numbers of successive frames as an array (frames, n)."""
+        return jnp.stack(tuple(values))
+
+    def along(self, function: Callable[..., Any], column: jax.Array, /) -> Any:
+        """Return the function's record of columns (frames, n)."""
+        return function(column)
+
     def total(self, row: jax.Array, /) -> jax.Array:
         """Return the sum of a row's numbers (n,)."""
         return row.sum(axis=0)

@@ -5,7 +5,8 @@ from typing import Final, NamedTuple
 import jax
 import jax.numpy as jnp
 from colift.agents.agent import FRAME
-from colift.benchmark.tasks.haptic import FINER, SENSED_FRAMES
+from colift.benchmark.episode.sensing import SENSED_FRAMES
+from colift.benchmark.tasks.touch import FINER
 from colift.benchmark.twin.arm import ArmVariation, followed, prepared
 from colift.benchmark.twin.body import DEPTH, Body, activated, delayed, pushed, wanted_shift
 from colift.benchmark.twin.lifts import chunk

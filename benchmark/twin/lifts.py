@@ -1,7 +1,7 @@
 """Drawn lifts as arrays: people, plans carried out, sensor noise."""
 
 from collections.abc import Iterable, Sequence
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, TypeVar
 
 import jax
 import jax.numpy as jnp
@@ -11,8 +11,8 @@ from colift.agents.errors import InputError
 from colift.agents.humans import Embodied
 from colift.agents.humans.hand import HandMemory, NoiseStream, move_hand
 from colift.agents.rules import SCALARS
+from colift.agents.senses import MOCAP_NOISE
 from colift.benchmark.episode.level import Level
-from colift.benchmark.episode.lift import MOCAP_NOISE
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seat import SEATS, body_parameters
 from colift.benchmark.episode.seeding import derive_seed
@@ -24,6 +24,9 @@ Array = NDArray[np.float64]
 
 MODELLED: Final = ("nao", "human")
 """Holders of the far end that the twin models."""
+
+
+Many = TypeVar("Many")
 
 
 class Lifts(NamedTuple):
@@ -178,7 +181,7 @@ def partner_body(count: int) -> Body:
     return bodies([body_parameters(person)] * count)
 
 
-def some(lifts: Lifts, chosen: Any) -> Lifts:
+def some(lifts: Many, chosen: Any) -> Many:
     """Return the chosen lifts: an index array or a slice of the last axis."""
-    taken: Lifts = jax.tree.map(lambda array: array[..., chosen], lifts)
+    taken: Many = jax.tree.map(lambda array: array[..., chosen], lifts)
     return taken

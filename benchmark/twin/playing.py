@@ -1,6 +1,5 @@
 """A step of lifts: the person's voluntary correction, the sensors, and the frames of a step."""
 
-import math
 from collections.abc import Callable
 from typing import NamedTuple, TypeVar
 
@@ -9,16 +8,14 @@ import jax.numpy as jnp
 from colift.agents.actions import action_limit
 from colift.agents.agent import FRAME
 from colift.agents.humans.hand import corrected
-from colift.benchmark.episode.level import DROP_TILT, GRIP_FORCE
-from colift.benchmark.episode.seat import REFERENCE_RANGE
+from colift.benchmark.episode.drops import pulled_off, slides_off
+from colift.benchmark.episode.seat import REFERENCE_RANGE, limited_command
 from colift.benchmark.twin.arm import ArmVariation
 from colift.benchmark.twin.body import Body, delayed
 from colift.benchmark.twin.functions import LIFTS
 from colift.benchmark.twin.lifts import Lifts, chunk
 from colift.benchmark.twin.pair import PairPlant
 from colift.benchmark.twin.plant import Plant, advance_plant, plant_at_rest
-from colift.benchmark.world.table import TABLE_LENGTH
-from colift.robots.nao.kinematics import STROKE
 
 
 class LiftState(NamedTuple):
@@ -156,8 +153,7 @@ def hands_step(
         The lifts, and the heights in the frames of the step.
     """
     size = hands.shape[0]
-    limit = action_limit(size * FRAME)
-    command = jnp.clip(playing.command + jnp.clip(action, -limit, limit), *STROKE)
+    command = limited_command(LIFTS, playing.command, action, action_limit(size * FRAME))
     hands = jnp.clip(hands, *REFERENCE_RANGE)
     commands = ramp(playing.command, command, size)
 
@@ -201,5 +197,7 @@ def dropped(playing: LiftState, size: int) -> jax.Array:
     The tests are those of :meth:`.Level.failure`, except that of the gap: the twin's hands never
     let go.
     """
-    tilted = jnp.abs(playing.plant.differences[0]) > TABLE_LENGTH * math.sin(DROP_TILT)
-    return tilted | (jnp.abs(playing.plant.moving.pulled) > GRIP_FORCE * size)
+    plant = playing.plant
+    return jnp.logical_or(
+        slides_off(LIFTS, plant.differences[0]), pulled_off(LIFTS, plant.moving.pulled, size)
+    )

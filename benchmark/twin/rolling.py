@@ -5,7 +5,7 @@ from typing import Final, NamedTuple
 import jax
 import jax.numpy as jnp
 from colift.benchmark.tasks.ball.task import BALL
-from colift.benchmark.tasks.haptic import FINER
+from colift.benchmark.tasks.touch import FINER
 from colift.benchmark.twin.plant import Moving
 from colift.benchmark.world.ball import ROLLING
 from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH

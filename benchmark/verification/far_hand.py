@@ -5,6 +5,7 @@ from colift.agents.actions import action_limit
 from colift.agents.agent import Agent, HumanObservation, RobotObservation
 from colift.agents.humans import PersonAsRobot, Played, PlayedHand
 from colift.agents.humans.hand_log import HandLog, LoggedHand
+from colift.agents.rules import SCALARS
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seat import limited_command
 from numpy.typing import NDArray
@@ -46,7 +47,7 @@ def far_actions(scenario: Scenario, steps: int) -> NDArray[np.float64] | None:
     for step in range(steps):
         found[step] = person.act(seen)
         command = float(seen[RobotObservation.HAND_COMMAND])
-        change = limited_command(command, float(found[step, 0]), limit) - command
+        change = limited_command(SCALARS, command, float(found[step, 0]), limit) - command
         # This gives the bits of the last command of the seat's ramp.
         seen[RobotObservation.HAND_COMMAND] = command + change * frames / frames
     return found

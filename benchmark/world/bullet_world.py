@@ -83,7 +83,9 @@ class BulletWorld:
             pybullet.setJointMotorControl2(
                 self._tree, joint, pybullet.VELOCITY_CONTROL, force=0, physicsClientId=self.client
             )
-        self.hands = far_end.hold(BulletEngine(physics=physics, client=self.client, table=self._tree))
+        self.hands = far_end.hold(
+            BulletEngine(physics=physics, client=self.client, table=self._tree)
+        )
         far = (FAR_GRIP_STIFFNESS, FAR_GRIP_DAMPING) if self._touch else (0.0, 0.0)
         inertia = TABLE_INERTIA + far_end.mass * TABLE_LENGTH**2
         # The dampers act at mid-step.

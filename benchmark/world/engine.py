@@ -9,6 +9,7 @@ from colift.benchmark.world.physics import Physics
 from colift.benchmark.world.table import GRAVITY
 from colift.benchmark.world.world import Engine
 
+
 @dataclass(frozen=True, kw_only=True)
 class BulletEngine(Engine):
     """A simulation in PyBullet."""

@@ -9,8 +9,9 @@ holder of the far end closes the loop. The tree's three joints:
 
 A table on a free pin would transmit nothing. A two-handed grip on its edge resists pitching, so
 that a height difference is felt: 60 mm over 0.8 m are 75 mrad, 0.75 Nm, about 1 N at the hands.
-In the task ``level`` the far end has no such stiffness with either holder: the NAO's fingers do not resist pitching, and
-the wrists of a following person yield. A height difference therefore feels the same with both.
+In the task ``level`` the far end has no such stiffness with either holder: the NAO's fingers do not
+resist pitching, and the wrists of a following person yield. A height difference therefore feels the
+same with both.
 """
 
 from typing import Final

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 from colift.agents.hardware.trial_log import read_trial
-from colift.benchmark.episode.lift import MOCAP_NOISE
+from colift.agents.senses import MOCAP_NOISE
 from colift.benchmark.episode.scenario import LATENCY
 from colift.benchmark.hardware.estimates import Estimates, estimate_setup
 from colift.benchmark.tables.printing import show, table

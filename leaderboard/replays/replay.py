@@ -48,7 +48,7 @@ from colift.agents.humans import Plan, Played, goal_error_mm
 from colift.benchmark.bundle import one_line
 from colift.benchmark.episode.blame import blaming_plugins
 from colift.benchmark.episode.episode import Episode, run_episode
-from colift.benchmark.episode.lift import make_lift
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.metric import drawn_series
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seat import hand_commands
@@ -78,7 +78,7 @@ def play_ghost(scenario: Scenario, seed: int) -> Ghost:
     InputError
         If the task or the behaviour of another package failed.
     """
-    with contextlib.closing(make_lift(dataclasses.replace(scenario, partner="human"))) as lift:
+    with contextlib.closing(Lift(dataclasses.replace(scenario, partner="human"))) as lift:
         with partner_spec(scenario.task).agent() as partner, blaming_plugins(scenario, seed):
             episode = run_episode(lift, partner, seed)
         return Ghost(episode=episode, plan=lift.plan, horizon=lift.horizon)

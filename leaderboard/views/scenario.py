@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from colift.agents.humans import Subject
-from colift.benchmark.episode.lift import make_lift
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.board.board import Board
@@ -213,7 +213,7 @@ def _described(scenario: Scenario) -> str:
 @functools.lru_cache(maxsize=256)
 def _curves(scenario: Scenario, seeds: tuple[int, ...]) -> tuple[Curve, ...]:
     curves = []
-    with contextlib.closing(make_lift(scenario)) as lift:
+    with contextlib.closing(Lift(scenario)) as lift:
         for seed in seeds:
             lift.reset(seed)
             heights = tuple(round(1000 * float(height), 1) for height in lift.target[::5])

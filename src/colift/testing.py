@@ -30,7 +30,7 @@ from colift.benchmark.episode.conformance import (
 )
 from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.level import LEVEL
-from colift.benchmark.episode.lift import Lift, make_lift
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.replay import replay
 from colift.benchmark.episode.task import Task
 from colift.benchmark.suites.catalogue import make_scenario
@@ -192,7 +192,7 @@ def check_task(task: Task, behaviour: str = "smooth") -> None:
     )
     for partner, fails in (("nao", False), ("human", False), ("nao", True)):
         scenario = dataclasses.replace(make_scenario(behaviour, "S1", partner), task=task)
-        with _asserting(title, type(task)), contextlib.closing(make_lift(scenario)) as lift:
+        with _asserting(title, type(task)), contextlib.closing(Lift(scenario)) as lift:
             _check_played(title, lift, fails=fails)
 
 
@@ -298,7 +298,7 @@ def _followed(seed: int, task: Task) -> NDArray[np.float64]:
             return super().act(observation)
 
     scenario = dataclasses.replace(make_scenario("smooth", "S1"), task=task)
-    with blaming_plugins(scenario, seed), contextlib.closing(make_lift(scenario)) as lift:
+    with blaming_plugins(scenario, seed), contextlib.closing(Lift(scenario)) as lift:
         run_episode(lift, Noting(), seed)
     return np.array(seen[:OBSERVED])
 

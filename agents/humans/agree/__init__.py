@@ -11,9 +11,9 @@ from colift.agents.humans.agree.hurdles import (
     OwnHurdle,
 )
 from colift.agents.humans.agree.manner import MANNERS, AgreeingManner, agreeing_manner
-from colift.agents.humans.agree.negotiator import Negotiator, with_secret
-from colift.agents.humans.agree.precedence import Secret
-from colift.agents.humans.agree.second import SecondNegotiator
+from colift.agents.humans.agree.person import Negotiates
+from colift.agents.humans.agree.precedence import Obstacle, Secret, secret
+from colift.agents.humans.agree.second import SecondNegotiator, with_secret
 
 __all__ = [
     "MANNERS",
@@ -23,12 +23,14 @@ __all__ = [
     "Behind",
     "Hurdle",
     "HurdlePlan",
-    "Negotiator",
+    "Negotiates",
     "NoHurdle",
+    "Obstacle",
     "OtherHurdle",
     "OwnHurdle",
     "SecondNegotiator",
     "Secret",
     "agreeing_manner",
+    "secret",
     "with_secret",
 ]

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from typing import Final, Generic, NamedTuple
 
-import numpy as np
 from colift.agents.humans import PARTNER_SUBJECT, Subject
+from colift.agents.humans.person import Trait, drawn_traits
 from colift.agents.rules import N
 
 
@@ -26,10 +26,12 @@ class AgreeingManner(NamedTuple, Generic[N]):
     """Time for which the person insists when both go to their own goals, before giving way [s]."""
 
 
-PATIENCES: Final = (0.0, 1.15)
-TRUSTS: Final = (0.75, 1.0)
-STIFFNESSES: Final = (0.6, 1.0)
-INSISTENCES: Final = (0.2, 2.0)
+TRAITS: Final[Mapping[str, Trait]] = {
+    "patience": Trait(0.0, 1.15, least=0.0),
+    "trust": Trait(0.75, 1.0, least=0.0, most=1.0),
+    "stiffness": Trait(0.6, 1.0, least=0.0, most=1.0),
+    "insistence": Trait(0.2, 2.0, least=0.0),
+}
 """Ranges of the population, uniform and independent: chosen, wide enough that the eager and the
 timid need different partners."""
 
@@ -48,13 +50,4 @@ def agreeing_manner(subject: Subject) -> AgreeingManner[float]:
     """Return a person's manner: for the five subjects as stated, for others drawn by name."""
     if subject.name in MANNERS:
         return MANNERS[subject.name]
-    kind, _, number = subject.name.partition("-")
-    seed = int(number) if kind == "draw" and number.isdecimal() else 0
-    shares = np.random.default_rng((seed, 0xA62EE)).random(4).tolist()
-    ranges = (PATIENCES, TRUSTS, STIFFNESSES, INSISTENCES)
-    patience, trust, stiffness, insistence = (
-        low + (high - low) * share for (low, high), share in zip(ranges, shares, strict=True)
-    )
-    return AgreeingManner(
-        patience=patience, trust=trust, stiffness=stiffness, insistence=insistence
-    )
+    return AgreeingManner(**drawn_traits(TRAITS, subject, 0xA62EE))

@@ -2,6 +2,7 @@
 
 from typing import Any, Final, Generic, NamedTuple
 
+from colift.agents.agent import FRAME
 from colift.agents.humans.agree.manner import AgreeingManner
 from colift.agents.rules import ArrayFunctions, N
 
@@ -41,6 +42,28 @@ class Secret(NamedTuple, Generic[N]):
     """When it closes, from now [s]."""
     given: N
     """1 if there is a hurdle; otherwise all four are 0."""
+
+
+class Obstacle(NamedTuple, Generic[N]):
+    """A hurdle of a lift."""
+
+    height: N
+    """Height to pass [m]."""
+    start: N
+    """First frame of its window."""
+    stop: N
+    """Frame after its last."""
+    given: N
+    """1 if there is a hurdle; otherwise all four are 0."""
+
+
+def secret(f: ArrayFunctions[N], hurdle: Obstacle[N], frame: Any) -> Secret[N]:
+    """Return a hurdle as its holder knows it at the end of a frame."""
+    given = hurdle.given > 0.0
+    start, stop = (
+        f.where(given, (each - frame) * FRAME, 0.0) for each in (hurdle.start, hurdle.stop)
+    )
+    return Secret(hurdle.height, start, stop, hurdle.given)
 
 
 class Turn(NamedTuple, Generic[N]):

@@ -1,6 +1,7 @@
 """People who steer a ball on the table while they lift it."""
 
 from colift.agents.humans.ball.manner import MANNERS, SteeringManner, steering_manner
+from colift.agents.humans.ball.person import Steers
 from colift.agents.humans.ball.places import (
     BallPause,
     BallPauseShared,
@@ -9,7 +10,7 @@ from colift.agents.humans.ball.places import (
     BallSmoothShared,
     Placing,
 )
-from colift.agents.humans.ball.steerer import BallPartner, BallSenses, Steerer, with_ball
+from colift.agents.humans.ball.second import BallPartner, BallSenses, with_ball
 
 __all__ = [
     "MANNERS",
@@ -21,8 +22,8 @@ __all__ = [
     "BallSmooth",
     "BallSmoothShared",
     "Placing",
-    "Steerer",
     "SteeringManner",
+    "Steers",
     "steering_manner",
     "with_ball",
 ]

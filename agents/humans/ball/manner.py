@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from typing import Final, Generic, NamedTuple
 
-import numpy as np
 from colift.agents.humans import SUBJECTS, Subject
+from colift.agents.humans.person import Trait, drawn_traits
 from colift.agents.rules import N
 
 
@@ -28,15 +28,16 @@ class SteeringManner(NamedTuple, Generic[N]):
     does."""
 
 
-RANGES: Final = {
-    "share": (0.1, 1.3),
-    "haste": (1.6, 2.2),
-    "lead": (0.0, 0.2),
-    "trust": (0.0, 0.5),
-    "wrist": (0.03, 0.8),
+TRAITS: Final[Mapping[str, Trait]] = {
+    "share": Trait(0.1, 1.3, wider=False),
+    "haste": Trait(1.6, 2.2, wider=False),
+    "lead": Trait(0.0, 0.2, wider=False),
+    "trust": Trait(0.0, 0.5, wider=False),
+    "wrist": Trait(0.03, 0.8, wider=False),
 }
 """Ranges of the population, uniform and independent: chosen, from people who leave the ball to the
-partner to people who do it all."""
+partner to people who do it all. Beyond them, people who steer with an untrained robot fling the
+ball about, and gradients through such lifts overflow."""
 
 MANNERS: Final[Mapping[str, SteeringManner[float]]] = {
     "S1": SteeringManner(share=1.3, haste=2.2, lead=0.2, trust=0.0, wrist=0.4),
@@ -56,11 +57,4 @@ def steering_manner(subject: Subject) -> SteeringManner[float]:
     """Return a person's manner: for the five subjects as stated, for others drawn by name."""
     if subject.name in SUBJECTS:
         return MANNERS[subject.name]
-    kind, _, number = subject.name.partition("-")
-    seed = int(number) if kind == "draw" and number.isdecimal() else 0
-    shares = np.random.default_rng((seed, 0xBA11)).random(len(RANGES)).tolist()
-    drawn = {
-        name: low + (high - low) * part
-        for (name, (low, high)), part in zip(RANGES.items(), shares, strict=True)
-    }
-    return SteeringManner(**drawn)
+    return SteeringManner(**drawn_traits(TRAITS, subject, 0xBA11))

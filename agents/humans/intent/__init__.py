@@ -2,14 +2,7 @@
 
 from colift.agents.humans.intent.companion import Companion
 from colift.agents.humans.intent.manner import MANNERS, LeadingManner, leading_manner
-from colift.agents.humans.intent.pace import (
-    PaceMemory,
-    PaceSenses,
-    Pose,
-    PosePath,
-    intended,
-    pace,
-)
+from colift.agents.humans.intent.person import Leads
 from colift.agents.humans.intent.poses import Counter, Pivot, PosePlan, Posing, Switching, Together
 
 __all__ = [
@@ -17,16 +10,11 @@ __all__ = [
     "Companion",
     "Counter",
     "LeadingManner",
-    "PaceMemory",
-    "PaceSenses",
+    "Leads",
     "Pivot",
-    "Pose",
-    "PosePath",
     "PosePlan",
     "Posing",
     "Switching",
     "Together",
-    "intended",
     "leading_manner",
-    "pace",
 ]

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from typing import Final, Generic, NamedTuple
 
-import numpy as np
 from colift.agents.humans import SUBJECTS, Subject
+from colift.agents.humans.person import Trait, drawn_traits
 from colift.agents.rules import N
 
 
@@ -25,9 +25,11 @@ class LeadingManner(NamedTuple, Generic[N]):
     twice this distance the person waits."""
 
 
-SHARES: Final = (-0.4, 1.2)
-LEADS: Final = (-0.1, 0.2)
-PATIENCES: Final = (0.02, 0.08)
+TRAITS: Final[Mapping[str, Trait]] = {
+    "wrist": Trait(-0.4, 1.2),
+    "lead": Trait(-0.1, 0.2),
+    "patience": Trait(0.02, 0.08),
+}
 """Ranges of the population, uniform and independent: chosen, wide enough that people differ in how
 their intention shows."""
 
@@ -45,11 +47,4 @@ def leading_manner(subject: Subject) -> LeadingManner[float]:
     """Return a person's manner: for the five subjects as stated, for others drawn by name."""
     if subject.name in SUBJECTS:
         return MANNERS[subject.name]
-    kind, _, number = subject.name.partition("-")
-    seed = int(number) if kind == "draw" and number.isdecimal() else 0
-    shares = np.random.default_rng((seed, 0x1EAD)).random(3).tolist()
-    ranges = (SHARES, LEADS, PATIENCES)
-    wrist, lead, patience = (
-        low + (high - low) * share for (low, high), share in zip(ranges, shares, strict=True)
-    )
-    return LeadingManner(wrist=wrist, lead=lead, patience=patience)
+    return LeadingManner(**drawn_traits(TRAITS, subject, 0x1EAD))

@@ -7,7 +7,7 @@ from colift.agents.agent import FRAME, Action, Observation, RobotObservation
 from colift.agents.humans.stroke import replan
 from colift.benchmark.episode.episode import Episode, run_episode
 from colift.benchmark.episode.lift import Lift
-from colift.benchmark.tasks.agree.lift import AgreeLift
+from colift.benchmark.tasks.agree.task import hurdles_of
 from colift.benchmark.tasks.rehearsal import Foreknowing, raised
 from numpy.typing import NDArray
 
@@ -55,7 +55,7 @@ class Knowing:
         The detour to the hurdle, or None for no detour.
     """
 
-    def __init__(self, lift: AgreeLift, detour: Detour | None) -> None:
+    def __init__(self, lift: Lift, detour: Detour | None) -> None:
         self._lift, self._detour = lift, detour
 
     def reset(self, seed: int) -> None:
@@ -71,7 +71,7 @@ class Knowing:
         if abs(self._change) < 0.003:
             self._sag += 0.5 * (command - world.robot_end[-1] - self._sag)
         meant = world.human_end[-1] + LEAD * world.human_velocity[-1] + self._sag
-        hurdle = lift.robot_hurdle
+        _, hurdle = hurdles_of(lift.plan)
         if detour is not None and hurdle is not None:
             after = frame + frames - detour.start
             if after > 0:
@@ -94,7 +94,6 @@ def foreknow_agreement(lift: Lift, seed: int) -> Episode:
     command is that of the last rehearsal plus the remaining height difference, an arm's lag
     earlier.
     """
-    assert isinstance(lift, AgreeLift)
     lift.reset(seed)
     tried = sorted(
         ((run_episode(lift, Knowing(lift, detour), seed), detour) for detour in detours(lift)),
@@ -109,9 +108,9 @@ def foreknow_agreement(lift: Lift, seed: int) -> Episode:
     return best
 
 
-def detours(lift: AgreeLift) -> list[Detour | None]:
+def detours(lift: Lift) -> list[Detour | None]:
     """Return the detours to try in the lift's current episode."""
-    hurdle = lift.robot_hurdle
+    _, hurdle = hurdles_of(lift.plan)
     if hurdle is None:
         return [None]
     starts = np.linspace(hurdle.start - 35, hurdle.stop - 40, STARTS).round().astype(int).tolist()

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from colift.agents.agent import FRAME
@@ -21,6 +21,11 @@ Sanguineti (2019)."""
 Heights = NDArray[np.float64]
 
 
+def passing(height: Any, near: Any, far: Any) -> Any:
+    """Return the table's square distance from the height of a hurdle [m2]; both ends count."""
+    return ((near - height) ** 2 + (far - height) ** 2) / 2
+
+
 def distance(hurdle: Hurdle, near: Heights, far: Heights) -> Heights:
     r"""Return the table's distance from a hurdle in each frame of its window [m].
 
@@ -36,8 +41,7 @@ def distance(hurdle: Hurdle, near: Heights, far: Heights) -> Heights:
         Heights Z1 and Z2 of the ends [m], shape (T,).
     """
     window = slice(hurdle.start, hurdle.stop)
-    ends = np.stack((near[window], far[window])) - hurdle.height
-    return np.asarray(np.sqrt((ends * ends).sum(axis=0) / 2))
+    return np.asarray(np.sqrt(passing(hurdle.height, near[window], far[window])))
 
 
 def missed_mm(hurdle: Hurdle | None, near: Heights, far: Heights) -> float:

@@ -1,43 +1,85 @@
 """The task to agree on two private hurdles, and its suite."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Final
+from typing import Any, ClassVar, Final, NamedTuple
 
 import numpy as np
 from colift.agents.agent import FRAME, Agent, Observation
 from colift.agents.errors import InputError
-from colift.agents.humans import SUBJECTS
-from colift.agents.humans.agree import SecondNegotiator, with_secret
+from colift.agents.humans import Plan
+from colift.agents.humans.agree import (
+    Hurdle,
+    HurdlePlan,
+    Negotiates,
+    Obstacle,
+    SecondNegotiator,
+    secret,
+    with_secret,
+)
+from colift.agents.humans.person import Person
+from colift.agents.observations import HURDLE_SENSES
+from colift.agents.rules import SCALARS, ArrayFunctions, Drawn, N, View
+from colift.agents.senses import Sense
 from colift.benchmark.episode import metrics
-from colift.benchmark.episode.level import HEIGHT_BOUND, LONGEST_EPISODE
+from colift.benchmark.episode.lift import lasting
 from colift.benchmark.episode.metric import Metrics, Scores
-from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.task import Bounds, Playing
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
-from colift.benchmark.tasks.agree.lift import AgreeLift
 from colift.benchmark.tasks.agree.scores import (
     agreement_ms,
     agreement_rmse_mm,
     leading_mw,
     missed_mm,
+    passing,
 )
 from colift.benchmark.tasks.agree.table import AGREE_METRICS
-from colift.benchmark.tasks.haptic import Haptic
+from colift.benchmark.tasks.touch import Touch, subjects_suite, torque_of
 from colift.benchmark.world.table import WEIGHT_SHARE
 from numpy.typing import NDArray
-
-BEHAVIOURS = ("abreast", "ahead", "behind", "own_hurdle", "other_hurdle", "no_hurdle")
 
 MOST_UNCERTAIN: Final = 1.0
 """Largest uncertainty of the far end's speed [m/s]: its speed is then practically unknown."""
 
+NEVER: Final = 1.0
+"""Square distance from a hurdle outside its window [m2]: larger than any within it."""
+
+
+class Windows(NamedTuple):
+    """The task's series: 1 in some frames, 0 in the others."""
+
+    human: Any
+    """In the window of the human's hurdle."""
+    robot: Any
+    """In the window of the robot's hurdle."""
+    held: Any
+    """At the common height, where there is something to agree on."""
+    over_human: Any
+    """The common way with the height of the human's hurdle in its window [m]."""
+    over_robot: Any
+    """The same for the robot's hurdle."""
+
+
+class Facts(NamedTuple):
+    """The task's numbers."""
+
+    human: Obstacle[Any]
+    robot: Obstacle[Any]
+    held: Any
+    """Number of frames at the common height."""
+    uncertainty: Any
+    """:attr:`.Agree.uncertainty`."""
+
+
+def hurdles_of(plan: Plan) -> tuple[Hurdle | None, Hurdle | None]:
+    """Return the hurdles of the human and of the robot's end."""
+    return (plan.own, plan.other) if isinstance(plan, HurdlePlan) else (None, None)
+
 
 @dataclass(frozen=True, kw_only=True)
-class Agree(Haptic):
+class Agree(Touch):
     """Lift together, and pass a private hurdle of each on the way, with the whole table.
 
     The robot has :class:`.AgreeObservation`, with its own hurdle but not the human's. The human and
@@ -56,7 +98,18 @@ class Agree(Haptic):
 
     name: ClassVar[str] = "agree"
     metrics: ClassVar[Metrics] = AGREE_METRICS
+    person: ClassVar[Person] = Negotiates()
     second_human: ClassVar[type[Agent]] = SecondNegotiator
+    behaviours: ClassVar[tuple[str, ...]] = (
+        "abreast",
+        "ahead",
+        "behind",
+        "own_hurdle",
+        "other_hurdle",
+        "no_hurdle",
+    )
+    senses: ClassVar[tuple[Sense, ...]] = HURDLE_SENSES
+    least: ClassVar[tuple[bool, ...]] = (True, True, False)
 
     def __post_init__(self) -> None:
         """Check the range."""
@@ -65,36 +118,57 @@ class Agree(Haptic):
                 f"uncertainty must be between 0 and {MOST_UNCERTAIN} m/s, got {self.uncertainty}"
             )
 
-    def lift(self, scenario: Scenario) -> AgreeLift:
-        """Return a lift with hurdles."""
-        return AgreeLift(scenario)
+    def drawn(self, plan: Plan, frames: int) -> tuple[Windows, Facts]:
+        """Return the windows of the hurdles and of the common height, and the hurdles."""
+        way = lasting(plan.target, frames)
+        hurdles = hurdles_of(plan)
+        own, other = (_window(hurdle, frames) for hurdle in hurdles)
+        first, past = plan.agreeing if isinstance(plan, HurdlePlan) else (0, frames)
+        held = np.zeros(frames)
+        held[first:past] = 1.0
+        human, robot = map(_obstacle, hurdles)
+        over, over_other = (
+            np.where(window > 0.0, obstacle.height, way)
+            for window, obstacle in ((own, human), (other, robot))
+        )
+        facts = Facts(human, robot, float(held.sum()), self.uncertainty)
+        return Windows(own, other, held, over, over_other), facts
 
-    def robot_observation(self, lift: Playing) -> Observation:
-        """Return the robot's senses and its own hurdle."""
-        assert isinstance(lift, AgreeLift)
-        return np.concatenate((lift.haptic_view(), lift.secret(lift.robot_hurdle)))
+    def observe(self, f: ArrayFunctions[N], drawn: Drawn[N], view: View[N]) -> Sequence[N]:
+        """Return the robot's own hurdle."""
+        return secret(f, drawn.facts.robot, view.frame)
+
+    def missed(self, f: ArrayFunctions[N], due: Any, ends: Any) -> Sequence[N]:
+        """Return the square distances from both hurdles, and the square height difference."""
+        human, robot = (
+            f.where(window > 0.0, passing(over, ends.near, ends.far), NEVER)
+            for window, over in ((due.human, due.over_human), (due.robot, due.over_robot))
+        )
+        return human, robot, due.held * (ends.near - ends.far) ** 2
+
+    def error(self, f: ArrayFunctions[N], facts: Any, gathered: Sequence[N], frames: Any) -> N:
+        """Return the mean of the squares that the lift has; see :func:`.agreement_rmse_mm`."""
+        human, robot, level = gathered
+        given = facts.human.given, facts.robot.given
+        missed = given[0] * human + given[1] * robot
+        error: N = (missed + level / facts.held) / (1.0 + given[0] + given[1])
+        return error
 
     def human_observation(self, lift: Playing) -> Observation:
         """Return the human's hurdle, the senses and the common way of the coming step."""
-        assert isinstance(lift, AgreeLift)
-        view, secret = super().human_observation(lift), lift.secret(lift.human_hurdle)
-        return with_secret(view, secret, self.uncertainty)
+        own = secret(SCALARS, lift.facts.human, lift.frame)
+        return with_secret(lift.human_view(lift.planned()), own, self.uncertainty)
 
     def partner_observation(self, lift: Playing) -> Observation:
         """Return the second human's hurdle, which is the robot's, and the senses."""
-        assert isinstance(lift, AgreeLift)
-        view, secret = super().partner_observation(lift), lift.secret(lift.robot_hurdle)
-        return with_secret(view, secret, self.uncertainty)
-
-    def robot_bounds(self) -> Bounds:
-        """Return the bounds of :class:`.AgreeObservation`."""
-        low, high = super().robot_bounds()
-        return np.concatenate((low, -_SECRET_BOUND)), np.concatenate((high, _SECRET_BOUND))
+        own = secret(SCALARS, lift.facts.robot, lift.frame)
+        return with_secret(super().partner_observation(lift), own, self.uncertainty)
 
     def human_bounds(self, frames: int) -> Bounds:
         """Return the bounds of the humans' observations."""
         low, high = super().human_bounds(frames)
-        bound = np.append(_SECRET_BOUND, MOST_UNCERTAIN)
+        own = [each.high for each in HURDLE_SENSES]
+        bound = np.array([*own, MOST_UNCERTAIN])
         return np.concatenate((-bound, low)), np.concatenate((bound, high))
 
     def rewards(self, lift: Playing) -> tuple[float, float]:
@@ -102,36 +176,34 @@ class Agree(Haptic):
 
         The human's reward counts only the human's hurdle, the robot's counts both.
         """
-        assert isinstance(lift, AgreeLift)
         near, far = lift.world.human_end[-1], lift.world.robot_end[-1]
         level = abs(near - far)
         missed = [
             (abs(near - hurdle.height) + abs(far - hurdle.height)) / 2
             if hurdle is not None and hurdle.start <= lift.frame < hurdle.stop
             else 0.0
-            for hurdle in (lift.human_hurdle, lift.robot_hurdle)
+            for hurdle in hurdles_of(lift.plan)
         ]
         return -level - missed[0], -level - math.fsum(missed)
 
     def series(self, lift: Playing) -> Mapping[str, NDArray[np.float64]]:
         """Return the hurdles in their windows, the common way elsewhere; the robot's torque."""
-        assert isinstance(lift, AgreeLift)
         frames = lift.frame
         return {
-            "human_hurdle": lift.way_over(lift.human_hurdle)[:frames],
-            "robot_hurdle": lift.way_over(lift.robot_hurdle)[:frames],
-            "robot_torque": np.array(lift.world.robot_torque[-frames:][:frames]),
+            "human_hurdle": lift.due.over_human[:frames],
+            "robot_hurdle": lift.due.over_robot[:frames],
+            "robot_torque": torque_of(lift),
         }
 
     def score(self, lift: Playing, trace: Trace, *, failed: bool) -> Scores:
         """Return the scores of :data:`.AGREE_METRICS`."""
-        assert isinstance(lift, AgreeLift)
         near, far = trace.human_end, trace.robot_end
-        human, robot = lift.human_hurdle, lift.robot_hurdle
+        human, robot = hurdles_of(lift.plan)
         felt, borne = trace.human_force - WEIGHT_SHARE, trace.robot_force - WEIGHT_SHARE
         nan, empty = math.nan, len(near) == 0
         missed = missed_mm(human, near, far), missed_mm(robot, near, far)
-        ends = near[lift.agreeing], far[lift.agreeing]
+        held = lift.due.held[: len(near)] > 0.0
+        ends = near[held], far[held]
         level = metrics.rmse_mm(*ends) if len(ends[0]) else nan
         power = felt * trace.human_velocity
         other = power if empty else borne * np.gradient(far, FRAME)
@@ -149,14 +221,21 @@ class Agree(Haptic):
         }
 
 
-_SECRET_BOUND = np.array((HEIGHT_BOUND, LONGEST_EPISODE, LONGEST_EPISODE, 1.0))
+def _obstacle(hurdle: Hurdle | None) -> Obstacle[float]:
+    """Return a hurdle in numbers."""
+    if hurdle is None:
+        return Obstacle(0.0, 0.0, 0.0, 0.0)
+    return Obstacle(hurdle.height, float(hurdle.start), float(hurdle.stop), 1.0)
+
+
+def _window(hurdle: Hurdle | None, frames: int) -> NDArray[np.float64]:
+    """Return 1 in the frames of a hurdle's window, else 0."""
+    window = np.zeros(frames)
+    if hurdle is not None:
+        window[hurdle.start : hurdle.stop] = 1.0
+    return window
 
 
 def agree_suite() -> Suite:
     """5 subjects x 6 kinds of hurdles x 4 lifts: half with two hurdles, a third with one."""
-    scenarios = tuple(
-        make_scenario(behaviour, subject, task=Agree.name)
-        for behaviour in BEHAVIOURS
-        for subject in SUBJECTS
-    )
-    return Suite(name="agree-v1", scenarios=scenarios, seeds=tuple(range(4)))
+    return subjects_suite("agree-v1", Agree, 4)

@@ -9,7 +9,6 @@ from colift.agents.control.anticipation import ARM_LAG
 from colift.agents.policies.ball_game import BallGame
 from colift.benchmark.episode.episode import Episode, run_episode
 from colift.benchmark.episode.lift import Lift
-from colift.benchmark.tasks.ball.lift import BallLift
 from colift.benchmark.world.ball import ROLLING
 from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH
 from numpy.typing import NDArray
@@ -85,7 +84,7 @@ class Foreseeing:
         (horizon,) intended place of the ball at the end of each frame [m].
     """
 
-    def __init__(self, lift: BallLift, human: Array, path: Array) -> None:
+    def __init__(self, lift: Lift, human: Array, path: Array) -> None:
         self._lift, self._human, self._path = lift, human, path
         self._law = _law(lift.frames_per_step)
 
@@ -116,14 +115,13 @@ def foresee(lift: Lift, seed: int) -> Episode:
     the human's end to move as in the last rehearsal, and brings the ball nearer to its target. It
     sees the true state of the world without delay.
     """
-    assert isinstance(lift, BallLift)
     best = last = run_episode(lift, BallGame(), seed)
     for _ in range(REHEARSALS):
         human, ball = last.trace.human_end, last.trace.added["ball"]
         lost = lift.horizon - len(human)
         human = np.concatenate((human, np.full(lost, human[-1])))
-        ball = np.concatenate((ball, lift.place[len(ball) :]))
-        path = ball + NEARER * (lift.place - ball)
+        ball = np.concatenate((ball, lift.due.place[len(ball) :]))
+        path = ball + NEARER * (lift.due.place - ball)
         last = run_episode(lift, Foreseeing(lift, human, path), seed)
         if last.scores["rmse_mm"] < best.scores["rmse_mm"]:
             best = last

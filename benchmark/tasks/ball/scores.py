@@ -7,8 +7,6 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import FRAME
-from colift.benchmark.episode.metrics import FAILED_FRAME_MM
-from colift.robots.arithmetic import dot
 from numpy.typing import NDArray
 
 NEAR: Final = 0.02
@@ -18,28 +16,6 @@ LEAST_PEAK: Final = 0.03
 """Least speed of a peak of the ball's velocity, and least prominence of the peak [m/s]."""
 
 Series = NDArray[np.float64]
-
-
-def missed_rmse_mm(missed: Series, horizon: int) -> float:
-    r"""Return the root mean square distance of the ball from its target.
-
-    .. math:: \sqrt{\tfrac{1}{H} \sum_t (s_t - s^*_t)^2}
-
-    Parameters
-    ----------
-    missed
-        Place of the ball less the target's [m], shape (T,).
-    horizon
-        Frames H that the episode should have had; each that a failure cut off counts with
-        :data:`.FAILED_FRAME_MM`.
-
-    Returns
-    -------
-    float
-        Distance [mm].
-    """
-    lost = (horizon - len(missed)) * FAILED_FRAME_MM**2
-    return math.sqrt((1e6 * float(dot(missed, missed)) + lost) / horizon)
 
 
 def ways(target: Series) -> Iterator[slice]:

@@ -1,32 +1,30 @@
 """The task to steer a ball on the table to a target place, and its suite."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Final
+from typing import Any, ClassVar, Final, NamedTuple
 
 import numpy as np
-from colift.agents.agent import Agent, Observation
-from colift.agents.humans import SUBJECTS
-from colift.agents.humans.ball import BallPartner, BallSenses
-from colift.agents.observations import BallObservation
+from colift.agents.agent import HISTORY, Agent, Observation
+from colift.agents.humans import Plan
+from colift.agents.humans.ball import BallPartner, BallPlan, BallSenses, Steers, with_ball
+from colift.agents.humans.person import Person
+from colift.agents.observations import BALL_SENSES
+from colift.agents.rules import ArrayFunctions, Drawn, N, View
+from colift.agents.senses import HEIGHT_BOUND, Sense
 from colift.benchmark.episode import metrics
-from colift.benchmark.episode.level import HEIGHT_BOUND
+from colift.benchmark.episode.lift import lasting
 from colift.benchmark.episode.metric import Metrics, Scores
-from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.task import Bounds, Playing
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
-from colift.benchmark.tasks.ball.lift import BallLift
-from colift.benchmark.tasks.ball.scores import ball_settling_ms, missed_rmse_mm, velocity_peaks
+from colift.benchmark.tasks.ball.scores import ball_settling_ms, velocity_peaks
 from colift.benchmark.tasks.ball.table import BALL_METRICS
-from colift.benchmark.tasks.haptic import FINER, Haptic
-from colift.benchmark.world import Ball, BodyParameters, BulletWorld, FarEnd, Physics
+from colift.benchmark.tasks.touch import Touch, subjects_suite, torque_of
+from colift.benchmark.world import Ball
 from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH, WEIGHT_SHARE
 from numpy.typing import NDArray
-
-BEHAVIOURS: Final = ("ball_smooth", "ball_pause", "ball_smooth_shared", "ball_pause_shared")
 
 BALL: Final = Ball()
 """The ball of the suite."""
@@ -35,8 +33,22 @@ FELL: Final = "the ball rolled off the table"
 """Reason for the end of a lift in which the ball is lost."""
 
 
+class Places(NamedTuple):
+    """The task's series."""
+
+    place: Any
+    """Intended place of the ball at the end of each frame [m]."""
+
+
+class Shown(NamedTuple):
+    """The task's numbers."""
+
+    shown: Any
+    """1 if both know the target, 0 if the human alone does."""
+
+
 @dataclass(frozen=True, kw_only=True)
-class BallSteering(Haptic):
+class BallSteering(Touch):
     """Steer the ball to its target place on the table, while the human lifts and lowers it.
 
     The robot has :class:`.BallObservation`, with the target if both know it. The human has
@@ -45,42 +57,54 @@ class BallSteering(Haptic):
 
     name: ClassVar[str] = "ball"
     metrics: ClassVar[Metrics] = BALL_METRICS
+    person: ClassVar[Person] = Steers()
     second_human: ClassVar[type[Agent]] = BallPartner
+    behaviours: ClassVar[tuple[str, ...]] = (
+        "ball_smooth",
+        "ball_pause",
+        "ball_smooth_shared",
+        "ball_pause_shared",
+    )
+    senses: ClassVar[tuple[Sense, ...]] = BALL_SENSES
     ball: Ball = BALL
 
-    def world(
-        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics = FINER
-    ) -> BulletWorld:
-        """Return a world with a ball on the table."""
-        return BulletWorld(human, far_end, physics=physics, touch=True, ball=self.ball)
+    @property
+    def rolling(self) -> Ball:
+        """The ball."""
+        return self.ball
 
-    def lift(self, scenario: Scenario) -> BallLift:
-        """Return a lift whose human steers the ball."""
-        return BallLift(scenario)
+    def drawn(self, plan: Plan, frames: int) -> tuple[Places, Shown]:
+        """Return the intended places of the ball, and whether both know them."""
+        if not isinstance(plan, BallPlan):
+            return Places(np.zeros(frames)), Shown(0.0)
+        return Places(lasting(plan.place, frames)), Shown(float(plan.shown))
 
-    def robot_observation(self, lift: Playing) -> Observation:
-        """Return the robot's senses, laid out as :class:`.BallObservation`."""
-        assert isinstance(lift, BallLift)
-        return np.concatenate((lift.haptic_view(), lift.ball_view()))
+    def observe(self, f: ArrayFunctions[N], drawn: Drawn[N], view: View[N]) -> Sequence[N]:
+        """Return the seen place of the ball, the target, and whether that is known."""
+        shown = drawn.facts.shown
+        target = f.where(shown > 0.0, drawn.series.place.at(view.frame), 0.0)
+        return view.seen("ball_place", view.latency), target, shown
+
+    def missed(self, f: ArrayFunctions[N], due: Any, ends: Any) -> Sequence[N]:
+        """Return the square distance of the ball from its target."""
+        return ((ends.ball - due.place) ** 2,)
+
+    def lost(self, f: ArrayFunctions[N], ends: Any) -> Any:
+        """Return whether the ball has rolled off the table."""
+        return f.abs(ends.ball) > TABLE_LENGTH / 2
+
+    def failure(self, lift: Playing) -> str | None:
+        """Return how the table was dropped or the ball lost in the step just made, or None."""
+        return FELL if self.is_lost(lift) else super().failure(lift)
 
     def human_observation(self, lift: Playing) -> Observation:
         """Return the human's view of the ball, and the human's senses."""
-        assert isinstance(lift, BallLift)
-        return lift.person_view(super().human_observation(lift), far=False)
+        return _with_ball(lift, lift.human_view(lift.planned()), lift.visual, known=True)
 
     def partner_observation(self, lift: Playing) -> Observation:
         """Return the same for a second human in the robot's place."""
-        assert isinstance(lift, BallLift)
-        return lift.person_view(super().partner_observation(lift), far=True)
-
-    def robot_bounds(self) -> Bounds:
-        """Return the bounds of :class:`.BallObservation`."""
-        low, high = super().robot_bounds()
-        ball = np.full(len(BallObservation) - len(low), HEIGHT_BOUND)
-        ball[-1] = 1.0
-        lowest = -ball
-        lowest[-1] = 0.0
-        return np.concatenate((low, lowest)), np.concatenate((high, ball))
+        view = super().partner_observation(lift)
+        return _with_ball(lift, view, lift.partner_visual, known=bool(lift.facts.shown))
 
     def human_bounds(self, frames: int) -> Bounds:
         """Return the bounds of the humans' observations."""
@@ -88,26 +112,13 @@ class BallSteering(Haptic):
         ball = np.full(BallSenses.SIZE, HEIGHT_BOUND)
         return np.concatenate((-ball, low)), np.concatenate((ball, high))
 
-    def rewards(self, lift: Playing) -> tuple[float, float]:
-        """Return minus the distance of the ball from its target [m], for both."""
-        assert isinstance(lift, BallLift)
-        missed = abs(lift.world.ball_place[-1] - float(lift.place[lift.frame - 1]))
-        return -missed, -missed
-
-    def failure(self, lift: Playing) -> str | None:
-        """Return how the table was dropped or the ball lost in the step just made, or None."""
-        assert isinstance(lift, BallLift)
-        farthest = max(map(abs, lift.world.ball_place[-lift.frames_per_step :]))
-        return FELL if farthest > TABLE_LENGTH / 2 else super().failure(lift)
-
     def series(self, lift: Playing) -> Mapping[str, NDArray[np.float64]]:
         """Return the places of the ball and of its target, and the torque of the robot's hands."""
-        assert isinstance(lift, BallLift)
-        frames, world = lift.frame, lift.world
+        frames = lift.frame
         return {
-            "ball": np.array(world.ball_place[-frames:][:frames]),
-            "ball_target": lift.place[:frames],
-            "robot_torque": np.array(world.robot_torque[-frames:][:frames]),
+            "ball": np.array(lift.world.ball_place[-frames:][:frames]),
+            "ball_target": lift.due.place[:frames],
+            "robot_torque": torque_of(lift),
         }
 
     def score(self, lift: Playing, trace: Trace, *, failed: bool) -> Scores:
@@ -118,7 +129,7 @@ class BallSteering(Haptic):
         peaks, speed = (nan, nan) if failed else velocity_peaks(place, target)
         lost = not empty and bool(np.abs(place[-lift.frames_per_step :]).max() > TABLE_LENGTH / 2)
         return {
-            "rmse_mm": missed_rmse_mm(place - target, lift.horizon),
+            "rmse_mm": self.rmse_mm(lift, trace, place),
             "settling_ms": nan if failed else ball_settling_ms(place - target, target),
             "velocity_peaks": peaks,
             "peak_speed_m_s": speed,
@@ -131,11 +142,14 @@ class BallSteering(Haptic):
         }
 
 
+def _with_ball(lift: Playing, view: Observation, delay: int, *, known: bool) -> Observation:
+    """Return a person's senses with the ball before them; see :func:`.with_ball`."""
+    places = lift.world.ball_place
+    seen = len(places) - delay
+    coming = np.minimum(np.arange(lift.frame, lift.frame + HISTORY), lift.horizon - 1)
+    return with_ball(view, places[seen - HISTORY : seen], lift.due.place[coming] if known else None)
+
+
 def ball_suite() -> Suite:
     """5 subjects x 4 behaviours x 5 lifts: a ball that both steer."""
-    scenarios = tuple(
-        make_scenario(behaviour, subject, task=BallSteering.name)
-        for behaviour in BEHAVIOURS
-        for subject in SUBJECTS
-    )
-    return Suite(name="ball-v1", scenarios=scenarios, seeds=tuple(range(5)))
+    return subjects_suite("ball-v1", BallSteering, 5)

@@ -4,7 +4,6 @@ import numpy as np
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.tasks.intent.lift import IntentLift
 from colift.benchmark.tasks.rehearsal import rehearse_lift
 from numpy.typing import NDArray
 
@@ -13,8 +12,7 @@ def foreknow_pose(lift: Lift, seed: int) -> Episode:
     """Return the episode of a seed, played by the oracle; see :func:`.rehearse_lift`."""
 
     def planned(lift: Lift) -> NDArray[np.float64]:
-        assert isinstance(lift, IntentLift)
-        return lift.far_target
+        return np.asarray(lift.due.far)
 
     def missed(trace: Trace) -> NDArray[np.float64]:
         return np.asarray(trace.added["far_target"] - trace.robot_end)

@@ -7,8 +7,9 @@ from colift.agents.loading.loading import PolicySpec
 from colift.agents.policies.copy import Copy
 from colift.agents.policies.hold import Hold
 from colift.agents.policies.proportional import Proportional, ProportionalParameters
-from colift.benchmark.episode import lift
+from colift.benchmark.episode import sensing
 from colift.benchmark.episode.episode import run_episode
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite
 
@@ -34,10 +35,10 @@ def follow(policy, heights, age):
 @pytest.fixture
 def push(monkeypatch):
     """Push the hand by 1 cm beside a human who stays, without noise; return what it does in 3 s."""
-    monkeypatch.setattr(lift, "MOCAP_NOISE", 0.0)
+    monkeypatch.setattr(sensing, "MOCAP_NOISE", 0.0)
 
     def actions(gain, control_period, subject):
-        made = lift.Lift(make_scenario("smooth", subject, control_period=control_period))
+        made = Lift(make_scenario("smooth", subject, control_period=control_period))
         made.reset(5000)
         policy, still = with_gain(gain), np.zeros(made.frames_per_step)
         made.step(still, np.array([0.01]))
@@ -86,7 +87,7 @@ def test_at_little_more_than_twice_the_gain_it_never_does(push, subject):
 
 def test_makes_up_for_the_sag_of_the_own_hand():
     """In the mean of lifts: what is left of a sag of half a millimetre is near the noise."""
-    made = lift.Lift(make_scenario("smooth", "S2"))
+    made = Lift(make_scenario("smooth", "S2"))
     sag = {
         policy: np.mean(
             [
@@ -102,7 +103,7 @@ def test_makes_up_for_the_sag_of_the_own_hand():
 def test_beats_holding_still_and_copying_in_the_quick_suite():
     suite = make_suite("quick-v1")
     for scenario in suite.scenarios:
-        made = lift.Lift(scenario)
+        made = Lift(scenario)
         for seed in suite.seeds:
             played = [run_episode(made, policy(), seed) for policy in (Proportional, Copy, Hold)]
             assert played[0].failure is None

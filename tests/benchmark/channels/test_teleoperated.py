@@ -10,6 +10,7 @@ from colift.agents.agent import RobotObservation
 from colift.agents.errors import InputError, PolicyError
 from colift.agents.loading.loading import InMemorySpec, PolicySpec
 from colift.agents.policies.copy import Copy
+from colift.agents.rules import SCALARS
 from colift.benchmark.channels import Channel, Link
 from colift.benchmark.channels.teleoperated import ANSWERED, Teleoperated
 from colift.benchmark.episode.seat import limited_command
@@ -59,7 +60,7 @@ def commands(episode):
     """Return the command before each step, and after the last."""
     found = [0.0]
     for [action] in episode.trace.action.tolist():
-        found.append(limited_command(found[-1], action, 0.04))
+        found.append(limited_command(SCALARS, found[-1], action, 0.04))
     return found
 
 

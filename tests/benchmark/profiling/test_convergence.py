@@ -5,7 +5,7 @@ import dataclasses
 import pytest
 from colift.benchmark.profiling.convergence import PAIR, physics_errors
 from colift.benchmark.suites.suite import make_suite
-from colift.benchmark.tasks.haptic import FINER
+from colift.benchmark.tasks.touch import FINER
 from colift.benchmark.world import PHYSICS, Physics
 
 

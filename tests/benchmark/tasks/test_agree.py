@@ -14,7 +14,7 @@ from colift.agents.loading.loading import PolicySpec
 from colift.agents.observations import AgreeObservation, HapticObservation
 from colift.benchmark.admission import published
 from colift.benchmark.episode.episode import run_episode
-from colift.benchmark.episode.lift import make_lift
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.replay import replay
 from colift.benchmark.results.baselines import human_human_run, partner_spec
 from colift.benchmark.suites.catalogue import make_scenario
@@ -41,7 +41,7 @@ def lifted(behaviour, subject="S1", policy="agree_game", seed=SEED, uncertainty=
     if uncertainty is not None:
         scenario = dataclasses.replace(scenario, task=Agree(uncertainty=uncertainty))
     agent = partner_spec(scenario.task) if policy is None else PolicySpec(text=policy)
-    with contextlib.closing(make_lift(scenario)) as lift, agent.agent() as holder:
+    with contextlib.closing(Lift(scenario)) as lift, agent.agent() as holder:
         return run_episode(lift, holder, seed)
 
 
@@ -69,7 +69,7 @@ def test_the_first_seven_numbers_are_those_of_touch():
 
 
 def test_the_robot_has_its_own_hurdle_and_not_the_human_s():
-    with contextlib.closing(make_lift(make_scenario("abreast", "S1", task="agree"))) as lift:
+    with contextlib.closing(Lift(make_scenario("abreast", "S1", task="agree"))) as lift:
         lift.reset(SEED)
         lift.frame = 100
         own = lift.partner_observation()[AgreeObservation.HURDLE_HEIGHT :]
@@ -125,7 +125,7 @@ def test_the_eager_need_a_follower_and_the_timid_a_leader():
 
 def test_a_level_table_misses_the_robot_s_hurdle_and_an_oracle_does_not():
     level = lifted("other_hurdle", policy="anticipate").scores
-    with contextlib.closing(make_lift(make_scenario("other_hurdle", task="agree"))) as lift:
+    with contextlib.closing(Lift(make_scenario("other_hurdle", task="agree"))) as lift:
         oracle = foreknow_agreement(lift, SEED).scores
     assert level["robot_hurdle_mm"] > 20.0
     assert oracle["robot_hurdle_mm"] < 5.0
@@ -149,7 +149,7 @@ def test_a_lift_is_proved_by_its_actions():
     episode = lifted("behind", policy=None)
     assert episode.failure is None
     scenario = make_scenario("behind", "S1", "human", task="agree")
-    with contextlib.closing(make_lift(scenario)) as lift:
+    with contextlib.closing(Lift(scenario)) as lift:
         again = replay(lift, SEED, episode.trace.human_action, episode.trace.action, None)
     assert again.trace.digest() == episode.trace.digest()
     assert np.array_equal(again.scripted, episode.trace.human_action)

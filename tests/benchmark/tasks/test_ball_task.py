@@ -9,7 +9,7 @@ import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.observations import BallObservation, HapticObservation
 from colift.benchmark.episode.episode import run_episode
-from colift.benchmark.episode.lift import make_lift
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.replay import replay
 from colift.benchmark.results.baselines import partner_spec
 from colift.benchmark.suites.catalogue import make_scenario
@@ -17,11 +17,11 @@ from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tasks.ball.oracle import foresee
 from colift.benchmark.tasks.ball.scores import (
     ball_settling_ms,
-    missed_rmse_mm,
     velocity_peaks,
     ways,
 )
 from colift.benchmark.tasks.ball.task import FELL, BallSteering
+from colift.benchmark.tasks.touch import root_mean_mm
 from colift.testing import check_suite, check_task
 
 DIGEST = "86ed05445aa13789"
@@ -33,7 +33,7 @@ def lifted(behaviour, subject="S1", policy="ball_game", seed=SEED):
     partner = "human" if policy is None else "nao"
     scenario = make_scenario(behaviour, subject, partner, task="ball")
     agent = partner_spec(scenario.task) if policy is None else PolicySpec(text=policy)
-    with contextlib.closing(make_lift(scenario)) as lift, agent.agent() as holder:
+    with contextlib.closing(Lift(scenario)) as lift, agent.agent() as holder:
         return run_episode(lift, holder, seed)
 
 
@@ -56,9 +56,9 @@ def test_the_first_seven_numbers_are_those_of_touch():
 def test_a_target_known_to_both_is_observed_and_a_private_one_is_not():
     for behaviour, known in (("ball_smooth", 0.0), ("ball_smooth_shared", 1.0)):
         scenario = make_scenario(behaviour, "S2", task="ball")
-        with contextlib.closing(make_lift(scenario)) as lift:
+        with contextlib.closing(Lift(scenario)) as lift:
             lift.reset(SEED)
-            while abs(lift.place[lift.frame]) < 0.05:
+            while abs(lift.due.place[lift.frame]) < 0.05:
                 lift.step(np.zeros(10), np.zeros(1))
             seen = lift.partner_observation()
         assert seen[BallObservation.TARGET_KNOWN] == known
@@ -66,10 +66,10 @@ def test_a_target_known_to_both_is_observed_and_a_private_one_is_not():
 
 
 def test_lost_frames_count_as_such():
-    missed = np.full(50, 0.03)
-    assert missed_rmse_mm(missed, 50) == pytest.approx(30.0)
-    assert missed_rmse_mm(missed, 100) == pytest.approx(np.sqrt((900 + 250**2) / 2))
-    assert missed_rmse_mm(missed[:0], 10) == 250.0
+    squares = np.full(50, 0.03**2)
+    assert root_mean_mm(squares, 50) == pytest.approx(30.0)
+    assert root_mean_mm(squares, 100) == pytest.approx(np.sqrt((900 + 250**2) / 2))
+    assert root_mean_mm(squares[:0], 10) == 250.0
 
 
 def moved(*stops):
@@ -107,7 +107,7 @@ def test_one_push_and_brake_is_one_peak():
 
 def test_a_level_table_is_not_enough_and_an_oracle_nearly_perfect():
     level = lifted("ball_smooth", policy="anticipate").scores["rmse_mm"]
-    with contextlib.closing(make_lift(make_scenario("ball_smooth", "S1", task="ball"))) as lift:
+    with contextlib.closing(Lift(make_scenario("ball_smooth", "S1", task="ball"))) as lift:
         oracle = foresee(lift, SEED).scores["rmse_mm"]
     assert level > 60.0
     assert oracle < 15.0
@@ -133,7 +133,7 @@ def test_two_people_steer_and_the_lift_is_proved_by_its_actions():
     assert episode.failure is None
     assert episode.scores["rmse_mm"] < 100.0
     scenario = make_scenario("ball_smooth", "S1", "human", task="ball")
-    with contextlib.closing(make_lift(scenario)) as lift:
+    with contextlib.closing(Lift(scenario)) as lift:
         again = replay(lift, SEED, episode.trace.human_action, episode.trace.action, None)
     assert again.trace.digest() == episode.trace.digest()
 

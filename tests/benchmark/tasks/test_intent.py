@@ -11,7 +11,7 @@ from colift.agents.humans.intent import MANNERS
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.observations import HapticObservation
 from colift.benchmark.episode.episode import run_episode
-from colift.benchmark.episode.lift import make_lift
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.replay import replay
 from colift.benchmark.results.baselines import partner_spec
 from colift.benchmark.suites.catalogue import make_scenario
@@ -28,7 +28,7 @@ def lifted(behaviour, subject="S1", policy="pose_bayes", seed=SEED):
     partner = "human" if policy is None else "nao"
     scenario = make_scenario(behaviour, subject, partner, task="intent")
     agent = partner_spec(scenario.task) if policy is None else PolicySpec(text=policy)
-    with contextlib.closing(make_lift(scenario)) as lift, agent.agent() as holder:
+    with contextlib.closing(Lift(scenario)) as lift, agent.agent() as holder:
         return run_episode(lift, holder, seed)
 
 
@@ -61,7 +61,7 @@ def test_settling_counts_from_the_beginning_to_the_last_frame_outside():
 @pytest.mark.parametrize("behaviour", ["pivot", "counter"])
 def test_a_level_table_is_wrong_and_an_oracle_nearly_perfect(behaviour):
     level = lifted(behaviour, policy="anticipate").scores["rmse_mm"]
-    with contextlib.closing(make_lift(make_scenario(behaviour, "S1", task="intent"))) as lift:
+    with contextlib.closing(Lift(make_scenario(behaviour, "S1", task="intent"))) as lift:
         oracle = foreknow_pose(lift, SEED).scores["rmse_mm"]
     assert oracle < 3.0
     assert level > 10 * oracle
@@ -86,7 +86,7 @@ def test_two_people_find_the_pose_and_the_lift_is_proved_by_its_actions():
     assert episode.failure is None
     assert episode.scores["rmse_mm"] < lifted("counter", policy="touch_level").scores["rmse_mm"]
     scenario = make_scenario("counter", "S1", "human", task="intent")
-    with contextlib.closing(make_lift(scenario)) as lift:
+    with contextlib.closing(Lift(scenario)) as lift:
         again = replay(lift, SEED, episode.trace.human_action, episode.trace.action, None)
     assert again.trace.digest() == episode.trace.digest()
     assert np.array_equal(again.scripted, episode.trace.human_action)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.agents.registry import SUITES, own_entries
-from colift.benchmark.episode.lift import MOCAP_NOISE
+from colift.agents.senses import MOCAP_NOISE
 from colift.benchmark.paper.calibration import SEEDS
 from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
 from colift.benchmark.training.demonstrations import (

@@ -6,7 +6,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from colift.benchmark.episode.episode import run_episode
-from colift.benchmark.episode.lift import make_lift
+from colift.benchmark.episode.lift import Lift
 
 
 class Played:
@@ -27,7 +27,7 @@ def engine_scores(make, lifts):
     """Return the scores of the lifts with new agents."""
     scores = []
     for scenario, seed in lifts:
-        with contextlib.closing(make_lift(scenario)) as lift:
+        with contextlib.closing(Lift(scenario)) as lift:
             scores.append(run_episode(lift, make(), seed).scores)
     return scores
 

@@ -8,7 +8,7 @@ import pytest
 from colift.agents.agent import FRAME
 from colift.agents.humans import SUBJECTS
 from colift.benchmark.episode.seat import body_parameters
-from colift.benchmark.world import Ball, HapticWorld, NaoFarEnd, since_reset
+from colift.benchmark.world import Ball, BulletWorld, NaoFarEnd, since_reset
 from colift.benchmark.world.ball import ROLLING, TableMotion
 from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH
 
@@ -115,7 +115,7 @@ def test_the_energy_of_a_ball_on_a_moving_table_is_the_work_of_the_table():
 def test_so_it_is_in_a_lift_of_the_engine():
     """The table moves as the engine has it; its slide to and fro, of millimetres, is left out."""
     ball = Ball(friction=0.0)
-    with closing(HapticWorld(body_parameters(SUBJECTS["S3"]), NaoFarEnd(), ball=ball)) as world:
+    with closing(BulletWorld(body_parameters(SUBJECTS["S3"]), NaoFarEnd(), ball=ball)) as world:
         near = 0.1 * prescribed(150)[0][1:] / 0.2
         far = near + 0.03 * np.sin(np.linspace(0.0, 2 * np.pi, 150))
         for start in range(0, 150, 10):

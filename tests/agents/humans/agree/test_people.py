@@ -18,8 +18,9 @@ from colift.agents.humans.agree import (
     AgreeingManner,
     Ahead,
     Behind,
-    Negotiator,
+    Negotiates,
     NoHurdle,
+    Obstacle,
     OtherHurdle,
     OwnHurdle,
     SecondNegotiator,
@@ -28,6 +29,7 @@ from colift.agents.humans.agree import (
     with_secret,
 )
 from colift.agents.humans.agree.hurdles import APART, AWAY, LENGTH
+from colift.agents.humans.agree.person import Sight as Seeing
 from colift.agents.humans.agree.precedence import (
     EARLY,
     NEEDED,
@@ -38,7 +40,10 @@ from colift.agents.humans.agree.precedence import (
     served,
 )
 from colift.agents.rules import SCALARS
+from colift.benchmark.tasks.agree.task import Facts
 from colift.testing import check_behaviour
+
+from ..past import Past, Walking, drawn_of
 
 S1 = SUBJECTS["S1"]
 ALL = (Abreast, Ahead, Behind, OwnHurdle, OtherHurdle, NoHurdle)
@@ -188,9 +193,33 @@ def rests(own, time):
     return 0.15
 
 
+def walked(subject, hurdle, far, steps):
+    """Return a person's references at the common height, after 2 s to settle there."""
+    start, frames = 200, 200 + 10 * steps
+    nothing = Obstacle(0.0, 0.0, 0.0, 0.0)
+    own = hurdle._replace(start=hurdle.start + start, stop=hurdle.stop + start)
+    drawn = drawn_of(
+        np.full(frames, 0.15),
+        agreeing_manner(subject),
+        facts=Facts(own, nothing, frames, 0.0),
+        chance=Seeing(np.zeros(frames)),
+    )
+    view = Past(visual=round(subject.visual_delay / FRAME))
+    view.read = {"human_end": [0.15] * 40, "robot_end": [0.15] * 40}
+    walking, references = Walking(Negotiates(), drawn), []
+    while view.frame < frames:
+        first = view.frame - start
+        found = walking.step(view)
+        references += found
+        view.read["human_end"] += found
+        view.read["robot_end"] += [
+            far(view.read["human_end"], (first + i) * FRAME) for i in range(len(found))
+        ]
+    return np.array(references[start:])
+
+
 def test_a_person_passes_the_own_hurdle_when_the_far_end_comes_along():
-    secret = Secret(0.19, 0.5, 2.0, 1.0)
-    path = played(Negotiator(subject=S1), secret, lambda own, time: own[-20], 25)
+    path = walked(S1, Obstacle(0.19, 50.0, 200.0, 1.0), lambda own, time: own[-20], 25)
     assert path[50:200].max() == pytest.approx(0.19, abs=0.008)
     assert path[:20] == pytest.approx(0.15, abs=0.01)
 
@@ -199,7 +228,7 @@ def test_a_trusting_person_without_a_hurdle_goes_where_the_far_end_goes():
     def leading(own, time):
         return 0.15 + 0.04 * min(max((time - 0.3) / 0.4, 0.0), 1.0)
 
-    path = played(Negotiator(subject=SUBJECTS["S2"]), Secret(0.0, 0.0, 0.0, 0.0), leading, 20)
+    path = walked(SUBJECTS["S2"], Obstacle(0.0, 0.0, 0.0, 0.0), leading, 20)
     assert path[:30] == pytest.approx(0.15, abs=0.01)
     assert path[80:120].mean() > 0.17
 

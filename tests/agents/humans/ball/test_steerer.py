@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.agent import HISTORY, HumanObservation
+from colift.agents.agent import HISTORY
 from colift.agents.ball import facts
 from colift.agents.humans import SUBJECTS, Subject
 from colift.agents.humans.ball import (
@@ -13,12 +13,21 @@ from colift.agents.humans.ball import (
     BallSmooth,
     BallSmoothShared,
     SteeringManner,
+    Steers,
     steering_manner,
-    with_ball,
 )
-from colift.agents.humans.ball.manner import RANGES
+from colift.agents.humans.ball.manner import TRAITS
+from colift.agents.humans.ball.person import SteeringIntention
 from colift.agents.humans.ball.places import FARTHEST, STRONGEST, WAY
-from colift.agents.humans.ball.steerer import Steering
+from colift.agents.humans.ball.steering import (
+    SQUARE,
+    BallTarget,
+    SteeringMemory,
+    SteeringSenses,
+    steer,
+)
+from colift.agents.rules import SCALARS
+from colift.benchmark.tasks.ball.task import Places
 from colift.benchmark.world import Ball
 from colift.benchmark.world.ball import ROLLING
 from colift.benchmark.world.table import (
@@ -29,24 +38,42 @@ from colift.benchmark.world.table import (
 )
 from colift.testing import check_behaviour
 
+from ..past import Past, Walking, drawn_of
+
 CALM = SteeringManner(share=0.5, haste=2.0, lead=0.0, trust=0.0, wrist=0.5)
 
 
-def seen(place=0.0, target=0.0, other=0.0, known=True):
-    """Return a person's observation with everything at rest."""
-    view = np.zeros(HumanObservation.size(HISTORY))
-    view[HumanObservation.OTHER_END] = other
-    view[HumanObservation.HAND_FORCE] = facts.HALF_WEIGHT + facts.BALL_WEIGHT / 2
-    return with_ball(view, [place] * HISTORY, np.full(HISTORY, target) if known else None)
-
-
-def settled(manner, side=-1.0, steps=30, **view):
+def settled(manner, side=-1.0, steps=30, place=0.0, other=0.0, known=True):
     """Return where a person's end goes beyond the plan [m] when nothing moves."""
-    steering = Steering(manner, 0.15)
-    steering.reset()
+    memory = SteeringMemory(0.0, 0.0, 0.0, SQUARE)
+    senses = SteeringSenses(
+        own=0.0,
+        other=other,
+        planned=0.0,
+        place=place,
+        speed=0.0,
+        target=BallTarget(0.0, 0.0, 0.0),
+        span=0.04,
+        known=float(known),
+        felt=facts.BALL_WEIGHT / 2,
+    )
     for _ in range(steps):
-        offsets = steering.offsets(seen(**view), np.zeros(HISTORY), side)
+        memory, offsets = steer(SCALARS, manner, memory, senses, side, HISTORY)
     return offsets[-1]
+
+
+def test_a_person_lifts_along_the_plan_beside_the_steering():
+    """The intended height is the plan, and an offset for a ball away from its target."""
+    plan = np.linspace(0.0, 0.1, 200)
+    drawn = drawn_of(plan, CALM, series=Places(np.zeros(200)))
+    view, walking = Past(read={"ball_place": [0.05] * 40}), Walking(Steers(), drawn)
+    while view.frame < 200:
+        walking.step(view)
+    offsets = np.array(view.read["target"]) - plan
+    assert offsets[-1] == pytest.approx(settled(CALM, steps=20, place=0.05), rel=0.1)
+    difference, pitch = Steers().drive(SCALARS, drawn, SteeringIntention(0.1, 0.1), 0.08)
+    assert difference == pytest.approx(0.02)
+    assert pitch == pytest.approx(math.asin(0.02 / TABLE_LENGTH), rel=1e-6)
 
 
 def test_both_partners_know_the_table_of_the_world():
@@ -107,7 +134,7 @@ def test_people_differ_and_a_name_is_always_the_same_person():
         assert steering_manner(SUBJECTS[name]) is manner
     drawn = [steering_manner(Subject.draw(seed)) for seed in range(100_000, 100_020)]
     assert drawn[0] == steering_manner(Subject.draw(100_000))
-    for name, (low, high) in RANGES.items():
+    for name, (low, high, *_) in TRAITS.items():
         values = [getattr(manner, name) for manner in drawn]
         assert low <= min(values) < max(values) <= high
         assert max(values) - min(values) > 0.6 * (high - low)

@@ -8,17 +8,18 @@ from colift.agents.humans import SUBJECTS, Subject
 from colift.agents.humans.intent import (
     MANNERS,
     Counter,
-    PaceMemory,
-    PaceSenses,
+    Leads,
     Pivot,
     Switching,
     Together,
     leading_manner,
-    pace,
 )
 from colift.agents.humans.intent.pace import CATCHING_UP
 from colift.agents.humans.intent.poses import HIGHEST, LOWEST, SHARES, STEEPEST
 from colift.agents.rules import SCALARS, NumberSeries, at_time
+from colift.benchmark.tasks.intent.task import Pose
+
+from ..past import Past, Walking, drawn_of
 
 S1 = SUBJECTS["S1"]
 
@@ -54,44 +55,30 @@ def test_switching_has_two_intents_without_a_rest_between_them():
     assert len(plan.strokes) == 6
 
 
-class Walking:
-    """S1 on the way through a plan of the far end."""
-
-    def __init__(self, far):
-        self.plan, self.memory = NumberSeries.of(far), PaceMemory(0.0, 0.0)
-        self.seen = -1 - round(S1.visual_delay / 0.01)
-        self.planned = [0.0] * -self.seen
-
-    def coming(self, frames, far_end):
-        """Return the times within the plan of the next frames, for a history of the far end."""
-        senses = PaceSenses(far_end[self.seen], self.planned[self.seen])
-        self.memory, times = pace(SCALARS, MANNERS["S1"], self.memory, senses, frames)
-        self.planned += [at_time(SCALARS, self.plan, time) for time in times]
-        return times
-
-
 def planned_at(series, time):
     return at_time(SCALARS, NumberSeries.of(series), time)
 
 
 def test_a_person_waits_for_a_far_end_that_is_off_and_catches_up_later():
     far = np.linspace(0.0, 0.2, 400)
-    walking = Walking(far)
+    drawn = drawn_of(np.zeros(400), MANNERS["S1"], series=Pose(np.zeros(400), far))
     patience, delay = MANNERS["S1"].patience, round(S1.visual_delay / 0.01)
-    history = [0.0] * 50
+    walking, history = Walking(Leads(), drawn), [0.0] * 50
+    view = Past(visual=delay, read={"robot_end": history, "far": [0.0] * 50})
     for _ in range(10):  # The far end follows perfectly, then stands still.
-        times = walking.coming(10, history)
-        history += [planned_at(far, time) for time in times]
-    assert times[-1] == 100
+        walking.step(view)
+        history += view.read["far"][-10:]
+    assert walking.memory.time == 100
     for _ in range(90):
-        times = walking.coming(10, history)
+        before = walking.memory.time
+        walking.step(view)
         history += [history[-1]] * 10
-    assert times[-1] - times[0] < 0.01
-    assert planned_at(far, times[-1]) - history[-1] == pytest.approx(2 * patience, abs=0.01)
-    waited = times[-1]
+    assert walking.memory.time - before < 0.01
+    assert view.read["far"][-1] - history[-1] == pytest.approx(2 * patience, abs=0.01)
+    waited = walking.memory.time
     history += [planned_at(far, waited)] * (delay + 1)
-    times = walking.coming(10, history)
-    assert times[-1] - waited == pytest.approx(10 * CATCHING_UP)
+    walking.step(view)
+    assert walking.memory.time - waited == pytest.approx(10 * CATCHING_UP)
 
 
 def test_a_plan_s_heights_between_frames_are_interpolated():

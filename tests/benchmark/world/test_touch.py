@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from colift.agents.humans import PARTNER_SUBJECT, SUBJECTS
 from colift.benchmark.episode.seat import body_parameters
-from colift.benchmark.world import Ball, HapticWorld, HumanFarEnd, NaoFarEnd
-from colift.benchmark.world.haptic_world import FAR_GRIP_DAMPING, FAR_GRIP_STIFFNESS
+from colift.benchmark.world import Ball, BulletWorld, HumanFarEnd, NaoFarEnd
 from colift.benchmark.world.table import (
+    FAR_GRIP_DAMPING,
+    FAR_GRIP_STIFFNESS,
     GRAVITY,
     GRIP_DAMPING,
     GRIP_STIFFNESS,
@@ -25,15 +26,14 @@ REST = 300
 
 @pytest.fixture
 def world():
-    with closing(HapticWorld(BODY, NaoFarEnd())) as made:
+    with closing(BulletWorld(BODY, NaoFarEnd(), touch=True)) as made:
         yield made
 
 
 def hold(world, near, far, frames=REST, difference=0.0, pitch=0.0):
     """Hold both ends at heights [m] until everything is at rest."""
     for _ in range(frames // 10):
-        world.intend([difference] * 10, [pitch] * 10)
-        world.advance([near] * 10, [far] * 10)
+        world.advance([near] * 10, [far] * 10, ([difference] * 10, [pitch] * 10))
 
 
 def test_the_grip_of_the_far_hands_resists_the_pitch(world):
@@ -83,7 +83,7 @@ def test_a_reset_restores_every_bit(world):
 def test_the_weight_of_a_ball_is_shared_by_its_place(far):
     """Both ends together carry table and ball; a ball in the middle is carried in halves."""
     ball = Ball(friction=5.0)
-    with closing(HapticWorld(BODY, far, ball=ball)) as made:
+    with closing(BulletWorld(BODY, far, ball=ball)) as made:
         for _ in range(REST // 10):
             made.advance([0.05] * 10, [0.05] * 10)
         weight = ball.mass * GRAVITY
@@ -95,7 +95,7 @@ def test_the_weight_of_a_ball_is_shared_by_its_place(far):
 
 
 def test_a_ball_rolls_down_the_table():
-    with closing(HapticWorld(BODY, NaoFarEnd(), ball=Ball())) as made:
+    with closing(BulletWorld(BODY, NaoFarEnd(), ball=Ball())) as made:
         for _ in range(8):
             made.advance([0.05] * 10, [0.0] * 10)
         assert made.ball_place[-1] > 0.01

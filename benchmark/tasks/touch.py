@@ -1,0 +1,162 @@
+"""The base of tasks with touch: a finer world, and rules that say what is missed and lost."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, Final, NamedTuple, cast
+
+import numpy as np
+from colift.agents.humans import SUBJECTS
+from colift.agents.rules import SCALARS, ArrayFunctions, N
+from colift.benchmark.episode.level import Level
+from colift.benchmark.episode.metrics import FAILED_FRAME_MM
+from colift.benchmark.episode.task import Playing
+from colift.benchmark.episode.trace import Trace
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.world import Ball, BodyParameters, BulletWorld, FarEnd, Physics
+
+FINER: Final = Physics(step=0.0025)
+"""The physics of the tasks with touch. People and policies that act on touch amplify small
+differences: at the usual step the mean error of two people on ``agree-v1`` is 4 % off (``colift
+bench --convergence --suite agree-v1``)."""
+
+
+class Ends(NamedTuple):
+    """Read-outs at the end of a frame [m]: numbers, or arrays."""
+
+    near: Any
+    """Height of the human's end."""
+    far: Any
+    """Height of the robot's end."""
+    ball: Any
+    """Place of the ball; 0 without one."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Touch(Level):
+    """The base of tasks with touch: subclasses state purpose, end and scores.
+
+    The robot has the senses of sight and of touch, and those of :attr:`senses`. The rules
+    :meth:`missed`, :meth:`error` and :meth:`lost` are read by the engine and by the twin; with
+    NumPy, too, so that ``missed`` may use arithmetic and ``f.abs`` only.
+    """
+
+    touch: ClassVar[bool] = True
+    physics: ClassVar[Physics] = FINER
+    least: ClassVar[tuple[bool, ...]] = (False,)
+    """For each number of :meth:`missed`, whether the least of a lift counts, or the sum."""
+    behaviours: ClassVar[tuple[str, ...]] = ()
+    """The behaviours of people in this task, by name."""
+
+    def world(
+        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics | None = None
+    ) -> BulletWorld:
+        """Return a world with torques at both grips, and with the ball."""
+        return BulletWorld(
+            human, far_end, physics=physics or self.physics, touch=True, ball=self.rolling
+        )
+
+    @property
+    def rolling(self) -> Ball | None:
+        """The ball on the table, if there is one."""
+        return None
+
+    def missed(self, f: ArrayFunctions[N], due: Any, ends: Any) -> Sequence[N]:
+        """Return squares of the error in a frame [m2].
+
+        Parameters
+        ----------
+        f
+            The functions of numbers.
+        due
+            The task's series in this frame.
+        ends
+            The read-outs (:class:`Ends`) in this frame.
+        """
+        return ((ends.near - ends.far) ** 2,)
+
+    def error(self, f: ArrayFunctions[N], facts: Any, gathered: Sequence[N], frames: Any) -> N:
+        """Return the square of a lift's error [m2].
+
+        Parameters
+        ----------
+        f
+            The functions of numbers.
+        facts
+            The task's numbers.
+        gathered
+            The squares of all frames, gathered as :attr:`least` says.
+        frames
+            Number of frames.
+        """
+        error: N = gathered[0] / frames
+        return error
+
+    def lost(self, f: ArrayFunctions[N], ends: Any) -> Any:
+        """Return whether the lift is lost in a frame."""
+        return f.abs(ends.near) < 0.0
+
+    def rewards(self, lift: Playing) -> tuple[float, float]:
+        """Return minus the error in the last frame [m], for both."""
+        last, world = lift.frame - 1, lift.world
+        due = frame_of(lift.due, last)
+        ends = Ends(world.human_end[-1], world.robot_end[-1], world.ball_place[-1])
+        missed = -math.sqrt(math.fsum(self.missed(SCALARS, due, ends)))
+        return missed, missed
+
+    def is_lost(self, lift: Playing) -> bool:
+        """Return whether the lift was lost in the step just made."""
+        world, size = lift.world, lift.frames_per_step
+        read = (world.human_end[-size:], world.robot_end[-size:], world.ball_place[-size:])
+        return any(self.lost(SCALARS, Ends(*each)) for each in zip(*read, strict=True))
+
+    def failure(self, lift: Playing) -> str | None:
+        """Return how the table was dropped or the lift lost in the step just made, or None."""
+        lost = self.is_lost(lift)
+        return f"the task {self.name!r} is lost" if lost else super().failure(lift)
+
+    def rmse_mm(self, lift: Playing, trace: Trace, ball: Any = 0.0) -> float:
+        """Return the root mean square error of a lift [mm].
+
+        Each frame that a failure cut off counts with :data:`.FAILED_FRAME_MM`.
+        """
+        frames = len(trace.human_end)
+        due = type(lift.due)(*(series[:frames] for series in lift.due))
+        found = self.missed(cast(Any, np), due, Ends(trace.human_end, trace.robot_end, ball))
+        return root_mean_mm(found[0], lift.horizon)
+
+
+def root_mean_mm(squares: Any, horizon: int) -> float:
+    """Return the root of the mean of a lift's squared errors [mm].
+
+    Parameters
+    ----------
+    squares
+        Square of each frame [m2], shape (T,).
+    horizon
+        Frames that the lift should have had; each that a failure cut off counts with
+        :data:`.FAILED_FRAME_MM`.
+    """
+    cut = (horizon - len(squares)) * FAILED_FRAME_MM**2
+    return math.sqrt((1e6 * float(np.sum(squares)) + cut) / horizon)
+
+
+def frame_of(due: Any, frame: int) -> Any:
+    """Return a named tuple's series in a frame."""
+    return type(due)(*(float(series[frame]) for series in due)) if due else due
+
+
+def torque_of(lift: Playing) -> Any:
+    """Return the torque of the robot's hands in each frame since the beginning [Nm]."""
+    return np.array(lift.world.robot_torque[-lift.frame :][: lift.frame])
+
+
+def subjects_suite(name: str, task: type[Touch], seeds: int) -> Suite:
+    """Return a suite of a task: each behaviour of each of the five subjects, with some seeds."""
+    scenarios = tuple(
+        make_scenario(behaviour, subject, task=task.name)
+        for behaviour in task.behaviours
+        for subject in SUBJECTS
+    )
+    return Suite(name=name, scenarios=scenarios, seeds=tuple(range(seeds)))
