@@ -17,6 +17,16 @@ from colift.benchmark.episode.sensing import drawn_errors, sight, touch
 from colift.benchmark.world import HISTORY_FRAMES, BodyParameters, FarEnd, Intended, World
 from numpy.typing import ArrayLike, NDArray
 
+READ: Final = (
+    "human_end",
+    "robot_end",
+    "human_force",
+    "robot_force",
+    "robot_torque",
+    "ball_place",
+)
+"""Read-outs of a world that rules may see; see :meth:`.View.seen`."""
+
 MakeWorld = Callable[[BodyParameters, FarEnd], World]
 """Returns a world of a person and a holder of the far end."""
 
@@ -83,14 +93,7 @@ class Lift:
         self.drawn: Drawn[float] = Drawn(
             NumberSeries.of(target), _numbers(series), self.facts, _numbers(chance), manner
         )
-        self._read: dict[str, Sequence[float]] = {
-            "human_end": world.human_end,
-            "robot_end": world.robot_end,
-            "human_force": world.human_force,
-            "robot_force": world.robot_force,
-            "robot_torque": world.robot_torque,
-            "ball_place": world.ball_place,
-        }
+        self._read: dict[str, Sequence[float]] = {name: getattr(world, name) for name in READ}
         self._intentions: dict[str, deque[float]] = {}
         self._memory = person.begin(SCALARS, 0.0, False)
         self._intend()

@@ -59,7 +59,7 @@ def bodies(people: Sequence[BodyParameters], step: float = FRAME) -> Body:
                 )
 
     def column(values: Sequence[float]) -> jax.Array:
-        return jnp.asarray(values, jnp.float32)
+        return jnp.asarray(values, float)
 
     implicit = [1 + step * each.damping / each.mass / 2 for each in people]
     felt = [each.felt_share * each.pull for each in people]

@@ -54,4 +54,4 @@ class LiftSeries(NamedTuple):
 
 def columns(records: Sequence[Record]) -> Any:
     """Return one record of arrays (n,), in single precision, from n named tuples of numbers."""
-    return jax.tree.map(lambda *numbers: jnp.asarray(numbers, jnp.float32), *records)
+    return jax.tree.map(lambda *numbers: jnp.asarray(numbers, float), *records)

@@ -144,7 +144,7 @@ def stack(drawn: Sequence[DrawnLift]) -> Lifts:
 
     def joined(arrays: Sequence[Array]) -> jax.Array:
         longest = max(steps)
-        filled = np.empty((longest, *arrays[0].shape[1:], len(arrays)), np.float32)
+        filled = np.empty((longest, *arrays[0].shape[1:], len(arrays)), jnp.result_type(float))
         for index, array in enumerate(arrays):
             filled[: len(array), ..., index] = array
             filled[len(array) :, ..., index] = array[-1]

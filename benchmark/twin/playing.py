@@ -187,7 +187,7 @@ def in_chunks(
 
 def ramp(start: jax.Array, stop: jax.Array, size: int) -> jax.Array:
     """Return values (f, n) that move at constant speed from ``start`` to ``stop``, both (n,)."""
-    share = jnp.arange(1, size + 1, dtype=jnp.float32)[:, jnp.newaxis] / size
+    share = jnp.arange(1, size + 1, dtype=float)[:, jnp.newaxis] / size
     return start + (stop - start) * share
 
 

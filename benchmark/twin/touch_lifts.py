@@ -158,8 +158,8 @@ def stack_touch(drawn: Sequence[DrawnTouch]) -> TouchLifts:
 
 
 def _joined(arrays: Sequence[Array], many: int) -> jax.Array:
-    """Return arrays as one (many, ..., n), in single precision; shorter ones repeat their end."""
-    filled = np.empty((many, *arrays[0].shape[1:], len(arrays)), np.float32)
+    """Return arrays as one (many, ..., n); shorter ones repeat their end."""
+    filled = np.empty((many, *arrays[0].shape[1:], len(arrays)), jnp.result_type(float))
     for index, array in enumerate(arrays):
         filled[: len(array), ..., index] = array
         filled[len(array) :, ..., index] = array[-1]

@@ -51,22 +51,22 @@ class TouchView:
         plant, touch = self._state.haptic.plant, self._state.haptic.touch
         match name:
             case "human_end":
-                return _aged(plant.heights, age)
+                return aged(plant.heights, age)
             case "robot_end":
-                return _aged(plant.heights, age) + _aged(plant.differences, age)
+                return aged(plant.heights, age) + aged(plant.differences, age)
             case "human_force":
-                return _aged(plant.forces, age) + WEIGHT_SHARE
+                return aged(plant.forces, age) + WEIGHT_SHARE
             case "robot_force":
-                return _aged(touch[::-1, 0], age) + WEIGHT_SHARE
+                return aged(touch[::-1, 0], age) + WEIGHT_SHARE
             case "robot_torque":
-                return _aged(touch[::-1, 1], age)
+                return aged(touch[::-1, 1], age)
             case "ball_place":
                 table = self._state.table
-                return _aged(table.places, age) if isinstance(table, BallPlant) else 0.0 * self.hand
-        return _aged(getattr(self._state.intentions, name), age)
+                return aged(table.places, age) if isinstance(table, BallPlant) else 0.0 * self.hand
+        return aged(getattr(self._state.intentions, name), age)
 
 
-def _aged(history: jax.Array, age: Any) -> jax.Array:
+def aged(history: jax.Array, age: Any) -> jax.Array:
     """Return the values (n,) of a history, newest first, of an age or of n ages."""
     if isinstance(age, int):
         return history[age]

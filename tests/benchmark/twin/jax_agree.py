@@ -7,24 +7,24 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.humans.agree import negotiating
 from colift.agents.observations import AgreeObservation as Seen
 from colift.agents.policies.agree_game import AgreeGame
-from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.tasks.agree.task import BEHAVIOURS
-from colift.benchmark.twin.agree_lifts import draw_agree, stack_agree
-from colift.benchmark.twin.agree_playing import AGREE_STEPS
-from colift.benchmark.twin.touch_rollout import touch_rmse_mm
+from colift.benchmark.suites.catalogue import make_scenario, make_task
+from colift.benchmark.tasks.agree.task import Agree
+from colift.benchmark.twin.task_twin import TaskTwin
+from colift.benchmark.twin.touch_lifts import draw_touch, stack_touch
 from colift.benchmark.world.table import TABLE_LENGTH
 
 from .played import Played, agents_in_twin, engine_scores
+
+TWIN = TaskTwin(make_task("agree"))
 
 PEOPLE = range(210_000, 210_002)
 """Seeds of people and lifts outside all suites."""
 LIFTS = [
     (make_scenario(behaviour, f"draw-{seed}", task="agree"), seed)
-    for behaviour, seed in zip((*BEHAVIOURS, "smooth"), cycle(PEOPLE), strict=False)
+    for behaviour, seed in zip((*Agree.behaviours, "smooth"), cycle(PEOPLE), strict=False)
 ]
 
 
@@ -58,7 +58,7 @@ def played(policy):
 
 
 def in_twin(policy, lifts):
-    return np.asarray(touch_rmse_mm(AGREE_STEPS, policy, jnp.zeros(lifts.size), lifts))
+    return np.asarray(TWIN.rmse_mm(policy, jnp.zeros(lifts.size), lifts))
 
 
 def worst(twin, engine):
@@ -72,7 +72,7 @@ def worst(twin, engine):
 
 @pytest.fixture(scope="module")
 def drawn():
-    return stack_agree([draw_agree(scenario, seed) for scenario, seed in LIFTS])
+    return stack_touch([draw_touch(scenario, seed) for scenario, seed in LIFTS])
 
 
 @pytest.mark.parametrize("policy", [leading(0.6), yielding], ids=["leading", "yielding"])
@@ -83,7 +83,7 @@ def test_each_lift_with_hurdles_is_that_of_the_engine(drawn, policy):
 
 
 def test_the_agent_that_infers_the_goal_plays_as_in_the_engine(drawn):
-    engine, twin = in_engine(AgreeGame), agents_in_twin(AGREE_STEPS, AgreeGame, drawn)
+    engine, twin = in_engine(AgreeGame), agents_in_twin(TWIN, AgreeGame, drawn)
     assert abs(twin.mean() / engine.mean() - 1) < 0.01
 
 
@@ -91,7 +91,7 @@ def test_the_gradient_is_the_slope_where_nobody_decides_otherwise(drawn):
     @jax.jit
     @jax.value_and_grad
     def error(gain):
-        return touch_rmse_mm(AGREE_STEPS, leading(gain), jnp.zeros(drawn.size), drawn).mean()
+        return TWIN.rmse_mm(leading(gain), jnp.zeros(drawn.size), drawn).mean()
 
     low, high = (float(error(gain)[0]) for gain in (0.598, 0.602))
     assert float(error(0.6)[1]) == pytest.approx((high - low) / 0.004, rel=0.1)
@@ -101,9 +101,3 @@ def test_people_who_go_slower_are_found(drawn, monkeypatch):
     engine = played(yielding)
     monkeypatch.setattr(negotiating, "PACE", 7.0)
     assert worst(in_twin(yielding, drawn), engine) > 0.015
-
-
-@pytest.mark.parametrize("settings", [{"task": "level"}, {"task": "agree", "partner": "human"}])
-def test_what_the_twin_of_two_hurdles_does_not_model_is_refused(settings):
-    with pytest.raises(InputError, match="this twin models the task agree with a NAO"):
-        draw_agree(make_scenario("smooth", **settings), 0)

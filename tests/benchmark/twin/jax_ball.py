@@ -8,18 +8,18 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
 from colift.agents.humans.ball import steering as steering_rule
 from colift.agents.observations import BallObservation as Seen
 from colift.agents.policies.ball_game import BallGame
-from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.tasks.ball.task import BALL
-from colift.benchmark.twin.ball_lifts import draw_ball, stack_ball
-from colift.benchmark.twin.ball_playing import BALL_STEPS
-from colift.benchmark.twin.touch_rollout import touch_rmse_mm
+from colift.benchmark.twin.task_twin import TaskTwin
+from colift.benchmark.twin.touch_lifts import draw_touch, stack_touch
 from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH
 
 from .played import Played, agents_in_twin, engine_scores
+
+TWIN = TaskTwin(make_task("ball"))
 
 PEOPLE = range(210_000, 210_004)
 """Seeds of people and lifts outside all suites."""
@@ -73,12 +73,12 @@ def played(policy):
 
 
 def in_twin(policy, lifts):
-    return np.asarray(touch_rmse_mm(BALL_STEPS, policy, jnp.zeros(lifts.size), lifts))
+    return np.asarray(TWIN.rmse_mm(policy, jnp.zeros(lifts.size), lifts))
 
 
 @pytest.fixture(scope="module")
 def drawn():
-    return stack_ball([draw_ball(scenario, seed) for scenario, seed in FEW])
+    return stack_touch([draw_touch(scenario, seed) for scenario, seed in FEW])
 
 
 @pytest.mark.parametrize("policy", [steering(0.15), yielding], ids=["steering", "yielding"])
@@ -90,8 +90,8 @@ def test_each_lift_with_a_ball_is_that_of_the_engine(drawn, policy):
 
 
 def test_an_agent_that_amplifies_differences_has_the_same_mean():
-    drawn = stack_ball([draw_ball(scenario, seed) for scenario, seed in MANY])
-    (engine, _), twin = in_engine(BallGame, MANY), agents_in_twin(BALL_STEPS, BallGame, drawn)
+    drawn = stack_touch([draw_touch(scenario, seed) for scenario, seed in MANY])
+    (engine, _), twin = in_engine(BallGame, MANY), agents_in_twin(TWIN, BallGame, drawn)
     assert abs(twin.mean() / engine.mean() - 1) < 0.01
 
 
@@ -106,7 +106,7 @@ def test_the_gradient_is_the_slope_and_finite_where_the_ball_falls(drawn):
     @jax.value_and_grad
     def error(gain, following):
         policy = steering(gain, following)
-        return touch_rmse_mm(BALL_STEPS, policy, jnp.zeros(drawn.size), drawn).mean()
+        return TWIN.rmse_mm(policy, jnp.zeros(drawn.size), drawn).mean()
 
     _, slope = error(0.15, 1.0)
     below, above = error(0.148, 1.0)[0], error(0.152, 1.0)[0]
@@ -120,9 +120,3 @@ def test_people_who_steer_otherwise_are_found(drawn, monkeypatch):
     engine, _ = played(yielding)
     monkeypatch.setattr(steering_rule, "HAND_TIME", 0.3)
     assert np.abs(in_twin(yielding, drawn) / engine - 1).max() > 0.015
-
-
-@pytest.mark.parametrize("settings", [{"task": "level"}, {"task": "ball", "partner": "human"}])
-def test_what_the_twin_of_the_ball_does_not_model_is_refused(settings):
-    with pytest.raises(InputError, match="this twin models the task ball with a NAO"):
-        draw_ball(make_scenario("smooth", **settings), 0)

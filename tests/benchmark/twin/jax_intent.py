@@ -6,16 +6,16 @@ from itertools import cycle
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.observations import HapticObservation as Seen
-from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.twin import haptic_plant
-from colift.benchmark.twin.intent_lifts import draw_intent, stack_intent
-from colift.benchmark.twin.intent_playing import INTENT_STEPS
-from colift.benchmark.twin.touch_rollout import touch_rmse_mm
+from colift.benchmark.twin.task_twin import TaskTwin
+from colift.benchmark.twin.touch_lifts import draw_touch, stack_touch
 from colift.benchmark.world.table import TABLE_LENGTH
 
 from .played import Played, engine_scores
+
+TWIN = TaskTwin(make_task("intent"))
 
 PEOPLE = (210_000, 210_001)
 """Seeds of people and lifts outside all suites."""
@@ -45,11 +45,11 @@ def in_engine(policy):
 
 @pytest.fixture(scope="module")
 def drawn():
-    return stack_intent([draw_intent(scenario, seed) for scenario, seed in LIFTS])
+    return stack_touch([draw_touch(scenario, seed) for scenario, seed in LIFTS])
 
 
 def in_twin(policy, lifts):
-    return np.asarray(touch_rmse_mm(INTENT_STEPS, policy, jnp.zeros(lifts.size), lifts))
+    return np.asarray(TWIN.rmse_mm(policy, jnp.zeros(lifts.size), lifts))
 
 
 @pytest.mark.parametrize("policy", [yielding, level])
@@ -63,9 +63,3 @@ def test_a_wrong_grip_is_found(drawn, monkeypatch):
     engine = in_engine(yielding)
     monkeypatch.setattr(haptic_plant, "FAR_GRIP_STIFFNESS", 1.5)
     assert np.abs(in_twin(yielding, drawn) / engine - 1).max() > 0.015
-
-
-@pytest.mark.parametrize("settings", [{"task": "level"}, {"task": "intent", "partner": "human"}])
-def test_what_it_does_not_model_is_refused_by_name(settings):
-    with pytest.raises(InputError, match="this twin models the task intent with a NAO"):
-        draw_intent(make_scenario("smooth", **settings), 0)

@@ -32,18 +32,18 @@ def engine_scores(make, lifts):
     return scores
 
 
-def agents_in_twin(steps, make, lifts):
+def agents_in_twin(twin, make, lifts):
     """Return the errors of the lifts with agents as they play in the engine, step by step."""
     agents = [make() for _ in range(lifts.size)]
     for agent in agents:
         agent.reset(0)
-    state, missed = steps.at_rest(lifts.size), []
-    view, step, missing = map(jax.jit, (steps.view, steps.step, steps.missed))
+    state, missed = twin.at_rest(lifts.size), []
+    view, step, missing = map(jax.jit, (twin.observe, twin.step, twin.missed))
     for number in range(len(lifts.gain)):
-        share = jax.tree.map(lambda each, number=number: each[number], steps.shares(lifts))
-        seen = np.asarray(view(state, lifts, share), np.float64)
+        noise = jax.tree.map(lambda each, number=number: each[number], twin.noise(lifts))
+        seen = np.asarray(view(state, lifts, noise), np.float64)
         acts = [float(agent.act(seen[:, i])[0]) for i, agent in enumerate(agents)]
-        after, frames = step(state, lifts, share, jnp.asarray(acts))
-        missed.append(missing(state, lifts, share, frames))
+        after, ends = step(state, lifts, noise, jnp.asarray(acts))
+        missed.append(missing(state, lifts, ends))
         state = after
-    return np.asarray(steps.score_mm(lifts, jax.tree.map(lambda *all: jnp.stack(all), *missed)))
+    return np.asarray(twin.score_mm(lifts, jax.tree.map(lambda *all: jnp.stack(all), *missed)))
