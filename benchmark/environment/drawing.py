@@ -3,19 +3,17 @@
 from dataclasses import dataclass, replace
 from typing import Final
 
-from colift.agents.errors import InputError
 from colift.agents.humans import Subject
 from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seeding import derive_seed
-from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.suites.catalogue import make_scenario, make_task
 
 TRAINING_SEEDS: Final = range(100_000, 200_000)
 """Seeds of people and lifts to learn from: no suite, calibration or test uses them."""
 
 ANY: Final = "any"
-"""The scenario of a behaviour drawn from those of the standard suites."""
+"""The scenario of a behaviour drawn from those of the task."""
 
 DRAW: Final = "draw"
 """The subject of a person drawn from the population of the five subjects."""
@@ -62,21 +60,15 @@ def make_drawing(
     Raises
     ------
     InputError
-        If something is to be drawn for a task other than ``level``, or as :func:`.make_scenario`.
+        As :func:`.make_scenario`.
     """
     if scenario != ANY and subject != DRAW:
         return None
-    if task != LEVEL.name:
-        drawn = f"scenario={ANY!r}" if scenario == ANY else f"subject={DRAW!r}"
-        raise InputError(
-            f"{drawn} draws lifts of the task {LEVEL.name!r} alone, not of {task!r}: name a "
-            "behaviour and a person, such as 'S1' or 'draw-100000'"
-        )
     person = f"draw-{TRAINING_SEEDS[0]}" if subject == DRAW else subject
     return Drawing(
         scenarios=tuple(
-            make_scenario(behaviour, person, partner, control_period, latency)
-            for behaviour in (BEHAVIOURS if scenario == ANY else (scenario,))
+            make_scenario(behaviour, person, partner, control_period, latency, task)
+            for behaviour in (make_task(task).behaviours if scenario == ANY else (scenario,))
         ),
         new_people=subject == DRAW,
     )

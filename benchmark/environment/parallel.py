@@ -297,7 +297,7 @@ def parallel_env(
     ----------
     scenario
         Name of the human's behaviour, such as ``"smooth"`` or ``"pause"``; ``"any"`` draws one of
-        the standard suites' at each reset.
+        the task's at each reset.
     subject
         Name of the human: ``"S1"`` to ``"S5"``, or ``"draw-N"``; ``"draw"`` draws a new person at
         each reset.
@@ -314,7 +314,7 @@ def parallel_env(
         over its frames [cm2]. For tasks other than ``level`` the first is the task's own reward.
     task
         Name of the task, such as ``"level"`` or ``"intent"``; it determines the observations, their
-        bounds, the rewards and the end. Lifts are drawn for ``level`` only.
+        bounds, the rewards, the end and the behaviours that are drawn.
 
     Raises
     ------

@@ -2,7 +2,7 @@
 
 import functools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Final
 
@@ -56,8 +56,9 @@ class Level:
     touch: ClassVar[bool] = False
     physics: ClassVar[Physics] = PHYSICS
     senses: ClassVar[tuple[Sense, ...]] = ()
+    behaviours: ClassVar[tuple[str, ...]] = ("smooth", "pause", "jerky", "changing_goal")
 
-    def drawn(self, plan: Plan, frames: int) -> tuple[Any, Any]:
+    def drawn(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Any, Any]:
         """Return nothing: the plan is all there is."""
         return (), ()
 

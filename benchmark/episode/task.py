@@ -1,6 +1,6 @@
 """The interface of tasks: observations, rewards, end and scores of an episode."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -102,11 +102,24 @@ class Task(Protocol):
     def senses(self) -> tuple[Sense, ...]:
         """The robot's senses besides sight and touch."""
 
-    def drawn(self, plan: Plan, frames: int) -> tuple[Any, Any]:
-        """Return what follows from a plan: a named tuple of series, and one of numbers.
+    @property
+    def behaviours(self) -> tuple[str, ...]:
+        """The behaviours of people in this task, by name: those that learners draw from."""
+
+    def drawn(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Any, Any]:
+        """Return what a lift has besides its plan: a named tuple of series, and one of numbers.
 
         The series are arrays (frames,), one number per frame; the task's rules and people read
         them as :attr:`.Drawn.series` and :attr:`.Drawn.facts`.
+
+        Parameters
+        ----------
+        plan
+            The human's plan.
+        frames
+            Frames of the lift.
+        seed
+            Returns the lift's seed of a role, for what is drawn besides the plan.
         """
 
     def observe(self, f: ArrayFunctions[N], drawn: Drawn[N], view: View[N]) -> Sequence[N]:

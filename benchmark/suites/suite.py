@@ -14,6 +14,7 @@ from colift.agents.humans import SUBJECTS, Recorded, load_recordings
 from colift.agents.plugins import article, blaming
 from colift.agents.registry import SUITES, called, lookup
 from colift.benchmark.episode.identity import numbers, plain, scores_hash
+from colift.benchmark.episode.level import Level
 from colift.benchmark.episode.metric import Metrics
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.suites.catalogue import RECORDED, make_scenario
@@ -22,7 +23,7 @@ from colift.benchmark.suites.rules import scenarios_fault, seeds_fault
 LONGEST_SUITE_NAME: Final = 200
 """Longest name of a suite [characters]."""
 
-BEHAVIOURS: Final = ("smooth", "pause", "jerky", "changing_goal")
+BEHAVIOURS: Final = Level.behaviours
 """The behaviours of the standard suites."""
 
 

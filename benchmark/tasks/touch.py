@@ -1,7 +1,7 @@
 """The base of tasks with touch: a finer world, and rules that say what is missed and lost."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Final, NamedTuple, cast
 
@@ -9,12 +9,14 @@ import numpy as np
 from colift.agents.humans import SUBJECTS
 from colift.agents.rules import SCALARS, ArrayFunctions, N
 from colift.benchmark.episode.level import Level
+from colift.benchmark.episode.metric import Scores
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.episode.task import Playing
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.world import Ball, BodyParameters, BulletWorld, FarEnd, Physics
+from numpy.typing import NDArray
 
 FINER: Final = Physics(step=0.0025)
 """The physics of the tasks with touch. People and policies that act on touch amplify small
@@ -46,8 +48,6 @@ class Touch(Level):
     physics: ClassVar[Physics] = FINER
     least: ClassVar[tuple[bool, ...]] = (False,)
     """For each number of :meth:`missed`, whether the least of a lift counts, or the sum."""
-    behaviours: ClassVar[tuple[str, ...]] = ()
-    """The behaviours of people in this task, by name."""
 
     def world(
         self, human: BodyParameters, far_end: FarEnd, *, physics: Physics | None = None
@@ -122,24 +122,35 @@ class Touch(Level):
         Each frame that a failure cut off counts with :data:`.FAILED_FRAME_MM`.
         """
         frames = len(trace.human_end)
-        due = type(lift.due)(*(series[:frames] for series in lift.due))
-        found = self.missed(cast(Any, np), due, Ends(trace.human_end, trace.robot_end, ball))
-        return root_mean_mm(found[0], lift.horizon)
+        if frames == 0:
+            return FAILED_FRAME_MM
+        due = {name: series[:frames] for name, series in _series(lift.due).items()}
+        ends = Ends(trace.human_end, trace.robot_end, ball)
+        found = self.missed(cast(Any, np), type(lift.due)(**due) if due else (), ends)
+        gathered = [
+            float(np.min(each) if least else np.sum(each))
+            for each, least in zip(found, self.least, strict=True)
+        ]
+        error = self.error(SCALARS, lift.facts, gathered, frames)
+        cut = (lift.horizon - frames) * FAILED_FRAME_MM**2
+        return math.sqrt((1e6 * frames * error + cut) / lift.horizon)
+
+    def series(self, lift: Playing) -> Mapping[str, NDArray[np.float64]]:
+        """Return the task's series, the place of the ball, and the torque of the robot's hands."""
+        frames, world = lift.frame, lift.world
+        found = {name: series[:frames] for name, series in _series(lift.due).items()}
+        if self.rolling is not None:
+            found["ball"] = np.array(world.ball_place[-frames:][:frames])
+        return {**found, "robot_torque": torque_of(lift)}
+
+    def score(self, lift: Playing, trace: Trace, *, failed: bool) -> Scores:
+        """Return the error alone."""
+        return {"rmse_mm": self.rmse_mm(lift, trace, trace.added.get("ball", 0.0))}
 
 
-def root_mean_mm(squares: Any, horizon: int) -> float:
-    """Return the root of the mean of a lift's squared errors [mm].
-
-    Parameters
-    ----------
-    squares
-        Square of each frame [m2], shape (T,).
-    horizon
-        Frames that the lift should have had; each that a failure cut off counts with
-        :data:`.FAILED_FRAME_MM`.
-    """
-    cut = (horizon - len(squares)) * FAILED_FRAME_MM**2
-    return math.sqrt((1e6 * float(np.sum(squares)) + cut) / horizon)
+def _series(due: Any) -> dict[str, Any]:
+    """Return a named tuple's series by name."""
+    return due._asdict() if due else {}
 
 
 def frame_of(due: Any, frame: int) -> Any:

@@ -1,7 +1,7 @@
 """The task to agree on two private hurdles, and its suite."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Final, NamedTuple
 
@@ -118,7 +118,7 @@ class Agree(Touch):
                 f"uncertainty must be between 0 and {MOST_UNCERTAIN} m/s, got {self.uncertainty}"
             )
 
-    def drawn(self, plan: Plan, frames: int) -> tuple[Windows, Facts]:
+    def drawn(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Windows, Facts]:
         """Return the windows of the hurdles and of the common height, and the hurdles."""
         way = lasting(plan.target, frames)
         hurdles = hurdles_of(plan)

@@ -1,7 +1,7 @@
 """The task to steer a ball on the table to a target place, and its suite."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Final, NamedTuple
 
@@ -73,7 +73,7 @@ class BallSteering(Touch):
         """The ball."""
         return self.ball
 
-    def drawn(self, plan: Plan, frames: int) -> tuple[Places, Shown]:
+    def drawn(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Places, Shown]:
         """Return the intended places of the ball, and whether both know them."""
         if not isinstance(plan, BallPlan):
             return Places(np.zeros(frames)), Shown(0.0)

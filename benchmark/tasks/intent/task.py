@@ -1,7 +1,7 @@
 """The task to bring the table to the pose that the human intends, and its suite."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
@@ -48,7 +48,7 @@ class Intent(Touch):
     second_human: ClassVar[type[Agent]] = Companion
     behaviours: ClassVar[tuple[str, ...]] = ("together", "pivot", "counter", "switching")
 
-    def drawn(self, plan: Plan, frames: int) -> tuple[Pose, tuple[()]]:
+    def drawn(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Pose, tuple[()]]:
         """Return the planned heights of both ends."""
         far = plan.far if isinstance(plan, PosePlan) else plan.target
         return Pose(lasting(plan.target, frames), lasting(far, frames)), ()

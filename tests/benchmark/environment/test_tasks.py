@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from colift.agents.errors import InputError
 from colift.benchmark.environment import RobotEnv, parallel_env
+from colift.benchmark.suites.catalogue import make_task
 from colift.benchmark.tasks.intent.task import Intent
 from gymnasium.utils.env_checker import check_env
 from pettingzoo.test import parallel_api_test, parallel_seed_test
@@ -39,15 +40,17 @@ def test_the_rewards_are_those_of_the_task():
         observations, rewards, *_ = made.step(actions)
     assert rewards == dict(zip(("human", "robot"), made.lift.task.rewards(made.lift), strict=True))
     assert rewards["robot"] == -abs(
-        made.lift.world.robot_end[-1] - made.lift.far_target[made.lift.frame - 1]
+        made.lift.world.robot_end[-1] - made.lift.due.far[made.lift.frame - 1]
     )
     made.close()
 
 
-@pytest.mark.parametrize("drawn", [{"scenario": "any"}, {"subject": "draw"}])
-def test_lifts_are_drawn_for_level_alone(drawn):
-    with pytest.raises(InputError, match="draws lifts of the task 'level' alone, not of 'intent'"):
-        parallel_env(task="intent", **drawn)
+@pytest.mark.parametrize("task", ["level", "intent", "agree", "ball"])
+def test_lifts_are_drawn_for_every_task(task):
+    made = parallel_env(scenario="any", subject="draw", task=task)
+    drawn = {made.reset(seed=seed)[1]["robot"]["scenario"].partition("/")[0] for seed in range(30)}
+    assert drawn == set(make_task(task).behaviours)
+    made.close()
 
 
 def test_an_unknown_task_and_a_reward_that_it_lacks_are_refused_by_name():

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.observations import BallObservation, HapticObservation
+from colift.agents.policies.copy import Copy
 from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.replay import replay
@@ -21,7 +22,6 @@ from colift.benchmark.tasks.ball.scores import (
     ways,
 )
 from colift.benchmark.tasks.ball.task import FELL, BallSteering
-from colift.benchmark.tasks.touch import root_mean_mm
 from colift.testing import check_suite, check_task
 
 DIGEST = "86ed05445aa13789"
@@ -66,10 +66,18 @@ def test_a_target_known_to_both_is_observed_and_a_private_one_is_not():
 
 
 def test_lost_frames_count_as_such():
-    squares = np.full(50, 0.03**2)
-    assert root_mean_mm(squares, 50) == pytest.approx(30.0)
-    assert root_mean_mm(squares, 100) == pytest.approx(np.sqrt((900 + 250**2) / 2))
-    assert root_mean_mm(squares[:0], 10) == 250.0
+    task = BallSteering()
+    scenario = make_scenario("ball_smooth", "S1", task="ball")
+    with contextlib.closing(Lift(scenario)) as lift:
+        lift.reset(SEED)
+        trace = run_episode(lift, Copy(), SEED).trace
+        horizon, half = lift.horizon, lift.horizon // 2
+        for frames, expected in ((horizon, 900.0), (half, (900 + 250**2) / 2), (0, 250.0**2)):
+            cut, ball = trace.until(frames // 10), lift.due.place[:frames] + 0.03
+            found = task.rmse_mm(lift, cut, ball)
+            share = frames / horizon
+            assert found**2 == pytest.approx(share * 900 + (1 - share) * 250**2)
+            assert frames == 0 or found**2 == pytest.approx(expected, rel=0.02)
 
 
 def moved(*stops):
