@@ -1,4 +1,4 @@
-"""How a hand carries out an intention: noise, tremor, slow visual correction."""
+"""Execution of an intention by a hand: noise, tremor, slow visual correction."""
 
 import math
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""What a rule may know of a lift: what was drawn before it, and read-outs of its past."""
+"""Knowledge of a rule about a lift: what was drawn before it, and read-outs of its past."""
 
 from typing import Any, Generic, NamedTuple, Protocol
 
@@ -55,7 +55,7 @@ class Drawn(NamedTuple, Generic[N_co]):
     target: Series[N_co]
     """The planned height of the person's end [m]."""
     series: Any
-    """A named tuple of the task's series; see :meth:`.Task.drawn`."""
+    """A named tuple of the task's series; see :meth:`.Task.setting`."""
     facts: Any
     """A named tuple of the task's numbers."""
     chance: Any

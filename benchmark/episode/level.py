@@ -58,7 +58,7 @@ class Level:
     senses: ClassVar[tuple[Sense, ...]] = ()
     behaviours: ClassVar[tuple[str, ...]] = ("smooth", "pause", "jerky", "changing_goal")
 
-    def drawn(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Any, Any]:
+    def setting(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Any, Any]:
         """Return nothing: the plan is all there is."""
         return (), ()
 

@@ -83,7 +83,7 @@ class Lift:
         """Let the person begin to carry out intended heights [m], one per frame."""
         world, person = self.world, self._person
         self.target = target
-        series, self.facts = self.task.drawn(self.plan, self.horizon, self.role_seed)
+        series, self.facts = self.task.setting(self.plan, self.horizon, self.role_seed)
         self.due: Any = series
         """The task's series, arrays (horizon,)."""
         size = self.frames_per_step

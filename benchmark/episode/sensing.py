@@ -1,4 +1,4 @@
-"""What a robot senses: exact numbers by rules, and their errors, drawn before the lift."""
+"""Senses of a robot: exact numbers by rules, and errors drawn before the lift."""
 
 from collections.abc import Callable, Sequence
 from typing import Final

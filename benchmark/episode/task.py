@@ -106,7 +106,7 @@ class Task(Protocol):
     def behaviours(self) -> tuple[str, ...]:
         """The behaviours of people in this task, by name: those that learners draw from."""
 
-    def drawn(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Any, Any]:
+    def setting(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Any, Any]:
         """Return what a lift has besides its plan: a named tuple of series, and one of numbers.
 
         The series are arrays (frames,), one number per frame; the task's rules and people read

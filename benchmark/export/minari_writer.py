@@ -122,11 +122,12 @@ def _metadata(lift: ExportedLift) -> dict[str, Any]:
 
 def _environment(provenance: Provenance) -> Any:
     """Return the specification of the environment of a robot's view; None if there is none."""
-    if provenance.partner != "nao" or provenance.task != "level":
+    if provenance.partner != "nao":
         return None
     spec = copy.deepcopy(gymnasium.spec("colift/Lift-v0"))
     spec.kwargs = {
         "control_period": provenance.control_period,
         "latency": provenance.latency,
+        "task": provenance.task,
     }
     return spec

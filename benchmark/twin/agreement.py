@@ -1,4 +1,4 @@
-"""Whether a task's rules are the same for one lift in the engine and for arrays in the twin."""
+"""Comparison of a task's rules: for one lift in the engine, and for arrays in the twin."""
 
 import contextlib
 from collections.abc import Callable, Mapping

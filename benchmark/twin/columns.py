@@ -1,4 +1,4 @@
-"""What the rules read of many lifts at a time: series, and records of parameters."""
+"""Series and parameters of many lifts at a time, as rules read them."""
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeVar

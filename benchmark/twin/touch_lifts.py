@@ -112,7 +112,7 @@ def draw_touch(scenario: Scenario, seed: int) -> DrawnTouch:
 
     plan = scenario.human.plan(person, role_seed("plan"))
     steps = -(-len(plan.target) // size)
-    series, facts = task.drawn(plan, steps * size, role_seed)
+    series, facts = task.setting(plan, steps * size, role_seed)
     chance, manner = task.person.draw(person, role_seed, steps, size)
     errors = drawn_errors(task.senses, task.touch, role_seed, steps, size, scenario.latency_frames)
     noise = drawn_noise(person, role_seed("human"), steps * size)

@@ -117,7 +117,7 @@ class Hint(Touch):
         )
     )
 
-    def drawn(self, plan, frames, seed):
+    def setting(self, plan, frames, seed):
         """Return the wanted differences."""
         rng, slope, here = np.random.default_rng(seed("hint")), np.zeros(frames), 0.0
         for frame in range(plan.strokes[0][0] + 50, frames - 200, 200):

@@ -1,4 +1,4 @@
-"""How a person with a hurdle negotiates: belief, turn, and the best response to the far end."""
+"""Negotiation of a person with a hurdle: belief, turn, and the best response to the far end."""
 
 import math
 from typing import Any, Final, Generic, NamedTuple

@@ -1,4 +1,4 @@
-"""How a person steers the ball with one end of the table."""
+"""Steering of the ball with one end of the table."""
 
 import math
 from typing import Final, Generic, NamedTuple

@@ -118,7 +118,7 @@ class Agree(Touch):
                 f"uncertainty must be between 0 and {MOST_UNCERTAIN} m/s, got {self.uncertainty}"
             )
 
-    def drawn(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Windows, Facts]:
+    def setting(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Windows, Facts]:
         """Return the windows of the hurdles and of the common height, and the hurdles."""
         way = lasting(plan.target, frames)
         hurdles = hurdles_of(plan)

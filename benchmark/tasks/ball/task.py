@@ -73,7 +73,7 @@ class BallSteering(Touch):
         """The ball."""
         return self.ball
 
-    def drawn(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Places, Shown]:
+    def setting(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Places, Shown]:
         """Return the intended places of the ball, and whether both know them."""
         if not isinstance(plan, BallPlan):
             return Places(np.zeros(frames)), Shown(0.0)

@@ -48,7 +48,9 @@ class Intent(Touch):
     second_human: ClassVar[type[Agent]] = Companion
     behaviours: ClassVar[tuple[str, ...]] = ("together", "pivot", "counter", "switching")
 
-    def drawn(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Pose, tuple[()]]:
+    def setting(
+        self, plan: Plan, frames: int, seed: Callable[[str], int]
+    ) -> tuple[Pose, tuple[()]]:
         """Return the planned heights of both ends."""
         far = plan.far if isinstance(plan, PosePlan) else plan.target
         return Pose(lasting(plan.target, frames), lasting(far, frames)), ()
