@@ -4,6 +4,8 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Final, Protocol, TypeVar, cast
 
+from colift.agents.agent import FRAME
+
 if TYPE_CHECKING:
     import jax
 
@@ -67,6 +69,9 @@ class ArrayFunctions(Protocol[N]):
     def each(self, function: Callable[..., Any], /, *rows: Any) -> Any:
         """Return the row of a function's values for the numbers of rows of one length."""
 
+    def seconds(self, frames: Any, /) -> N:
+        """Return the time of a whole number of frames [s]."""
+
     def column(self, values: Sequence[N], /) -> Any:
         """Return numbers of successive frames as a column: a list, or an array (frames, n)."""
 
@@ -127,6 +132,11 @@ class Scalars:
     def row(values: Sequence[float], like: float, /) -> list[float]:
         """Return a list."""
         return list(values)
+
+    @staticmethod
+    def seconds(frames: float, /) -> float:
+        """Return the time of frames [s]."""
+        return frames * FRAME
 
     @staticmethod
     def column(values: Sequence[float], /) -> list[float]:

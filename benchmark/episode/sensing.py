@@ -4,7 +4,6 @@ from collections.abc import Callable, Sequence
 from typing import Final
 
 import numpy as np
-from colift.agents.agent import FRAME
 from colift.agents.rules import ArrayFunctions, N, View
 from colift.agents.senses import FORCE_NOISE, MOCAP_NOISE, SIGHT, TORQUE_NOISE, TOUCH, Sense
 from colift.benchmark.world.table import WEIGHT_SHARE
@@ -22,7 +21,7 @@ def sight(f: ArrayFunctions[N], view: View[N]) -> tuple[N, ...]:
         view.seen("robot_end", view.latency),
         view.hand,
         view.command,
-        0.0 * view.command + view.frame * FRAME,
+        0.0 * view.command + f.seconds(view.frame),
     )
 
 

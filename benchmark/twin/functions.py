@@ -5,6 +5,12 @@ from typing import Any, Final
 
 import jax
 import jax.numpy as jnp
+import numpy as np
+from colift.agents.agent import FRAME
+from colift.agents.senses import LONGEST_EPISODE
+
+_LONGEST: Final = round(LONGEST_EPISODE / FRAME)
+_TIMES: Final = np.arange(-_LONGEST, _LONGEST + 1) * FRAME
 
 
 class LiftFunctions:
@@ -25,6 +31,11 @@ class LiftFunctions:
     def each(self, function: Callable[..., Any], /, *rows: jax.Array) -> Any:
         """Return the function's values (k, n)."""
         return function(*rows)
+
+    def seconds(self, frames: Any, /) -> jax.Array:
+        """Return the time of frames [s], rounded once: rules compare it with decimal numbers."""
+        # A table: XLA makes a product of a quotient, which is rounded twice.
+        return jnp.asarray(_TIMES, float)[jnp.asarray(frames, int) + _LONGEST]
 
     def column(self, values: Sequence[Any], /) -> jax.Array:
         """Return numbers of successive frames as an array (frames, n)."""

@@ -2,7 +2,6 @@
 
 from typing import Any, Final, Generic, NamedTuple
 
-from colift.agents.agent import FRAME
 from colift.agents.humans.agree.manner import AgreeingManner
 from colift.agents.rules import ArrayFunctions, N
 
@@ -61,7 +60,7 @@ def secret(f: ArrayFunctions[N], hurdle: Obstacle[N], frame: Any) -> Secret[N]:
     """Return a hurdle as its holder knows it at the end of a frame."""
     given = hurdle.given > 0.0
     start, stop = (
-        f.where(given, (each - frame) * FRAME, 0.0) for each in (hurdle.start, hurdle.stop)
+        f.where(given, f.seconds(each - frame), 0.0) for each in (hurdle.start, hurdle.stop)
     )
     return Secret(hurdle.height, start, stop, hurdle.given)
 

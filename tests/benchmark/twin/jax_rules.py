@@ -24,7 +24,7 @@ def test_a_lift_has_the_numbers_of_the_engine_in_double_precision(name):
     assert largest_difference(scenario, 7, Copy) < CLOSE
 
 
-@pytest.mark.parametrize(("name", "period"), zip(WITH_RULES, (0.05, 0.2, 0.2), strict=True))
+@pytest.mark.parametrize(("name", "period"), [*zip(WITH_RULES, (0.05, 0.2, 0.2), strict=True)])
 def test_other_periods_have_them_too(name, period):
     behaviour = make_task(name).behaviours[0]
     scenario = make_scenario(behaviour, "S3", task=name, control_period=period, latency=0.15)
