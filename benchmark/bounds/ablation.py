@@ -12,7 +12,7 @@ from colift.agents.policies.anticipate import AnticipateParameters
 from colift.benchmark.bounds.anticipation_spec import AnticipationSpec
 from colift.benchmark.episode.scenario import CONTROL_PERIOD
 from colift.benchmark.execution.runner import Run, run_suite
-from colift.benchmark.results.summary import stratum
+from colift.benchmark.results.scores import stratum
 from colift.benchmark.statistics import Estimate, paired_difference
 from colift.benchmark.suites.suite import BEHAVIOURS, Suite
 from colift.benchmark.training.anticipation import CURRICULUM, HIDDEN, Lesson, learned

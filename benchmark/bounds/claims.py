@@ -141,4 +141,4 @@ def _kinder(by_name: dict[str, PolicyResults], results: PairedResults) -> Iterat
 
 
 def _values(policy: PolicyResults, metric: str) -> FloatArray:
-    return np.array([scores[metric] for scores in policy.scores])
+    return np.array(policy.scores.values[metric])

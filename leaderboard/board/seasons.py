@@ -10,7 +10,7 @@ from typing import Any, Final
 
 import sqlalchemy as sa
 from colift.agents.errors import InputError
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.hidden import commitment, new_secret
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.database.database import Database
@@ -47,7 +47,7 @@ class ImportedSeason:
     info: SeasonInfo
     """With the secret. ``current`` states whether it also takes submissions."""
     entries: Sequence[ImportedEntry]
-    human_human: Baseline
+    human_human: ScoreTable
     """The human-human baseline on the hidden episodes."""
 
 

@@ -19,7 +19,7 @@ from colift.agents.errors import EvaluatorFault
 from colift.agents.sandbox.host.levels import choose
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.bundle.files import EPISODES, RESULTS
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.board.board import BUILTIN
 from colift.leaderboard.evaluation.entrant import builtin_entrant
@@ -62,7 +62,7 @@ def practice_season(suite: str) -> Season:
 def play_policy(
     name: str,
     season: Season,
-    human_human: Baseline,
+    human_human: ScoreTable,
     at: datetime,
     *,
     executor: Executor | None = None,

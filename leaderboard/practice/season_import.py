@@ -18,7 +18,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any, Final, Self
 
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.board.board import SUITE, Board
 from colift.leaderboard.board.seasons import ImportedEntry, ImportedSeason
@@ -45,7 +45,7 @@ class PlayedSeason:
     suite: str
     suite_digest: str
     began_at: datetime
-    human_human: Baseline
+    human_human: ScoreTable
     """The human-human baseline on the hidden episodes."""
     played: tuple[PracticeRun, ...]
     """In the order of their names."""
@@ -65,7 +65,7 @@ class PlayedSeason:
             suite=content["suite"],
             suite_digest=content["suite_digest"],
             began_at=datetime.fromisoformat(content["began_at"]),
-            human_human=Baseline.read(content["human_human"]),
+            human_human=ScoreTable.read(content["human_human"]),
             played=played,
         )
 

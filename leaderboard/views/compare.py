@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from colift.agents.agent import FRAME
+from colift.benchmark.results.strata import StratumScore, human_human_mean
 from colift.benchmark.statistics import Estimate, PairedDifference, permutation_ps_against
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import RankedRow
@@ -21,8 +22,6 @@ from colift.leaderboard.views.board import find_season, ordered_seasons
 from colift.leaderboard.views.lifts import (
     Part,
     PublicLift,
-    StratumScore,
-    human_human_mean_rmse,
     part_estimate,
     parts_of,
     public_lifts,
@@ -140,7 +139,7 @@ def compare_view(
         Column(standing=ranked[digest], rmse_mm=tuple(part_estimate(path, part) for part in parts))
         for digest, path in runs.items()
     )
-    human_human = tuple(human_human_mean_rmse(strata, part) for part in parts)
+    human_human = tuple(human_human_mean(part.of(strata)) for part in parts)
     pairs = _differences(tuple((path, version(path)) for path in runs.values()))
     names = itertools.combinations(runs, 2)
     return CompareView(

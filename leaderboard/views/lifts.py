@@ -5,30 +5,15 @@ A bundle is read only once: it never changes, unless a rescore replaces it by an
 
 import csv
 import functools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from colift.benchmark.bundle.files import EPISODES, FILES, RESULTS
-from colift.benchmark.statistics import Estimate, MeanWithMissing, mean_of
+from colift.benchmark.results.strata import StratumScore, mean_of_strata
+from colift.benchmark.statistics import Estimate, mean_of
 from colift.leaderboard.records.metrics import read_means
 from colift.leaderboard.storage.files import read_json
-
-
-@dataclass(frozen=True, kw_only=True)
-class StratumScore:
-    """Means over the public lifts of one behaviour with one subject."""
-
-    behaviour: str
-    subject: str
-    episodes: int
-    failed: int
-    rmse_mm: float
-    human_human_rmse_mm: float | None
-    """The human-human baseline's."""
-    metrics: Mapping[str, MeanWithMissing]
-    """The other metrics of a board by name; see :func:`.board_metrics`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,7 +42,10 @@ def stratum_scores(bundle: Path) -> tuple[StratumScore, ...]:
 @functools.lru_cache(maxsize=8192)
 def _stratum_scores(bundle: Path, _: tuple[int, int]) -> tuple[StratumScore, ...]:
     results = read_json(bundle / RESULTS)
-    return tuple(_stratum(group, results["suite"]) for group in results["groups"])
+    return tuple(
+        StratumScore.read(group, read_means(group, results["suite"], group["episodes"]))
+        for group in results["groups"]
+    )
 
 
 def public_lifts(bundle: Path) -> tuple[PublicLift, ...]:
@@ -87,18 +75,6 @@ def is_whole(bundle: Path | None) -> bool:
     return bundle is not None and all((bundle / name).is_file() for name in FILES)
 
 
-def _stratum(group: dict[str, Any], suite: str) -> StratumScore:
-    return StratumScore(
-        behaviour=group["behaviour"],
-        subject=group["subject"],
-        episodes=group["episodes"],
-        failed=group["failed"],
-        rmse_mm=group["rmse_mm"]["mean"],
-        human_human_rmse_mm=group["human_human_rmse_mm"]["mean"],
-        metrics=read_means(group, suite, group["episodes"]),
-    )
-
-
 @dataclass(frozen=True, kw_only=True)
 class Part:
     """Some of the public lifts."""
@@ -111,6 +87,10 @@ class Part:
     def has(self, lift: PublicLift | StratumScore) -> bool:
         """Return whether a lift, or a stratum, belongs to it."""
         return self.behaviour in (None, lift.behaviour) and self.subject in (None, lift.subject)
+
+    def of(self, strata: Iterable[StratumScore]) -> list[StratumScore]:
+        """Return the strata that belong to it."""
+        return list(filter(self.has, strata))
 
     @property
     def whole(self) -> bool:
@@ -146,7 +126,7 @@ def part_estimate(bundle: Path, part: Part) -> Estimate:
 def _part_estimate(bundle: Path, _: tuple[int, int], part: Part) -> Estimate:
     lifts = [lift for lift in public_lifts(bundle) if part.has(lift)]
     if not lifts:
-        return known(mean_rmse(stratum_scores(bundle), part) or 0.0)
+        return known(mean_of_strata(part.of(stratum_scores(bundle))).mean or 0.0)
     strata = [(lift.behaviour, lift.subject) for lift in lifts]
     return mean_of([lift.rmse_mm for lift in lifts], strata)
 
@@ -154,23 +134,3 @@ def _part_estimate(bundle: Path, _: tuple[int, int], part: Part) -> Estimate:
 def known(mean: float) -> Estimate:
     """Return a mean without a known interval."""
     return Estimate(mean=mean, ci95=(mean, mean))
-
-
-def mean_rmse(strata: Sequence[StratumScore], part: Part) -> float | None:
-    """Return a policy's mean RMSE [mm] over a part; None if it is not known."""
-    some = [stratum for stratum in strata if part.has(stratum)]
-    lifts = sum(stratum.episodes for stratum in some)
-    return sum(stratum.episodes * stratum.rmse_mm for stratum in some) / lifts if some else None
-
-
-def human_human_mean_rmse(strata: Sequence[StratumScore], part: Part | None = None) -> float | None:
-    """Return the human-human baseline's mean RMSE [mm] over a part, if it is known in all of it."""
-    some = [stratum for stratum in strata if part is None or part.has(stratum)]
-    known = [
-        (stratum.episodes, stratum.human_human_rmse_mm)
-        for stratum in some
-        if stratum.human_human_rmse_mm is not None
-    ]
-    if not known or len(known) < len(some):
-        return None
-    return sum(episodes * rmse for episodes, rmse in known) / sum(episodes for episodes, _ in known)

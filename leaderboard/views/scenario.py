@@ -9,6 +9,7 @@ from typing import Final
 from colift.agents.humans import Subject
 from colift.benchmark.episode.lift import make_lift
 from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.results.strata import StratumScore
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import RankedRow
@@ -16,7 +17,7 @@ from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.views.asked import ROWS
 from colift.leaderboard.views.axis import Axis, make_axis
 from colift.leaderboard.views.board import find_season, ordered_seasons
-from colift.leaderboard.views.lifts import Part, StratumScore, known, part_estimate, stratum_scores
+from colift.leaderboard.views.lifts import Part, known, part_estimate, stratum_scores
 from colift.leaderboard.views.suites import season_suite
 
 CURVES: Final = 5

@@ -10,7 +10,7 @@ import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.registry import SUITES, entries
 from colift.agents.submissions.new import write_template
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.database.database import Database
 from colift.leaderboard.evaluation.entrant import Entrant
@@ -81,7 +81,7 @@ def season() -> Season:
 
 
 @pytest.fixture(scope="session")
-def human_human(season: Season) -> Baseline:
+def human_human(season: Season) -> ScoreTable:
     return play_human_human(season)
 
 

@@ -18,7 +18,7 @@ import zlib
 import pytest
 import sqlalchemy as sa
 from colift.agents.errors import InputError
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
 from colift.leaderboard.backup.backup import back_up
 from colift.leaderboard.backup.restoring import restore
 from colift.leaderboard.board.board import Board
@@ -265,7 +265,7 @@ def board_file(tmp_path_factory):
     board.store.add_to_log(job.id, "a line")
     WorkerQueue(board).claim("host/machine/1/2")
     board.withdraw("1", digest("one"), "Ada", "a mistake")
-    human = Baseline(strata=(("pause", "S1"),) * 12, rmse_mm=(5.0,) * 12, means={})
+    human = ScoreTable(strata=(("pause", "S1"),) * 12, values={"rmse_mm": (5.0,) * 12})
     board.store.secrets("1").keep_human_human(human)
     board.new_season("2")
     board.reveal("1", "Ada", "it is over")

@@ -7,7 +7,8 @@ from pathlib import Path
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import Baseline, shipped_baselines
+from colift.benchmark.results.baselines import shipped_baselines
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.hidden import commitment
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.board.seasons import ImportedEntry, ImportedSeason
@@ -64,7 +65,7 @@ def digest(name: str) -> str:
 
 
 def _adopted(
-    folder: Path, season: Season, human_human: Baseline, name: str, number: int
+    folder: Path, season: Season, human_human: ScoreTable, name: str, number: int
 ) -> ImportedEntry:
     text, description = POLICIES[name]
     policy, bundle = PolicySpec(text=text), folder / str(number)

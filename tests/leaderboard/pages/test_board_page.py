@@ -202,7 +202,7 @@ def test_two_people_and_the_bounds_stand_below_the_policies_and_follow_a_filter(
     expect(rows.nth(1).locator(".rmse b")).to_have_text(f"{bounds['causal_bound'].mean:.1f}")
     expect(rows.nth(2).locator(".rmse b")).to_have_text(f"{bounds['oracle'].mean:.2f}")
     page.locator("#behaviour").select_option("jerky")
-    jerky = bounds["causal_bound"].by_stratum()["jerky", "S3"]
+    jerky = bounds["causal_bound"].by_stratum["jerky", "S3"].mean
     expect(rows.nth(1).locator(".rmse")).to_have_text(f"{jerky:.1f}")
     page.locator("#behaviour").select_option("")
     expect(rows.nth(1).locator(".rmse b")).to_have_text(f"{bounds['causal_bound'].mean:.1f}")
