@@ -7,7 +7,7 @@ from pathlib import Path
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import shipped_baselines
+from colift.benchmark.results.baselines import play_baselines, shipped_baselines
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.hidden import commitment
 from colift.benchmark.suites.suite import make_suite
@@ -71,7 +71,8 @@ def _adopted(
     policy, bundle = PolicySpec(text=text), folder / str(number)
     public = run_suite(policy, season.suite)
     hidden = run_suite(policy, season.hidden)
-    content = results(public, shipped_baselines(season.suite))
+    baselines = shipped_baselines(season.suite) or play_baselines(season.suite)
+    content = results(public, baselines)
     write_bundle(bundle, public, content.plain())
     row = BoardRow(
         season=season.name,
