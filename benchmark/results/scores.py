@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Self
 
+import msgspec
 import numpy as np
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.metric import LEADING, on_boards
@@ -130,13 +131,22 @@ class ScoreTable:
         }
 
     @classmethod
-    def read(cls, content: Mapping[str, Any]) -> Self:
-        """Return the table that :meth:`plain` has written."""
-        return cls(
-            strata=tuple((behaviour, subject) for behaviour, subject in content["strata"]),
-            values={LEADING: tuple(content["rmse_mm"])},
-            means=content["means"],
-        )
+    def read(cls, content: object) -> Self:
+        """Return the table that :meth:`plain` has written.
+
+        Raises
+        ------
+        msgspec.ValidationError
+            If it is not such content.
+        """
+        kept = msgspec.convert(content, _Stored)
+        return cls(strata=kept.strata, values={LEADING: kept.rmse_mm}, means=kept.means)
+
+
+class _Stored(msgspec.Struct):
+    strata: tuple[Stratum, ...]
+    rmse_mm: tuple[float, ...]
+    means: dict[str, float | None]
 
 
 class Paired(NamedTuple):

@@ -12,7 +12,6 @@ from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.hidden import SECRET_BYTES
 from colift.leaderboard.storage.damage import DAMAGE, DamagedError
 from colift.leaderboard.storage.files import read_json, sync, write_json
-from colift.leaderboard.storage.typed import mistyped
 
 PRIVATE_FILE: Final = 0o600
 """Mode of a file that only its owner may read."""
@@ -90,13 +89,12 @@ class SeasonSecrets:
         """
         path = self.folder / "human_human.json"
         try:
-            known = ScoreTable.read(read_json(path)) if path.exists() else None
+            return ScoreTable.read(read_json(path)) if path.exists() else None
         except DAMAGE as error:
-            raise _damaged(path, error_text(error)) from error
-        fault = None if known is None else mistyped(known, ScoreTable, "the baseline")
-        if fault is not None:
-            raise _damaged(path, fault)
-        return known
+            raise DamagedError(
+                f"{path} is damaged ({error_text(error)}): restore it from a backup, or remove it, "
+                "and the next evaluation plays the human-human baseline again"
+            ) from error
 
     def keep_human_human(self, human_human: ScoreTable) -> None:
         """Write the human-human baseline."""
@@ -106,10 +104,3 @@ class SeasonSecrets:
     @property
     def _secret(self) -> Path:
         return self.folder / "secret"
-
-
-def _damaged(path: Path, reason: str) -> DamagedError:
-    return DamagedError(
-        f"{path} is damaged ({reason}): restore it from a backup, or remove it, and the next "
-        "evaluation plays the human-human baseline again"
-    )

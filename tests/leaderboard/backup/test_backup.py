@@ -229,12 +229,15 @@ def test_a_damaged_backup_is_refused_in_a_sentence_or_its_board_can_be_used(
         ),
         (
             "UPDATE entries SET row = replace(row, '10.0', '\"x\"') WHERE number = 1",
-            "row.public.rmse_mm.mean cannot be 'x'",
+            "Expected `float`, got `str` - at `$.public.rmse_mm.mean`",
         ),
         ("UPDATE entries SET at = 'noon' WHERE number = 1", "cannot be read (ValueError:"),
         ("UPDATE hidden_errors SET rmse_mm = x'0011'", "a hidden episode of the board cannot be"),
         ("DELETE FROM hidden_errors", "has no errors of its hidden episodes"),
-        ("UPDATE jobs SET done = 'many'", "jobs, done cannot be 'many'"),
+        (
+            "UPDATE jobs SET done = 'many'",
+            "'many' as done in the table jobs of the board cannot be read",
+        ),
         ("DROP TABLE tokens", "lacks tokens.number"),
     ],
 )
