@@ -118,9 +118,11 @@ class ScoreTable:
             members.setdefault(key, []).append(i)
         return {key: self.select(some) for key, some in members.items()}
 
-    def against(self, other: "ScoreTable") -> "Paired":
-        """Return the comparison of the RMSE with another agent's on the same lifts."""
-        return Paired(self, other)
+    def against(self, other: "ScoreTable", name: str = LEADING) -> "Paired":
+        """Return a metric of this agent and another, in the lifts in which both have a value."""
+        lifts = zip(self.values[name], other.values[name], self.strata, strict=True)
+        some = [lift for lift in lifts if not math.isnan(lift[0] + lift[1])]
+        return Paired(*map(tuple, zip(*some, strict=True))) if some else Paired((), (), ())
 
     def plain(self) -> dict[str, Any]:
         """Return what a stored table has, ready for JSON."""
@@ -150,26 +152,27 @@ class _Stored(msgspec.Struct):
 
 
 class Paired(NamedTuple):
-    """The RMSE of two agents on the same lifts."""
+    """A metric of two agents on the same lifts."""
 
-    one: ScoreTable
-    other: ScoreTable
+    one: tuple[float, ...]
+    other: tuple[float, ...]
+    strata: tuple[Stratum, ...]
 
     @property
     def ratio(self) -> Estimate:
         """Mean of the first divided by that of the second."""
-        return ratio_of_means(self.one.rmse_mm, self.other.rmse_mm, self.one.strata)
+        return ratio_of_means(*self)
 
     @property
     def difference(self) -> Estimate:
-        """Mean of the first minus that of the second [mm]."""
-        return paired_difference(self.one.rmse_mm, self.other.rmse_mm, self.one.strata)
+        """Mean of the first minus that of the second."""
+        return paired_difference(*self)
 
     @property
     def probability(self) -> float:
         """Probability that the mean of the first is the lower one on such lifts."""
-        return probability_better(self.one.rmse_mm, self.other.rmse_mm, self.one.strata)
+        return probability_better(*self)
 
     def tested(self, p: float) -> PairedDifference:
-        """Return the difference [mm] with its p value."""
-        return PairedDifference.of(self.one.rmse_mm, self.other.rmse_mm, self.one.strata, p)
+        """Return the difference with its p value."""
+        return PairedDifference.of(*self, p)

@@ -217,18 +217,18 @@ def _verify(bundle: Path, executor: Executor | None, watch: Callbacks) -> None:
 def _row(
     entrant: Entrant, season: Season, public: PublicScores, hidden: HiddenScores, gap_mm: Estimate
 ) -> BoardRow:
-    isolation = entrant.policy.isolation
+    about, isolation = entrant.manifest, entrant.policy.isolation
     return BoardRow(
         season=season.name,
         commitment=season.commitment,
         suite=season.suite.name,
         suite_digest=season.suite.digest,
-        name=entrant.name,
-        authors=entrant.authors,
-        description=entrant.description,
-        link=entrant.link,
-        licence=entrant.licence,
-        trained_on=entrant.trained_on,
+        name=about.name,
+        authors=about.authors,
+        description=about.description,
+        link=about.link,
+        licence=about.licence,
+        trained_on=about.trained_on,
         submission=entrant.digest,
         public=public,
         hidden=hidden,

@@ -10,8 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from colift.benchmark.bundle.files import EPISODES, FILES, RESULTS
+from colift.benchmark.episode.metric import LEADING
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.strata import StratumScore, mean_of_strata
-from colift.benchmark.statistics import Estimate, mean_of
+from colift.benchmark.statistics import Estimate
 from colift.leaderboard.records.metrics import read_means
 from colift.leaderboard.storage.files import read_json
 
@@ -70,6 +72,15 @@ def _public_lifts(bundle: Path, _: tuple[int, int]) -> tuple[PublicLift, ...]:
         )
 
 
+def public_scores(bundle: Path) -> ScoreTable:
+    """Return the RMSE of the lifts of a bundle, in the suite's order."""
+    lifts = public_lifts(bundle)
+    return ScoreTable(
+        strata=tuple((lift.behaviour, lift.subject) for lift in lifts),
+        values={LEADING: tuple(lift.rmse_mm for lift in lifts)},
+    )
+
+
 def is_whole(bundle: Path | None) -> bool:
     """Return whether a bundle can be verified; those of practice rows are incomplete."""
     return bundle is not None and all((bundle / name).is_file() for name in FILES)
@@ -84,13 +95,13 @@ class Part:
     subject: str | None
     """None: all of them."""
 
-    def has(self, lift: PublicLift | StratumScore) -> bool:
-        """Return whether a lift, or a stratum, belongs to it."""
-        return self.behaviour in (None, lift.behaviour) and self.subject in (None, lift.subject)
-
     def of(self, strata: Iterable[StratumScore]) -> list[StratumScore]:
         """Return the strata that belong to it."""
-        return list(filter(self.has, strata))
+        return [
+            each
+            for each in strata
+            if self.behaviour in (None, each.behaviour) and self.subject in (None, each.subject)
+        ]
 
     @property
     def whole(self) -> bool:
@@ -124,11 +135,10 @@ def part_estimate(bundle: Path, part: Part) -> Estimate:
 
 @functools.lru_cache(maxsize=4096)
 def _part_estimate(bundle: Path, _: tuple[int, int], part: Part) -> Estimate:
-    lifts = [lift for lift in public_lifts(bundle) if part.has(lift)]
-    if not lifts:
-        return known(mean_of_strata(part.of(stratum_scores(bundle))).mean or 0.0)
-    strata = [(lift.behaviour, lift.subject) for lift in lifts]
-    return mean_of([lift.rmse_mm for lift in lifts], strata)
+    scores = public_scores(bundle).part(part.behaviour, part.subject)
+    if scores.strata:
+        return scores.error
+    return known(mean_of_strata(part.of(stratum_scores(bundle))).mean or 0.0)
 
 
 def known(mean: float) -> Estimate:
