@@ -139,9 +139,15 @@ class ScoreTable:
         Raises
         ------
         msgspec.ValidationError
-            If it is not such content.
+            If it is not such content; the message names the place and the type that it must have.
+        ValueError
+            If there are not as many errors as strata.
         """
         kept = msgspec.convert(content, _Stored)
+        if len(kept.strata) != len(kept.rmse_mm):
+            raise ValueError(
+                f"{len(kept.rmse_mm)} errors for the strata of {len(kept.strata)} lifts"
+            )
         return cls(strata=kept.strata, values={LEADING: kept.rmse_mm}, means=kept.means)
 
 

@@ -48,5 +48,14 @@ def sync_tree(folder: Path) -> None:
 
 
 def read_json(path: Path) -> dict[str, Any]:
-    """Return the object in a JSON file, whose numbers are finite; else raise a MsgspecError."""
-    return msgspec.json.decode(path.read_bytes(), type=dict[str, Any])
+    """Return the object in a JSON file, whose numbers are finite.
+
+    Raises
+    ------
+    ValueError
+        If it is anything else.
+    """
+    try:
+        return msgspec.json.decode(path.read_bytes(), type=dict[str, Any])
+    except msgspec.MsgspecError as error:
+        raise ValueError(str(error)) from error
