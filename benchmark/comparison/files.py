@@ -25,7 +25,7 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
     """Return the content of ``compare.json``: policies in the order of their mean RMSE.
 
     ``policies`` covers all episodes; each of ``behaviours`` and ``subjects`` covers a part of them.
-    The fields of a policy are those of :class:`.RankedPolicy`. Where ``decisive`` is false, the
+    A policy has the numbers of :class:`.RankedPolicy`. Where ``decisive`` is false, the
     episodes are too few for any test, and all policies have rank 1. ``recordings`` is there if the
     suite has some: the sampling of each trial, and the changes to it.
     """

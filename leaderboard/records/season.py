@@ -122,6 +122,17 @@ class BoardEntry:
         return replace(msgspec.convert({**content, "row": None}, cls), row=row)
 
 
+@dataclass(frozen=True, kw_only=True)
+class PlayedEntry:
+    """An entry that was evaluated elsewhere, with all that a board keeps of it."""
+
+    entry: BoardEntry
+    hidden_rmse_mm: tuple[float, ...] = field(default=(), repr=False)
+    """RMSE of each hidden episode, if it has a row: the ranks follow from it."""
+    files: Mapping[str, bytes] = field(default_factory=dict, repr=False)
+    """Files of the public run by name, if they are there."""
+
+
 def check_season_suite(place: Path | str, suite: str, wanted: str | None) -> None:
     """Refuse a board whose current season has another suite than the wanted one, if any.
 

@@ -11,11 +11,11 @@ from colift.benchmark.results.baselines import play_baselines, shipped_baselines
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.hidden import commitment
 from colift.benchmark.suites.suite import make_suite
-from colift.leaderboard.board.seasons import ImportedEntry, ImportedSeason
+from colift.leaderboard.board.seasons import ImportedSeason
 from colift.leaderboard.evaluation.evaluation import play_human_human
 from colift.leaderboard.evaluation.scoring import gap, hidden_scores, public_scores
 from colift.leaderboard.records.row import BoardRow
-from colift.leaderboard.records.season import BoardEntry, Season, SeasonInfo
+from colift.leaderboard.records.season import BoardEntry, PlayedEntry, Season, SeasonInfo
 
 SECRET = bytes(range(32))
 BEGAN = datetime(2026, 11, 20, 9, tzinfo=UTC)
@@ -66,7 +66,7 @@ def digest(name: str) -> str:
 
 def _adopted(
     folder: Path, season: Season, human_human: ScoreTable, name: str, number: int
-) -> ImportedEntry:
+) -> PlayedEntry:
     text, description = POLICIES[name]
     policy, bundle = PolicySpec(text=text), folder / str(number)
     public = run_suite(policy, season.suite)
@@ -103,5 +103,6 @@ def _adopted(
         row=row,
         refusal=None,
     )
+    files = {path.name: path.read_bytes() for path in bundle.iterdir()}
     errors = tuple(episode.scores["rmse_mm"] for episode in hidden.episodes)
-    return ImportedEntry(entry=entry, hidden_rmse_mm=errors, bundle=bundle)
+    return PlayedEntry(entry=entry, hidden_rmse_mm=errors, files=files)
