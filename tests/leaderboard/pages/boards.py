@@ -60,6 +60,14 @@ def renamed(season: ImportedSeason, name: str, began_at: datetime) -> ImportedSe
     return dataclasses.replace(season, info=info, entries=entries)
 
 
+def unpacked(played: PlayedEntry, folder: Path) -> Path:
+    """Write the public run of an entry into a new folder, and return it."""
+    folder.mkdir()
+    for name, data in played.files.items():
+        (folder / name).write_bytes(data)
+    return folder
+
+
 def digest(name: str) -> str:
     return (name.encode().hex() * 64)[:64]
 
