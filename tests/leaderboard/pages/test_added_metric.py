@@ -15,6 +15,7 @@ from colift.benchmark.results import baselines
 from colift.benchmark.verification import verify
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.pages.site import write_site
+from colift.leaderboard.views import bounds
 
 from ...cli.conftest import colift
 from .boards import digest, practice
@@ -48,7 +49,9 @@ def added():
         # Baselines of before, whose digests such a change leaves behind.
         patched.setattr(baselines, "shipped_content", dict)
         patched.setattr(baselines, "_played", {})
+        bounds._bounds.cache_clear()
         yield
+    bounds._bounds.cache_clear()
 
 
 @pytest.fixture

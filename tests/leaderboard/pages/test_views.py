@@ -261,7 +261,9 @@ def test_the_picture_of_another_task_has_that_tasks_second_metric_and_words():
 def test_a_bundle_that_a_rescore_has_replaced_is_read_again(tmp_path, played):
     board = Board.open(tmp_path / "board", "quick-v1")
     add(board, "mine", 10.0)
-    first, second = (unpacked(each, tmp_path / each.entry.name) for each in played.entries[:2])
+    first, second = (
+        unpacked(each, tmp_path / f"run of {each.entry.name}") for each in played.entries[:2]
+    )
     seen = []
     for bundle in (first, second):
         copy = shutil.copytree(bundle, tmp_path / "copy")
