@@ -6,17 +6,16 @@ from typing import Annotated
 import typer
 from colift.agents.registry import SUITES, own_entries
 from colift.benchmark.bounds.bounds import suite_bounds
+from colift.benchmark.comparison.formatting import between
 from colift.benchmark.comparison.playing import play_bounds
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.results.baselines import (
     BASELINES,
-    Baseline,
     ToShip,
     baselines_json,
     play_baselines,
     shipped_content,
 )
-from colift.benchmark.statistics import stratified_bootstrap
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tables.printing import left, show, table
 from colift.cli.completion import suites as named
@@ -51,24 +50,13 @@ def baselines(
             bounds = play_bounds(suite_bounds(suite), suite, executor=pool, progress=progress)
             played.append(ToShip(suite=suite, baselines=baselines, bounds=bounds))
     rows = [
-        (each.suite.name, name, behaviour, *_error(baseline, behaviour))
+        (each.suite.name, name, behaviour or "all", f"{error.mean:.2f}", between(error.ci95, ".2f"))
         for each in played
         for name, baseline in {**each.baselines, **each.bounds}.items()
-        for behaviour in (*dict.fromkeys(key[0] for key in baseline.strata), "all")
+        for behaviour in (*dict.fromkeys(key[0] for key in baseline.strata), None)
+        for error in (baseline.part(behaviour).error,)
     ]
     titles = ("suite", left("baseline"), left("human"), "RMSE mm", "95 % interval")
     show(table("", titles, rows))
     kept = shipped_content() if only else {}
     write_output(out, baselines_json(played, kept))
-
-
-def _error(baseline: Baseline, behaviour: str) -> tuple[str, str]:
-    """Return mean and interval over the episodes of a behaviour, or over all."""
-    chosen = [
-        (stratum, value)
-        for stratum, value in zip(baseline.strata, baseline.rmse_mm, strict=True)
-        if behaviour in ("all", stratum[0])
-    ]
-    values = [value for _, value in chosen]
-    low, high = stratified_bootstrap(values, [stratum for stratum, _ in chosen])
-    return f"{sum(values) / len(values):.2f}", f"{low:.2f} to {high:.2f}"

@@ -90,6 +90,17 @@ def all_checks(
     except InputError as error:
         yield Check(name="files", ok=False, message=explained(error))
         return
+    yield from submission_checks(submission, level, trusted, jobs, suite)
+
+
+def submission_checks(
+    submission: Submission,
+    level: str | None,
+    trusted: bool,
+    jobs: int | None,
+    suite: Suite | None = None,
+) -> Iterator[Check]:
+    """Yield the checks of a submission that has been read, then those of its policy."""
     yield from _files(submission)
     policy: AgentSpec
     fresh: AgentSpec

@@ -34,11 +34,11 @@ from colift.benchmark.execution.provenance import origin, platform_of
 from colift.benchmark.execution.runner import InterruptedRunError, Run, run_suite
 from colift.benchmark.results.baselines import (
     BASELINES,
-    Baseline,
     play_baselines,
     shipped_baselines,
 )
 from colift.benchmark.results.remarks import remarks
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tables.failures import DeadPolicyError, LifeWatch, reported_failures
 from colift.benchmark.tables.printing import counted, show
@@ -174,7 +174,7 @@ def _evaluate(
     channel: Channel | None,
     workers: Executor | None,
     journal: Journal | None,
-) -> tuple[Run, Mapping[str, Baseline]]:
+) -> tuple[Run, Mapping[str, ScoreTable]]:
     """Run the policy, then the baselines on the same episodes, unless they are shipped.
 
     Raise a DeadPolicyError if all of the first lifts fail at once.

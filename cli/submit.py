@@ -17,7 +17,7 @@ from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tables.printing import show
 from colift.benchmark.verification.checking import SUITE, checked_with
 from colift.cli.board_options import opened_board, web_address
-from colift.cli.check import all_checks
+from colift.cli.check import submission_checks
 from colift.cli.completion import suites
 from colift.cli.options import Jobs
 from colift.cli.remedies import argument
@@ -106,7 +106,7 @@ def _check_folder(board: str, with_token: bool) -> None:
 def _submit_to_folder(submission: Submission, folder: Path, board: Board, jobs: int) -> None:
     """Evaluate a submission unless its board has an entry of it, and print its row."""
     if board.entry(board.season.name, submission.contents.digest) is None:
-        _check(folder, board.season.suite.name, jobs)
+        _check(submission, folder, board.season.suite.name, jobs)
     else:
         print(f"This content (digest {submission.digest}) is on the board already.")
     queue = Queue(board, quota=NO_QUOTA)
@@ -158,7 +158,7 @@ def _submit_to_web(
     board.submitter()  # Refuses an unknown token before any work is done.
     current = board.suite()
     check_season_suite(url, current, suite)
-    _check(folder, current, jobs)
+    _check(submission, folder, current, jobs)
     job = board.submit(submission.folder)
     links = ServiceLinks(board.url.rstrip("/"))
     page = f"{links.root}/jobs/{job['id']}"
@@ -212,11 +212,11 @@ def _followed(board: RemoteBoard, job: dict[str, Any]) -> dict[str, Any]:
     return job
 
 
-def _check(folder: Path, suite: str, jobs: int) -> None:
+def _check(submission: Submission, folder: Path, suite: str, jobs: int) -> None:
     """End with the reason if the submission fails a check with the task of the board's suite."""
     played = checked_with(make_suite(suite))
     option = "" if played.name == SUITE else f" --suite {suite}"
-    for each in all_checks(folder, None, False, jobs, played):
+    for each in submission_checks(submission, None, False, jobs, played):
         if not each.ok:
             reason = f"not submitted, its check fails: {each.name}: {each.message}"
             _refuse(reason, fix=folder, option=option)

@@ -1,6 +1,7 @@
 """Reading and copying of submitted folders, in which nothing is trusted."""
 
 import errno
+import functools
 import hashlib
 import os
 import re
@@ -81,7 +82,7 @@ class FolderContents:
         """The size of all files [bytes]."""
         return sum(file.size for file in self.files)
 
-    @property
+    @functools.cached_property
     def digest(self) -> str:
         """SHA-256 (64 hexadecimal digits) over all names and bytes.
 

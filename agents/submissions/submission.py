@@ -13,7 +13,7 @@ from colift.agents.onnx.allowed import LARGEST
 from colift.agents.onnx.libraries import require_libraries
 from colift.agents.sandbox.host.levels import strongest
 from colift.agents.sandbox.host.policy import SandboxedPolicy
-from colift.agents.submissions.folder import FolderContents, read_folder
+from colift.agents.submissions.folder import FolderContents, copy_folder, read_folder
 from colift.agents.submissions.manifest import MANIFEST, Manifest, read_manifest
 from colift.agents.submissions.near_manifest import NAME, files_of, no_manifest
 from colift.agents.submissions.snapshot import snapshot
@@ -125,6 +125,20 @@ def read_submission(folder: Path) -> Submission:
     _check_no_file(folder)
     contents = read_folder(folder)
     return _submission(folder.absolute(), contents, str(folder))
+
+
+def copy_submission(folder: Path, target: Path) -> Submission:
+    """Return the submission in a folder as a copy in an empty one; it is read only once.
+
+    Raises
+    ------
+    InputError
+        As :func:`read_submission`.
+    UnwritableError
+        If the copy cannot be written.
+    """
+    _check_no_file(folder)
+    return _submission(target.absolute(), copy_folder(folder, target), str(folder))
 
 
 def _check_no_file(folder: Path) -> None:

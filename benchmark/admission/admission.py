@@ -25,7 +25,8 @@ from colift.benchmark.bounds.bounds import suite_bounds
 from colift.benchmark.bounds.oracle import ORACLE
 from colift.benchmark.comparison.playing import known_bounds
 from colift.benchmark.execution.runner import Run, run_suite
-from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, Baseline, human_human_run
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, human_human_run
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
 from numpy.typing import NDArray
 
@@ -104,7 +105,7 @@ def admission_of(
     runs = {name: played(name) for name in names}
     published = PUBLISHED.get(suite.scenarios[0].task.name)
     playing = {HUMAN_HUMAN_LABEL: human_human, HOLD: hold, **runs}
-    everybody = bounds | {name: Baseline.of(run) for name, run in playing.items()}
+    everybody = bounds | {name: ScoreTable.of(run) for name, run in playing.items()}
     return Admission(
         suite=suite.name,
         digest=suite.digest,

@@ -10,8 +10,7 @@ from colift.benchmark.admission.published import Published
 from colift.benchmark.admission.variance import variance_shares
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.execution.runner import Run
-from colift.benchmark.results.baselines import Baseline
-from colift.benchmark.results.summary import stratum
+from colift.benchmark.results.scores import ScoreTable, stratum
 from colift.benchmark.statistics.estimate import paired_difference
 from numpy.typing import NDArray
 
@@ -166,12 +165,10 @@ def mean_mm(run: Run) -> float:
     return float(np.mean([each.scores["rmse_mm"] for each in run.episodes]))
 
 
-def person_means_mm(played: Baseline) -> dict[str, float]:
+def person_means_mm(played: ScoreTable) -> dict[str, float]:
     """Return the mean RMSE with each person [mm]."""
-    errors: dict[str, list[float]] = {}
-    for (_, person), error in zip(played.strata, played.rmse_mm, strict=True):
-        errors.setdefault(person, []).append(error)
-    return {person: float(np.mean(some)) for person, some in errors.items()}
+    people = dict.fromkeys(person for _, person in played.strata)
+    return {person: played.part(subject=person).mean for person in people}
 
 
 def _log_mean(run: Run, person: str, behaviour: str | None = None) -> float:

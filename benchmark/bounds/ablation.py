@@ -11,9 +11,9 @@ from colift.agents.control.anticipation import FeatureWindow
 from colift.agents.policies.anticipate import AnticipateParameters
 from colift.benchmark.bounds.anticipation_spec import AnticipationSpec
 from colift.benchmark.episode.scenario import CONTROL_PERIOD
-from colift.benchmark.execution.runner import Run, run_suite
-from colift.benchmark.results.summary import stratum
-from colift.benchmark.statistics import Estimate, paired_difference
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import BEHAVIOURS, Suite
 from colift.benchmark.training.anticipation import CURRICULUM, HIDDEN, Lesson, learned
 from colift.benchmark.training.data import Timing, TrainingData
@@ -122,31 +122,17 @@ def ablate(
 ) -> list[Ablation]:
     """Return the scores of the robots on a suite; the first is the whole policy, the reference."""
     found: list[Ablation] = []
-    whole: Run | None = None
+    whole: ScoreTable | None = None
     for robot in robots:
-        run = run_suite(robot, suite, executor=executor, progress=progress)
-        whole = whole or run
-        found.append(_against(robot.name, run, whole))
+        scores = ScoreTable.of(run_suite(robot, suite, executor=executor, progress=progress))
+        first, whole = whole is None, whole or scores
+        found.append(
+            Ablation(
+                name=robot.name,
+                rmse_mm=scores.mean,
+                sparc=float(np.nanmean(scores.values["sparc"])),
+                worse_mm=None if first else scores.against(whole).difference,
+                rougher=None if first else whole.against(scores, "sparc").difference,
+            )
+        )
     return found
-
-
-def _against(name: str, run: Run, whole: Run) -> Ablation:
-    rmse, sparc = _values(run, "rmse_mm"), _values(run, "sparc")
-    worse = rougher = None
-    if run is not whole:
-        strata = [stratum(episode) for episode in run.episodes]
-        worse = paired_difference(rmse, _values(whole, "rmse_mm"), strata)
-        both = ~np.isnan(sparc - _values(whole, "sparc"))
-        moved = [stratum for stratum, taken in zip(strata, both, strict=True) if taken]
-        rougher = paired_difference(_values(whole, "sparc")[both], sparc[both], moved)
-    return Ablation(
-        name=name,
-        rmse_mm=float(rmse.mean()),
-        sparc=float(np.nanmean(sparc)),
-        worse_mm=worse,
-        rougher=rougher,
-    )
-
-
-def _values(run: Run, metric: str) -> np.ndarray[Any, np.dtype[np.float64]]:
-    return np.array([episode.scores[metric] for episode in run.episodes])

@@ -1,19 +1,13 @@
 """The claims about `learned`, measured."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Final
 
-import numpy as np
 from colift.benchmark.bounds.causal import CAUSAL_BOUND
-from colift.benchmark.comparison.paired_results import PairedResults, PolicyResults
-from colift.benchmark.statistics import (
-    FloatArray,
-    Interval,
-    paired_difference,
-    ratio_of_means,
-    share_better,
-)
+from colift.benchmark.comparison.paired_results import PairedResults
+from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.statistics import Interval, share_better
 from colift.benchmark.suites.catalogue import RECORDED
 
 POLICY: Final = "learned"
@@ -62,66 +56,44 @@ def claims(results: PairedResults) -> tuple[PolicyClaim, ...]:
     On recorded lifts neither the human-human baseline nor the bound is a limit: people follow no
     plan.
     """
-    by_name = {policy.name: policy for policy in results.policies}
-    strata = results.human_human.strata
-    behaviours = np.array([behaviour for behaviour, _ in strata])
-    mine, anticipate, blend = (
-        _values(by_name[name], "rmse_mm") for name in (POLICY, "anticipate", "blend")
-    )
-    bound, human_human = (
-        np.array(other.rmse_mm) for other in (results.bounds[CAUSAL_BOUND], results.human_human)
-    )
+    by_name = {policy.name: policy.scores for policy in results.policies}
+    mine, anticipate, blend = (by_name[name] for name in (POLICY, "anticipate", "blend"))
+    bound, human_human = results.bounds[CAUSAL_BOUND], results.human_human
     found: list[PolicyClaim] = []
 
-    def ratio(text: str, other: FloatArray, chosen: FloatArray, limit: float) -> None:
-        some = [stratum for stratum, taken in zip(strata, chosen, strict=True) if taken]
-        of = ratio_of_means(mine[chosen], other[chosen], some)
-        text = f"RMSE over that of {text}"
+    def ratio(text: str, other: ScoreTable, behaviour: str | None, limit: float) -> None:
+        of = mine.part(behaviour).against(other.part(behaviour)).ratio
+        text = f"RMSE over that of {text}, {behaviour or 'over all'}"
         found.append(PolicyClaim(text=text, value=of.mean, ci95=of.ci95, limit=limit))
 
-    everything = np.full(len(strata), True)
-    for behaviour in dict.fromkeys(behaviours.tolist()):
-        chosen = behaviours == behaviour
+    behaviours = dict.fromkeys(behaviour for behaviour, _ in human_human.strata)
+    for behaviour in behaviours:
         if behaviour in TO_HUMAN_HUMAN:
-            ratio(
-                f"the human-human baseline, {behaviour}",
-                human_human,
-                chosen,
-                TO_HUMAN_HUMAN[behaviour],
-            )
-            ratio(f"the causal bound, {behaviour}", bound, chosen, TO_BOUND)
+            ratio("the human-human baseline", human_human, behaviour, TO_HUMAN_HUMAN[behaviour])
+            ratio("the causal bound", bound, behaviour, TO_BOUND)
         if behaviour in ("smooth", RECORDED):
-            ratio(f"blend, {behaviour}", blend, chosen, TO_BLEND)
+            ratio("blend", blend, behaviour, TO_BLEND)
         if behaviour == RECORDED:
             found.append(
                 PolicyClaim(
                     text="share of the recorded lifts more level than with blend",
-                    value=share_better(mine[chosen], blend[chosen]),
+                    value=share_better(mine.part(behaviour).rmse_mm, blend.part(behaviour).rmse_mm),
                     ci95=None,
                     limit=WINS,
                     least=True,
                 )
             )
-    if set(behaviours.tolist()) == set(TO_HUMAN_HUMAN):
-        ratio(
-            "the human-human baseline, over all", human_human, everything, TO_HUMAN_HUMAN_OVER_ALL
-        )
-        ratio("the causal bound, over all", bound, everything, TO_BOUND_OVER_ALL)
-    ratio("anticipate, over all", anticipate, everything, TO_ANTICIPATE)
-    return (*found, *_kinder(by_name, results))
+    if set(behaviours) == set(TO_HUMAN_HUMAN):
+        ratio("the human-human baseline", human_human, None, TO_HUMAN_HUMAN_OVER_ALL)
+        ratio("the causal bound", bound, None, TO_BOUND_OVER_ALL)
+    ratio("anticipate", anticipate, None, TO_ANTICIPATE)
+    return (*found, *_kinder(by_name))
 
 
-def _kinder(by_name: dict[str, PolicyResults], results: PairedResults) -> Iterator[PolicyClaim]:
+def _kinder(by_name: Mapping[str, ScoreTable]) -> Iterator[PolicyClaim]:
     """Yield the claims that it moves more smoothly, with no more force at the human's hands."""
     for name in ("blend", "reactive"):
-        smoother = [_values(by_name[other], "sparc") for other in (POLICY, name)]
-        moved = ~(np.isnan(smoother[0]) | np.isnan(smoother[1]))
-        strata = [
-            stratum
-            for stratum, taken in zip(results.human_human.strata, moved, strict=True)
-            if taken
-        ]
-        difference = paired_difference(smoother[0][moved], smoother[1][moved], strata)
+        difference = by_name[POLICY].against(by_name[name], "sparc").difference
         yield PolicyClaim(
             text=f"SPARC minus that of {name}, paired",
             value=difference.mean,
@@ -130,15 +102,10 @@ def _kinder(by_name: dict[str, PolicyResults], results: PairedResults) -> Iterat
             least=True,
         )
     for name in ("anticipate", "blend"):
-        force = [_values(by_name[other], "human_force_n") for other in (POLICY, name)]
-        difference = paired_difference(force[0], force[1], results.human_human.strata)
+        difference = by_name[POLICY].against(by_name[name], "human_force_n").difference
         yield PolicyClaim(
             text=f"rms force at the human's hands minus that with {name} [N], paired",
             value=difference.mean,
             ci95=difference.ci95,
             limit=0.0,
         )
-
-
-def _values(policy: PolicyResults, metric: str) -> FloatArray:
-    return np.array([scores[metric] for scores in policy.scores])

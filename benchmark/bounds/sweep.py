@@ -12,6 +12,7 @@ from colift.benchmark.bounds.anticipation_spec import AnticipationSpec
 from colift.benchmark.bounds.oracle import ORACLE, oracle_run
 from colift.benchmark.execution.runner import Run, run_suite
 from colift.benchmark.results.baselines import human_human_run
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.training.anticipation import ROUNDS, learn_anticipation
 from colift.benchmark.training.data import Timing
@@ -98,14 +99,15 @@ def human_human_rmse(
 ) -> float:
     """Return the mean RMSE of the human-human baseline [mm]; it does not depend on the timing."""
     run = human_human_run(suite, executor=executor, progress=progress)
-    return float(np.mean([episode.scores["rmse_mm"] for episode in run.episodes]))
+    return ScoreTable.of(run).mean
 
 
 def _mean(name: str, run: Run, timing: Timing) -> Swept:
+    scores = ScoreTable.of(run)
     return Swept(
         policy=name,
         latency=timing.latency,
         control_period=timing.control_period,
-        rmse_mm=float(np.mean([episode.scores["rmse_mm"] for episode in run.episodes])),
-        sparc=float(np.nanmean([episode.scores["sparc"] for episode in run.episodes])),
+        rmse_mm=scores.mean,
+        sparc=float(np.nanmean(scores.values["sparc"])),
     )

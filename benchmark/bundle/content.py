@@ -12,16 +12,11 @@ from colift.benchmark.channels import Channel
 from colift.benchmark.channels.recorded import recorded
 from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.execution.runner import Run
-from colift.benchmark.results.baselines import HUMAN_HUMAN, Baseline
+from colift.benchmark.results.baselines import HUMAN_HUMAN
 from colift.benchmark.results.goals import GoalScores, goal_scores
-from colift.benchmark.results.summary import (
-    StepTimes,
-    StratumScores,
-    Summary,
-    by_stratum,
-    plain_estimate,
-    summarise,
-)
+from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.results.strata import StratumScore, stratum_scores
+from colift.benchmark.results.summary import StepTimes, Summary, plain_estimate, summarise
 from colift.benchmark.suites.suite import Suite
 
 
@@ -43,8 +38,8 @@ class Results:
     evaluator_faults: int
     """Number of episodes that were played again because the machine had failed."""
     summary: Summary
-    strata: tuple[StratumScores, ...]
-    baselines: Mapping[str, Baseline]
+    strata: tuple[StratumScore, ...]
+    baselines: Mapping[str, ScoreTable]
     """Other agents on the same episodes, without a channel."""
     channel: Channel | None = None
     """The channel between the robot and the policy; None if there is none."""
@@ -74,14 +69,14 @@ class Results:
         return content
 
 
-def _plain_baseline(baseline: Baseline) -> dict[str, Any]:
+def _plain_baseline(baseline: ScoreTable) -> dict[str, Any]:
     return {
-        "rmse_mm": plain_estimate(baseline.estimate),
+        "rmse_mm": plain_estimate(baseline.error),
         **{name: {"mean": mean} for name, mean in baseline.means.items()},
     }
 
 
-def results(run: Run, baselines: Mapping[str, Baseline]) -> Results:
+def results(run: Run, baselines: Mapping[str, ScoreTable]) -> Results:
     """Return the results of a run.
 
     Everything follows from the episodes, except the claims of :func:`with_circumstances`.
@@ -94,7 +89,8 @@ def results(run: Run, baselines: Mapping[str, Baseline]) -> Results:
         Other agents on the same episodes, by name; see :mod:`colift.benchmark.results.baselines`.
     """
     human = baselines.get(HUMAN_HUMAN)
-    summary = summarise(run.episodes, run.suite.metrics, human.rmse_mm if human else None)
+    scores = ScoreTable.of(run)
+    summary = summarise(run, scores, human)
     return Results(
         colift=version("colift"),
         suite=run.suite.name,
@@ -106,7 +102,7 @@ def results(run: Run, baselines: Mapping[str, Baseline]) -> Results:
         isolation=one_line(run.isolation),
         evaluator_faults=run.faults,
         summary=dataclasses.replace(summary, real_time=real_time(summary.step_ms.p99, run.suite)),
-        strata=by_stratum(run.episodes, run.suite.metrics, human.by_stratum() if human else None),
+        strata=stratum_scores(scores, human),
         baselines=baselines,
         channel=run.channel,
         goals=goal_scores(

@@ -1,9 +1,8 @@
 """JSON in a single form: its writing, and its strict reading."""
 
 import json
-import math
 from collections.abc import Sequence
-from typing import Any, NoReturn, TypeVar
+from typing import Any, TypeVar
 
 from colift.agents.errors import InputError
 
@@ -25,13 +24,8 @@ def parse_json(data: bytes, file: str) -> dict[str, Any]:
         differently.
     """
     try:
-        content = json.loads(
-            data,
-            parse_constant=_refuse_number,
-            parse_float=_finite,
-            object_pairs_hook=_without_repetition,
-        )
-        as_written = dump_json(content)
+        content = json.loads(data)
+        as_written = dump_json(content)  # Without repeated names; refuses numbers beyond a float.
     except (ValueError, RecursionError) as error:
         raise InputError(f"{file}: not valid JSON: {error}") from None
     if not isinstance(content, dict):
@@ -40,22 +34,6 @@ def parse_json(data: bytes, file: str) -> dict[str, Any]:
         lines = zip(as_written.split(b"\n"), data.split(b"\n"), strict=False)
         line = next((i for i, (a, b) in enumerate(lines, 1) if a != b), data.count(b"\n") + 1)
         raise InputError(f"{file}: line {line} is not as colift writes it")
-    return content
-
-
-def _refuse_number(text: str) -> NoReturn:
-    raise ValueError(f"the number {text} is not finite")
-
-
-def _finite(text: str) -> float:
-    value = float(text)
-    return value if math.isfinite(value) else _refuse_number(text)
-
-
-def _without_repetition(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    content = dict(pairs)
-    if len(content) < len(pairs):
-        raise ValueError("a name is given twice in one object")
     return content
 
 

@@ -115,10 +115,11 @@ def failures(comparison: Comparison) -> list[str]:
     """Return a sentence per policy that failed in a lift."""
     sentences = []
     for policy in comparison.results.policies:
-        reasons = [failure for failure in policy.failures if failure is not None]
+        failures = policy.scores.failures
+        reasons = [failure for failure in failures if failure is not None]
         if reasons:
             sentences.append(
-                f"{policy.name}: {len(reasons)} of {len(policy.failures)} lifts failed and count "
+                f"{policy.name}: {len(reasons)} of {len(failures)} lifts failed and count "
                 f"as worst; first reason: {reasons[0]}"
             )
     return sentences

@@ -53,8 +53,8 @@ def _points(results: PairedResults, overall: Ranking) -> tuple[FrontPoint, ...]:
         FrontPoint(
             name=ranked.name,
             rmse_mm=ranked.rmse_mm,
-            second=ranked.metrics[second.name].estimate,
-            missing=ranked.metrics[second.name].missing,
+            second=ranked.metrics[second.name],
+            missing=ranked.scores.metric(second.name).missing,
         )
         for ranked in overall.policies
     ]

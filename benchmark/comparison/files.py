@@ -25,7 +25,7 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
     """Return the content of ``compare.json``: policies in the order of their mean RMSE.
 
     ``policies`` covers all episodes; each of ``behaviours`` and ``subjects`` covers a part of them.
-    The fields of a policy are those of :class:`.RankedPolicy`. Where ``decisive`` is false, the
+    A policy has the numbers of :class:`.RankedPolicy`. Where ``decisive`` is false, the
     episodes are too few for any test, and all policies have rank 1. ``recordings`` is there if the
     suite has some: the sampling of each trial, and the changes to it.
     """
@@ -34,13 +34,12 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
     policies = []
     for ranked in comparison.overall.policies:
         policy = by_name[ranked.name]
-        p50, p99 = policy.step_ms or (None, None)
         policies.append(
             {
                 **_policy(ranked),
                 "digest": policy.digest,
                 "pareto_front": ranked.name in comparison.front,
-                "step_ms": {"p50": p50, "p99": p99},
+                "step_ms": dataclasses.asdict(policy.step_ms),
             }
         )
     channel, goals = comparison.results.channel, goal_scores(suite)
@@ -66,12 +65,21 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
 
 def _policy(ranked: RankedPolicy) -> dict[str, Any]:
     """Return a ranked policy, its metrics among its fields."""
-    fields = dataclasses.asdict(ranked)
-    of = fields.pop("metrics")
-    empty = {"mean": None, "ci95": None}
-    return fields | {
-        name: (metric["estimate"] or empty) | {"missing": metric["missing"]}
-        for name, metric in of.items()
+    to_best = ranked.to_best
+    return {
+        "name": ranked.name,
+        "rank": ranked.rank,
+        "failed": ranked.failed,
+        "rmse_mm": dataclasses.asdict(ranked.rmse_mm),
+        "vs_human": dataclasses.asdict(ranked.vs_human),
+        "better_than_human": ranked.better_than_human,
+        "clipped": ranked.clipped,
+        "to_best": None if to_best is None else dataclasses.asdict(to_best),
+        **{
+            name: (dataclasses.asdict(estimate) if estimate else {"mean": None, "ci95": None})
+            | {"missing": ranked.scores.metric(name).missing}
+            for name, estimate in ranked.metrics.items()
+        },
     }
 
 
@@ -115,7 +123,7 @@ def _row(ranking: Ranking, ranked: RankedPolicy) -> Iterator[tuple[str, object]]
         ("rmse_mm", ranked.rmse_mm),
         ("human_human_rmse_mm", ranking.human_human_rmse_mm),
         ("vs_human", ranked.vs_human),
-        *((name, metric.estimate) for name, metric in ranked.metrics.items()),
+        *ranked.metrics.items(),
         ("to_best_mm", behind),
     ):
         low, high = estimate.ci95 if estimate else (None, None)
@@ -124,7 +132,7 @@ def _row(ranking: Ranking, ranked: RankedPolicy) -> Iterator[tuple[str, object]]
     yield "to_best_p", behind.p if behind else None
     yield "to_best_share_better", behind.share_better if behind else None
     yield "better_than_human", ranked.better_than_human
-    yield from ((f"{name}_missing", metric.missing) for name, metric in ranked.metrics.items())
+    yield from ((f"{name}_missing", ranked.scores.metric(name).missing) for name in ranked.metrics)
     yield "clipped", ranked.clipped
 
 

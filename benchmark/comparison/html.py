@@ -8,7 +8,7 @@ from colift.benchmark.comparison import captions
 from colift.benchmark.comparison.comparison import Comparison
 from colift.benchmark.comparison.formatting import between, digits, p_value, probability
 from colift.benchmark.comparison.paired_results import PolicyResults
-from colift.benchmark.comparison.ranking import MetricMean, RankedPolicy, Ranking
+from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
 from colift.benchmark.comparison.scatter.scene import NARROW, WIDE, make_scene
 from colift.benchmark.comparison.scatter.svg import svg
 from colift.benchmark.episode.metric import Metric
@@ -98,17 +98,18 @@ def _policy_row(comparison: Comparison, ranked: RankedPolicy, policy: PolicyResu
             Cell(str(ranked.rank) if overall.decisive else "", best=overall.best(ranked)),
             _estimate(ranked.rmse_mm, ".2f"),
             _estimate(ranked.vs_human, ".2f"),
-            *(_metric(metric, ranked.metrics[metric.name]) for metric in metrics),
-            Cell("none") if steps is None else Cell(f"{steps[0]:.3f}", f"{steps[1]:.3f}"),
+            *(_metric(metric, ranked) for metric in metrics),
+            Cell("none") if steps.p50 is None else Cell(f"{steps.p50:.3f}", f"{steps.p99:.3f}"),
         ],
     )
 
 
-def _metric(metric: Metric, mean: MetricMean) -> Cell:
-    if mean.estimate is None or mean.missing:
-        under = f"none in {mean.missing} lifts" if mean.estimate else ""
-        return Cell(metric.text(mean.mean), under)
-    return _estimate(mean.estimate, f".{metric.digits}f")
+def _metric(metric: Metric, ranked: RankedPolicy) -> Cell:
+    estimate, found = ranked.metrics[metric.name], ranked.scores.metric(metric.name)
+    if estimate is None or found.missing:
+        under = f"none in {found.missing} lifts" if estimate else ""
+        return Cell(metric.text(found.mean), under)
+    return _estimate(estimate, f".{metric.digits}f")
 
 
 def _against(comparison: Comparison) -> list[Row]:

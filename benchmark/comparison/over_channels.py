@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from colift.agents.spec import AgentSpec
 from colift.benchmark.channels import Channel
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.summary import stratum
-from colift.benchmark.statistics import Estimate, mean_of, paired_difference
+from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import Suite
 
 
@@ -48,16 +48,15 @@ def over_channels(
     """
     played: list[tuple[str | None, Channel | None]] = [(None, None), *channels.items()]
     for name, spec in policies.items():
-        alone: list[float] = []
+        alone: ScoreTable | None = None
         for of, channel in played:
             run = run_suite(spec, suite, executor=executor, progress=progress, channel=channel)
-            strata = [stratum(episode) for episode in run.episodes]
-            errors = [episode.scores["rmse_mm"] for episode in run.episodes]
-            alone = alone or errors
+            scores = ScoreTable.of(run)
+            alone = alone or scores
             yield OverChannel(
                 policy=name,
                 channel=of,
-                rmse_mm=mean_of(errors, strata),
-                price_mm=paired_difference(errors, alone, strata),
-                failed=sum(episode.failure is not None for episode in run.episodes),
+                rmse_mm=scores.error,
+                price_mm=scores.against(alone).difference,
+                failed=scores.failed,
             )

@@ -2,13 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Self
 
-import numpy as np
 from colift.benchmark.channels import Channel
-from colift.benchmark.episode.metric import LEADING, Metric, Scores, on_boards, second_axis
+from colift.benchmark.episode.metric import LEADING, Metric, on_boards, second_axis
 from colift.benchmark.execution.runner import Run
-from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, Baseline
-from colift.benchmark.results.summary import Stratum, stratum
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.results.summary import StepTimes
 from colift.benchmark.suites.suite import Suite
 
 
@@ -19,26 +20,17 @@ class PolicyResults:
     name: str
     digest: str
     """Hash of the policy's source."""
-    strata: tuple[Stratum, ...]
-    """Behaviour and subject of each episode, in the suite's order."""
-    scores: tuple[Scores, ...]
-    failures: tuple[str | None, ...]
-    """Reason of each failure; None for an episode that did not fail."""
-    step_ms: tuple[float, float] | None
-    """Median and 99th percentile of the time of a step [ms]; None if it never made one."""
+    scores: ScoreTable
+    step_ms: StepTimes
 
     @classmethod
-    def of(cls, name: str, run: Run) -> "PolicyResults":
+    def of(cls, name: str, run: Run) -> Self:
         """Return the results of a run, under the name that tables use."""
-        times = [1000 * time for episode in run.episodes for time in episode.step_times]
-        p50, p99 = np.percentile(times, [50, 99]) if times else (0.0, 0.0)
         return cls(
             name=name,
             digest=run.policy_digest,
-            strata=tuple(stratum(episode) for episode in run.episodes),
-            scores=tuple(episode.scores for episode in run.episodes),
-            failures=tuple(episode.failure for episode in run.episodes),
-            step_ms=(float(p50), float(p99)) if times else None,
+            scores=ScoreTable.of(run),
+            step_ms=StepTimes.of(run),
         )
 
 
@@ -48,9 +40,9 @@ class PairedResults:
 
     suite: Suite
     policies: tuple[PolicyResults, ...]
-    human_human: Baseline
+    human_human: ScoreTable
     """The human-human baseline."""
-    bounds: Mapping[str, Baseline] = field(default_factory=dict)
+    bounds: Mapping[str, ScoreTable] = field(default_factory=dict)
     """The bounds, by name."""
     channel: Channel | None = None
     """The channel between the robot and every policy; baseline and bounds have none."""
@@ -67,6 +59,6 @@ class PairedResults:
         return metrics[LEADING], second_axis(metrics)
 
     @property
-    def references(self) -> dict[str, Baseline]:
+    def references(self) -> dict[str, ScoreTable]:
         """The human-human baseline, then the bounds, by name; none has a rank."""
         return {HUMAN_HUMAN_LABEL: self.human_human, **self.bounds}

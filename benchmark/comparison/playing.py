@@ -11,11 +11,11 @@ from colift.benchmark.comparison.paired_results import PairedResults, PolicyResu
 from colift.benchmark.execution.runner import Run, run_suite
 from colift.benchmark.results.baselines import (
     HUMAN_HUMAN,
-    Baseline,
     human_human_run,
     shipped_baselines,
     shipped_bounds,
 )
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
 
 
@@ -72,7 +72,7 @@ def play_policies(
     bounding = known_bounds(bounds or {}, suite, executor=executor, progress=progress)
     shipped = shipped_baselines(suite)
     if shipped is None:
-        human_human = Baseline.of(human_human_run(suite, executor=executor, progress=progress))
+        human_human = ScoreTable.of(human_human_run(suite, executor=executor, progress=progress))
     else:
         human_human = shipped[HUMAN_HUMAN]
     return PairedResults(
@@ -90,7 +90,7 @@ def known_bounds(
     *,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
-) -> dict[str, Baseline]:
+) -> dict[str, ScoreTable]:
     """Return the shipped bounds of a suite or, if there are none, those that were played."""
     shipped = shipped_bounds(suite)
     if shipped is not None:
@@ -104,9 +104,9 @@ def play_bounds(
     *,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
-) -> dict[str, Baseline]:
+) -> dict[str, ScoreTable]:
     """Return the results of each bound on a suite; arguments as for :func:`play_policies`."""
     return {
-        name: Baseline.of(play(suite, executor=executor, progress=progress))
+        name: ScoreTable.of(play(suite, executor=executor, progress=progress))
         for name, play in bounds.items()
     }

@@ -13,6 +13,7 @@ from colift.benchmark.bundle.json_text import pick
 from colift.benchmark.channels import Channel, channel_name
 from colift.benchmark.comparison.paired_results import PolicyResults
 from colift.benchmark.episode.metric import SCORING
+from colift.benchmark.results.summary import StepTimes
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import Suite
 
@@ -64,8 +65,7 @@ def read_stored(folder: Path) -> Stored:
         )
     step = content["summary"]["step_ms"]
     policy = PolicyResults.of(run.policy, run)
-    if step["p50"] is not None and step["p99"] is not None:
-        policy = dataclasses.replace(policy, step_ms=(step["p50"], step["p99"]))
+    policy = dataclasses.replace(policy, step_ms=StepTimes(p50=step["p50"], p99=step["p99"]))
     return Stored(
         folder=folder,
         policy=policy,

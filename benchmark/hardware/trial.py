@@ -6,11 +6,10 @@ intended height have no value. Smoothness and lag are those of the filtered heig
 """
 
 import dataclasses
-import functools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final, cast
 
 import numpy as np
 from colift.agents.agent import FRAME
@@ -19,13 +18,12 @@ from colift.agents.hardware.plausibility import in_order, seen
 from colift.agents.hardware.ports import Sample
 from colift.agents.hardware.trial_log import TrialLog
 from colift.agents.humans import SUBJECTS, Plan, Subject
-from colift.benchmark.episode import metrics
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.metric import Scores
 from colift.benchmark.episode.recorder import HASH_BYTES
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.episode.smoothness import ldlj, sparc
+from colift.benchmark.episode.task import Playing
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.hardware.strokes import find_strokes, smoothed
@@ -38,6 +36,13 @@ HARDWARE: Final = "hardware"
 
 SHORTEST: Final = 6.0
 """Least duration that is assumed for a stopped trial [s], so that a stop never pays."""
+
+
+UNKNOWN: Final = ("human_velocity", "human_force", "robot_force", "target")
+"""Series of a simulated lift that motion capture does not give, or not exactly."""
+
+FILTERED: Final = ("sparc", "ldlj", "robot_lag_ms")
+"""Metrics of the filtered heights, since they are of derivatives."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,20 +167,42 @@ def _resampled(log: TrialLog, frames: int) -> tuple[NDArray[np.float64], NDArray
     return np.interp(wanted, times, human), np.interp(wanted, times, robot)
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Unplanned:
+    """What a score may ask of a lift, for a trial: nothing of it is known, except its length."""
+
+    plan: Plan
+    horizon: int
+    share: float
+
+    def clipped(self, actions: NDArray[np.float64]) -> float:
+        return self.share
+
+
 def _scores(trace: Trace, *, failed: bool) -> Scores:
-    """Return the metrics of ``level``; one that motion capture does not give has no value."""
-    human, robot = trace.human_end, trace.robot_end
-    calm_human, calm_robot = smoothed(human), smoothed(robot)
-    strokes = () if failed else find_strokes(calm_human)
-    smoothness = functools.partial(metrics.stroke_smoothness, calm_robot, calm_human, strokes)
-    empty = len(human) == 0
-    horizon = max(len(human), round(SHORTEST / FRAME)) if failed or empty else None
-    measured = {
-        "rmse_mm": metrics.rmse_mm(human, robot, horizon=horizon),
-        "abs_error_mm": metrics.abs_error_mm(human, robot, horizon=horizon),
-        "max_tilt_deg": math.nan if empty else metrics.max_tilt_deg(human, robot, TABLE_LENGTH),
-        "sparc": math.nan if not strokes else smoothness(metric=sparc),
-        "ldlj": math.nan if not strokes else smoothness(metric=ldlj),
-        "robot_lag_ms": math.nan if failed else metrics.robot_lag_ms(calm_human, calm_robot),
+    """Return the metrics of ``level``; one that motion capture does not give has no value.
+
+    These are found out: what is not known is replaced by noise, twice, and a metric that follows
+    from what is known has the same value both times.
+    """
+    human, robot = smoothed(trace.human_end), smoothed(trace.robot_end)
+    failed = failed or not len(human)
+    length = max(len(human), round(SHORTEST / FRAME)) if failed else len(human)
+    strokes = () if failed else find_strokes(human)
+    filtered = dataclasses.replace(trace, human_end=human, robot_end=robot)
+
+    def scored(seed: int) -> Scores:
+        noise = np.random.default_rng(seed)
+        plan = Plan(target=trace.target, strokes=strokes, goal=noise.normal(), events=())
+        lift = cast(Playing, _Unplanned(plan=plan, horizon=length, share=noise.normal()))
+        unknown: dict[str, Any] = {name: noise.normal(size=len(human)) for name in UNKNOWN}
+        raw, calm = (
+            LEVEL.score(lift, dataclasses.replace(each, **unknown), failed=failed)
+            for each in (trace, filtered)
+        )
+        return {**raw, **{name: calm[name] for name in FILTERED}}
+
+    first, second = scored(0), scored(1)
+    return {
+        name: first[name] if first[name] == second[name] else math.nan for name in LEVEL.metrics
     }
-    return {name: measured.get(name, math.nan) for name in LEVEL.metrics}

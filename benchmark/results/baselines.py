@@ -8,20 +8,17 @@ import functools
 import json
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from importlib.resources import files
-from typing import Any, Final, Protocol, Self, runtime_checkable
+from typing import Any, Final, Protocol, runtime_checkable
 
-import numpy as np
 from colift.agents.agent import Agent
 from colift.agents.humans import Partner
 from colift.agents.loading.loading import InMemorySpec, PolicySpec
 from colift.agents.spec import AgentSpec
-from colift.benchmark.episode.metric import on_boards
 from colift.benchmark.episode.task import Task
 from colift.benchmark.execution.runner import Run, run_suite
-from colift.benchmark.results.summary import Stratum, stratum
-from colift.benchmark.statistics import Estimate, mean_of, mean_with_missing
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
 
 HUMAN_HUMAN: Final = "human_human"
@@ -51,66 +48,6 @@ def partner_spec(task: Task) -> AgentSpec:
     return InMemorySpec(name=HUMAN_HUMAN, factory=made, source=made)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Baseline:
-    """The stored part of a baseline's run: enough for paired comparisons of RMSE."""
-
-    strata: tuple[Stratum, ...]
-    """Behaviour and subject of each episode, in the suite's order."""
-    rmse_mm: tuple[float, ...]
-    """RMSE of each episode."""
-    means: Mapping[str, float | None] = field(hash=False)
-    """Means of the other metrics that boards show; None where no episode has a value."""
-
-    @classmethod
-    def of(cls, run: Run) -> "Baseline":
-        """Return the baseline of a complete run."""
-        return cls(
-            strata=tuple(stratum(episode) for episode in run.episodes),
-            rmse_mm=tuple(episode.scores["rmse_mm"] for episode in run.episodes),
-            means={
-                metric.name: mean_with_missing(
-                    [episode.scores[metric.name] for episode in run.episodes]
-                ).mean
-                for metric in on_boards(run.suite.metrics)
-            },
-        )
-
-    def plain(self) -> dict[str, Any]:
-        """Return the baseline, ready for JSON."""
-        return {
-            "strata": [list(key) for key in self.strata],
-            "rmse_mm": list(self.rmse_mm),
-            "means": dict(self.means),
-        }
-
-    @classmethod
-    def read(cls, content: Mapping[str, Any]) -> Self:
-        """Return the baseline that :meth:`plain` has written."""
-        return cls(
-            strata=tuple((behaviour, subject) for behaviour, subject in content["strata"]),
-            rmse_mm=tuple(content["rmse_mm"]),
-            means=content["means"],
-        )
-
-    @property
-    def mean(self) -> float:
-        """Mean RMSE [mm]."""
-        return float(np.mean(self.rmse_mm))
-
-    @functools.cached_property
-    def estimate(self) -> Estimate:
-        """Mean RMSE with its interval [mm]."""
-        return mean_of(self.rmse_mm, self.strata)
-
-    def by_stratum(self) -> dict[Stratum, float]:
-        """Return the mean RMSE of each behaviour and subject [mm]."""
-        members: dict[Stratum, list[float]] = {}
-        for key, value in zip(self.strata, self.rmse_mm, strict=True):
-            members.setdefault(key, []).append(value)
-        return {key: float(np.mean(values)) for key, values in members.items()}
-
-
 BASELINES: Final = (HUMAN_HUMAN, "hold", "copy")
 """The names of the baselines."""
 
@@ -124,7 +61,7 @@ def baseline_specs(suite: Suite) -> dict[str, AgentSpec]:
 _MOST_PLAYED: Final = 16
 """Suites whose baselines a process remembers."""
 
-_played: Final[dict[str, dict[str, Baseline]]] = {}
+_played: Final[dict[str, dict[str, ScoreTable]]] = {}
 """Baselines that this process has played, by the digest of the suite."""
 
 
@@ -144,7 +81,7 @@ def play_baselines(
     *,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
-) -> dict[str, Baseline]:
+) -> dict[str, ScoreTable]:
     """Play the baselines on a suite's episodes; arguments as for :func:`.run_suite`.
 
     A process plays the baselines of a suite only once, since the suite's digest covers all that
@@ -157,19 +94,19 @@ def play_baselines(
     found = {}
     for name, spec in baseline_specs(suite).items():
         played = suite.with_partner("human") if name == HUMAN_HUMAN else suite
-        found[name] = Baseline.of(run_suite(spec, played, executor=executor, progress=progress))
+        found[name] = ScoreTable.of(run_suite(spec, played, executor=executor, progress=progress))
     while len(_played) >= _MOST_PLAYED:
         del _played[next(iter(_played))]
     _played[suite.digest] = dict(found)
     return found
 
 
-def shipped_baselines(suite: Suite) -> dict[str, Baseline] | None:
+def shipped_baselines(suite: Suite) -> dict[str, ScoreTable] | None:
     """Return the shipped baselines of a suite, or None if there are none for its digest."""
     return _shipped(suite, "baselines")
 
 
-def shipped_bounds(suite: Suite) -> dict[str, Baseline] | None:
+def shipped_bounds(suite: Suite) -> dict[str, ScoreTable] | None:
     """Return the shipped bounds of a suite, or None if there are none for its digest."""
     return _shipped(suite, "bounds")
 
@@ -182,11 +119,11 @@ def shipped_content() -> dict[str, Any]:
     return found
 
 
-def _shipped(suite: Suite, kind: str) -> dict[str, Baseline] | None:
+def _shipped(suite: Suite, kind: str) -> dict[str, ScoreTable] | None:
     content = shipped_content().get(suite.digest)
     if content is None:
         return None
-    return {name: Baseline.read(value) for name, value in content[kind].items()}
+    return {name: ScoreTable.read(value) for name, value in content[kind].items()}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -194,8 +131,8 @@ class ToShip:
     """The shipped results of a suite."""
 
     suite: Suite
-    baselines: Mapping[str, Baseline]
-    bounds: Mapping[str, Baseline]
+    baselines: Mapping[str, ScoreTable]
+    bounds: Mapping[str, ScoreTable]
 
 
 def baselines_json(played: Sequence[ToShip], kept: Mapping[str, Any] | None = None) -> str:

@@ -6,14 +6,15 @@ from typing import Final
 from colift.agents.actions import action_limit
 from colift.benchmark.episode.level_metrics import MOSTLY_CLIPPED
 from colift.benchmark.episode.scenario import CONTROL_PERIOD
-from colift.benchmark.results.baselines import HUMAN_HUMAN, Baseline
+from colift.benchmark.results.baselines import HUMAN_HUMAN
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.summary import Summary
 
 MEANINGS: Final = {"hold": "never moves", "copy": "goes where the human was"}
 """Descriptions of the simple policies with which every score is compared."""
 
 
-def remarks(summary: Summary, baselines: Mapping[str, Baseline]) -> list[str]:
+def remarks(summary: Summary, baselines: Mapping[str, ScoreTable]) -> list[str]:
     """Return a sentence for each result that a mistake in the policy would explain."""
     units, worse = unit_remark(summary), worse_remark(summary, baselines)
     share = summary.metrics["clipped"].mean if units else None
@@ -35,7 +36,7 @@ def unit_remark(summary: Summary) -> str:
     return "An action must be a change of the height, in metres"
 
 
-def worse_remark(summary: Summary, baselines: Mapping[str, Baseline]) -> str:
+def worse_remark(summary: Summary, baselines: Mapping[str, ScoreTable]) -> str:
     """Return the simple policies that are better on the same lifts; an empty text if none is."""
     means = {
         name: baseline.mean

@@ -1,33 +1,33 @@
 """The summary of a run: from episodes to the numbers of a results table."""
 
 import dataclasses
-import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
-from colift.benchmark.episode.episode import Episode
-from colift.benchmark.episode.metric import LEADING, Metrics, reached
-from colift.benchmark.statistics import (
-    Estimate,
-    MeanWithMissing,
-    interquartile_mean,
-    mean_of,
-    mean_with_missing,
-    ratio_of_means,
-)
-
-Stratum = tuple[str, str]
-"""Behaviour and subject."""
+from colift.benchmark.episode.metric import LEADING, reached
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.results.strata import plain_means
+from colift.benchmark.statistics import Estimate, MeanWithMissing, interquartile_mean
 
 
 @dataclass(frozen=True, kw_only=True)
 class StepTimes:
     """Percentiles of a policy's time per step, over all steps [ms]; None if it never acted."""
 
-    p50: float | None
-    p99: float | None
+    p50: float | None = None
+    p99: float | None = None
+
+    @classmethod
+    def of(cls, run: Run) -> Self:
+        """Return the percentiles of a run."""
+        times = [time for episode in run.episodes for time in episode.step_times]
+        if not times:
+            return cls()
+        p50, p99 = 1000 * np.percentile(times, [50, 99])
+        return cls(p50=float(p50), p99=float(p99))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,34 +61,9 @@ class Summary:
                 "ci95": list(self.rmse_mm.ci95),
             },
             "vs_human": None if self.vs_human is None else plain_estimate(self.vs_human),
-            **_plain_means(self.metrics),
+            **plain_means(self.metrics),
             "step_ms": dataclasses.asdict(self.step_ms),
             "real_time": self.real_time,
-        }
-
-
-@dataclass(frozen=True, kw_only=True)
-class StratumScores:
-    """The means of a run in one stratum."""
-
-    behaviour: str
-    subject: str
-    episodes: int
-    failed: int
-    metrics: Mapping[str, MeanWithMissing]
-    """All metrics by name."""
-    human_human_rmse_mm: float | None
-    """Mean RMSE of the human-human baseline [mm]; None without this baseline."""
-
-    def plain(self) -> dict[str, Any]:
-        """Return the scores, ready for JSON."""
-        return {
-            "behaviour": self.behaviour,
-            "subject": self.subject,
-            "episodes": self.episodes,
-            "failed": self.failed,
-            **_plain_means(self.metrics),
-            "human_human_rmse_mm": {"mean": self.human_human_rmse_mm},
         }
 
 
@@ -97,19 +72,8 @@ def plain_estimate(estimate: Estimate) -> dict[str, Any]:
     return {"mean": estimate.mean, "ci95": list(estimate.ci95)}
 
 
-def _plain_means(metrics: Mapping[str, MeanWithMissing]) -> dict[str, Any]:
-    return {name: dataclasses.asdict(mean) for name, mean in metrics.items()}
-
-
-def stratum(episode: Episode) -> Stratum:
-    """Return the behaviour and the subject of an episode: its stratum."""
-    return episode.behaviour, episode.subject
-
-
-def summarise(
-    episodes: Sequence[Episode], metrics: Metrics, human_human: Sequence[float] | None = None
-) -> Summary:
-    """Return the summary of a policy's episodes.
+def summarise(run: Run, scores: ScoreTable, human_human: ScoreTable | None = None) -> Summary:
+    """Return the summary of a policy's run.
 
     The interval of ``rmse_mm`` is by bootstrap over the episodes within each stratum. The other
     metrics have the mean over the episodes with a value and the number of those without one
@@ -117,63 +81,23 @@ def summarise(
 
     Parameters
     ----------
-    episodes
-        The policy's episodes.
-    metrics
-        The metrics of the task.
+    run, scores
+        The run and its scores.
     human_human
-        RMSE of the human-human baseline on the same episodes [mm]. With it, ``vs_human`` is the
-        ratio of the means, with the 95 % interval of a bootstrap that pairs the episodes: 1 is as
-        good as a human partner, less is better. Without it, ``vs_human`` is None.
+        The human-human baseline on the same episodes. With it, ``vs_human`` is the ratio of the
+        means of the RMSE, with the 95 % interval of a bootstrap that pairs the episodes: 1 is as
+        good as a human partner, less is better. Without it, or if only a part of the episodes has
+        been played, ``vs_human`` is None.
     """
-    rmse = [episode.scores["rmse_mm"] for episode in episodes]
-    strata = [stratum(episode) for episode in episodes]
-    times = np.array([t for episode in episodes for t in episode.step_times] or [math.nan])
-    p50, p99 = 1000 * np.percentile(times, [50, 99])
     return Summary(
-        episodes=len(episodes),
-        failed=sum(episode.failure is not None for episode in episodes),
-        goal_missed=sum(not reached(episode.scores, metrics) for episode in episodes),
-        rmse_mm=mean_of(rmse, strata),
-        rmse_mm_iqm=float(interquartile_mean(rmse)),
+        episodes=len(run.episodes),
+        failed=scores.failed,
+        goal_missed=sum(not reached(each.scores, run.suite.metrics) for each in run.episodes),
+        rmse_mm=scores.error,
+        rmse_mm_iqm=interquartile_mean(scores.rmse_mm),
         vs_human=None
-        if human_human is None or len(human_human) != len(rmse)
-        else ratio_of_means(rmse, human_human, strata),
-        metrics={name: mean_score(episodes, name) for name in metrics if name != LEADING},
-        step_ms=StepTimes(p50=_number(p50), p99=_number(p99)),
+        if human_human is None or len(human_human.strata) != len(scores.strata)
+        else scores.against(human_human).ratio,
+        metrics={name: scores.metric(name) for name in scores.values if name != LEADING},
+        step_ms=StepTimes.of(run),
     )
-
-
-def by_stratum(
-    episodes: Sequence[Episode],
-    metrics: Metrics,
-    human_human: Mapping[Stratum, float] | None = None,
-) -> tuple[StratumScores, ...]:
-    """Return the scores of each stratum, in order of appearance.
-
-    ``human_human`` is the mean RMSE of the human-human baseline in each stratum [mm], if known.
-    """
-    members: dict[Stratum, list[Episode]] = {}
-    for episode in episodes:
-        members.setdefault(stratum(episode), []).append(episode)
-    return tuple(
-        StratumScores(
-            behaviour=behaviour,
-            subject=subject,
-            episodes=len(some),
-            failed=sum(episode.failure is not None for episode in some),
-            metrics={name: mean_score(some, name) for name in metrics},
-            human_human_rmse_mm=(human_human or {}).get((behaviour, subject)),
-        )
-        for (behaviour, subject), some in members.items()
-    )
-
-
-def mean_score(episodes: Sequence[Episode], name: str) -> MeanWithMissing:
-    """Return the mean of a metric over the episodes that have it."""
-    return mean_with_missing([episode.scores[name] for episode in episodes])
-
-
-def _number(value: float) -> float | None:
-    """Return a number that JSON knows: None for NaN."""
-    return None if math.isnan(value) else float(value)

@@ -1,6 +1,6 @@
 """Results as tables and text for a terminal."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any, Final
 
 from colift.agents.actions import HAND_SPEED
@@ -11,7 +11,7 @@ from colift.benchmark.channels import channel_name
 from colift.benchmark.episode.metric import LEADING, Metric, Metrics, notes
 from colift.benchmark.results.baselines import HUMAN_HUMAN, HUMAN_HUMAN_LABEL
 from colift.benchmark.results.headline import error, versus_human
-from colift.benchmark.results.summary import StratumScores
+from colift.benchmark.results.strata import StratumScore, human_human_mean, mean_of_strata
 from colift.benchmark.tables.printing import counted, optional_number, styled, table
 from rich.table import Table
 
@@ -95,31 +95,11 @@ def _over(content: Results) -> str:
     return "" if content.channel is None else f", over the channel {channel_name(content.channel)}"
 
 
-def _row(strata: Sequence[StratumScores], shown: Sequence[Metric]) -> list[str]:
+def _row(strata: Sequence[StratumScore], shown: Sequence[Metric]) -> list[str]:
     """Return the cells of a row: the means over the episodes of some strata."""
-    human = [
-        (each.human_human_rmse_mm, each.episodes)
-        for each in strata
-        if each.human_human_rmse_mm is not None
-    ]
-    human_human = _pooled(human) if len(human) == len(strata) else None
-    errors = [
-        optional_number(_pooled(_means(strata, "rmse_mm")), ".1f"),
-        optional_number(human_human, ".1f"),
-    ]
-    return errors + [metric.text(_pooled(_means(strata, metric.name))) for metric in shown]
-
-
-def _means(strata: Iterable[StratumScores], name: str) -> list[tuple[float, int]]:
-    """Return the mean of a metric in each stratum, and the number of episodes that have it."""
-    means = ((each.metrics[name], each.episodes) for each in strata)
-    return [(m.mean, episodes - m.missing) for m, episodes in means if m.mean is not None]
-
-
-def _pooled(means: Sequence[tuple[float, int]]) -> float | None:
-    """Return the mean of means, weighted by their numbers of episodes; None if there is none."""
-    count = sum(weight for _, weight in means)
-    return sum(weight * mean for mean, weight in means) / count if count else None
+    errors = (mean_of_strata(strata).mean, human_human_mean(strata))
+    means = (metric.text(mean_of_strata(strata, metric.name).mean) for metric in shown)
+    return [*(optional_number(error, ".1f") for error in errors), *means]
 
 
 def timing_table(report: dict[str, Any]) -> Table:

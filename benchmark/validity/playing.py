@@ -12,10 +12,10 @@ from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.execution.runner import Run, run_suite
 from colift.benchmark.results.baselines import (
     HUMAN_HUMAN,
-    Baseline,
     human_human_run,
     shipped_baselines,
 )
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import FloatArray
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.validity.scores import Scores
@@ -72,7 +72,7 @@ def play_suite(
     """
     shipped = shipped_baselines(suite)
     human_human = (
-        Baseline.of(human_human_run(suite, executor=executor, progress=progress))
+        ScoreTable.of(human_human_run(suite, executor=executor, progress=progress))
         if shipped is None
         else shipped[HUMAN_HUMAN]
     )

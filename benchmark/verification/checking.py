@@ -18,12 +18,12 @@ from colift.benchmark.execution.batches import play
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.results.baselines import (
     HUMAN_HUMAN,
-    Baseline,
     baseline_specs,
     shipped_baselines,
 )
 from colift.benchmark.results.headline import headline
 from colift.benchmark.results.remarks import clipped_text, unit_remark, worse_remark
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.summary import Summary
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite, make_suite
@@ -154,10 +154,10 @@ def check_part(suite: Suite) -> Suite:
     )
 
 
-def _baselines(suite: Suite, evaluate: Callable[[AgentSpec, Suite], Run]) -> dict[str, Baseline]:
+def _baselines(suite: Suite, evaluate: Callable[[AgentSpec, Suite], Run]) -> dict[str, ScoreTable]:
     """Return the baselines of the score, played like the policy."""
     return {
-        name: Baseline.of(
+        name: ScoreTable.of(
             evaluate(spec, suite.with_partner("human") if name == HUMAN_HUMAN else suite)
         )
         for name, spec in baseline_specs(suite).items()

@@ -17,10 +17,10 @@ from colift.benchmark.episode.scenario import CONTROL_PERIOD
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.results.baselines import (
     BASELINES,
-    Baseline,
     play_baselines,
     shipped_baselines,
 )
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite, make_suite
 from colift.benchmark.verification.deviation import REFERENCES, SCORES
 from colift.benchmark.verification.verdict import Finding
@@ -124,7 +124,7 @@ def rebuilt(bundle: Bundle, run: Run, executor: Executor | None) -> Results:
     return with_circumstances(content, bundle.results, run.suite)
 
 
-def _baselines(bundle: Bundle, run: Run, executor: Executor | None) -> dict[str, Baseline]:
+def _baselines(bundle: Bundle, run: Run, executor: Executor | None) -> dict[str, ScoreTable]:
     wanted = bundle.results["baselines"]
     if not wanted:
         return {}

@@ -5,7 +5,7 @@ from typing import Final
 from colift.benchmark.comparison.captions import marks_caption, title, undecided
 from colift.benchmark.comparison.comparison import Comparison
 from colift.benchmark.comparison.formatting import between, digits, p_value, probability
-from colift.benchmark.comparison.ranking import MetricMean, RankedPolicy, Ranking
+from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
 from colift.benchmark.episode.metric import Metric
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from colift.benchmark.statistics import Estimate
@@ -65,7 +65,7 @@ def _fewer(comparison: Comparison) -> str:
     lifts = {
         metric.words.present: None
         for metric in comparison.results.metrics
-        if any(_partial(metric, ranked.metrics[metric.name]) for ranked in policies)
+        if any(_partial(metric, ranked) for ranked in policies)
     }
     return f" †: mean over the lifts {' or '.join(lifts)}." if lifts else ""
 
@@ -91,17 +91,19 @@ def _policy_row(comparison: Comparison, ranked: RankedPolicy) -> list[Cell]:
         f"{ranked.rmse_mm.mean:.2f}",
         _interval(ranked.rmse_mm),
         f"{ranked.vs_human.mean:.2f}",
-        *(_metric(metric, ranked.metrics[metric.name]) for metric in metrics),
+        *(_metric(metric, ranked) for metric in metrics),
     ]
 
 
-def _metric(metric: Metric, mean: MetricMean) -> str:
-    return metric.text(mean.mean) + (" †" if _partial(metric, mean) else "")
+def _metric(metric: Metric, ranked: RankedPolicy) -> str:
+    mean = ranked.scores.metric(metric.name).mean
+    return metric.text(mean) + (" †" if _partial(metric, ranked) else "")
 
 
-def _partial(metric: Metric, mean: MetricMean) -> bool:
+def _partial(metric: Metric, ranked: RankedPolicy) -> bool:
     """Return whether a mean leaves out lifts that count as the worst."""
-    return metric.missing == "worst" and mean.estimate is not None and mean.missing > 0
+    found = ranked.scores.metric(metric.name)
+    return metric.missing == "worst" and found.mean is not None and found.missing > 0
 
 
 def differences_table(comparison: Comparison) -> Table:

@@ -1,7 +1,6 @@
 """Check of the tables of a backup: all that a board would read from them is read."""
 
-from typing import Any
-
+import msgspec
 import sqlalchemy as sa
 from colift.leaderboard.database.database import Database
 from colift.leaderboard.database.queries import (
@@ -14,9 +13,7 @@ from colift.leaderboard.database.queries import (
 )
 from colift.leaderboard.database.schema import metadata
 from colift.leaderboard.records.row import BoardRow
-from colift.leaderboard.records.season import BoardEntry, Event, SeasonInfo
 from colift.leaderboard.storage.damage import DamagedError
-from colift.leaderboard.storage.typed import mistyped
 
 
 def check_tables(database: Database) -> None:
@@ -27,13 +24,10 @@ def check_tables(database: Database) -> None:
             with legible(f"the table {table.name}"):
                 for row in connection.execute(sa.select(table)).mappings():
                     _check_row(table, row)
-        for season in read_seasons(connection):
-            _check(season, SeasonInfo, f"season {season.name}")
         for event in read_events(connection):
-            where = f"an event of season {event.season}"
-            _check(event, Event, where)
             if event.kind == "rescore":
-                _check(BoardRow.read((event.content or {})["row"]), BoardRow, f"{where}: row")
+                with legible(f"an event of season {event.season}"):
+                    BoardRow.read((event.content or {})["row"])
         _check_entries(connection)
 
 
@@ -45,7 +39,6 @@ def _check_entries(connection: sa.Connection) -> None:
     }
     for entry in found:
         where = f"the entry {entry.submission} of season {entry.season}"
-        _check(entry, BoardEntry, where)
         if entry.row is None:
             continue
         number = numbers[entry.season].get(entry.submission)
@@ -71,12 +64,5 @@ def _check_row(table: sa.Table, row: sa.RowMapping) -> None:
         value = row[column.name]
         if isinstance(column.type, sa.JSON) or (value is None and column.nullable):
             continue
-        fault = mistyped(value, column.type.python_type, f"its table {table.name}, {column.name}")
-        if fault is not None:
-            raise DamagedError(fault)
-
-
-def _check(record: object, kind: Any, where: str) -> None:
-    fault = mistyped(record, kind, where)
-    if fault is not None:
-        raise DamagedError(fault)
+        with legible(f"{value!a:.60} as {column.name} in the table {table.name}"):
+            msgspec.convert(value, column.type.python_type)

@@ -1,22 +1,20 @@
 """The seasons of a board: start, end and import."""
 
 import re
-import shutil
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from datetime import UTC, datetime
-from pathlib import Path
 from typing import Any, Final
 
 import sqlalchemy as sa
 from colift.agents.errors import InputError
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.hidden import commitment, new_secret
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.database.database import Database
 from colift.leaderboard.database.queries import read_seasons, record_entry, record_event
 from colift.leaderboard.database.schema import seasons
-from colift.leaderboard.records.season import BoardEntry, Event, Kind, Season, SeasonInfo
+from colift.leaderboard.records.season import Event, Kind, PlayedEntry, Season, SeasonInfo
 from colift.leaderboard.storage.files import sync_tree
 from colift.leaderboard.storage.store import Store
 
@@ -30,24 +28,13 @@ def utc_now() -> datetime:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ImportedEntry:
-    """An entry from elsewhere."""
-
-    entry: BoardEntry
-    hidden_rmse_mm: tuple[float, ...] = field(default=(), repr=False)
-    """RMSE of each hidden episode, if it has a row: the ranks follow from it."""
-    bundle: Path | None = None
-    """Folder of the public run; it is copied."""
-
-
-@dataclass(frozen=True, kw_only=True)
 class ImportedSeason:
     """A season with a public secret, to be imported."""
 
     info: SeasonInfo
     """With the secret. ``current`` states whether it also takes submissions."""
-    entries: Sequence[ImportedEntry]
-    human_human: Baseline
+    entries: Sequence[PlayedEntry]
+    human_human: ScoreTable
     """The human-human baseline on the hidden episodes."""
 
 
@@ -146,8 +133,9 @@ class SeasonBook:
         secrets.keep_human_human(practice.human_human)
         for each in practice.entries:
             place = self.store.bundle(info.name, each.entry.submission)
-            if each.bundle is not None:
-                shutil.copytree(each.bundle, place, dirs_exist_ok=True)
+            for name, data in each.files.items():
+                place.mkdir(parents=True, exist_ok=True)
+                (place / name).write_bytes(data)
         sync_tree(self.store.folder / "public")
         with self.database.writing() as connection:
             self._record(connection, info, who, why)

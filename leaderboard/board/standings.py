@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, Literal
 
 from colift.agents.errors import InputError
 from colift.agents.extras import how_to_install
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.evaluation.scoring import PLACES
 from colift.leaderboard.records.metrics import board_metrics, known_means
@@ -84,10 +84,10 @@ def row_now(row: BoardRow, events: Sequence[Event]) -> BoardRow:
 
 
 @functools.lru_cache(maxsize=16)
-def human_human_scores(human_human: Baseline, suite: str) -> HumanHumanScores:
+def human_human_scores(human_human: ScoreTable, suite: str) -> HumanHumanScores:
     """Return the published part of a suite's baseline on hidden episodes, rounded like a row."""
     return HumanHumanScores(
-        rmse_mm=human_human.estimate.rounded(PLACES),
+        rmse_mm=human_human.error.rounded(PLACES),
         means={
             name: None if mean is None else round(mean, PLACES)
             for name, mean in known_means(human_human.means, suite).items()

@@ -4,11 +4,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any, Final
 
+import msgspec
 import numpy as np
 import sqlalchemy as sa
 from colift.agents.errors import error_text
 from colift.leaderboard.database.schema import entries, events, hidden_errors, metadata, seasons
-from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.records.season import BoardEntry, Event, SeasonInfo
 from colift.leaderboard.storage.damage import DAMAGE, DamagedError
 
@@ -38,17 +38,18 @@ def read_seasons(connection: sa.Connection) -> tuple[SeasonInfo, ...]:
         for event in read_events(connection, events.c.kind == "revelation")
     }
     return tuple(
-        SeasonInfo(
-            name=each.name,
-            suite=each.suite,
-            suite_digest=each.suite_digest,
-            commitment=each.commitment,
-            began_at=each.began_at,
-            current=each.name == current,
-            revealed=revealed.get(each.name),
+        msgspec.convert(
+            _plain(each._mapping)
+            | {"current": each.name == current, "revealed": revealed.get(each.name)},
+            SeasonInfo,
         )
         for each in found
     )
+
+
+def _plain(row: sa.RowMapping) -> dict[str, Any]:
+    """Return a row by names that are plain texts."""
+    return {str(name): value for name, value in row.items()}
 
 
 def read_entries(
@@ -63,8 +64,7 @@ def read_entries(
 
 def _entry(found: sa.RowMapping) -> BoardEntry:
     with legible(f"the entry of {found['name']!a} in season {found['season']!a}"):
-        row = None if found["row"] is None else BoardRow.read(found["row"])
-        return BoardEntry(**{**found, "row": row})
+        return BoardEntry.read(_plain(found))
 
 
 @legible("an event")
@@ -78,7 +78,8 @@ def read_events(
     columns = [column for column in events.c if column.name != "number"]
     order = events.c.number if newest is None else events.c.number.desc()
     query = sa.select(*columns).where(*conditions).order_by(order).limit(newest)
-    return tuple(Event(**found) for found in connection.execute(query).mappings())
+    found = connection.execute(query).mappings()
+    return tuple(msgspec.convert(_plain(each), Event) for each in found)
 
 
 def read_error_numbers(

@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from datetime import UTC, datetime
 from typing import Any, Final
 
+import msgspec
 import sqlalchemy as sa
 
 WAIT_S: Final = 60
@@ -33,12 +34,17 @@ _POSTGRESQL: Final = (
 def make_engine(url: sa.URL) -> sa.Engine:
     """Return the engine of a database, without connecting to it."""
     if url.get_backend_name() == "sqlite":
-        engine = sa.create_engine(url, connect_args={"timeout": WAIT_S})
+        engine = sa.create_engine(
+            url, connect_args={"timeout": WAIT_S}, json_deserializer=msgspec.json.decode
+        )
         sa.event.listen(engine, "connect", _prepare_sqlite)
         sa.event.listen(engine, "begin", _begin_sqlite)
     else:
         engine = sa.create_engine(
-            url, pool_pre_ping=True, connect_args={"connect_timeout": CONNECT_S}
+            url,
+            pool_pre_ping=True,
+            connect_args={"connect_timeout": CONNECT_S},
+            json_deserializer=msgspec.json.decode,
         )
         sa.event.listen(engine, "connect", _prepare_postgresql)
     return engine

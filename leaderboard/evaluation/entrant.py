@@ -16,6 +16,7 @@ from colift.agents.sandbox.host.levels import Choice, choose, fault
 from colift.agents.sandbox.host.policy import SandboxedPolicy
 from colift.agents.sandbox.host.process import BUBBLEWRAP
 from colift.agents.spec import AUTO, AgentSpec
+from colift.agents.submissions.manifest import Manifest
 from colift.agents.submissions.submission import Submission
 from colift.benchmark.verification.audit import AUDIT
 
@@ -36,12 +37,7 @@ LEARNED: Final[Mapping[str, str]] = {
 class Entrant:
     """A submission or built-in policy to be evaluated."""
 
-    name: str
-    authors: tuple[str, ...]
-    description: str
-    link: str
-    licence: str
-    trained_on: str
+    manifest: Manifest
     digest: str
     """Digest of all that was submitted."""
     policy: AgentSpec
@@ -51,14 +47,9 @@ class Entrant:
     @classmethod
     def of(cls, submission: Submission, level: str) -> "Entrant":
         """Return a submission as an entrant at an isolation level."""
-        manifest, policy = submission.manifest, submission.sandboxed(level)
+        policy = submission.sandboxed(level)
         return cls(
-            name=manifest.name,
-            authors=manifest.authors,
-            description=manifest.description,
-            link=manifest.link,
-            licence=manifest.licence,
-            trained_on=manifest.trained_on,
+            manifest=submission.manifest,
             digest=submission.contents.digest,
             policy=policy,
             fresh=dataclasses.replace(policy, instance=AUDIT),
@@ -85,13 +76,15 @@ def builtin_entrant(name: str, level: str = BUBBLEWRAP) -> Entrant:
         source_digest=source,
         isolation=level,
     )
-    return Entrant(
+    manifest = Manifest(
         name=name,
         authors=AUTHORS,
         description=summary(lookup(POLICIES, name)),
-        link="",
         licence=LICENCE,
         trained_on=trained_on(name),
+    )
+    return Entrant(
+        manifest=manifest,
         digest=hashlib.sha256(f"colift's own {name}, source {source}".encode()).hexdigest(),
         policy=policy,
         fresh=dataclasses.replace(policy, instance=AUDIT),

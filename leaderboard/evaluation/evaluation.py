@@ -18,11 +18,11 @@ from colift.benchmark.execution.distributions import library_versions
 from colift.benchmark.execution.runner import Run, run_suite
 from colift.benchmark.results.baselines import (
     BASELINES,
-    Baseline,
     human_human_run,
     play_baselines,
     shipped_baselines,
 )
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.verification import verify
@@ -53,7 +53,7 @@ class EntrantResult:
 def evaluate_entrant(
     entrant: Entrant,
     season: Season,
-    human_human: Baseline,
+    human_human: ScoreTable,
     bundle: Path,
     *,
     executor: Executor | None = None,
@@ -183,7 +183,7 @@ def stage_episodes(suite: Suite) -> dict[Stage, int]:
 
 def play_human_human(
     season: Season, *, executor: Executor | None = None, watch: Callbacks | None = None
-) -> Baseline:
+) -> ScoreTable:
     """Return the human-human baseline on a season's hidden episodes; needed once per season.
 
     Raises
@@ -193,10 +193,12 @@ def play_human_human(
     """
     watch = watch or Callbacks()
     watch.stage("human-human baseline")
-    return Baseline.of(human_human_run(season.hidden, executor=executor, progress=watch.progress))
+    return ScoreTable.of(human_human_run(season.hidden, executor=executor, progress=watch.progress))
 
 
-def _baselines(season: Season, executor: Executor | None, watch: Callbacks) -> dict[str, Baseline]:
+def _baselines(
+    season: Season, executor: Executor | None, watch: Callbacks
+) -> dict[str, ScoreTable]:
     """Return the baselines on the public episodes."""
     shipped = shipped_baselines(season.suite)
     if shipped is not None:
@@ -215,18 +217,18 @@ def _verify(bundle: Path, executor: Executor | None, watch: Callbacks) -> None:
 def _row(
     entrant: Entrant, season: Season, public: PublicScores, hidden: HiddenScores, gap_mm: Estimate
 ) -> BoardRow:
-    isolation = entrant.policy.isolation
+    about, isolation = entrant.manifest, entrant.policy.isolation
     return BoardRow(
         season=season.name,
         commitment=season.commitment,
         suite=season.suite.name,
         suite_digest=season.suite.digest,
-        name=entrant.name,
-        authors=entrant.authors,
-        description=entrant.description,
-        link=entrant.link,
-        licence=entrant.licence,
-        trained_on=entrant.trained_on,
+        name=about.name,
+        authors=about.authors,
+        description=about.description,
+        link=about.link,
+        licence=about.licence,
+        trained_on=about.trained_on,
         submission=entrant.digest,
         public=public,
         hidden=hidden,

@@ -8,9 +8,9 @@ from typing import Final
 from colift.benchmark.bundle.content import Results, real_time
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.execution.runner import Run
-from colift.benchmark.results.baselines import Baseline
-from colift.benchmark.results.summary import stratum, summarise
-from colift.benchmark.statistics import Estimate, difference_of_means, probability_better
+from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.results.summary import summarise
+from colift.benchmark.statistics import Estimate, difference_of_means
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.records.row import HiddenScores, PublicScores
 
@@ -43,7 +43,7 @@ def public_scores(results: Results) -> PublicScores:
     )
 
 
-def hidden_scores(run: Run, human_human: Baseline) -> HiddenScores:
+def hidden_scores(run: Run, human_human: ScoreTable) -> HiddenScores:
     """Return the published scores of the hidden run.
 
     Parameters
@@ -53,37 +53,28 @@ def hidden_scores(run: Run, human_human: Baseline) -> HiddenScores:
     human_human
         The human-human baseline on the same episodes.
     """
-    summary = summarise(run.episodes, run.suite.metrics, human_human.rmse_mm)
-    failure_lines = _failures(run)
-    sure = probability_better(_rmse(run), human_human.rmse_mm, human_human.strata)
+    scores = ScoreTable.of(run)
+    summary = summarise(run, scores, human_human)
     return HiddenScores(
         episodes=summary.episodes,
         failed=summary.failed,
-        failures=dict(sorted(failure_lines.items())),
+        failures=dict(sorted(_failures(scores).items())),
         rmse_mm=summary.rmse_mm.rounded(PLACES),
         vs_human=_known(summary.vs_human).rounded(PLACES),
         real_time=real_time(summary.step_ms.p99, run.suite),
-        better_than_human=round(sure, PLACES),
+        better_than_human=round(scores.against(human_human).probability, PLACES),
     )
 
 
 def gap(hidden: Run, public: Run) -> Estimate:
     """Return the mean RMSE of the hidden run minus that of the public run [mm]."""
-    a, b = _rmse(hidden), _rmse(public)
-    strata_a, strata_b = (
-        [stratum(episode) for episode in run.episodes] for run in (hidden, public)
-    )
-    return difference_of_means(a, strata_a, b, strata_b).rounded(PLACES)
+    a, b = ScoreTable.of(hidden), ScoreTable.of(public)
+    return difference_of_means(a.rmse_mm, a.strata, b.rmse_mm, b.strata).rounded(PLACES)
 
 
-def _rmse(run: Run) -> list[float]:
-    return [episode.scores["rmse_mm"] for episode in run.episodes]
-
-
-def _failures(run: Run) -> Counter[str]:
-    """Count the failed episodes by place of failure; see :attr:`.HiddenScores.failure_lines`."""
-    reasons = [episode.failure for episode in run.episodes if episode.failure is not None]
-    words = (reason.partition(" ")[0].rstrip(":") for reason in reasons)
+def _failures(scores: ScoreTable) -> Counter[str]:
+    """Count the failed lifts by place of failure; see :attr:`.HiddenScores.failures`."""
+    words = (reason.partition(" ")[0].rstrip(":") for reason in scores.failures if reason)
     return Counter(word if word in ("start", "step") else "table" for word in words)
 
 

@@ -8,9 +8,7 @@ season has a random secret; see :meth:`.Board.new_season`.
 import hashlib
 import json
 import tempfile
-from collections.abc import Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 from typing import Final
@@ -19,13 +17,13 @@ from colift.agents.errors import EvaluatorFault
 from colift.agents.sandbox.host.levels import choose
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.bundle.files import EPISODES, RESULTS
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.board.board import BUILTIN
 from colift.leaderboard.evaluation.entrant import builtin_entrant
 from colift.leaderboard.evaluation.evaluation import evaluate_entrant, versions
 from colift.leaderboard.evaluation.progress import Callbacks
-from colift.leaderboard.records.season import BoardEntry, Season
+from colift.leaderboard.records.season import BoardEntry, PlayedEntry, Season
 from colift.leaderboard.replays.chosen import FILE, chosen_replays
 
 NAME: Final = "practice"
@@ -35,17 +33,6 @@ STANDARD: Final = "standard-v1"
 
 SUITES: Final = (STANDARD, "paper-v1")
 """The suites that have a practice season."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class PracticeRun:
-    """A built-in policy's evaluation in a practice season."""
-
-    entry: BoardEntry
-    hidden_rmse_mm: tuple[float, ...] = field(repr=False)
-    """RMSE of each hidden episode: the ranks follow from it."""
-    files: Mapping[str, bytes] = field(repr=False)
-    """Files of the public run by name: results, episodes and replays."""
 
 
 def practice_season(suite: str) -> Season:
@@ -62,12 +49,12 @@ def practice_season(suite: str) -> Season:
 def play_policy(
     name: str,
     season: Season,
-    human_human: Baseline,
+    human_human: ScoreTable,
     at: datetime,
     *,
     executor: Executor | None = None,
     watch: Callbacks | None = None,
-) -> PracticeRun:
+) -> PlayedEntry:
     """Evaluate a built-in policy like a submission.
 
     Parameters
@@ -105,14 +92,14 @@ def play_policy(
         row=evaluation.row,
         refusal=None,
     )
-    return PracticeRun(
+    return PlayedEntry(
         entry=entry,
         hidden_rmse_mm=evaluation.hidden_rmse_mm,
         files={**files, FILE: json.dumps(replays, separators=(",", ":")).encode()},
     )
 
 
-def is_current(played: PracticeRun, season: Season) -> bool:
+def is_current(played: PlayedEntry, season: Season) -> bool:
     """Return whether policy, suite and versions are still those of an evaluation."""
     row = played.entry.row
     return (

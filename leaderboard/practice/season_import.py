@@ -9,22 +9,19 @@ import io
 import json
 import logging
 import os
-import tempfile
 import zipfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import Any, Final, Self
 
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.board.board import SUITE, Board
-from colift.leaderboard.board.seasons import ImportedEntry, ImportedSeason
+from colift.leaderboard.board.seasons import ImportedSeason
 from colift.leaderboard.database.room import NoRoomError
-from colift.leaderboard.practice.practice import SUITES, PracticeRun, practice_season
-from colift.leaderboard.records.season import BoardEntry, SeasonInfo
+from colift.leaderboard.practice.practice import SUITES, practice_season
+from colift.leaderboard.records.season import BoardEntry, PlayedEntry, SeasonInfo
 from colift.leaderboard.storage.store import has_board
 
 FORMAT: Final = 2
@@ -45,9 +42,9 @@ class PlayedSeason:
     suite: str
     suite_digest: str
     began_at: datetime
-    human_human: Baseline
+    human_human: ScoreTable
     """The human-human baseline on the hidden episodes."""
-    played: tuple[PracticeRun, ...]
+    played: tuple[PlayedEntry, ...]
     """In the order of their names."""
 
     @classmethod
@@ -65,7 +62,7 @@ class PlayedSeason:
             suite=content["suite"],
             suite_digest=content["suite_digest"],
             began_at=datetime.fromisoformat(content["began_at"]),
-            human_human=Baseline.read(content["human_human"]),
+            human_human=ScoreTable.read(content["human_human"]),
             played=played,
         )
 
@@ -90,7 +87,7 @@ class PlayedSeason:
             partial.write_bytes(data)
             partial.replace(target)
 
-    def with_played(self, new: PracticeRun) -> Self:
+    def with_played(self, new: PlayedEntry) -> Self:
         """Return the season with a policy's evaluation, which replaces an older one."""
         others = [each for each in self.played if each.entry.name != new.entry.name]
         played = sorted([*others, new], key=lambda each: each.entry.name)
@@ -106,11 +103,10 @@ class PlayedSeason:
         return buffer.getvalue()
 
 
-@contextmanager
 def practice_import(
     suite: str, folder: Path = DATA, *, current: bool = True
-) -> Iterator[ImportedSeason | None]:
-    """Yield the practice season of a suite for import into a board; its files exist until the end.
+) -> ImportedSeason | None:
+    """Return the practice season of a suite for import into a board.
 
     It is None if there is none for this suite and its digest.
 
@@ -125,36 +121,25 @@ def practice_import(
     """
     found = PlayedSeason.read(suite, folder)
     if found is None or found.suite_digest != make_suite(suite).digest:
-        yield None
-        return
+        return None
     season = practice_season(suite)
-    with tempfile.TemporaryDirectory(prefix="colift-") as temporary:
-        entries = []
-        for each in found.played:
-            bundle = Path(temporary, each.entry.submission)
-            bundle.mkdir()
-            for name, data in each.files.items():
-                (bundle / name).write_bytes(data)
-            entries.append(
-                ImportedEntry(entry=each.entry, hidden_rmse_mm=each.hidden_rmse_mm, bundle=bundle)
-            )
-        info = SeasonInfo(
-            name=season.name,
-            suite=season.suite.name,
-            suite_digest=season.suite.digest,
-            commitment=season.commitment,
-            began_at=found.began_at,
-            current=current,
-            revealed=season.secret.hex(),
-        )
-        yield ImportedSeason(info=info, entries=entries, human_human=found.human_human)
+    info = SeasonInfo(
+        name=season.name,
+        suite=season.suite.name,
+        suite_digest=season.suite.digest,
+        commitment=season.commitment,
+        began_at=found.began_at,
+        current=current,
+        revealed=season.secret.hex(),
+    )
+    return ImportedSeason(info=info, entries=found.played, human_human=found.human_human)
 
 
-def _played(content: dict[str, Any], packed: zipfile.ZipFile) -> PracticeRun:
+def _played(content: dict[str, Any], packed: zipfile.ZipFile) -> PlayedEntry:
     entry = BoardEntry.read(content["entry"])
     prefix = f"{entry.name}/"
     names = [name for name in packed.namelist() if name.startswith(prefix)]
-    return PracticeRun(
+    return PlayedEntry(
         entry=entry,
         hidden_rmse_mm=tuple(content["hidden_rmse_mm"]),
         files={name.removeprefix(prefix): packed.read(name) for name in names},
@@ -186,8 +171,8 @@ def open_with_practice(folder: Path, suite: str | None = None, data: Path = DATA
     if folder.is_dir() and any(folder.iterdir()):
         return Board.open(folder, suite)
     wanted = suite or SUITE
-    with practice_import(wanted, data) as practice:
-        board = Board.open(folder, suite, practice=practice)
+    practice = practice_import(wanted, data)
+    board = Board.open(folder, suite, practice=practice)
     if practice is None and PlayedSeason.read(wanted, data) is not None:
         log.warning(
             "this board begins without rows: the shipped practice rows are of another digest of "
@@ -197,9 +182,9 @@ def open_with_practice(folder: Path, suite: str | None = None, data: Path = DATA
         )
     for other in SUITES:
         if practice is not None and other != wanted:
-            with practice_import(other, data, current=False) as frozen:
-                if frozen is not None:
-                    board.import_season(frozen)
+            frozen = practice_import(other, data, current=False)
+            if frozen is not None:
+                board.import_season(frozen)
     return board
 
 

@@ -12,8 +12,8 @@ from colift.benchmark.episode.metric import LEADING
 from colift.benchmark.statistics import FloatArray
 from colift.benchmark.suites.suite import Suite
 from colift.leaderboard.evaluation.entrant import builtin_entrant
-from colift.leaderboard.practice.practice import PracticeRun
 from colift.leaderboard.practice.season_import import DATA, PlayedSeason
+from colift.leaderboard.records.season import PlayedEntry
 
 
 def shipped_scores(suite: Suite, folder: Path = DATA) -> dict[str, FloatArray]:
@@ -45,6 +45,6 @@ def _current(season: PlayedSeason, suite: Suite) -> Iterator[tuple[str, FloatArr
                 yield name, errors
 
 
-def _errors(played: PracticeRun) -> FloatArray:
+def _errors(played: PlayedEntry) -> FloatArray:
     table = csv.DictReader(io.StringIO(played.files[EPISODES].decode()))
     return np.array([float(row[LEADING]) for row in table])

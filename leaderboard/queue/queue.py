@@ -61,7 +61,7 @@ class Queue:
 
     def enqueue_builtin(self, entrant: Entrant) -> Job:
         """Return the job of a built-in policy; as :meth:`enqueue`."""
-        return self._enqueue(entrant.digest, entrant.name, BUILTIN)
+        return self._enqueue(entrant.digest, entrant.manifest.name, BUILTIN)
 
     def _enqueue(
         self,

@@ -5,8 +5,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Final, Self
 
+import msgspec
 from colift.benchmark.statistics import Estimate, MeanWithMissing
-from colift.leaderboard.records.metrics import read_means
+from colift.leaderboard.records.metrics import board_metrics, read_means
 
 UNTRAINED: Final = ("nothing", "none", "no data")
 """Entries of ``trained_on`` that stand for a policy without training."""
@@ -117,31 +118,16 @@ class BoardRow:
 
     @classmethod
     def read(cls, content: Mapping[str, Any]) -> Self:
-        """Return the row from the output of :meth:`plain`."""
-        public, hidden = content["public"], content["hidden"]
-        return cls(
-            **{
-                **content,
-                "authors": tuple(content["authors"]),
-                "gap_mm": _estimate(content["gap_mm"]),
-                "public": PublicScores(
-                    **{
-                        **public,
-                        **_estimates(public),
-                        "metrics": read_means(
-                            public["metrics"], content["suite"], public["episodes"]
-                        ),
-                    }
-                ),
-                "hidden": HiddenScores(**{**hidden, **_estimates(hidden)}),
-            }
-        )
+        """Return the row from the output of :meth:`plain`.
 
-
-def _estimates(scores: Mapping[str, Any]) -> dict[str, Estimate]:
-    return {name: _estimate(scores[name]) for name in ("rmse_mm", "vs_human")}
-
-
-def _estimate(content: Mapping[str, Any]) -> Estimate:
-    low, high = content["ci95"]
-    return Estimate(mean=content["mean"], ci95=(low, high))
+        Raises
+        ------
+        msgspec.ValidationError
+            If a part is missing or of another type.
+        """
+        row = msgspec.convert(content, cls)
+        public = row.public
+        if set(public.metrics) == {metric.name for metric in board_metrics(row.suite)}:
+            return row
+        means = read_means(content["public"]["metrics"], row.suite, public.episodes)
+        return dataclasses.replace(row, public=dataclasses.replace(public, metrics=means))

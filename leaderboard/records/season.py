@@ -1,11 +1,12 @@
 """Seasons, their entries and their events."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any, Literal, Self
 
+import msgspec
 from colift.agents.errors import InputError
 from colift.benchmark.suites.hidden import commitment, hidden_suite
 from colift.benchmark.suites.suite import Suite
@@ -116,10 +117,20 @@ class BoardEntry:
 
     @classmethod
     def read(cls, content: Mapping[str, Any]) -> Self:
-        """Return the entry from the output of :meth:`plain`."""
+        """Return the entry from the output of :meth:`plain`; as :meth:`.BoardRow.read`."""
         row = None if content["row"] is None else BoardRow.read(content["row"])
-        at = datetime.fromisoformat(content["at"])
-        return cls(**{**content, "row": row, "at": at})
+        return replace(msgspec.convert({**content, "row": None}, cls), row=row)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlayedEntry:
+    """An entry that was evaluated elsewhere, with all that a board keeps of it."""
+
+    entry: BoardEntry
+    hidden_rmse_mm: tuple[float, ...] = field(default=(), repr=False)
+    """RMSE of each hidden episode, if it has a row: the ranks follow from it."""
+    files: Mapping[str, bytes] = field(default_factory=dict, repr=False)
+    """Files of the public run by name, if they are there."""
 
 
 def check_season_suite(place: Path | str, suite: str, wanted: str | None) -> None:

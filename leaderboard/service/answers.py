@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 from datetime import datetime
 from typing import Any, Self
 
+from colift.benchmark.results.strata import StratumScore
 from colift.leaderboard.board.standings import RankedRow, Section
 from colift.leaderboard.records.job import Job, State
 from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.records.season import Event
-from colift.leaderboard.views.lifts import StratumScore
 from pydantic import BaseModel, ConfigDict, Field
 
 

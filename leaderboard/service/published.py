@@ -5,6 +5,7 @@ from typing import Final
 
 from colift.agents.submissions.folder import LIMITS
 from colift.agents.submissions.packages import PACKAGES
+from colift.benchmark.results.strata import StratumScore
 from colift.leaderboard.board.standings import RankedRow
 from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.service.answers import EntryAnswer, RulesAnswer, StandingAnswer
@@ -25,7 +26,7 @@ from colift.leaderboard.service.security import client_of
 from colift.leaderboard.service.slots import Slotted
 from colift.leaderboard.service.uploads import BODY, ZIP
 from colift.leaderboard.views.exports import standings_csv
-from colift.leaderboard.views.lifts import StratumScore, stratum_scores
+from colift.leaderboard.views.lifts import stratum_scores
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import FileResponse
 from starlette.concurrency import run_in_threadpool

@@ -2,9 +2,17 @@
 
 from typing import Final
 
+import msgspec
 from colift.agents.errors import EvaluatorFault
 
-DAMAGE: Final = (ValueError, TypeError, LookupError, AttributeError, RecursionError)
+DAMAGE: Final = (
+    ValueError,
+    TypeError,
+    LookupError,
+    AttributeError,
+    RecursionError,
+    msgspec.MsgspecError,
+)
 """Errors of code that reads a record with other content than was written."""
 
 

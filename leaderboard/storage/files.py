@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 
 def write_json(
     path: Path, content: Mapping[str, Any], *, mode: int = 0o644, indent: int | None = 2
@@ -46,6 +48,14 @@ def sync_tree(folder: Path) -> None:
 
 
 def read_json(path: Path) -> dict[str, Any]:
-    """Return the content of a JSON file."""
-    content: dict[str, Any] = json.loads(path.read_text())
-    return content
+    """Return the object in a JSON file, whose numbers are finite.
+
+    Raises
+    ------
+    ValueError
+        If it is anything else.
+    """
+    try:
+        return msgspec.json.decode(path.read_bytes(), type=dict[str, Any])
+    except msgspec.MsgspecError as error:
+        raise ValueError(str(error)) from error

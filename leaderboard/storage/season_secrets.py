@@ -8,11 +8,10 @@ from pathlib import Path
 from typing import Final
 
 from colift.agents.errors import InputError, error_text
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.hidden import SECRET_BYTES
 from colift.leaderboard.storage.damage import DAMAGE, DamagedError
 from colift.leaderboard.storage.files import read_json, sync, write_json
-from colift.leaderboard.storage.typed import mistyped
 
 PRIVATE_FILE: Final = 0o600
 """Mode of a file that only its owner may read."""
@@ -72,7 +71,7 @@ class SeasonSecrets:
             raise InputError(f"{path} must hold {2 * SECRET_BYTES} hexadecimal digits")
         return secret
 
-    def human_human(self, play: Callable[[], Baseline]) -> Baseline:
+    def human_human(self, play: Callable[[], ScoreTable]) -> ScoreTable:
         """Return the human-human baseline on the hidden episodes; it is run only once."""
         known = self.known_human_human()
         if known is None:
@@ -80,7 +79,7 @@ class SeasonSecrets:
             self.keep_human_human(known)
         return known
 
-    def known_human_human(self) -> Baseline | None:
+    def known_human_human(self) -> ScoreTable | None:
         """Return the baseline that :meth:`human_human` has stored, or None if it has not run.
 
         Raises
@@ -90,15 +89,14 @@ class SeasonSecrets:
         """
         path = self.folder / "human_human.json"
         try:
-            known = Baseline.read(read_json(path)) if path.exists() else None
+            return ScoreTable.read(read_json(path)) if path.exists() else None
         except DAMAGE as error:
-            raise _damaged(path, error_text(error)) from error
-        fault = None if known is None else mistyped(known, Baseline, "the baseline")
-        if fault is not None:
-            raise _damaged(path, fault)
-        return known
+            raise DamagedError(
+                f"{path} is damaged ({error_text(error)}): restore it from a backup, or remove it, "
+                "and the next evaluation plays the human-human baseline again"
+            ) from error
 
-    def keep_human_human(self, human_human: Baseline) -> None:
+    def keep_human_human(self, human_human: ScoreTable) -> None:
         """Write the human-human baseline."""
         self.folder.mkdir(mode=FOLDER, parents=True, exist_ok=True)
         write_json(self.folder / "human_human.json", human_human.plain(), mode=PRIVATE_FILE)
@@ -106,10 +104,3 @@ class SeasonSecrets:
     @property
     def _secret(self) -> Path:
         return self.folder / "secret"
-
-
-def _damaged(path: Path, reason: str) -> DamagedError:
-    return DamagedError(
-        f"{path} is damaged ({reason}): restore it from a backup, or remove it, and the next "
-        "evaluation plays the human-human baseline again"
-    )

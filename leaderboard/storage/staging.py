@@ -6,7 +6,7 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final, Self
 
@@ -92,8 +92,8 @@ class Incoming:
             sync_tree(submission.folder)
         return cls(submission, target, spoilt=there and not intact)
 
-    def place(self) -> None:
-        """Put the files in their place; equal files that are already there stay."""
+    def place(self) -> Submission:
+        """Put the files in their place, and return them there; equal ones that are there stay."""
         if self.spoilt:
             self.target.rename(self.submission.folder.with_name("spoilt"))
         if self.target.is_dir():
@@ -101,6 +101,7 @@ class Incoming:
         else:
             self.submission.folder.rename(self.target)
             sync(self.target.parent)
+        return replace(self.submission, folder=self.target)
 
 
 def _digest(folder: Path) -> str | None:

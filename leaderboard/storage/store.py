@@ -25,9 +25,8 @@ from pathlib import Path
 from typing import Final
 
 from colift.agents.errors import InputError
-from colift.agents.submissions.folder import copy_folder
 from colift.agents.submissions.new import check_author
-from colift.agents.submissions.submission import Submission, read_submission
+from colift.agents.submissions.submission import Submission, copy_submission, read_submission
 from colift.leaderboard.storage.archive import pack_archive
 from colift.leaderboard.storage.files import read_json, sync, sync_tree, write_json
 from colift.leaderboard.storage.season_secrets import FOLDER, PRIVATE_FILE, SeasonSecrets
@@ -159,10 +158,7 @@ class Store:
         with self.staging() as place:
             made = place / "submission"
             made.mkdir()
-            copy_folder(folder, made)
-            incoming = self.incoming(made)
-            incoming.place()
-        return self.submission(incoming.submission.contents.digest)
+            return self._incoming(copy_submission(folder, made)).place()
 
     @contextmanager
     def staging(self) -> Iterator[Path]:
@@ -178,7 +174,9 @@ class Store:
         InputError
             If the submission is malformed, or still has the author of the template.
         """
-        submission = read_submission(files)
+        return self._incoming(read_submission(files))
+
+    def _incoming(self, submission: Submission) -> Incoming:
         check_author(submission.manifest)
         target = self.folder / "submissions" / submission.contents.digest
         return Incoming.of(submission, target)

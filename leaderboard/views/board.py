@@ -6,6 +6,7 @@ from typing import Any
 from weakref import WeakKeyDictionary
 
 from colift.benchmark.comparison.scatter.scene import ScatterScene
+from colift.benchmark.results.strata import StratumScore, human_human_mean
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import HumanHumanScores, RankedRow
@@ -15,7 +16,7 @@ from colift.leaderboard.records.season import Event, SeasonInfo
 from colift.leaderboard.views.asked import ROWS, Asked
 from colift.leaderboard.views.axis import Axis, make_axis
 from colift.leaderboard.views.bounds import PublicBound, bounds_of
-from colift.leaderboard.views.lifts import Part, StratumScore, human_human_mean_rmse, known
+from colift.leaderboard.views.lifts import Part, known
 from colift.leaderboard.views.lines import Lines, RankedLine, lines_of, strata_of
 from colift.leaderboard.views.picture import PICTURED, pictures
 
@@ -100,7 +101,7 @@ class BoardView:
 
     def human_human_mm(self, behaviour: str) -> float | None:
         """Return the human-human baseline's mean RMSE [mm] on the public lifts of a behaviour."""
-        return human_human_mean_rmse(self.strata, Part(behaviour=behaviour, subject=None))
+        return human_human_mean(Part(behaviour=behaviour, subject=None).of(self.strata))
 
     @property
     def behaviours(self) -> tuple[str, ...]:
@@ -116,7 +117,7 @@ class BoardView:
     def empty_part(self) -> bool:
         """Whether the suite has no lifts of the part that was asked for."""
         part = self.asked.part
-        return part is not None and not any(part.has(stratum) for stratum in self.strata)
+        return part is not None and not part.of(self.strata)
 
     @property
     def data(self) -> dict[str, Any]:
@@ -142,7 +143,7 @@ class BoardView:
             ],
             "bounds": [
                 [
-                    round(each.bound.strata[stratum.behaviour, stratum.subject], 4)
+                    round(each.bound.scores.by_stratum[stratum.behaviour, stratum.subject].mean, 4)
                     for stratum in self.strata
                 ]
                 for each in self.bounds
@@ -197,7 +198,7 @@ def board_view(
         slow=slow,
         out=out,
         people=_people(human_human, strata, asked.part),
-        bounds=tuple(_bound(each, strata, asked.part) for each in bounds),
+        bounds=tuple(_bound(each, asked.part) for each in bounds),
         human_human=human_human,
         axis=_axis(table, human_human),
         events=events,
@@ -250,25 +251,21 @@ def _people(
     if part is None:
         rmse: Estimate | None = human_human.rmse_mm
         return Reference(bound=None, rmse_mm=rmse, ratio=1.0, means=human_human.means)
-    mean = human_human_mean_rmse(strata, part)
+    mean = human_human_mean(part.of(strata))
     rmse, ratio = (None, None) if mean is None else (known(mean), 1.0)
     return Reference(bound=None, rmse_mm=rmse, ratio=ratio, means=dict.fromkeys(human_human.means))
 
 
-def _bound(bound: PublicBound, strata: Sequence[StratumScore], part: Part | None) -> Reference:
+def _bound(bound: PublicBound, part: Part | None) -> Reference:
+    tables = bound.scores, bound.human_human
     if part is None:
+        mine, people = tables
         return Reference(
-            bound=bound, rmse_mm=bound.rmse_mm, ratio=bound.vs_human, means=bound.means
+            bound=bound, rmse_mm=mine.error, ratio=mine.mean / people.mean, means=bound.means
         )
-    some = [stratum for stratum in strata if part.has(stratum)]
-    lifts = sum(each.episodes for each in some)
-    means = dict.fromkeys(bound.means)
-    if not lifts:
-        return Reference(bound=bound, rmse_mm=None, ratio=None, means=means)
-    mean = sum(bound.strata[each.behaviour, each.subject] * each.episodes for each in some) / lifts
-    people = human_human_mean_rmse(some)
-    ratio = mean / people if people else None
-    return Reference(bound=bound, rmse_mm=known(mean), ratio=ratio, means=means)
+    mine, people = (each.part(part.behaviour, part.subject) for each in tables)
+    rmse, ratio = (known(mine.mean), mine.mean / people.mean) if mine.strata else (None, None)
+    return Reference(bound=bound, rmse_mm=rmse, ratio=ratio, means=dict.fromkeys(bound.means))
 
 
 def _numbers(stratum: StratumScore, metrics: Sequence[str]) -> list[float | list[float | None]]:

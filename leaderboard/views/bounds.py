@@ -5,14 +5,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
-import numpy as np
 from colift.benchmark.results.baselines import (
     HUMAN_HUMAN,
-    Baseline,
     shipped_baselines,
     shipped_bounds,
 )
-from colift.benchmark.results.summary import Stratum
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import Suite
 from colift.leaderboard.records.metrics import known_means
@@ -33,13 +31,16 @@ class PublicBound:
 
     name: str
     meaning: str
-    rmse_mm: Estimate
-    vs_human: float
-    """RMSE over that of the human-human baseline, on the same lifts."""
+    scores: ScoreTable
+    human_human: ScoreTable
+    """The human-human baseline on the same lifts."""
     means: Mapping[str, float | None]
     """Means of the other metrics that boards show."""
-    strata: Mapping[Stratum, float]
-    """Mean RMSE [mm] by behaviour and subject."""
+
+    @property
+    def rmse_mm(self) -> Estimate:
+        """Mean RMSE [mm]."""
+        return self.scores.error
 
     @property
     def causal(self) -> bool:
@@ -47,8 +48,8 @@ class PublicBound:
         return self.name == "causal bound"
 
     def mean_mm(self, behaviour: str) -> float:
-        """Return the mean RMSE [mm] on a behaviour; all its strata have equally many lifts."""
-        return float(np.mean([mm for (each, _), mm in self.strata.items() if each == behaviour]))
+        """Return the mean RMSE [mm] on a behaviour."""
+        return self.scores.part(behaviour).mean
 
 
 def bounds_of(info: SeasonInfo) -> tuple[PublicBound, ...]:
@@ -62,18 +63,14 @@ def _bounds(suite: Suite) -> tuple[PublicBound, ...]:
     baselines, found = shipped_baselines(suite), shipped_bounds(suite)
     if baselines is None or found is None:
         return ()
-    human_human = baselines[HUMAN_HUMAN]
     return tuple(
-        _bound(name, found[name], human_human, suite.name) for name in MEANINGS if name in found
-    )
-
-
-def _bound(name: str, baseline: Baseline, human_human: Baseline, suite: str) -> PublicBound:
-    return PublicBound(
-        name=name.replace("_", " "),
-        meaning=MEANINGS[name],
-        rmse_mm=baseline.estimate,
-        vs_human=baseline.mean / human_human.mean,
-        means=known_means(baseline.means, suite),
-        strata=baseline.by_stratum(),
+        PublicBound(
+            name=name.replace("_", " "),
+            meaning=meaning,
+            scores=found[name],
+            human_human=baselines[HUMAN_HUMAN],
+            means=known_means(found[name].means, suite.name),
+        )
+        for name, meaning in MEANINGS.items()
+        if name in found
     )

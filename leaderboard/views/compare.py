@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from colift.agents.agent import FRAME
+from colift.benchmark.results.strata import StratumScore, human_human_mean
 from colift.benchmark.statistics import Estimate, PairedDifference, permutation_ps_against
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import RankedRow
@@ -21,11 +22,10 @@ from colift.leaderboard.views.board import find_season, ordered_seasons
 from colift.leaderboard.views.lifts import (
     Part,
     PublicLift,
-    StratumScore,
-    human_human_mean_rmse,
     part_estimate,
     parts_of,
     public_lifts,
+    public_scores,
     stratum_scores,
     version,
 )
@@ -140,7 +140,7 @@ def compare_view(
         Column(standing=ranked[digest], rmse_mm=tuple(part_estimate(path, part) for part in parts))
         for digest, path in runs.items()
     )
-    human_human = tuple(human_human_mean_rmse(strata, part) for part in parts)
+    human_human = tuple(human_human_mean(part.of(strata)) for part in parts)
     pairs = _differences(tuple((path, version(path)) for path in runs.values()))
     names = itertools.combinations(runs, 2)
     return CompareView(
@@ -217,20 +217,13 @@ def _differences(
     bundles: tuple[tuple[Path, tuple[int, int]], ...],
 ) -> tuple[PairedDifference | None, ...]:
     """Return the difference between each two of some bundles, in the order of combinations."""
-    runs = [public_lifts(bundle) for bundle, _ in bundles]
+    runs = [public_scores(bundle) for bundle, _ in bundles]
     found: list[PairedDifference | None] = []
-    for i, a in enumerate(runs):
-        errors = [lift.rmse_mm for lift in a]
-        strata = [(lift.behaviour, lift.subject) for lift in a]
-        behind = [[lift.rmse_mm for lift in b] for b in runs[i + 1 :]]
-        comparable = [bool(errors) and len(b) == len(errors) for b in behind]
-        ps = iter(
-            permutation_ps_against(
-                errors, [b for b, ok in zip(behind, comparable, strict=True) if ok]
-            )
-            if any(comparable)
-            else ()
-        )
-        for b, ok in zip(behind, comparable, strict=True):
-            found.append(PairedDifference.of(errors, b, strata, next(ps)) if ok else None)
+    for i, one in enumerate(runs):
+        others = runs[i + 1 :]
+        same = [other for other in others if one.strata and other.strata == one.strata]
+        errors = [other.rmse_mm for other in same]
+        ps = iter(permutation_ps_against(one.rmse_mm, errors) if same else ())
+        for other in others:
+            found.append(one.against(other).tested(next(ps)) if other in same else None)
     return tuple(found)

@@ -5,30 +5,17 @@ A bundle is read only once: it never changes, unless a rescore replaces it by an
 
 import csv
 import functools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from colift.benchmark.bundle.files import EPISODES, FILES, RESULTS
-from colift.benchmark.statistics import Estimate, MeanWithMissing, mean_of
+from colift.benchmark.episode.metric import LEADING
+from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.results.strata import StratumScore, mean_of_strata
+from colift.benchmark.statistics import Estimate
 from colift.leaderboard.records.metrics import read_means
 from colift.leaderboard.storage.files import read_json
-
-
-@dataclass(frozen=True, kw_only=True)
-class StratumScore:
-    """Means over the public lifts of one behaviour with one subject."""
-
-    behaviour: str
-    subject: str
-    episodes: int
-    failed: int
-    rmse_mm: float
-    human_human_rmse_mm: float | None
-    """The human-human baseline's."""
-    metrics: Mapping[str, MeanWithMissing]
-    """The other metrics of a board by name; see :func:`.board_metrics`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,7 +44,10 @@ def stratum_scores(bundle: Path) -> tuple[StratumScore, ...]:
 @functools.lru_cache(maxsize=8192)
 def _stratum_scores(bundle: Path, _: tuple[int, int]) -> tuple[StratumScore, ...]:
     results = read_json(bundle / RESULTS)
-    return tuple(_stratum(group, results["suite"]) for group in results["groups"])
+    return tuple(
+        StratumScore.read(group, read_means(group, results["suite"], group["episodes"]))
+        for group in results["groups"]
+    )
 
 
 def public_lifts(bundle: Path) -> tuple[PublicLift, ...]:
@@ -82,21 +72,18 @@ def _public_lifts(bundle: Path, _: tuple[int, int]) -> tuple[PublicLift, ...]:
         )
 
 
+def public_scores(bundle: Path) -> ScoreTable:
+    """Return the RMSE of the lifts of a bundle, in the suite's order."""
+    lifts = public_lifts(bundle)
+    return ScoreTable(
+        strata=tuple((lift.behaviour, lift.subject) for lift in lifts),
+        values={LEADING: tuple(lift.rmse_mm for lift in lifts)},
+    )
+
+
 def is_whole(bundle: Path | None) -> bool:
     """Return whether a bundle can be verified; those of practice rows are incomplete."""
     return bundle is not None and all((bundle / name).is_file() for name in FILES)
-
-
-def _stratum(group: dict[str, Any], suite: str) -> StratumScore:
-    return StratumScore(
-        behaviour=group["behaviour"],
-        subject=group["subject"],
-        episodes=group["episodes"],
-        failed=group["failed"],
-        rmse_mm=group["rmse_mm"]["mean"],
-        human_human_rmse_mm=group["human_human_rmse_mm"]["mean"],
-        metrics=read_means(group, suite, group["episodes"]),
-    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -108,9 +95,13 @@ class Part:
     subject: str | None
     """None: all of them."""
 
-    def has(self, lift: PublicLift | StratumScore) -> bool:
-        """Return whether a lift, or a stratum, belongs to it."""
-        return self.behaviour in (None, lift.behaviour) and self.subject in (None, lift.subject)
+    def of(self, strata: Iterable[StratumScore]) -> list[StratumScore]:
+        """Return the strata that belong to it."""
+        return [
+            each
+            for each in strata
+            if self.behaviour in (None, each.behaviour) and self.subject in (None, each.subject)
+        ]
 
     @property
     def whole(self) -> bool:
@@ -144,33 +135,12 @@ def part_estimate(bundle: Path, part: Part) -> Estimate:
 
 @functools.lru_cache(maxsize=4096)
 def _part_estimate(bundle: Path, _: tuple[int, int], part: Part) -> Estimate:
-    lifts = [lift for lift in public_lifts(bundle) if part.has(lift)]
-    if not lifts:
-        return known(mean_rmse(stratum_scores(bundle), part) or 0.0)
-    strata = [(lift.behaviour, lift.subject) for lift in lifts]
-    return mean_of([lift.rmse_mm for lift in lifts], strata)
+    scores = public_scores(bundle).part(part.behaviour, part.subject)
+    if scores.strata:
+        return scores.error
+    return known(mean_of_strata(part.of(stratum_scores(bundle))).mean or 0.0)
 
 
 def known(mean: float) -> Estimate:
     """Return a mean without a known interval."""
     return Estimate(mean=mean, ci95=(mean, mean))
-
-
-def mean_rmse(strata: Sequence[StratumScore], part: Part) -> float | None:
-    """Return a policy's mean RMSE [mm] over a part; None if it is not known."""
-    some = [stratum for stratum in strata if part.has(stratum)]
-    lifts = sum(stratum.episodes for stratum in some)
-    return sum(stratum.episodes * stratum.rmse_mm for stratum in some) / lifts if some else None
-
-
-def human_human_mean_rmse(strata: Sequence[StratumScore], part: Part | None = None) -> float | None:
-    """Return the human-human baseline's mean RMSE [mm] over a part, if it is known in all of it."""
-    some = [stratum for stratum in strata if part is None or part.has(stratum)]
-    known = [
-        (stratum.episodes, stratum.human_human_rmse_mm)
-        for stratum in some
-        if stratum.human_human_rmse_mm is not None
-    ]
-    if not known or len(known) < len(some):
-        return None
-    return sum(episodes * rmse for episodes, rmse in known) / sum(episodes for episodes, _ in known)

@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
+from colift.benchmark.results.strata import StratumScore, human_human_mean, mean_of_strata
 from colift.benchmark.statistics import Estimate, MeanWithMissing
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import RankedRow
@@ -12,14 +13,7 @@ from colift.leaderboard.board.tables import Table
 from colift.leaderboard.records.metrics import board_metrics, sort_key
 from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.views.asked import ROWS, Asked
-from colift.leaderboard.views.lifts import (
-    Part,
-    StratumScore,
-    human_human_mean_rmse,
-    known,
-    mean_rmse,
-    stratum_scores,
-)
+from colift.leaderboard.views.lifts import Part, known, stratum_scores
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,7 +45,7 @@ class RankedLine:
 
     def mean_mm(self, behaviour: str) -> float | None:
         """Return the mean RMSE [mm] on the public lifts of a behaviour, if its bundle is there."""
-        return mean_rmse(self.strata, Part(behaviour=behaviour, subject=None))
+        return mean_of_strata(Part(behaviour=behaviour, subject=None).of(self.strata)).mean
 
     @property
     def text(self) -> str:
@@ -133,23 +127,12 @@ def _scores(row: BoardRow, strata: Sequence[StratumScore], part: Part | None) ->
         return Scores(
             rmse_mm=hidden.rmse_mm, ratio=hidden.vs_human.mean, metrics=row.public.metrics
         )
-    some = [stratum for stratum in strata if part.has(stratum)]
-    rmse, human_human = mean_rmse(some, part), human_human_mean_rmse(some)
+    some = part.of(strata)
+    rmse, human_human = mean_of_strata(some).mean, human_human_mean(some)
     return Scores(
         rmse_mm=None if rmse is None else known(rmse),
         ratio=rmse / human_human if rmse is not None and human_human else None,
-        metrics={metric.name: _mean(some, metric.name) for metric in board_metrics(row.suite)},
-    )
-
-
-def _mean(strata: Sequence[StratumScore], name: str) -> MeanWithMissing:
-    """Return the mean of a metric over the lifts of some strata that have a value."""
-    found = [(each.metrics[name], each.episodes) for each in strata]
-    weighted = [(m.mean, lifts - m.missing) for m, lifts in found if m.mean is not None]
-    lifts = sum(weight for _, weight in weighted)
-    return MeanWithMissing(
-        mean=sum(mean * weight for mean, weight in weighted) / lifts if lifts else None,
-        missing=sum(m.missing for m, _ in found),
+        metrics={each.name: mean_of_strata(some, each.name) for each in board_metrics(row.suite)},
     )
 
 
@@ -178,8 +161,8 @@ def _sorted(
         if name in _OF_ROW:
             return _OF_ROW[name](each)
         if name in columns:
-            strata = strata_of(board, each.row)
-            return mean_rmse(strata, Part(behaviour=columns[name], subject=None))
+            part = Part(behaviour=columns[name], subject=None)
+            return mean_of_strata(part.of(strata_of(board, each.row))).mean
         strata = () if asked.part is None else strata_of(board, each.row)
         scores = _scores(each.row, strata, asked.part)
         if name == "rmse":

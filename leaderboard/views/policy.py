@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from colift.benchmark.results.strata import human_human_mean, mean_of_strata
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import RANKED, RankedRow
@@ -16,9 +17,7 @@ from colift.leaderboard.views.board import find_season, ordered_seasons
 from colift.leaderboard.views.lifts import (
     Part,
     PublicLift,
-    human_human_mean_rmse,
     is_whole,
-    mean_rmse,
     part_estimate,
     parts_of,
     public_lifts,
@@ -194,15 +193,15 @@ def _parts(bundle: Path, other: Path | None) -> tuple[PartScore, ...]:
     others = () if other is None else stratum_scores(other)
     found = []
     for part in parts_of(strata):
-        some = [stratum for stratum in strata if part.has(stratum)]
+        some = part.of(strata)
         found.append(
             PartScore(
                 part=part,
                 episodes=sum(stratum.episodes for stratum in some),
                 failed=sum(stratum.failed for stratum in some),
                 rmse_mm=part_estimate(bundle, part),
-                human_human_mm=human_human_mean_rmse(some),
-                blend_mm=mean_rmse(others, part),
+                human_human_mm=human_human_mean(some),
+                blend_mm=mean_of_strata(part.of(others)).mean,
             )
         )
     return tuple(found)

@@ -2,13 +2,14 @@
 
 import contextlib
 import functools
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
 from colift.agents.humans import Subject
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.results.scores import Stratum
+from colift.benchmark.results.strata import StratumScore
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import RankedRow
@@ -16,7 +17,7 @@ from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.views.asked import ROWS
 from colift.leaderboard.views.axis import Axis, make_axis
 from colift.leaderboard.views.board import find_season, ordered_seasons
-from colift.leaderboard.views.lifts import Part, StratumScore, known, part_estimate, stratum_scores
+from colift.leaderboard.views.lifts import Part, known, part_estimate, stratum_scores
 from colift.leaderboard.views.suites import season_suite
 
 CURVES: Final = 5
@@ -119,7 +120,7 @@ def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | N
     strata = {}
     for scenario in suite.scenarios:
         key = (scenario.behaviour, scenario.subject.name)
-        there = [(score, row) for row, scores in scored if (score := _score(scores, key))]
+        there = [(scores[key], row) for row, scores in scored if key in scores]
         best = min(there, key=lambda each: each[0].rmse_mm, default=None)
         strata[key] = StratumLine(
             behaviour=key[0],
@@ -137,7 +138,7 @@ def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | N
         rows=tuple(
             HeatRow(
                 standing=each,
-                rmse_mm={(score.behaviour, score.subject): score.rmse_mm for score in scores},
+                rmse_mm={key: score.rmse_mm for key, score in scores.items()},
             )
             for each, scores in scored[:HEAT]
         ),
@@ -156,9 +157,7 @@ def scenario_view(board: Board, season: str, behaviour: str, subject: str) -> Sc
     if scenario is None:
         return None
     key = (behaviour, subject)
-    scored = [
-        (each, score) for each, strata in _scored(board, info) if (score := _score(strata, key))
-    ]
+    scored = [(each, strata[key]) for each, strata in _scored(board, info) if key in strata]
     scored.sort(key=lambda each: each[1].rmse_mm)
     part = Part(behaviour=behaviour, subject=subject)
     rows = tuple(
@@ -183,20 +182,15 @@ def scenario_view(board: Board, season: str, behaviour: str, subject: str) -> Sc
     )
 
 
-def _scored(board: Board, info: SeasonInfo) -> list[tuple[RankedRow, tuple[StratumScore, ...]]]:
+def _scored(board: Board, info: SeasonInfo) -> list[tuple[RankedRow, dict[Stratum, StratumScore]]]:
     """Return the ranked rows that have a bundle, with their strata."""
     found = []
     for each in board.tables.read(info.name).ranking:
         bundle = board.bundle(info.name, each.row.submission)
         if bundle is not None:
-            found.append((each, stratum_scores(bundle)))
+            strata = {(one.behaviour, one.subject): one for one in stratum_scores(bundle)}
+            found.append((each, strata))
     return found
-
-
-def _score(strata: Sequence[StratumScore], key: tuple[str, str]) -> StratumScore | None:
-    return next(
-        (stratum for stratum in strata if (stratum.behaviour, stratum.subject) == key), None
-    )
 
 
 def _estimate(

@@ -5,7 +5,7 @@ import os
 
 import pytest
 from colift.agents.registry import SUITES, entries
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
 from colift.cli.tables.board import board_table
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.tokens import Tokens
@@ -26,9 +26,9 @@ def filled(board):
         add(board, name, mean)
     board.withdraw("1", digest("cheat"), "Ada", "it read the [bold]clock[/bold]")
     strata = (("pause", "S1"),) * 4
-    human_human = Baseline(
+    human_human = ScoreTable(
         strata=strata,
-        rmse_mm=(9.9, 10.5, 11.0, 10.8),
+        values={"rmse_mm": (9.9, 10.5, 11.0, 10.8)},
         means={"sparc": -2.79, "human_force_n": 0.37},
     )
     board.store.secrets("1").keep_human_human(human_human)

@@ -7,7 +7,8 @@ import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import HUMAN_HUMAN, Baseline, human_human_run
+from colift.benchmark.results.baselines import HUMAN_HUMAN, human_human_run
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import make_suite
 
 PLAYED = {
@@ -23,7 +24,7 @@ def bundles(tmp_path_factory):
     for name, (policy, suite) in PLAYED.items():
         few = make_suite(suite).with_seeds(0, 1)
         few = dataclasses.replace(few, scenarios=few.scenarios[:1])
-        human_human = {HUMAN_HUMAN: Baseline.of(human_human_run(few))}
+        human_human = {HUMAN_HUMAN: ScoreTable.of(human_human_run(few))}
         run = run_suite(PolicySpec(text=policy), few)
         write_bundle(folder / name, run, results(run, human_human).plain())
     return folder

@@ -9,8 +9,9 @@ import psycopg
 import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.registry import SUITES, entries
+from colift.agents.submissions.manifest import Manifest
 from colift.agents.submissions.new import write_template
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.database.database import Database
 from colift.leaderboard.evaluation.entrant import Entrant
@@ -63,12 +64,13 @@ def make_season(secret: bytes = SECRET) -> Season:
 
 def make_entrant(policy, fresh=None) -> Entrant:
     return Entrant(
-        name="mine",
-        authors=("Ada", "Grace"),
-        description="Lifts.",
-        link="",
-        licence="MIT",
-        trained_on="nothing",
+        manifest=Manifest(
+            name="mine",
+            authors=("Ada", "Grace"),
+            description="Lifts.",
+            licence="MIT",
+            trained_on="nothing",
+        ),
         digest="d" * 64,
         policy=policy,
         fresh=fresh or policy,
@@ -81,7 +83,7 @@ def season() -> Season:
 
 
 @pytest.fixture(scope="session")
-def human_human(season: Season) -> Baseline:
+def human_human(season: Season) -> ScoreTable:
     return play_human_human(season)
 
 

@@ -5,7 +5,8 @@ import pytest
 from colift.benchmark.bounds.claims import claims
 from colift.benchmark.comparison.paired_results import PairedResults, PolicyResults
 from colift.benchmark.episode.level import LEVEL
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.results.summary import StepTimes
 from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
 
 CELLS = tuple(
@@ -15,23 +16,24 @@ CELLS = tuple(
 
 def policy_results(name, rmse, sparc=-2.0, force=0.1, strata=CELLS):
     errors = np.broadcast_to(rmse, len(strata))
-    blank = dict.fromkeys(LEVEL.metrics, 0.0)
-    scores = tuple(
-        {**blank, "rmse_mm": float(e), "sparc": sparc, "human_force_n": force} for e in errors
-    )
+    given = {"rmse_mm": errors, "sparc": sparc, "human_force_n": force}
+    values = {
+        metric: tuple(np.broadcast_to(given.get(metric, 0.0), len(strata)).tolist())
+        for metric in LEVEL.metrics
+    }
     return PolicyResults(
         name=name,
         digest="",
-        strata=strata,
-        scores=scores,
-        failures=(None,) * len(strata),
-        step_ms=None,
+        scores=ScoreTable(strata=strata, values=values, failures=(None,) * len(strata)),
+        step_ms=StepTimes(),
     )
 
 
 def baseline(rmse, strata):
-    return Baseline(
-        strata=strata, rmse_mm=(rmse,) * len(strata), means={"sparc": -2.5, "human_force_n": 0.4}
+    return ScoreTable(
+        strata=strata,
+        values={"rmse_mm": (rmse,) * len(strata)},
+        means={"sparc": -2.5, "human_force_n": 0.4},
     )
 
 

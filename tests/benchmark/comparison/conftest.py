@@ -7,7 +7,8 @@ import pytest
 from colift.benchmark.comparison.comparison import Comparison, compare
 from colift.benchmark.comparison.paired_results import PairedResults, PolicyResults
 from colift.benchmark.episode.level_metrics import LEVEL_METRICS
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.results.summary import StepTimes
 from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
 
 CELLS = tuple(
@@ -22,24 +23,24 @@ def policy_results(name: str, rmse: object, sparc: object, failed: int = 0) -> P
     """Return a policy's scores; the first lifts failed."""
     errors = np.broadcast_to(np.asarray(rmse, dtype=float), len(CELLS))
     smoothness = np.broadcast_to(np.asarray(sparc, dtype=float), len(CELLS))
+    given = {
+        "rmse_mm": errors,
+        "sparc": smoothness,
+        "ldlj": -12.0,
+        "human_force_n": 0.25,
+        "robot_lag_ms": 100.0,
+        "clipped": math.nan,
+    }
+    values = {
+        metric: tuple(np.broadcast_to(given.get(metric, 0.0), len(CELLS)).tolist())
+        for metric in LEVEL_METRICS
+    }
+    failures = tuple("step 3: oops" if i < failed else None for i in range(len(CELLS)))
     return PolicyResults(
         name=name,
         digest=f"digest of {name}",
-        strata=CELLS,
-        scores=tuple(
-            {
-                **dict.fromkeys(LEVEL_METRICS, 0.0),
-                "rmse_mm": float(error),
-                "sparc": float(smooth),
-                "ldlj": -12.0,
-                "human_force_n": 0.25,
-                "robot_lag_ms": 100.0,
-                "clipped": math.nan,
-            }
-            for error, smooth in zip(errors, smoothness, strict=True)
-        ),
-        failures=tuple("step 3: oops" if i < failed else None for i in range(len(CELLS))),
-        step_ms=(0.1, 0.2),
+        scores=ScoreTable(strata=CELLS, values=values, failures=failures),
+        step_ms=StepTimes(p50=0.1, p99=0.2),
     )
 
 
@@ -52,7 +53,7 @@ def noise(seed: int, spread: float = 0.5) -> np.ndarray:
 def paired(*policies: PolicyResults) -> PairedResults:
     """Return results against a human-human baseline whose error is the difficulty of the lift."""
     means = {**dict.fromkeys(LEVEL_METRICS, 0.0), "sparc": -2.5, "human_force_n": 0.4}
-    human_human = Baseline(strata=CELLS, rmse_mm=tuple(DIFFICULTY), means=means)
+    human_human = ScoreTable(strata=CELLS, values={"rmse_mm": tuple(DIFFICULTY)}, means=means)
     return PairedResults(suite=make_suite("quick-v1"), policies=policies, human_human=human_human)
 
 

@@ -9,7 +9,7 @@ from colift.benchmark.comparison.comparison import Comparison, compare
 from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.html import html_page
 from colift.benchmark.comparison.paired_results import PolicyResults
-from colift.benchmark.comparison.ranking import MetricMean, RankedPolicy, Ranking
+from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
 from colift.benchmark.statistics import paired_permutation_p
 
 from .conftest import paired, policy_results
@@ -21,7 +21,7 @@ def named(ranking: Ranking, name: str) -> RankedPolicy:
 
 def errors(comparison: Comparison, name: str) -> np.ndarray:
     (policy,) = [policy for policy in comparison.results.policies if policy.name == name]
-    return np.array([scores["rmse_mm"] for scores in policy.scores])
+    return np.array(policy.scores.rmse_mm)
 
 
 def test_the_order_is_that_of_the_mean_error(comparison: Comparison) -> None:
@@ -84,12 +84,13 @@ def test_failed_lifts_count_and_are_counted(comparison: Comparison) -> None:
     failing = named(comparison.overall, "failing")
     assert failing.failed == 3
     assert failing.rmse_mm.mean == pytest.approx((3 * 250 + 61 * 30) / 64)
-    assert failing.metrics["sparc"].missing == 3
+    assert failing.scores.metric("sparc").missing == 3
 
 
 def test_holding_still_has_no_smoothness(comparison: Comparison) -> None:
     still = named(comparison.overall, "still")
-    assert still.metrics["sparc"] == MetricMean(estimate=None, missing=64)
+    assert still.metrics["sparc"] is None
+    assert still.scores.metric("sparc").missing == 64
 
 
 def test_the_front_leaves_out_who_is_beaten_in_both(comparison: Comparison) -> None:
@@ -99,19 +100,17 @@ def test_the_front_leaves_out_who_is_beaten_in_both(comparison: Comparison) -> N
 
 def test_with_three_lifts_a_behaviour_none_is_the_best_there() -> None:
     def few(made: PolicyResults) -> PolicyResults:
-        return dataclasses.replace(
-            made,
-            strata=made.strata[::5],
-            scores=made.scores[::5],
-            failures=made.failures[::5],
-        )
+        members = range(0, len(made.scores.strata), 5)
+        return dataclasses.replace(made, scores=made.scores.select(members))
 
     better, worse = (
         few(policy_results("better", 5.0, -2.0)),
         few(policy_results("worse", 200.0, -2.0)),
     )
     full = paired()
-    human_human = dataclasses.replace(full.human_human, strata=better.strata, rmse_mm=(10.0,) * 13)
+    human_human = dataclasses.replace(
+        full.human_human, strata=better.scores.strata, values={"rmse_mm": (10.0,) * 13}
+    )
     made = compare(dataclasses.replace(full, policies=(better, worse), human_human=human_human))
     assert [ranking.episodes for ranking in made.behaviours] == [4, 3, 3, 3]
     for ranking in made.behaviours:
@@ -140,7 +139,10 @@ def test_a_front_of_one_has_no_line_and_equal_tables_are_shown_once(comparison: 
     strata = tuple((f"by {labels[subject]}", subject) for _, subject in full.human_human.strata)
     single = dataclasses.replace(
         full,
-        policies=tuple(dataclasses.replace(each, strata=strata) for each in full.policies),
+        policies=tuple(
+            dataclasses.replace(each, scores=dataclasses.replace(each.scores, strata=strata))
+            for each in full.policies
+        ),
         human_human=dataclasses.replace(full.human_human, strata=strata),
     )
     assert not comparison.one_each
@@ -162,8 +164,8 @@ def test_where_lifts_are_enough_the_best_are_marked(comparison: Comparison) -> N
 def test_actions_that_are_hardly_in_metres_are_told() -> None:
     def clipped(name: str, share: float) -> PolicyResults:
         made = policy_results(name, 20.0, -2.0)
-        scores = tuple({**each, "clipped": share} for each in made.scores)
-        return dataclasses.replace(made, scores=scores)
+        values = {**made.scores.values, "clipped": (share,) * len(made.scores.strata)}
+        return dataclasses.replace(made, scores=dataclasses.replace(made.scores, values=values))
 
     made = compare(paired(clipped("millimetres", 0.98), clipped("metres", 0.02)))
     (told,) = unit_warnings(made)

@@ -133,25 +133,49 @@ def test_trials_that_say_nothing_are_refused_by_what_they_lack():
         estimate_setup([recorded(log(5.0, up_and_down, up_and_down))])
 
 
+def with_metrics(monkeypatch, **added):
+    """Add metrics to ``level``, as somebody would: an entry in its table, and a value each."""
+    score = Level.score
+
+    def scored(self, lift, trace, *, failed):
+        values = {name: float(value(lift, trace)) for name, (_, value) in added.items()}
+        return {**score(self, lift, trace, failed=failed), **values}
+
+    monkeypatch.setattr(Level, "score", scored)
+    for name, (missing, _) in added.items():
+        metric = Metric(
+            name=name, symbol=name, label=name, missing=missing, limit=3.0, meaning="new"
+        )
+        monkeypatch.setitem(LEVEL_METRICS, name, metric)
+
+
 @pytest.mark.parametrize("missing", ["worst", "left out"])
 @pytest.mark.parametrize("stopped", [False, True])
-def test_a_new_metric_of_level_has_no_value_in_a_trial(monkeypatch, missing, stopped):
-    added = Metric(
-        name="peak_force_n", symbol="peak", label="Peak", missing=missing, limit=3.0, meaning="new"
+def test_a_new_metric_of_level_has_a_value_in_a_trial_if_motion_capture_gives_it(
+    monkeypatch, missing, stopped
+):
+    with_metrics(
+        monkeypatch,
+        peak_m=(missing, lambda lift, trace: trace.robot_end.max()),
+        pull=(missing, lambda lift, trace: (trace.human_force > 0).sum()),
+        overshoot=(missing, lambda lift, trace: trace.robot_end.max() - lift.plan.goal),
+        work=(missing, lambda lift, trace: (trace.robot_force * trace.human_velocity).sum()),
     )
-    monkeypatch.setitem(LEVEL_METRICS, added.name, added)
     stop = {"stop": Stop.OPERATOR, "reason": "the Enter key"} if stopped else {}
     lifts = [
         episode(log(5.0, up_and_down, up_and_down, **stop), person="Ann", number=number)
         for number in range(2)
     ]
     assert list(lifts[0].scores) == list(LEVEL_METRICS)
-    assert math.isnan(lifts[0].scores["peak_force_n"])
+    assert lifts[0].scores["peak_m"] == pytest.approx(0.2, rel=1e-3)
+    for unknown in ("pull", "overshoot", "work"):
+        assert math.isnan(lifts[0].scores[unknown])
     suite = hardware_suite("NAO", "Ann", 2, period=T, latency=0.1)
     run = hardware_run("copy", "0" * 16, suite, lifts, "none")
     summary = results(run, {}).plain()["summary"]
-    assert summary["peak_force_n"] == {"mean": None, "missing": 2}
-    assert b"peak_force_n" in dump_table(lifts, suite.metrics)
+    assert summary["pull"] == {"mean": None, "missing": 2}
+    assert summary["peak_m"] == {"mean": pytest.approx(0.2, rel=1e-3), "missing": 0}
+    assert b"peak_m" in dump_table(lifts, suite.metrics)
 
 
 def test_a_metric_that_level_no_longer_has_is_left_out(monkeypatch):

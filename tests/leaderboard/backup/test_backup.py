@@ -18,7 +18,7 @@ import zlib
 import pytest
 import sqlalchemy as sa
 from colift.agents.errors import InputError
-from colift.benchmark.results.baselines import Baseline
+from colift.benchmark.results.scores import ScoreTable
 from colift.leaderboard.backup.backup import back_up
 from colift.leaderboard.backup.restoring import restore
 from colift.leaderboard.board.board import Board
@@ -229,12 +229,15 @@ def test_a_damaged_backup_is_refused_in_a_sentence_or_its_board_can_be_used(
         ),
         (
             "UPDATE entries SET row = replace(row, '10.0', '\"x\"') WHERE number = 1",
-            "row.public.rmse_mm.mean cannot be 'x'",
+            "Expected `float`, got `str` - at `$.public.rmse_mm.mean`",
         ),
         ("UPDATE entries SET at = 'noon' WHERE number = 1", "cannot be read (ValueError:"),
         ("UPDATE hidden_errors SET rmse_mm = x'0011'", "a hidden episode of the board cannot be"),
         ("DELETE FROM hidden_errors", "has no errors of its hidden episodes"),
-        ("UPDATE jobs SET done = 'many'", "jobs, done cannot be 'many'"),
+        (
+            "UPDATE jobs SET done = 'many'",
+            "'many' as done in the table jobs of the board cannot be read",
+        ),
         ("DROP TABLE tokens", "lacks tokens.number"),
     ],
 )
@@ -265,7 +268,7 @@ def board_file(tmp_path_factory):
     board.store.add_to_log(job.id, "a line")
     WorkerQueue(board).claim("host/machine/1/2")
     board.withdraw("1", digest("one"), "Ada", "a mistake")
-    human = Baseline(strata=(("pause", "S1"),) * 12, rmse_mm=(5.0,) * 12, means={})
+    human = ScoreTable(strata=(("pause", "S1"),) * 12, values={"rmse_mm": (5.0,) * 12})
     board.store.secrets("1").keep_human_human(human)
     board.new_season("2")
     board.reveal("1", "Ada", "it is over")

@@ -8,6 +8,7 @@ import threading
 
 import pytest
 from colift.agents.errors import InputError
+from colift.agents.submissions import folder as reading
 from colift.benchmark.suites.hidden import commitment
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.board.board import Board
@@ -73,6 +74,13 @@ def test_a_file_does_not_become_a_board(tmp_path):
 def test_a_board_of_another_layout_is_refused(tmp_path):
     (tmp_path / "board.json").write_text('{"format": 1}')
     with pytest.raises(InputError, match="format must be 2, is 1"):
+        Board.open(tmp_path)
+
+
+@pytest.mark.parametrize("content", ["", "{", "[]", "7", '{"format": NaN}', '{"format": 1e999}'])
+def test_a_board_whose_mark_is_damaged_is_refused(tmp_path, content):
+    (tmp_path / "board.json").write_text(content)
+    with pytest.raises(InputError, match=r"board\.json cannot be read: "):
         Board.open(tmp_path)
 
 
@@ -168,6 +176,20 @@ def test_a_submission_is_kept_by_its_content(board, write_submission):
     (folder / "policy.py").write_text("class Policy: ...")
     assert board.keep(folder).folder != kept.folder
     assert "gain" in (kept.folder / "policy.py").read_text()
+
+
+def test_a_submission_is_read_once_on_its_way_into_the_board(board, write_submission, monkeypatch):
+    read, walk = [], reading._walk
+
+    def counted(place, *more):
+        read.append(place)
+        return walk(place, *more)
+
+    mine = write_submission()
+    monkeypatch.setattr(reading, "_walk", counted)
+    kept = board.keep(mine)
+    assert read == [mine]
+    assert board.store.submission(kept.contents.digest) == kept
 
 
 @pytest.mark.parametrize("damage", ["cut short", "gone", "link", "all gone"])

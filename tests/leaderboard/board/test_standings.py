@@ -8,9 +8,9 @@ import sqlalchemy as sa
 from colift.agents.errors import InputError
 from colift.benchmark.statistics import decisive
 from colift.benchmark.suites.suite import make_suite
-from colift.leaderboard.board.seasons import ImportedEntry, ImportedSeason
+from colift.leaderboard.board.seasons import ImportedSeason
 from colift.leaderboard.board.standings import columns
-from colift.leaderboard.records.season import Season, SeasonInfo
+from colift.leaderboard.records.season import PlayedEntry, Season, SeasonInfo
 
 from ..conftest import SECRET
 from ..rows import (
@@ -224,7 +224,7 @@ def test_ranks_are_computed_once_for_each_state_of_the_board(board, monkeypatch)
     assert len(calls) == 2
 
 
-def practice(board, human_human, current=False, bundle=None):
+def practice(board, human_human, current=False, files=()):
     season = Season(name="practice", suite=make_suite("quick-v1"), secret=SECRET)
     info = SeasonInfo(
         name="practice",
@@ -236,21 +236,18 @@ def practice(board, human_human, current=False, bundle=None):
         revealed=SECRET.hex(),
     )
     entries = [
-        ImportedEntry(
+        PlayedEntry(
             entry=make_entry(board, name, mean, "practice"),
             hidden_rmse_mm=make_errors(mean),
-            bundle=bundle,
+            files=dict(files),
         )
         for name, mean in (("blend", 16.0), ("proactive", 14.0))
     ]
     return ImportedSeason(info=info, entries=entries, human_human=human_human)
 
 
-def test_a_season_from_elsewhere_is_taken_over_with_its_rows(board, human_human, tmp_path):
-    bundle = tmp_path / "bundle"
-    bundle.mkdir()
-    (bundle / "results.json").write_text("{}")
-    told = practice(board, human_human, bundle=bundle)
+def test_a_season_from_elsewhere_is_taken_over_with_its_rows(board, human_human):
+    told = practice(board, human_human, files={"results.json": b"{}"})
     board.import_season(told)
     board.import_season(told)
     assert ranks(board, "practice") == [(1, "proactive"), (2, "blend")]

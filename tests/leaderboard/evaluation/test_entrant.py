@@ -48,11 +48,11 @@ def test_all_of_them_fit_into_the_queue_whatever_the_quota_of_others(board):
 
 
 def test_what_was_learned_says_by_which_command_and_the_rest_from_nothing():
-    told = {name: builtin_entrant(name).trained_on for name in own_policies("level")}
+    told = {name: builtin_entrant(name).manifest.trained_on for name in own_policies("level")}
     assert "colift learn anticipate --lifts 1500" in told["anticipate"]
     assert told["blend"] == told["reactive"] != told["task_model"]
     assert {name for name, text in told.items() if text != "nothing"} == set(LEARNED)
-    assert {builtin_entrant(name).licence for name in own_policies("level")} == {"MIT"}
+    assert {builtin_entrant(name).manifest.licence for name in own_policies("level")} == {"MIT"}
 
 
 def test_nobody_else_can_submit_under_their_name(board):

@@ -7,14 +7,15 @@ from pathlib import Path
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import Baseline, shipped_baselines
+from colift.benchmark.results.baselines import play_baselines, shipped_baselines
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.hidden import commitment
 from colift.benchmark.suites.suite import make_suite
-from colift.leaderboard.board.seasons import ImportedEntry, ImportedSeason
+from colift.leaderboard.board.seasons import ImportedSeason
 from colift.leaderboard.evaluation.evaluation import play_human_human
 from colift.leaderboard.evaluation.scoring import gap, hidden_scores, public_scores
 from colift.leaderboard.records.row import BoardRow
-from colift.leaderboard.records.season import BoardEntry, Season, SeasonInfo
+from colift.leaderboard.records.season import BoardEntry, PlayedEntry, Season, SeasonInfo
 
 SECRET = bytes(range(32))
 BEGAN = datetime(2026, 11, 20, 9, tzinfo=UTC)
@@ -59,18 +60,27 @@ def renamed(season: ImportedSeason, name: str, began_at: datetime) -> ImportedSe
     return dataclasses.replace(season, info=info, entries=entries)
 
 
+def unpacked(played: PlayedEntry, folder: Path) -> Path:
+    """Write the public run of an entry into a new folder, and return it."""
+    folder.mkdir()
+    for name, data in played.files.items():
+        (folder / name).write_bytes(data)
+    return folder
+
+
 def digest(name: str) -> str:
     return (name.encode().hex() * 64)[:64]
 
 
 def _adopted(
-    folder: Path, season: Season, human_human: Baseline, name: str, number: int
-) -> ImportedEntry:
+    folder: Path, season: Season, human_human: ScoreTable, name: str, number: int
+) -> PlayedEntry:
     text, description = POLICIES[name]
     policy, bundle = PolicySpec(text=text), folder / str(number)
     public = run_suite(policy, season.suite)
     hidden = run_suite(policy, season.hidden)
-    content = results(public, shipped_baselines(season.suite))
+    baselines = shipped_baselines(season.suite) or play_baselines(season.suite)
+    content = results(public, baselines)
     write_bundle(bundle, public, content.plain())
     row = BoardRow(
         season=season.name,
@@ -101,5 +111,6 @@ def _adopted(
         row=row,
         refusal=None,
     )
+    files = {path.name: path.read_bytes() for path in bundle.iterdir()}
     errors = tuple(episode.scores["rmse_mm"] for episode in hidden.episodes)
-    return ImportedEntry(entry=entry, hidden_rmse_mm=errors, bundle=bundle)
+    return PlayedEntry(entry=entry, hidden_rmse_mm=errors, files=files)

@@ -5,7 +5,6 @@ import re
 import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from datetime import timedelta
 from pathlib import Path
 
@@ -31,14 +30,10 @@ def running(folder: Path, docs: Documentation | None = None) -> Iterator[str]:
 @pytest.fixture(scope="session")
 def played(once: Callable[..., Path]) -> ImportedSeason:
     def make(place: Path) -> None:
-        season = practice(place, "2026")
-        bundles = [replace(each, bundle=Path(each.bundle.name)) for each in season.entries]
-        (place / "season").write_bytes(pickle.dumps(replace(season, entries=bundles)))
+        (place / "season").write_bytes(pickle.dumps(practice(place, "2026")))
 
-    place = once("played", make)
-    season: ImportedSeason = pickle.loads((place / "season").read_bytes())
-    entries = [replace(each, bundle=place / each.bundle) for each in season.entries]
-    return replace(season, entries=entries)
+    season: ImportedSeason = pickle.loads((once("played", make) / "season").read_bytes())
+    return season
 
 
 @pytest.fixture(scope="session")

@@ -7,6 +7,7 @@ from dataclasses import replace
 from colift.benchmark.statistics import paired_difference
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.replays.chosen import replays_of
+from colift.leaderboard.storage.store import Store
 from colift.leaderboard.views.compare import compare_view
 from colift.leaderboard.views.lifts import public_lifts
 from playwright.sync_api import expect
@@ -16,7 +17,16 @@ from .boards import digest
 from .conftest import running
 
 
-def test_ticked_policies_are_compared_lift_by_lift(page, front, played):
+def lifts_of(folder, played):
+    """Return the public lifts of each policy of a board."""
+    store = Store(folder)
+    return {
+        each.entry.name: public_lifts(store.bundle("2026", each.entry.submission))
+        for each in played.entries
+    }
+
+
+def test_ticked_policies_are_compared_lift_by_lift(page, front, played, folder):
     page.goto(front)
     button = page.locator("#compare button")
     expect(button).to_be_disabled()
@@ -26,7 +36,7 @@ def test_ticked_policies_are_compared_lift_by_lift(page, front, played):
     button.click()
     pair = page.locator("table.pairs tbody tr:visible")
     expect(pair).to_have_count(1)
-    runs = {each.entry.name: public_lifts(each.bundle) for each in played.entries}
+    runs = lifts_of(folder, played)
     first, second = pair.locator("th").text_content().split(" minus ")
     strata = [(lift.behaviour, lift.subject) for lift in runs["copy"]]
     errors = [[lift.rmse_mm for lift in runs[name]] for name in (first, second)]
@@ -69,7 +79,7 @@ def test_each_lift_is_drawn_and_can_be_had_as_csv(page, front, played, folder):
     page.goto(front)
     page.get_by_role("link", name="Compare", exact=True).click()
     expect(page.locator("#scatter circle.lift title")).to_have_count(12)
-    runs = {each.entry.name: public_lifts(each.bundle) for each in played.entries}
+    runs = lifts_of(folder, played)
     better = sum(
         a.rmse_mm < b.rmse_mm for a, b in zip(*(runs[name] for name in names), strict=True)
     )

@@ -4,7 +4,6 @@ import csv
 import dataclasses
 import io
 import json
-import shutil
 
 import httpx
 import pytest
@@ -37,18 +36,17 @@ def newer(request):
 def folder(played, newer, tmp_path):
     """A board that was made without some metrics: rows, public runs, human-human baseline."""
     entries = []
-    for number, each in enumerate(played.entries):
-        bundle = shutil.copytree(each.bundle, tmp_path / "bundles" / str(number))
-        content = json.loads((bundle / RESULTS).read_text())
+    for each in played.entries:
+        content = json.loads(each.files[RESULTS])
         metrics, groups = each.entry.row.public.metrics, content["groups"]
         for name in newer:
             metrics = older(metrics, name)
             groups = [older(group, name) for group in groups]
-        (bundle / RESULTS).write_text(json.dumps({**content, "groups": groups}))
+        files = {**each.files, RESULTS: json.dumps({**content, "groups": groups}).encode()}
         public = dataclasses.replace(each.entry.row.public, metrics=metrics)
         row = dataclasses.replace(each.entry.row, public=public)
         entry = dataclasses.replace(each.entry, row=row)
-        entries.append(dataclasses.replace(each, entry=entry, bundle=bundle))
+        entries.append(dataclasses.replace(each, entry=entry, files=files))
     means = {k: v for k, v in played.human_human.means.items() if k not in newer}
     human_human = dataclasses.replace(played.human_human, means=means)
     board = Board.open(tmp_path / "board", "quick-v1")

@@ -1,6 +1,7 @@
 """The page of a policy, in a browser: from the service, and from the disk."""
 
 import csv
+import io
 import itertools
 import re
 
@@ -34,9 +35,8 @@ def test_licence_and_training_data_are_told(policy):
 
 def test_the_worst_lift_of_each_behaviour_leads_to_its_replay(policy, played):
     page = policy("copy")
-    bundle = next(each.bundle for each in played.entries if each.entry.name == "copy")
-    with (bundle / EPISODES).open(newline="") as file:
-        lifts = list(csv.DictReader(file))
+    files = next(each.files for each in played.entries if each.entry.name == "copy")
+    lifts = list(csv.DictReader(io.StringIO(files[EPISODES].decode())))
     jerky = max(float(each["rmse_mm"]) for each in lifts if each["behaviour"] == "jerky")
     worst = page.get_by_role("region", name="Its worst lifts")
     expect(worst.get_by_role("listitem")).to_have_count(4)

@@ -18,7 +18,7 @@ def url(played, tmp_path_factory):
     )
     mm = 5 * (worst // 5) + 4.9
     lifts = len(played.human_human.rmse_mm)
-    human_human = dataclasses.replace(played.human_human, rmse_mm=(mm,) * lifts)
+    human_human = dataclasses.replace(played.human_human, values={"rmse_mm": (mm,) * lifts})
     folder = tmp_path_factory.mktemp("two") / "board"
     board = Board.open(folder, "quick-v1")
     board.import_season(dataclasses.replace(played, human_human=human_human))

@@ -30,7 +30,7 @@ from colift.leaderboard.views.scenario import scenarios_view
 
 from .. import rows
 from ..rows import add, make_entry, make_row, slow, unverified
-from .boards import digest
+from .boards import digest, unpacked
 
 
 @pytest.fixture
@@ -100,7 +100,7 @@ def test_only_so_many_are_compared_and_no_one_with_itself(shown):
 
 
 def test_without_single_lifts_there_are_means_and_no_intervals(played, tmp_path):
-    bundle = played.entries[0].bundle
+    bundle = unpacked(played.entries[0], tmp_path / "whole")
     (tmp_path / RESULTS).write_bytes((bundle / RESULTS).read_bytes())
     part = Part(behaviour="pause", subject=None)
     whole, bare = part_estimate(bundle, part), part_estimate(tmp_path, part)
@@ -261,7 +261,9 @@ def test_the_picture_of_another_task_has_that_tasks_second_metric_and_words():
 def test_a_bundle_that_a_rescore_has_replaced_is_read_again(tmp_path, played):
     board = Board.open(tmp_path / "board", "quick-v1")
     add(board, "mine", 10.0)
-    first, second, *_ = (each.bundle for each in played.entries)
+    first, second = (
+        unpacked(each, tmp_path / f"run of {each.entry.name}") for each in played.entries[:2]
+    )
     seen = []
     for bundle in (first, second):
         copy = shutil.copytree(bundle, tmp_path / "copy")

@@ -10,6 +10,7 @@ from colift.agents.errors import InputError
 from colift.agents.loading.loading import PolicySpec
 from colift.agents.registry import own_policies
 from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.results.scores import ScoreTable
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.evaluation.entrant import builtin_entrant
 from colift.leaderboard.evaluation.evaluation import play_human_human
@@ -69,7 +70,7 @@ def test_own_policies_have_digests_of_their_own():
 def test_what_is_written_is_read(shipped, played):
     human_human, copy = played
     found = PlayedSeason.read(SUITE, shipped)
-    assert found.human_human == human_human
+    assert found.human_human == ScoreTable.read(human_human.plain())
     assert found.began_at == NOW
     assert found.played == (copy,)
     assert PlayedSeason.read("paper-v1", shipped) is None
@@ -98,8 +99,7 @@ def test_what_is_no_longer_true_is_made_again(played, season):
 def test_a_board_adopts_what_is_shipped(shipped, played, tmp_path):
     _, copy = played
     board = Board.open(tmp_path / "board", SUITE)
-    with practice_import(SUITE, shipped) as practice:
-        board.import_season(practice)
+    board.import_season(practice_import(SUITE, shipped))
     info = board.season_info()
     assert (info.name, info.current) == ("practice-tiny", True)
     assert board.season.secret == bytes.fromhex(info.revealed) == practice_season(SUITE).secret
@@ -117,8 +117,7 @@ def test_a_board_adopts_what_is_shipped(shipped, played, tmp_path):
 
 def test_a_shipped_season_can_be_one_to_look_at_only(shipped, tmp_path):
     board = Board.open(tmp_path / "board", SUITE)
-    with practice_import(SUITE, shipped, current=False) as practice:
-        board.import_season(practice)
+    board.import_season(practice_import(SUITE, shipped, current=False))
     assert [(each.name, each.current) for each in board.seasons()] == [
         ("1", True),
         ("practice-tiny", False),
@@ -129,8 +128,7 @@ def test_a_shipped_season_can_be_one_to_look_at_only(shipped, tmp_path):
 def test_what_is_shipped_for_other_rules_is_left_alone(shipped, tmp_path, monkeypatch):
     old = dataclasses.replace(PlayedSeason.read(SUITE, shipped), suite_digest="0" * 16)
     old.write(tmp_path)
-    with practice_import(SUITE, tmp_path) as found:
-        assert found is None
+    assert practice_import(SUITE, tmp_path) is None
 
 
 @pytest.mark.parametrize("suite", SUITES)

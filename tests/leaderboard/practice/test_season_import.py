@@ -6,9 +6,8 @@ from datetime import UTC, datetime
 import pytest
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.board.board import Board
-from colift.leaderboard.practice.practice import PracticeRun
 from colift.leaderboard.practice.season_import import PlayedSeason, open_with_practice
-from colift.leaderboard.records.season import BoardEntry
+from colift.leaderboard.records.season import BoardEntry, PlayedEntry
 
 from ..rows import digest, make_errors, make_row
 
@@ -29,7 +28,7 @@ def data(tmp_path, human_human):
         row=make_row("blend", season=SEASON),
         refusal=None,
     )
-    played = PracticeRun(
+    played = PlayedEntry(
         entry=entry, hidden_rmse_mm=make_errors(10.0), files={"results.json": b"{}"}
     )
     shipped = PlayedSeason(

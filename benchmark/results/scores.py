@@ -1,0 +1,184 @@
+"""The score table: an agent's scores, metric by metric and lift by lift."""
+
+import functools
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Self
+
+import msgspec
+import numpy as np
+from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.metric import LEADING, on_boards
+from colift.benchmark.execution.runner import Run
+from colift.benchmark.statistics import (
+    Estimate,
+    MeanWithMissing,
+    PairedDifference,
+    mean_of,
+    mean_with_missing,
+    paired_difference,
+    probability_better,
+    ratio_of_means,
+)
+
+Stratum = tuple[str, str]
+"""Behaviour and subject."""
+
+
+def stratum(episode: Episode) -> Stratum:
+    """Return the behaviour and the subject of an episode: its stratum."""
+    return episode.behaviour, episode.subject
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScoreTable:
+    """The scores of one agent: metrics x lifts, and the stratum of each lift.
+
+    Means, intervals, ranks and the rows of boards are taken from it.
+    """
+
+    strata: tuple[Stratum, ...]
+    """Behaviour and subject of each lift, in the suite's order."""
+    values: Mapping[str, tuple[float, ...]] = field(hash=False)
+    """Value of each metric in each lift, NaN where there is none. A stored table has the leading
+    metric alone."""
+    means: Mapping[str, float | None] = field(default_factory=dict, hash=False)
+    """Means of the other metrics that boards show; None where no lift has a value. A part of a
+    table has none."""
+    failures: tuple[str | None, ...] = ()
+    """Reason of each failure; None for a lift that did not fail. A stored table has none."""
+
+    @classmethod
+    def of(cls, run: Run) -> Self:
+        """Return the scores of a run."""
+        metrics = run.suite.metrics
+        values = {name: tuple(each.scores[name] for each in run.episodes) for name in metrics}
+        boards = (metric.name for metric in on_boards(metrics))
+        return cls(
+            strata=tuple(map(stratum, run.episodes)),
+            values=values,
+            means={name: mean_with_missing(values[name]).mean for name in boards},
+            failures=tuple(episode.failure for episode in run.episodes),
+        )
+
+    @property
+    def rmse_mm(self) -> tuple[float, ...]:
+        """RMSE of each lift [mm]."""
+        return self.values[LEADING]
+
+    @property
+    def mean(self) -> float:
+        """Mean RMSE [mm]."""
+        return float(np.mean(self.rmse_mm))
+
+    @property
+    def failed(self) -> int:
+        """Number of lifts that failed."""
+        return sum(reason is not None for reason in self.failures)
+
+    def metric(self, name: str) -> MeanWithMissing:
+        """Return the mean of a metric over the lifts that have a value."""
+        return mean_with_missing(self.values[name])
+
+    @functools.cached_property
+    def error(self) -> Estimate:
+        """Mean RMSE with its interval [mm]."""
+        return mean_of(self.rmse_mm, self.strata)
+
+    def estimate(self, name: str) -> Estimate | None:
+        """Return the mean of a metric with its interval; None if no lift has a value."""
+        lifts = zip(self.values[name], self.strata, strict=True)
+        known = [(value, where) for value, where in lifts if not math.isnan(value)]
+        return mean_of(*zip(*known, strict=True)) if known else None
+
+    def select(self, members: Sequence[int]) -> Self:
+        """Return the lifts with these indices."""
+        return type(self)(
+            strata=tuple(self.strata[i] for i in members),
+            values={name: tuple(of[i] for i in members) for name, of in self.values.items()},
+            failures=tuple(self.failures[i] for i in members if self.failures),
+        )
+
+    def part(self, behaviour: str | None = None, subject: str | None = None) -> Self:
+        """Return the lifts of a behaviour and a subject; None is all of them."""
+        return self.select(
+            [
+                i
+                for i, (mine, person) in enumerate(self.strata)
+                if behaviour in (None, mine) and subject in (None, person)
+            ]
+        )
+
+    @functools.cached_property
+    def by_stratum(self) -> dict[Stratum, Self]:
+        """The table of each stratum, in order of appearance."""
+        members: dict[Stratum, list[int]] = {}
+        for i, key in enumerate(self.strata):
+            members.setdefault(key, []).append(i)
+        return {key: self.select(some) for key, some in members.items()}
+
+    def against(self, other: "ScoreTable", name: str = LEADING) -> "Paired":
+        """Return a metric of this agent and another, in the lifts in which both have a value."""
+        lifts = zip(self.values[name], other.values[name], self.strata, strict=True)
+        some = [lift for lift in lifts if not math.isnan(lift[0] + lift[1])]
+        return Paired(*map(tuple, zip(*some, strict=True))) if some else Paired((), (), ())
+
+    def plain(self) -> dict[str, Any]:
+        """Return what a stored table has, ready for JSON."""
+        return {
+            "strata": [list(key) for key in self.strata],
+            "rmse_mm": list(self.rmse_mm),
+            "means": dict(self.means),
+        }
+
+    @classmethod
+    def read(cls, content: object) -> Self:
+        """Return the table that :meth:`plain` has written.
+
+        Raises
+        ------
+        msgspec.ValidationError
+            If it is not such content; the message names the place and the type that it must have.
+        ValueError
+            If there are not as many errors as strata.
+        """
+        kept = msgspec.convert(content, _Stored)
+        if len(kept.strata) != len(kept.rmse_mm):
+            raise ValueError(
+                f"{len(kept.rmse_mm)} errors for the strata of {len(kept.strata)} lifts"
+            )
+        return cls(strata=kept.strata, values={LEADING: kept.rmse_mm}, means=kept.means)
+
+
+class _Stored(msgspec.Struct):
+    strata: tuple[Stratum, ...]
+    rmse_mm: tuple[float, ...]
+    means: dict[str, float | None]
+
+
+class Paired(NamedTuple):
+    """A metric of two agents on the same lifts."""
+
+    one: tuple[float, ...]
+    other: tuple[float, ...]
+    strata: tuple[Stratum, ...]
+
+    @property
+    def ratio(self) -> Estimate:
+        """Mean of the first divided by that of the second."""
+        return ratio_of_means(*self)
+
+    @property
+    def difference(self) -> Estimate:
+        """Mean of the first minus that of the second."""
+        return paired_difference(*self)
+
+    @property
+    def probability(self) -> float:
+        """Probability that the mean of the first is the lower one on such lifts."""
+        return probability_better(*self)
+
+    def tested(self, p: float) -> PairedDifference:
+        """Return the difference with its p value."""
+        return PairedDifference.of(*self, p)

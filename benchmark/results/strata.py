@@ -1,0 +1,102 @@
+"""Means of a run in each stratum, as bundles and boards publish them, and over some strata."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any, Self
+
+from colift.benchmark.episode.metric import LEADING
+from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.statistics import MeanWithMissing
+
+
+@dataclass(frozen=True, kw_only=True)
+class StratumScore:
+    """Means over the lifts of one behaviour with one subject."""
+
+    behaviour: str
+    subject: str
+    episodes: int
+    failed: int
+    rmse_mm: float
+    human_human_rmse_mm: float | None
+    """The human-human baseline's; None without this baseline."""
+    metrics: Mapping[str, MeanWithMissing]
+    """The other metrics by name."""
+
+    def plain(self) -> dict[str, Any]:
+        """Return the scores as a group of ``results.json``."""
+        return {
+            "behaviour": self.behaviour,
+            "subject": self.subject,
+            "episodes": self.episodes,
+            "failed": self.failed,
+            LEADING: {"mean": self.rmse_mm, "missing": 0},
+            **plain_means(self.metrics),
+            "human_human_rmse_mm": {"mean": self.human_human_rmse_mm},
+        }
+
+    @classmethod
+    def read(cls, group: Mapping[str, Any], metrics: Mapping[str, MeanWithMissing]) -> Self:
+        """Return the scores that :meth:`plain` has written, with some of their metrics."""
+        kept = {name: group[name] for name in ("behaviour", "subject", "episodes", "failed")}
+        return cls(
+            **kept,
+            rmse_mm=group[LEADING]["mean"],
+            human_human_rmse_mm=group["human_human_rmse_mm"]["mean"],
+            metrics=metrics,
+        )
+
+
+def plain_means(metrics: Mapping[str, MeanWithMissing]) -> dict[str, Any]:
+    """Return means by name, ready for JSON."""
+    return {name: asdict(mean) for name, mean in metrics.items()}
+
+
+def stratum_scores(scores: ScoreTable, human_human: ScoreTable | None) -> tuple[StratumScore, ...]:
+    """Return the means of each stratum, in order of appearance.
+
+    ``human_human`` is the human-human baseline, if it is known.
+    """
+    people = {} if human_human is None else human_human.by_stratum
+    return tuple(
+        StratumScore(
+            behaviour=behaviour,
+            subject=subject,
+            episodes=len(some.strata),
+            failed=some.failed,
+            rmse_mm=some.mean,
+            human_human_rmse_mm=people[key].mean
+            if (key := (behaviour, subject)) in people
+            else None,
+            metrics={name: some.metric(name) for name in some.values if name != LEADING},
+        )
+        for (behaviour, subject), some in scores.by_stratum.items()
+    )
+
+
+def mean_of_strata(strata: Iterable[StratumScore], name: str = LEADING) -> MeanWithMissing:
+    """Return the mean of a metric over the lifts of some strata that have a value."""
+    some = list(strata)
+    if name == LEADING:
+        return _pooled(
+            [(MeanWithMissing(mean=each.rmse_mm, missing=0), each.episodes) for each in some]
+        )
+    return _pooled([(each.metrics[name], each.episodes) for each in some])
+
+
+def human_human_mean(strata: Iterable[StratumScore]) -> float | None:
+    """Return the human-human baseline's mean RMSE [mm], if it is known in all of some strata."""
+    some = [(each.human_human_rmse_mm, each.episodes) for each in strata]
+    if any(mean is None for mean, _ in some):
+        return None
+    return _pooled([(MeanWithMissing(mean=mean, missing=0), lifts) for mean, lifts in some]).mean
+
+
+def _pooled(means: Sequence[tuple[MeanWithMissing, int]]) -> MeanWithMissing:
+    """Return the mean of means, weighted by their numbers of lifts with a value."""
+    known = [(each.mean, lifts - each.missing) for each, lifts in means if each.mean is not None]
+    count = sum(lifts for _, lifts in known)
+    return MeanWithMissing(
+        mean=sum(mean * lifts for mean, lifts in known) / count if count else None,
+        missing=sum(each.missing for each, _ in means),
+    )

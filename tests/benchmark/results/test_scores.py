@@ -1,0 +1,120 @@
+"""The score table and the means of strata against plain sums over the lifts."""
+
+import math
+
+import numpy as np
+import pytest
+from colift.agents.loading.loading import PolicySpec
+from colift.benchmark.episode.metric import LEADING, on_boards
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.results.strata import (
+    StratumScore,
+    human_human_mean,
+    mean_of_strata,
+    stratum_scores,
+)
+from colift.benchmark.statistics import (
+    mean_of,
+    paired_difference,
+    probability_better,
+    ratio_of_means,
+)
+from colift.benchmark.suites.suite import make_suite
+
+
+@pytest.fixture(scope="module")
+def suite():
+    return make_suite("quick-v1")
+
+
+@pytest.fixture(scope="module")
+def copy(suite):
+    return run_suite(PolicySpec(text="copy"), suite)
+
+
+@pytest.fixture(scope="module")
+def scores(copy):
+    return ScoreTable.of(copy)
+
+
+@pytest.fixture(scope="module")
+def hold(suite):
+    return ScoreTable.of(run_suite(PolicySpec(text="hold"), suite))
+
+
+def test_it_has_every_metric_of_every_lift(suite, copy, scores):
+    assert list(scores.values) == list(suite.metrics)
+    for name, values in scores.values.items():
+        assert values == pytest.approx([e.scores[name] for e in copy.episodes], nan_ok=True)
+    assert scores.means == {
+        metric.name: scores.metric(metric.name).mean for metric in on_boards(suite.metrics)
+    }
+
+
+def test_a_lift_without_a_value_counts_as_missing_and_not_in_the_mean(suite, hold):
+    assert math.isnan(hold.values["sparc"][0])
+    assert hold.metric("sparc").missing == suite.size
+    assert hold.metric("sparc").mean is None
+    assert hold.estimate("sparc") is None
+    half = ScoreTable(
+        strata=(("smooth", "S1"),) * 4, values={"sparc": (-1.0, math.nan, -3.0, math.nan)}
+    )
+    assert half.metric("sparc").missing == 2
+    assert half.estimate("sparc").mean == half.metric("sparc").mean == -2.0
+
+
+def test_parts_have_their_own_lifts_in_order(copy, scores):
+    (behaviour, subject), *_ = scores.strata
+    mine = [e for e in copy.episodes if (e.behaviour, e.subject) == (behaviour, subject)]
+    part = scores.part(behaviour, subject)
+    assert part.rmse_mm == tuple(e.scores[LEADING] for e in mine)
+    assert part == scores.by_stratum[behaviour, subject]
+    assert sum(len(each.strata) for each in scores.by_stratum.values()) == len(copy.episodes)
+    assert scores.part() == scores.select(range(len(scores.strata)))
+
+
+def test_against_another_agent_lifts_are_paired(scores, hold):
+    mine, other = np.array(scores.rmse_mm), np.array(hold.rmse_mm)
+    found = scores.against(hold)
+    assert found.ratio == ratio_of_means(mine, other, scores.strata)
+    assert found.difference == paired_difference(mine, other, scores.strata)
+    assert found.tested(0.25).p == 0.25
+    assert found.probability == probability_better(mine, other, scores.strata)
+    assert scores.error == scores.estimate(LEADING) == mean_of(mine, scores.strata)
+
+
+def test_a_stored_table_has_the_errors_and_the_means(scores, suite):
+    stored = ScoreTable.read(scores.plain())
+    assert stored.rmse_mm == scores.rmse_mm
+    assert (stored.strata, stored.means, stored.error) == (
+        scores.strata,
+        scores.means,
+        scores.error,
+    )
+    assert stored.plain() == scores.plain()
+
+
+def test_failed_lifts_are_counted(scores):
+    failures = tuple("step 3: oops" if i % 2 else None for i in range(len(scores.strata)))
+    failing = ScoreTable(strata=scores.strata, values=scores.values, failures=failures)
+    assert failing.failed == len(failures) // 2
+    assert failing.select([1, 2]).failures == ("step 3: oops", None)
+
+
+def test_means_over_strata_are_those_over_their_lifts(scores, hold):
+    strata = stratum_scores(scores, hold)
+    assert mean_of_strata(strata).mean == pytest.approx(scores.mean)
+    assert human_human_mean(strata) == pytest.approx(hold.mean)
+    for name in scores.values:
+        assert mean_of_strata(strata, name).missing == scores.metric(name).missing
+        assert mean_of_strata(strata, name).mean == pytest.approx(scores.metric(name).mean)
+    jerky = [each for each in strata if each.behaviour == "jerky"]
+    assert mean_of_strata(jerky).mean == pytest.approx(scores.part("jerky").mean)
+    assert mean_of_strata(()).mean is human_human_mean(()) is None
+    assert human_human_mean((*strata, *stratum_scores(scores, None))) is None
+
+
+def test_a_group_of_a_bundle_is_read_as_it_was_written(scores, hold):
+    for each in stratum_scores(scores, hold):
+        assert StratumScore.read(each.plain(), each.metrics) == each
